@@ -7,6 +7,8 @@
 //! [`GpuScene`] uploads the tables and binds them: a `rasray_ads::Geometry` for structures, a set for
 //! everything that shades.
 //!
+//! [`GpuScene::staged`] does the same without waiting: the tables go to the device with a frame of the caller's.
+//!
 //! Texels are spread over several buffers ([`TexelRuns`]), and may exceed what one binding of a device holds. What
 //! exceeds these too is known before ([`TexelDemand`]): the scene's largest images can be made smaller.
 //!
@@ -22,6 +24,7 @@ mod distribution;
 mod emissive;
 mod environment;
 mod error;
+mod features;
 mod glass_albedo;
 mod kinds;
 pub mod layout;
@@ -33,6 +36,7 @@ mod parts;
 mod pose;
 mod pose_pass;
 mod smaller_images;
+mod staging;
 mod table_bytes;
 mod tables;
 mod texel_runs;
@@ -43,6 +47,7 @@ mod words;
 
 pub use environment::EnvironmentTables;
 pub use error::GpuSceneError;
+pub use features::ShadingFeatures;
 pub use origin::{frame_origin_spacing, snap_frame_origin};
 pub use parts::{Parts, TextureKind};
 pub use pose::{LARGEST_COORDINATE, Posed};
@@ -51,7 +56,7 @@ pub use smaller_images::{SmallerImage, TexelDemand};
 pub use table_bytes::left_out_bytes;
 pub use tables::SceneTables;
 pub use texel_runs::{TEXEL_BYTES, TexelRuns};
-pub use upload::{GpuScene, PosedBuffers, ShadingFeatures};
+pub use upload::{GpuScene, PosedBuffers};
 pub use view::{Sampler, Sampling, View};
 
 /// What the readme shows compiles.

@@ -35,6 +35,7 @@ use self::shapes::Shapes;
 use self::sources::{DrawPlace, SkinPlace, Sources};
 use crate::layout::{EmissiveTriangle, Frame};
 use crate::lights::pack_lights;
+use crate::staging::Staging;
 use crate::upload::PosedBuffers;
 use crate::{GpuScene, GpuSceneError, SceneTables, kinds::kind_shares};
 
@@ -80,7 +81,8 @@ pub struct PosePass {
 
 impl PosePass {
     /// Uploads the shapes of what moves and makes the pipelines; for one frame at a time ([`PosePass::set_slots`]). `tables`
-    /// were made from `scene`, `gpu` from `tables`; the images of the scene are not looked at.
+    /// were made from `scene`, `gpu` from `tables`; the images of the scene are not looked at. Does not wait where `gpu` was
+    /// [staged](GpuScene::staged).
     ///
     /// # Errors
     /// `Malformed` where the tables are of a scene with other instances, [`GpuSceneError::DeformedTwice`], out of memory, more words than 32 bits number, a
@@ -114,7 +116,7 @@ impl PosePass {
         let far_lights = if may_change { FarLights::new(device, scene, tables, gpu)? } else { None };
         let (punctual_power, _) = pack_lights(&scene.lights, tables.frame_origin, 0.0);
 
-        let mut parts = Parts { device, bytes_by_part: Vec::new() };
+        let mut parts = Parts { device, staging: gpu.staging(), bytes_by_part: Vec::new() };
         let shaped = !sources.shapes.is_empty();
         let rest_positions =
             parts.shape_table("rest positions", &sources.rest_positions.into_vec(), shaped)?;
@@ -317,6 +319,11 @@ impl PosePass {
         Ok(self.parts.insert(parts).clone())
     }
 
+    /// What [`PosePass::parts`] made.
+    pub fn divided(&self) -> Option<&GeometryParts> {
+        self.parts.as_ref()
+    }
+
     /// For each draw of the geometry whether any clip can move it or a deformer changes it. All others stay where the tables
     /// have them.
     pub fn moving_draws(&self) -> &[bool] {
@@ -340,6 +347,7 @@ fn update(recorder: &mut Recorder<'_>, buffer: &Buffer, offset: usize, bytes: &[
 /// Buffers with the bytes of each.
 struct Parts<'a> {
     device: &'a Device,
+    staging: &'a Staging,
     bytes_by_part: Vec<(&'static str, u64)>,
 }
 
@@ -365,7 +373,7 @@ impl Parts<'_> {
         records: &[T],
         usage: BufferUsage,
     ) -> Result<Buffer, GpuSceneError> {
-        let buffer = self.device.create_buffer_with(name, usage, records)?;
+        let buffer = self.staging.buffer(self.device, name, usage, records)?;
         self.bytes_by_part.push((name, buffer.size()));
         Ok(buffer)
     }

@@ -6,18 +6,15 @@ use std::ops::Range;
 use bytemuck::NoUninit;
 use rasray_ads::{Geometry, GeometryDesc, SceneBinding, Viewpoint};
 use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder};
-use rasray_shaders_glsl::constant_ids::scene as ids;
-use rasray_shaders_glsl::constants::{
-    contract::DRAW_ALPHA_MASKED,
-    scene::{
-        MATERIAL_ALPHA_BLEND, SCENE_BINDING_DRAW_SHADINGS, SCENE_BINDING_EMISSIVE_TRIANGLES,
-        SCENE_BINDING_LIGHTS, SCENE_BINDING_POSED_ATTRIBUTES, SCENE_BINDING_TEXELS_3, SCENE_TEXEL_RUNS,
-    },
+use rasray_shaders_glsl::constants::scene::{
+    SCENE_BINDING_DRAW_SHADINGS, SCENE_BINDING_EMISSIVE_TRIANGLES, SCENE_BINDING_LIGHTS,
+    SCENE_BINDING_POSED_ATTRIBUTES, SCENE_BINDING_TEXELS_3, SCENE_TEXEL_RUNS,
 };
 
 use crate::{
-    GpuSceneError, Sampling, SceneTables, TexelRuns, View,
+    GpuSceneError, Sampling, SceneTables, ShadingFeatures, TexelRuns, View,
     layout::{Frame, viewpoint_of},
+    staging::Staging,
 };
 
 /// Number of buffers in the scene's set.
@@ -28,35 +25,6 @@ const VIEW_BYTES: Range<usize> = 0..offset_of!(Frame, triangle_count);
 
 /// Bytes of the frame that the sampling decides.
 const SAMPLING_BYTES: Range<usize> = offset_of!(Frame, sampling)..offset_of!(Frame, kind_shares);
-
-/// Which code the shading of a scene can reach at all. Kernels leave the rest out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ShadingFeatures {
-    /// Any material refers to a texture.
-    pub textures: bool,
-    /// Any material transmits.
-    pub transmission: bool,
-    /// Any material blends.
-    pub blend: bool,
-    /// Texels lie in several buffers.
-    pub texel_runs: bool,
-}
-
-impl ShadingFeatures {
-    /// Everything: proves that leaving code out does not change a picture.
-    pub const ALL: Self = Self { textures: true, transmission: true, blend: true, texel_runs: true };
-
-    /// Specialisation constants of modules that read the scene (`scene/features.glsl`): id and bits. A module without
-    /// one of them ignores it.
-    pub fn constants(self) -> [(u32, u32); 4] {
-        [
-            (ids::SCENE_HAS_TEXTURES, self.textures.into()),
-            (ids::SCENE_HAS_TRANSMISSION, self.transmission.into()),
-            (ids::SCENE_HAS_BLEND, self.blend.into()),
-            (ids::SCENE_HAS_TEXEL_RUNS, self.texel_runs.into()),
-        ]
-    }
-}
 
 /// Buffers that change from frame to frame, in addition to positions. One record stands in for an empty table.
 #[derive(Clone, Debug)]
@@ -86,6 +54,7 @@ pub struct GpuScene {
     frame_origin: glam::DVec3,
     features: ShadingFeatures,
     bytes_by_part: Vec<(&'static str, u64)>,
+    staging: Staging,
 }
 
 impl GpuScene {
@@ -99,6 +68,16 @@ impl GpuScene {
         Self::upload_in_runs(device, tables, view, TexelRuns::of(device.limits()))
     }
 
+    /// As [`GpuScene::upload`], without waiting: the tables lie in memory of the host until a recording with
+    /// [`GpuScene::record_staged`] has run. Those of a [`PosePass`](crate::PosePass) that is made for the scene before
+    /// [`GpuScene::end_staging`] go the same way. Takes the bytes of all tables twice until then.
+    ///
+    /// # Errors
+    /// As [`GpuScene::upload`].
+    pub fn staged(device: &Device, tables: &SceneTables, view: &View) -> Result<Self, GpuSceneError> {
+        Self::made(device, tables, view, TexelRuns::of(device.limits()), Staging::later())
+    }
+
     /// As [`GpuScene::upload`], with texels in runs of a given length: what is read does not depend on it.
     ///
     /// # Errors
@@ -109,7 +88,17 @@ impl GpuScene {
         view: &View,
         runs: TexelRuns,
     ) -> Result<Self, GpuSceneError> {
-        let mut upload = Upload { device, bytes_by_part: Vec::new() };
+        Self::made(device, tables, view, runs, Staging::default())
+    }
+
+    fn made(
+        device: &Device,
+        tables: &SceneTables,
+        view: &View,
+        runs: TexelRuns,
+        staging: Staging,
+    ) -> Result<Self, GpuSceneError> {
+        let mut upload = Upload { device, staging: &staging, bytes_by_part: Vec::new() };
         let posed = &tables.posed;
         let geometry = Geometry::new(
             device,
@@ -161,19 +150,49 @@ impl GpuScene {
         let layout = device.create_set_layout("scene", BINDINGS)?;
         let bound: Vec<&Buffer> = buffers.iter().chain(more_texels).collect();
         let set = device.create_binding_set(&layout, "scene", &bound)?;
-        let features = features(tables, runs);
-        let alpha_masked = tables.posed.draws.iter().any(|draw| draw.flags & DRAW_ALPHA_MASKED != 0);
+        let features = ShadingFeatures::of(tables, runs);
         let mut bytes_by_part = upload.bytes_by_part;
         bytes_by_part.push(("frame", posed_buffers.frame.size()));
         Ok(Self {
             geometry,
-            binding: SceneBinding { layout, set, alpha_masked, constants: features.constants().into() },
+            binding: SceneBinding {
+                layout,
+                set,
+                alpha_masked: features.alpha_masks,
+                constants: features.constants().into(),
+            },
             posed_buffers,
             frame,
             frame_origin: tables.frame_origin,
             features,
             bytes_by_part,
+            staging,
         })
+    }
+
+    /// The same with code for more than this scene needs: pipelines that are made for it read later scenes, too, that have
+    /// any of `features`. No picture depends on it.
+    #[must_use]
+    pub fn allowing(mut self, features: ShadingFeatures) -> Self {
+        self.features = self.features.with(features);
+        self.binding.alpha_masked = self.features.alpha_masks;
+        self.binding.constants = self.features.constants().into();
+        self
+    }
+
+    /// Records the copies of tables that [`GpuScene::staged`] left with the host, before everything that reads them, visible to
+    /// all that follows; nothing where the tables are on the device.
+    pub fn record_staged(&self, recorder: &mut Recorder<'_>) {
+        self.staging.record(recorder);
+    }
+
+    /// What [`GpuScene::record_staged`] recorded was submitted: memory of the host is freed when the device is done with it.
+    pub fn end_staging(&self) {
+        self.staging.end();
+    }
+
+    pub(crate) fn staging(&self) -> &Staging {
+        &self.staging
     }
 
     /// Changes camera, image size or seed: one small write by the host, no rebuild of any structure
@@ -283,17 +302,9 @@ impl GpuScene {
     }
 }
 
-fn features(tables: &SceneTables, runs: TexelRuns) -> ShadingFeatures {
-    ShadingFeatures {
-        textures: !tables.textures.is_empty(),
-        transmission: tables.materials.iter().any(|material| material.transmission > 0.0),
-        blend: tables.materials.iter().any(|material| material.flags & MATERIAL_ALPHA_BLEND != 0),
-        texel_runs: tables.texels.len() as u64 > runs.length(),
-    }
-}
-
 struct Upload<'a> {
     device: &'a Device,
+    staging: &'a Staging,
     bytes_by_part: Vec<(&'static str, u64)>,
 }
 
@@ -341,6 +352,6 @@ impl Upload<'_> {
         let zero = [T::zeroed()];
         let records = if records.is_empty() { &zero } else { records };
         let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC;
-        Ok(self.device.create_buffer_with(name, usage, records)?)
+        Ok(self.staging.buffer(self.device, name, usage, records)?)
     }
 }

@@ -50,7 +50,7 @@ impl FarLights {
                 PoseLightPower { near: near as f32, far: far as f32 }
             })
             .collect();
-        let powers = device.create_buffer_with("pose light powers", BufferUsage::STORAGE, &powers)?;
+        let powers = gpu.staging().buffer(device, "pose light powers", BufferUsage::STORAGE, &powers)?;
         let posed = gpu.posed_buffers();
         let layout = device.create_set_layout("pose lights", 3)?;
         let bound = [&powers, &posed.frame, &posed.lights];

@@ -234,7 +234,13 @@ fn code_that_is_left_out_does_not_change_the_picture() {
     scene.materials[2].transmission = 0.0;
     scene.materials[3].alpha_mode = rasray_scene::AlphaMode::Opaque;
     let stage = Stage::new(&device, &scene, forward_camera(DVec3::new(0.0, 0.0, 0.9)), 12, 9, 2);
-    let needed = ShadingFeatures { textures: false, transmission: false, blend: false, texel_runs: false };
+    let needed = ShadingFeatures {
+        textures: false,
+        transmission: false,
+        blend: false,
+        texel_runs: false,
+        alpha_masks: false,
+    };
     assert_eq!(stage.scene.features(), needed);
     let lean = Path::new(&stage.desc_with(108, needed), 2).expect("valid");
     let full = Path::new(&stage.desc_with(108, ShadingFeatures::ALL), 2).expect("valid");

@@ -1,0 +1,78 @@
+//! What of the shading code a scene can reach.
+
+use rasray_shaders_glsl::constant_ids::scene as ids;
+use rasray_shaders_glsl::constants::{contract::DRAW_ALPHA_MASKED, scene::MATERIAL_ALPHA_BLEND};
+
+use crate::{SceneTables, TexelRuns};
+
+/// Which code rays and the shading of a scene can reach at all. Kernels leave the rest out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShadingFeatures {
+    /// Any material refers to a texture.
+    pub textures: bool,
+    /// Any material transmits.
+    pub transmission: bool,
+    /// Any material blends.
+    pub blend: bool,
+    /// Texels lie in several buffers.
+    pub texel_runs: bool,
+    /// Any draw is alpha-masked.
+    pub alpha_masks: bool,
+}
+
+impl ShadingFeatures {
+    /// Everything: proves that leaving code out does not change a picture.
+    pub const ALL: Self =
+        Self { textures: true, transmission: true, blend: true, texel_runs: true, alpha_masks: true };
+
+    /// Those of a scene whose texels are in runs of that length.
+    pub(crate) fn of(tables: &SceneTables, runs: TexelRuns) -> Self {
+        Self {
+            textures: !tables.textures.is_empty(),
+            transmission: tables.materials.iter().any(|material| material.transmission > 0.0),
+            blend: tables.materials.iter().any(|material| material.flags & MATERIAL_ALPHA_BLEND != 0),
+            texel_runs: tables.texels.len() as u64 > runs.length(),
+            alpha_masks: tables.posed.draws.iter().any(|draw| draw.flags & DRAW_ALPHA_MASKED != 0),
+        }
+    }
+
+    /// Each with its name.
+    fn named(self) -> [(&'static str, bool); 5] {
+        [
+            ("textures", self.textures),
+            ("transmission", self.transmission),
+            ("blended materials", self.blend),
+            ("textures beyond one binding", self.texel_runs),
+            ("alpha masks", self.alpha_masks),
+        ]
+    }
+
+    /// What of `other` is not among these, by name.
+    pub fn lacks(self, other: Self) -> Vec<&'static str> {
+        let both = self.named().into_iter().zip(other.named());
+        both.filter(|((_, here), (_, there))| *there && !here).map(|((name, _), _)| name).collect()
+    }
+
+    /// These and those of `other`.
+    #[must_use]
+    pub fn with(self, other: Self) -> Self {
+        Self {
+            textures: self.textures || other.textures,
+            transmission: self.transmission || other.transmission,
+            blend: self.blend || other.blend,
+            texel_runs: self.texel_runs || other.texel_runs,
+            alpha_masks: self.alpha_masks || other.alpha_masks,
+        }
+    }
+
+    /// Specialisation constants of modules that read the scene (`scene/features.glsl`): id and bits. A module without
+    /// one of them ignores it.
+    pub fn constants(self) -> [(u32, u32); 4] {
+        [
+            (ids::SCENE_HAS_TEXTURES, self.textures.into()),
+            (ids::SCENE_HAS_TRANSMISSION, self.transmission.into()),
+            (ids::SCENE_HAS_BLEND, self.blend.into()),
+            (ids::SCENE_HAS_TEXEL_RUNS, self.texel_runs.into()),
+        ]
+    }
+}
