@@ -82,6 +82,10 @@ impl Structure for BruteForce {
         Ok(())
     }
 
+    fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError> {
+        self.kernels.set_scene(self.name(), scene)
+    }
+
     fn slots(&self) -> u32 {
         self.slots
     }

@@ -3,8 +3,8 @@
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
 use crate::{
-    AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, GeometryParts, RayQueue, Sizes,
-    Structure, StructureKind, StructureReport, TraceMode, Viewpoint,
+    AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, GeometryParts, RayQueue,
+    SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceMode, Viewpoint,
 };
 
 /// Number of parts.
@@ -147,6 +147,10 @@ impl Structure for Combined {
         }
         let parts = geometry.parts(device, self.geometry.moving(), [geometry.bounds(); PARTS])?;
         self.set_parts(device, &parts)
+    }
+
+    fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError> {
+        self.parts.iter_mut().try_for_each(|part| part.set_scene(scene))
     }
 
     fn prepare_build(&mut self, device: &Device) -> Result<(), AdsError> {

@@ -48,6 +48,16 @@ pub enum AdsError {
         /// Name of the structure.
         structure: &'static str,
     },
+    /// Pipelines cannot read a scene that is to take the place of the one that they were made for.
+    #[error(
+        "{structure} cannot take this scene: its {what} differ from those of the scene that it was made for"
+    )]
+    OtherScene {
+        /// Name of the structure.
+        structure: &'static str,
+        /// What differs.
+        what: &'static str,
+    },
     /// A geometry's counts or bounds do not describe its buffers.
     #[error("the geometry cannot be used: {reason}")]
     Geometry {

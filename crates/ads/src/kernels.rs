@@ -34,7 +34,7 @@ pub struct TraceKernels {
     occluded: Kernel,
     surfaces: Option<Kernel>,
     next_round: ComputePipeline,
-    scene: Option<BindingSet>,
+    scene: Option<SceneBinding>,
     counters: Counters,
     work_budget: u32,
 }
@@ -81,7 +81,7 @@ impl TraceKernels {
             occluded: kernel(desc.modules.occluded)?,
             surfaces: desc.modules.surfaces.filter(|_| desc.scene.is_some()).map(kernel).transpose()?,
             next_round,
-            scene: desc.scene.map(|scene| scene.set.clone()),
+            scene: desc.scene.cloned(),
             counters: desc.counters,
             work_budget: desc.work_budget,
         })
@@ -90,6 +90,19 @@ impl TraceKernels {
     /// How much of their work rays record.
     pub fn counters(&self) -> Counters {
         self.counters
+    }
+
+    /// Reads another scene from the next recording on. Nothing changes after an error.
+    ///
+    /// # Errors
+    /// The kernels of `structure` were made without a scene, or for one that differs in what they are compiled for.
+    pub fn set_scene(&mut self, structure: &'static str, scene: &SceneBinding) -> Result<(), AdsError> {
+        let made_for = self.scene.as_mut().ok_or(AdsError::NoScene { structure })?;
+        if let Some(what) = made_for.difference(scene) {
+            return Err(AdsError::OtherScene { structure, what });
+        }
+        *made_for = scene.clone();
+        Ok(())
     }
 
     fn constants(&self, address: u64, domain: Domain, continues: bool) -> TraceConstants {
@@ -117,7 +130,7 @@ impl TraceKernels {
         }
         recorder.bind_sets(2, &[queue.set()]);
         if let Some(scene) = &self.scene {
-            recorder.bind_sets(3, &[scene]);
+            recorder.bind_sets(3, &[&scene.set]);
         }
         recorder.push_constants(bytes_of(&constants));
     }

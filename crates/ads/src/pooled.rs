@@ -202,6 +202,14 @@ impl<D: Design> Structure for Pooled<D> {
         Ok(())
     }
 
+    fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError> {
+        self.kernels.set_scene(D::NAME, scene)?;
+        if let Some(read) = &mut self.scene {
+            *read = scene.set.clone();
+        }
+        Ok(())
+    }
+
     fn prepare_build(&mut self, device: &Device) -> Result<(), AdsError> {
         self.design.prepare(&mut self.parts, device)
     }

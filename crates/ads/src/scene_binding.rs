@@ -35,4 +35,18 @@ impl SceneBinding {
     pub fn mask_suffix(scene: Option<&Self>) -> &'static str {
         if scene.is_some_and(|scene| scene.alpha_masked) { ".alpha" } else { "" }
     }
+
+    /// What pipelines that were made for this scene are compiled for and another one does not have; `None`: they read that one
+    /// as well.
+    pub fn difference(&self, other: &Self) -> Option<&'static str> {
+        if self.layout.storage_buffers() != other.layout.storage_buffers() {
+            Some("buffers")
+        } else if self.alpha_masked != other.alpha_masked {
+            Some("alpha masks")
+        } else if self.constants != other.constants {
+            Some("specialisation constants")
+        } else {
+            None
+        }
+    }
 }

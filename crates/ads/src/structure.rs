@@ -2,7 +2,9 @@
 
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout};
 
-use crate::{AdsError, BuildStatus, Check, Counters, Domain, Geometry, RayQueue, Sizes, Viewpoint};
+use crate::{
+    AdsError, BuildStatus, Check, Counters, Domain, Geometry, RayQueue, SceneBinding, Sizes, Viewpoint,
+};
 
 /// What a structure's hits are, and hence what may be demanded of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,6 +131,14 @@ pub trait Structure {
     /// # Errors
     /// Out of memory.
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError>;
+
+    /// Takes the scene that other triangles belong to, whose surfaces and alpha masks are read from the next recording on; the
+    /// triangles are handed over by [`Structure::set_geometry`]. Pipelines stay, so the binding has what those of the first
+    /// scene are compiled for: alpha masks or none, and the same specialisation constants. Nothing changes after an error.
+    ///
+    /// # Errors
+    /// [`AdsError::OtherScene`], or [`AdsError::NoScene`] where the structure was made without one.
+    fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError>;
 
     /// Does what only the host can do for the next build, of the geometry as it is now. Structures that are
     /// built on the device alone have nothing to do here. Unlike everything else a structure does, this may

@@ -2,6 +2,7 @@
 
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::Recorder;
+use rasray_gpu_scene::GpuScene;
 use rasray_shaders_glsl::{
     INTEGRATORS_AMBIENT_OCCLUSION_RESOLVE, INTEGRATORS_AMBIENT_OCCLUSION_SPAWN, INTEGRATORS_PRIMARY,
 };
@@ -85,6 +86,11 @@ impl Integrator for AmbientOcclusion {
         self.shadow_queue.record_take(recorder);
         traced.record_occluded(recorder, &self.shadow_queue, Domain::Selected);
         self.bindings.record(recorder, &self.resolve, &self.shadow_queue, all, &constants);
+        Ok(())
+    }
+
+    fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
+        self.bindings.set_scene(scene);
         Ok(())
     }
 

@@ -52,6 +52,14 @@ pub enum IntegratorError {
         /// What is possible.
         expected: &'static str,
     },
+    /// A scene that is to take the place of the one that kernels were made for can reach code that they leave out.
+    #[error(
+        "kernels were made without code for {missing}: make them for a scene that allows it (`GpuScene::allowing`)"
+    )]
+    LeftOut {
+        /// What the scene has.
+        missing: String,
+    },
     /// What the camera sees cannot be found by drawing.
     #[error("what the camera sees cannot be drawn: {reason}")]
     CannotDraw {

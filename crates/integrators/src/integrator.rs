@@ -76,6 +76,12 @@ pub trait Integrator {
         wave: Wave,
     ) -> Result<(), IntegratorError>;
 
+    /// Shades another scene from the next recording on, into the same film. Kernels stay. Nothing changes after an error.
+    ///
+    /// # Errors
+    /// [`IntegratorError::LeftOut`] where the scene has features that the kernels were not made for.
+    fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError>;
+
     /// The film that samples are added to.
     fn film(&self) -> &Film;
 
@@ -108,6 +114,12 @@ pub trait Integrator {
             queue.record_reset(recorder);
         }
     }
+}
+
+/// An error unless kernels with these features shade the scene.
+pub(crate) fn check_features(made_for: ShadingFeatures, scene: &GpuScene) -> Result<(), IntegratorError> {
+    let missing = made_for.lacks(scene.features());
+    if missing.is_empty() { Ok(()) } else { Err(IntegratorError::LeftOut { missing: missing.join(", ") }) }
 }
 
 /// An error unless the wave fits.

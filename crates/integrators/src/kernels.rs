@@ -85,6 +85,12 @@ impl Bindings {
         })
     }
 
+    /// Binds another scene from the next recording on.
+    pub fn set_scene(&mut self, scene: &GpuScene) {
+        self.sets[0] = scene.geometry().set().clone();
+        self.sets[2] = scene.binding().set.clone();
+    }
+
     /// Makes a pipeline over these sets.
     ///
     /// # Errors

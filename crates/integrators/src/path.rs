@@ -2,6 +2,7 @@
 
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Recorder};
+use rasray_gpu_scene::{GpuScene, ShadingFeatures};
 use rasray_shaders_glsl::{
     INTEGRATORS_FILM_ACCUMULATE, INTEGRATORS_PATH_RESOLVE, INTEGRATORS_PATH_SHADE, INTEGRATORS_PRIMARY,
     constants::scene::PATH_LAYER_LIMIT, records::PathState,
@@ -9,7 +10,7 @@ use rasray_shaders_glsl::{
 
 use crate::{
     Film, Integrator, IntegratorDesc, IntegratorError, Traced, Wave,
-    integrator::check_wave,
+    integrator::{check_features, check_wave},
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer},
 };
 
@@ -23,6 +24,8 @@ pub struct Path {
     bounces: u32,
     /// Closest-hit rounds of a wave.
     rounds: u32,
+    /// What the kernels were made for.
+    features: ShadingFeatures,
     film: Film,
     queue: RayQueue,
     shadow_queue: RayQueue,
@@ -68,6 +71,7 @@ impl Path {
         Ok(Self {
             bounces,
             rounds: rounds(bounces, desc.features.blend),
+            features: desc.features,
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
             shade: bindings.kernel(device, &INTEGRATORS_PATH_SHADE, &desc.features.constants())?,
             resolve: bindings.kernel(device, &INTEGRATORS_PATH_RESOLVE, &[])?,
@@ -126,6 +130,12 @@ impl Integrator for Path {
             }
         }
         self.bindings.record(recorder, &self.accumulate, paths, all, &constants);
+        Ok(())
+    }
+
+    fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
+        check_features(self.features, scene)?;
+        self.bindings.set_scene(scene);
         Ok(())
     }
 

@@ -2,6 +2,7 @@
 
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::Recorder;
+use rasray_gpu_scene::GpuScene;
 use rasray_shaders_glsl::{INTEGRATORS_PRIMARY, INTEGRATORS_RAYCAST_SHADE};
 
 use crate::{
@@ -62,6 +63,11 @@ impl Integrator for Raycast {
         self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
         traced.record_primary(recorder, &self.queue, wave)?;
         self.bindings.record(recorder, &self.shade, &self.queue, all, &constants);
+        Ok(())
+    }
+
+    fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
+        self.bindings.set_scene(scene);
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! What camera rays hit, found by drawing.
 
 use bytemuck::bytes_of;
-use rasray_ads::{Counters, Domain, Geometry, RayQueue};
+use rasray_ads::{AdsError, Counters, Domain, Geometry, RayQueue, SceneBinding};
 use rasray_gpu::{
     Access, BindingSet, Buffer, ComputePipeline, ComputePipelineDesc, Device, Feature, RasterPipeline,
     RasterPipelineDesc, Recorder, Requirements,
@@ -29,7 +29,7 @@ pub struct Visibility {
     width: u32,
     counts: Buffer,
     set: BindingSet,
-    scene: BindingSet,
+    scene: SceneBinding,
     draw: RasterPipeline,
     resolve: ComputePipeline,
 }
@@ -81,7 +81,22 @@ impl Visibility {
             push_constant_bytes,
             constants: &constants,
         })?;
-        Ok(Self { geometry: geometry.clone(), width, counts, set, scene: binding.set.clone(), draw, resolve })
+        Ok(Self { geometry: geometry.clone(), width, counts, set, scene: binding.clone(), draw, resolve })
+    }
+
+    /// Draws the triangles of another scene from the next recording on, into images of the same size. Pipelines stay. Nothing
+    /// changes after an error.
+    ///
+    /// # Errors
+    /// The binding of the scene differs from that of the first in what pipelines are compiled for.
+    pub fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
+        let binding = scene.binding();
+        if let Some(what) = self.scene.difference(binding) {
+            return Err(AdsError::OtherScene { structure: "visibility", what }.into());
+        }
+        self.geometry = scene.geometry().clone();
+        self.scene = binding.clone();
+        Ok(())
     }
 
     /// Records that counts start at 0; once before first use.
@@ -116,7 +131,7 @@ impl Visibility {
 
     fn bind(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, wave: Wave, round: u32) {
         let Wave { first_pixel, pixel_count, .. } = wave;
-        recorder.bind_sets(0, &[self.geometry.set(), &self.set, queue.set(), &self.scene]);
+        recorder.bind_sets(0, &[self.geometry.set(), &self.set, queue.set(), &self.scene.set]);
         recorder.push_constants(bytes_of(&VisibilityConstants { first_pixel, pixel_count, round }));
     }
 

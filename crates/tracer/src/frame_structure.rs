@@ -1,6 +1,6 @@
 //! A structure over frames in flight.
 
-use rasray_ads::{AdsError, Check, Geometry, GeometryParts, Structure, Viewpoint};
+use rasray_ads::{AdsError, Check, Geometry, GeometryParts, SceneBinding, Structure, Viewpoint};
 use rasray_gpu::{Device, Recorder};
 
 use crate::Refresh;
@@ -137,6 +137,26 @@ impl FrameStructure {
     /// Out of memory.
     pub fn set_parts(&mut self, device: &Device, parts: &GeometryParts) -> Result<(), AdsError> {
         self.replace(|structure| structure.set_parts(device, parts))
+    }
+
+    /// Takes the scene that other triangles belong to ([`Structure::set_scene`]); all of them are built. Frames in flight keep
+    /// the scene that they were recorded with.
+    ///
+    /// # Errors
+    /// As [`Structure::set_scene`].
+    pub fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError> {
+        self.replace(|structure| structure.set_scene(scene))
+    }
+
+    /// Rounds that a trace records now, of all parts together: more than for a frame in flight where that one may have had too
+    /// few ([`Structure::rounds`]).
+    pub fn rounds(&self) -> u32 {
+        (0..self.parts.len()).fold(0, |sum, part| self.structure.part(part).rounds().saturating_add(sum))
+    }
+
+    /// Whether the triangles are in parts, so that others are handed over by [`FrameStructure::set_parts`].
+    pub fn is_in_parts(&self) -> bool {
+        self.structure.count() > 1
     }
 
     fn replace(&mut self, with: impl FnOnce(&mut Refresh) -> Result<(), AdsError>) -> Result<(), AdsError> {

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use rasray_ads::{AdsError, Geometry, GeometryParts, Structure, Viewpoint};
+use rasray_ads::{AdsError, Geometry, GeometryParts, SceneBinding, Structure, Viewpoint};
 use rasray_gpu::{Device, Flights, PassTiming, Recorder, Timing};
 
 use crate::{FrameOutcome, FrameStructure, Keeping, Refresh, TracerError};
@@ -92,6 +92,14 @@ impl Frames {
     /// Out of memory.
     pub fn set_parts(&mut self, parts: &GeometryParts) -> Result<(), AdsError> {
         self.structure.set_parts(&self.device, parts)
+    }
+
+    /// As [`FrameStructure::set_scene`].
+    ///
+    /// # Errors
+    /// As [`FrameStructure::set_scene`].
+    pub fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError> {
+        self.structure.set_scene(scene)
     }
 
     /// Records a frame and submits it; returns its number. `before` records what moves vertices and comes first, `after`

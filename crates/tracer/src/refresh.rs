@@ -1,6 +1,6 @@
 //! What frames build anew.
 
-use rasray_ads::{AdsError, Combined, Geometry, GeometryParts, Structure};
+use rasray_ads::{AdsError, Combined, Geometry, GeometryParts, SceneBinding, Structure};
 use rasray_gpu::Device;
 
 /// A structure over frames, and what of it a frame builds where triangles have moved.
@@ -64,6 +64,10 @@ impl Refresh {
 
     pub(crate) fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
         self.structure_mut().set_geometry(device, geometry)
+    }
+
+    pub(crate) fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError> {
+        self.structure_mut().set_scene(scene)
     }
 }
 

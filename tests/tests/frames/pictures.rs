@@ -283,7 +283,13 @@ fn a_repeated_frame_without_a_pose_stays_where_it_was() {
     let spec = spec("mmrt", &[("resolution", "64"), ("capacity", "100")]);
     let at = |renderer: &FrameRenderer, seconds: f64| {
         let moment = Moment { seconds, clips: vec![0] };
-        Some(renderer.pose().expect("it was made with one").frame(&scene, &moment).expect("it is the same scene"))
+        Some(
+            renderer
+                .pose()
+                .expect("it was made with one")
+                .frame(&scene, &moment)
+                .expect("it is the same scene"),
+        )
     };
     for first_is_posed in [false, true] {
         let mut renderer = renderer(device, &scene, &spec, 3);
