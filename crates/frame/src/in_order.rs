@@ -3,7 +3,9 @@
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
-use crate::{FrameError, FrameInput, FrameRenderer, Picture, Shown};
+use rasray_gpu_scene::FramePose;
+
+use crate::{FrameError, FrameInput, FrameRenderer, FrameScene, Picture, Shown};
 
 /// Repeats after which a frame counts as unstable: as many as a build may grow, and one for rounds.
 const REPEATS: u32 = 5;
@@ -19,6 +21,9 @@ pub struct InOrder {
 
 /// Renders frames with several in flight and hands out each picture in order; frames without a picture are repeated, with
 /// those that were submitted after them. Ends early where `sink` says so. No input may continue the one before.
+///
+/// Frames that nothing has posed yet cannot be brought back once a later one moved the scene, so the first frame with a pose
+/// waits for those before it that have none, in their own input or in one before. All others overlap.
 ///
 /// # Errors
 /// What a frame reports, [`FrameError::Unstable`] where repeating does not help; nothing is in flight then.
@@ -38,22 +43,46 @@ pub fn render_in_order(
     }
 }
 
+/// What a frame shows that says nothing of its own.
+struct Last {
+    scene: FrameScene,
+    /// Absent where nothing has posed the scene yet, or where it was shown before others were.
+    pose: Option<FramePose>,
+}
+
+impl Last {
+    /// The same frame with all that it shows, whatever is submitted between.
+    fn complete(&mut self, input: FrameInput) -> FrameInput {
+        if let Some(scene) = input.scene.as_ref().filter(|scene| !scene.is(&self.scene)) {
+            *self = Self { scene: scene.clone(), pose: None };
+        }
+        if input.pose.is_some() {
+            self.pose.clone_from(&input.pose);
+        }
+        FrameInput { scene: Some(self.scene.clone()), pose: self.pose.clone(), ..input }
+    }
+}
+
+/// A frame with the number of times that it was repeated.
+type Repeated = (FrameInput, u32);
+
 fn in_order(
     renderer: &mut FrameRenderer,
     inputs: impl IntoIterator<Item = FrameInput>,
     sink: &mut impl FnMut(Picture) -> ControlFlow<()>,
 ) -> Result<InOrder, FrameError> {
     let mut done = InOrder::default();
-    let mut inputs = inputs.into_iter();
-    // With the number of times that each was repeated.
-    let mut again: VecDeque<(FrameInput, u32)> = VecDeque::new();
-    let mut in_flight: VecDeque<(FrameInput, u32)> = VecDeque::new();
+    let mut last = Last { scene: renderer.scene().clone(), pose: renderer.posed().cloned() };
+    let mut inputs = inputs.into_iter().map(|input| (last.complete(input), 0));
+    let mut waiting: VecDeque<Repeated> = VecDeque::new();
+    let mut in_flight: VecDeque<Repeated> = VecDeque::new();
     loop {
         while renderer.has_free_slot() {
-            let Some((input, repeats)) = again.pop_front().or_else(|| inputs.next().map(|input| (input, 0)))
-            else {
+            let Some((input, repeats)) = waiting.pop_front().or_else(|| inputs.next()) else { break };
+            if input.pose.is_some() && in_flight.iter().any(|(before, _)| before.pose.is_none()) {
+                waiting.push_front((input, repeats));
                 break;
-            };
+            }
             renderer.submit(&input)?;
             in_flight.push_back((input, repeats));
         }
@@ -74,8 +103,8 @@ fn in_order(
                 // Poses follow each other, so those that came after it are repeated after it.
                 while renderer.take()?.is_some() {}
                 done.repeated += 1 + in_flight.len() as u64;
-                again.push_front((input, repeats + 1));
-                in_flight.drain(..).enumerate().for_each(|(place, later)| again.insert(1 + place, later));
+                waiting.push_front((input, repeats + 1));
+                in_flight.drain(..).enumerate().for_each(|(place, later)| waiting.insert(1 + place, later));
             }
         }
     }

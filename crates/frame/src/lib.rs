@@ -5,14 +5,18 @@
 //! rays did not all finish, is never a picture. [`render_in_order`] repeats such frames: for images that are written.
 //! Interactive programs leave them out, and keep showing the last picture.
 //!
+//! Where triangles change in number, a frame brings another [`FrameScene`].
+//!
 //! Structures alone, with a host's own frames: `rasray_tracer::FrameStructure`.
 
 mod error;
 mod in_order;
 mod readback;
 mod renderer;
+mod scene;
 
 pub use error::FrameError;
 pub use in_order::{InOrder, render_in_order};
 pub use readback::FilmCopy;
 pub use renderer::{FrameInput, FrameRenderer, Picture, Shown};
+pub use scene::FrameScene;

@@ -3,14 +3,14 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use rasray_ads::{QueueCounters, Structure};
+use rasray_ads::{AdsError, QueueCounters, Structure};
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
-use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, View};
-use rasray_integrators::{Integrator, Traced, Visibility, waves_of};
+use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, ShadingFeatures, View};
+use rasray_integrators::{Integrator, IntegratorError, Traced, Visibility, waves_of};
 use rasray_tracer::{FrameOutcome, FrameStructure, Frames, Keeping, Refresh, TracerError};
 
-use crate::FrameError;
 use crate::readback::{FilmCopy, Readback};
+use crate::{FrameError, FrameScene};
 
 /// What one frame shows.
 #[derive(Clone, Debug)]
@@ -19,7 +19,10 @@ pub struct FrameInput {
     pub view: View,
     /// How pixels are sampled.
     pub sampling: Sampling,
-    /// Where everything is that moves; absent: where the frame before has it.
+    /// The scene; absent: that of the frame before. Another one may have other triangles, as many as there are; materials,
+    /// textures and lights, too, as long as the kernels have code for them.
+    pub scene: Option<FrameScene>,
+    /// Where everything is that moves; absent: where the last frame of the same scene has it, at first where the tables do.
     pub pose: Option<FramePose>,
     /// Samples of each pixel: their indices.
     pub samples: Range<u32>,
@@ -52,23 +55,36 @@ pub struct Picture {
     pub passes: Vec<PassTiming>,
 }
 
+/// What is known of a frame in flight.
+#[derive(Clone, Copy, Debug)]
+struct Pending {
+    /// Whether it adds to the film of the one before.
+    continues: bool,
+    /// Rounds that its traces were recorded with, of all parts.
+    rounds: u32,
+}
+
 /// Frames of a scene through one structure and one integrator.
+///
+/// A frame may bring another scene ([`FrameInput::scene`]): structure, integrator and visibility are kept and read it from
+/// there on. What frames in flight use of the scene before lives until they have ended.
 ///
 /// What the host says of a frame is stored in its command buffer, what it reads of it lies in memory of the frame's slot:
 /// frames in flight share nothing that one of them could find changed. No call waits but [`FrameRenderer::take`], and
 /// [`FrameRenderer::submit`] for structures that the host builds.
 pub struct FrameRenderer {
-    scene: GpuScene,
-    pose: Option<PosePass>,
+    scene: FrameScene,
+    /// What the kernels have code for.
+    features: ShadingFeatures,
     integrator: Box<dyn Integrator>,
     /// What answers camera rays in place of traces.
     visibility: Option<Visibility>,
     frames: Frames,
     readbacks: Vec<Readback>,
-    /// What the device was told last.
+    /// What the device was told last of this scene.
     posed: Option<FramePose>,
-    /// Of each frame in flight, the oldest first: whether it continues the one before.
-    continues: VecDeque<bool>,
+    /// Frames in flight, the oldest first.
+    pending: VecDeque<Pending>,
     /// Whether the film was right when the last frame ended, so that another may have added to it.
     film_is_right: bool,
 }
@@ -89,21 +105,19 @@ impl FrameRenderer {
         (keeping, timing, reads_films): (Keeping, Timing, bool),
     ) -> Result<Self, FrameError> {
         let frames = Frames::new(device, structure, keeping, timing)?;
-        let mut pose = pose;
-        if let Some(pose) = &mut pose {
-            pose.set_slots(device, frames.slots())?;
-        }
+        let features = scene.features();
+        let scene = FrameScene::new(device, scene, pose, frames.slots())?;
         let readback = |_| Readback::new(device, integrator.as_ref(), reads_films);
         let readbacks = (0..frames.slots()).map(readback).collect::<Result<_, _>>()?;
         Ok(Self {
             scene,
-            pose,
+            features,
             integrator,
             visibility: None,
             frames,
             readbacks,
             posed: None,
-            continues: VecDeque::new(),
+            pending: VecDeque::new(),
             film_is_right: false,
         })
     }
@@ -114,14 +128,19 @@ impl FrameRenderer {
         Self { visibility: Some(visibility), ..self }
     }
 
-    /// The scene on the device.
-    pub fn scene(&self) -> &GpuScene {
+    /// The scene of the frame that was submitted last, at first the one that this was made with.
+    pub fn scene(&self) -> &FrameScene {
         &self.scene
     }
 
-    /// What moves in it.
-    pub fn pose(&self) -> Option<&PosePass> {
-        self.pose.as_ref()
+    /// The pose that was submitted last with this scene; absent where there was none.
+    pub(crate) fn posed(&self) -> Option<&FramePose> {
+        self.posed.as_ref()
+    }
+
+    /// Frames that can be in flight.
+    pub fn slots(&self) -> u32 {
+        self.frames.slots()
     }
 
     /// The integrator, with the film.
@@ -139,26 +158,74 @@ impl FrameRenderer {
         self.frames.free_slot().is_some()
     }
 
-    /// Records a frame and submits it; returns its number.
+    /// Structure, integrator and visibility read another scene from the next recording on.
+    fn bind(&mut self, scene: &FrameScene) -> Result<(), FrameError> {
+        // Kernels have more code than the scene needs.
+        let gpu = scene.gpu().clone().allowing(self.features);
+        self.integrator.set_scene(&gpu)?;
+        if let Some(visibility) = &mut self.visibility {
+            visibility.set_scene(&gpu)?;
+        }
+        self.frames.set_scene(gpu.binding())?;
+        if !self.structure().is_in_parts() {
+            return Ok(self.frames.set_geometry(gpu.geometry())?);
+        }
+        let Some(parts) = scene.pose().and_then(PosePass::divided) else {
+            let (structure, reason) =
+                (self.structure().structure().name(), "the scene of a frame is not in parts");
+            return Err(AdsError::InParts { structure, reason }.into());
+        };
+        Ok(self.frames.set_parts(parts)?)
+    }
+
+    /// Shows another scene from the next frame on; after an error the one before.
+    fn set_scene(&mut self, scene: &FrameScene) -> Result<(), FrameError> {
+        let missing = self.features.lacks(scene.gpu().features());
+        if !missing.is_empty() {
+            return Err(IntegratorError::LeftOut { missing: missing.join(", ") }.into());
+        }
+        if let Err(error) = self.bind(scene) {
+            let before = self.scene.clone();
+            // It was bound already, and pools never shrink: this allocates nothing.
+            self.bind(&before)?;
+            return Err(error);
+        }
+        self.scene = scene.clone();
+        // Its device memory has what was recorded for it before, if anything was.
+        self.posed = None;
+        Ok(())
+    }
+
+    /// Records a frame and submits it; returns its number. Nothing waits, also where it brings another scene.
     ///
     /// # Errors
     /// [`TracerError::Busy`] while all slots hold frames, a size that is not the film's, a view without what the structure
-    /// needs, or the device failed.
+    /// needs, a scene that kernels have no code for ([`IntegratorError::LeftOut`]) or that is not in parts as the structure is,
+    /// or the device failed.
     pub fn submit(&mut self, input: &FrameInput) -> Result<u64, FrameError> {
         if self.frames.free_slot().is_none() {
             return Err(TracerError::Busy { slots: self.frames.slots() }.into());
         }
-        let Self { scene, pose, integrator, visibility, frames, readbacks, .. } = self;
+        let film = self.integrator.film();
+        let (film, view) = ([film.width(), film.height()], [input.view.width, input.view.height]);
+        if film != view {
+            return Err(IntegratorError::SizesDiffer { film, view }.into());
+        }
+        if let Some(scene) = input.scene.as_ref().filter(|scene| !scene.is(&self.scene)) {
+            self.set_scene(scene)?;
+        }
+        let Self { scene, integrator, visibility, frames, readbacks, .. } = self;
         let moved = input.pose.as_ref().filter(|&wanted| self.posed.as_ref() != Some(wanted));
-        let pass = pose.as_ref().filter(|pass| pass.moves());
+        let pass = scene.pose().filter(|pass| pass.moves());
         if moved.is_some() && pass.is_some_and(|pass| !pass.moving_triangles().is_empty()) {
             frames.geometry_moved();
         }
         let before = |recorder: &mut Recorder<'_>, slot: u32| {
+            scene.gpu().record_staged(recorder);
             if let (Some(pass), Some(moved)) = (pass, moved) {
                 pass.record(recorder, slot, moved);
             }
-            scene.record_frame(recorder, &input.view, input.sampling);
+            scene.gpu().record_frame(recorder, &input.view, input.sampling);
         };
         let after = |recorder: &mut Recorder<'_>, slot: u32, structure: &dyn Structure| {
             if !input.continues {
@@ -175,10 +242,12 @@ impl FrameRenderer {
             readbacks[slot as usize].record(recorder, integrator.as_ref());
             Ok(())
         };
-        let viewpoint = scene.viewpoint_of(&input.view);
+        let viewpoint = scene.gpu().viewpoint_of(&input.view);
         match frames.submit::<FrameError>(viewpoint, before, after) {
             Ok(number) => {
-                self.continues.push_back(input.continues);
+                let rounds = frames.structure().rounds();
+                self.pending.push_back(Pending { continues: input.continues, rounds });
+                scene.gpu().end_staging();
                 if let Some(moved) = moved {
                     self.posed = Some(moved.clone());
                 }
@@ -214,7 +283,8 @@ impl FrameRenderer {
 
     fn shown(&mut self, ended: rasray_tracer::Ended) -> Result<Shown, FrameError> {
         // A new image does not depend on the film before it.
-        self.film_is_right |= !self.continues.pop_front().unwrap_or(false);
+        let pending = self.pending.pop_front().unwrap_or(Pending { continues: false, rounds: 0 });
+        self.film_is_right |= !pending.continues;
         let (film, counters) = self.readbacks[ended.slot as usize].read()?;
         let structure = self.frames.structure().structure();
         let sum =
@@ -224,7 +294,10 @@ impl FrameRenderer {
             return Err(FrameError::Corrupted { structure: structure.name(), frame: ended.number, entries });
         }
         let unanswered = sum(|queue| queue.unfinished) + sum(|queue| queue.not_ready);
-        if ended.outcome == FrameOutcome::Complete && unanswered > 0 && !structure.allow_more_rounds() {
+        // Frames before it may have allowed more rounds after it was recorded.
+        let has_more_rounds =
+            || self.frames.structure().rounds() > pending.rounds || structure.allow_more_rounds();
+        if ended.outcome == FrameOutcome::Complete && unanswered > 0 && !has_more_rounds() {
             return Err(FrameError::Unfinished { frame: ended.number, rays: unanswered });
         }
         self.film_is_right &= ended.outcome == FrameOutcome::Complete && unanswered == 0;

@@ -16,10 +16,10 @@ use rasray_systems::Spec;
 use rasray_tests::harness::Bench;
 use rasray_tracer::{Keeping, build_until_complete};
 
-const SIZE: [u32; 2] = [24, 16];
+pub const SIZE: [u32; 2] = [24, 16];
 
 /// Every instance on a node of its own, of which the last one swings: right in one second, back in the next.
-fn swinging() -> Scene {
+pub fn swinging() -> Scene {
     let mut scene = builtin::builtin("cornell").expect("it is built in").expect("it needs no parameter");
     let at_rest =
         NodeTransform::Parts { translation: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: DVec3::ONE };
@@ -50,7 +50,7 @@ struct Set {
     path: Path,
 }
 
-fn view(scene: &Scene, moved: f64) -> View {
+pub fn view(scene: &Scene, moved: f64) -> View {
     let mut camera = scene.cameras[0].clone();
     camera.world_from_camera *= DAffine3::from_translation(DVec3::X * moved);
     View { camera, width: SIZE[0], height: SIZE[1], seed: 7 }
@@ -68,11 +68,11 @@ fn set(device: &Device, scene: &Scene, tables: &SceneTables) -> Set {
     Set { gpu, pose, path }
 }
 
-fn tables(scene: &Scene) -> SceneTables {
+pub fn tables(scene: &Scene) -> SceneTables {
     SceneTables::new(scene, DVec3::ZERO, &Parts::ALL).expect("the scene is whole")
 }
 
-fn spec(system: &str, options: &[(&str, &str)]) -> Spec {
+pub fn spec(system: &str, options: &[(&str, &str)]) -> Spec {
     let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
     Spec::new(system, "robust", given).expect("the options are the system's")
 }
@@ -86,13 +86,13 @@ fn renderer(device: &Device, scene: &Scene, spec: &Spec, slots: u32) -> FrameRen
         .expect("the device works")
 }
 
-fn input(view: View, pose: Option<FramePose>, samples: Range<u32>, continues: bool) -> FrameInput {
-    FrameInput { view, sampling: sampling(), pose, samples, continues }
+pub fn input(view: View, pose: Option<FramePose>, samples: Range<u32>, continues: bool) -> FrameInput {
+    FrameInput { view, sampling: sampling(), scene: None, pose, samples, continues }
 }
 
 /// The inputs of frames a quarter of a second apart, with a camera that moves as well.
 fn inputs(renderer: &FrameRenderer, scene: &Scene, count: u32) -> Vec<FrameInput> {
-    let pass = renderer.pose().expect("it was made with one");
+    let pass = renderer.scene().pose().expect("it was made with one");
     let frame = |number: u32| {
         let moment = Moment { seconds: 0.25 * f64::from(number), clips: vec![0] };
         let pose = pass.frame(scene, &moment).expect("it is the same scene");
@@ -102,7 +102,7 @@ fn inputs(renderer: &FrameRenderer, scene: &Scene, count: u32) -> Vec<FrameInput
 }
 
 /// The picture of one frame, nothing in flight.
-fn still(
+pub fn still(
     device: &Device,
     scene: &Scene,
     tables: &SceneTables,
@@ -130,7 +130,7 @@ fn still(
     path.film().read(device).expect("the device works")
 }
 
-fn pictures(renderer: &mut FrameRenderer, inputs: Vec<FrameInput>) -> (Vec<Picture>, u64) {
+pub fn pictures(renderer: &mut FrameRenderer, inputs: Vec<FrameInput>) -> (Vec<Picture>, u64) {
     let mut pictures = Vec::new();
     let done = render_in_order(renderer, inputs, |picture| {
         pictures.push(picture);
@@ -178,7 +178,7 @@ fn what_the_host_deforms_is_that_of_its_frame() {
     let scene = builtin::builtin("cloth-ball:1k").expect("it is built in").expect("a cloth");
     let spec = spec("bvh", &[("builder", "lbvh")]);
     let mut renderer = renderer(device, &scene, &spec, 3);
-    let pass = renderer.pose().expect("it was made with one");
+    let pass = renderer.scene().pose().expect("it was made with one");
     let inputs: Vec<_> = [0.2, 1.2, 0.6, 1.0, 0.8]
         .into_iter()
         .map(|seconds| {
@@ -202,7 +202,7 @@ fn first_hits_that_are_drawn_are_those_that_are_traced() {
     let spec = spec("bricks", &[]);
     let mut traced = renderer(device, &scene, &spec, 2);
     let drawn = renderer(device, &scene, &spec, 2);
-    let visibility = Visibility::new(device, drawn.scene(), false).expect("the device draws");
+    let visibility = Visibility::new(device, drawn.scene().gpu(), false).expect("the device draws");
     let mut drawn = drawn.with_visibility(visibility);
     let all = inputs(&traced, &scene, 3);
     let (expected, found) = (pictures(&mut traced, all.clone()).0, pictures(&mut drawn, all).0);
@@ -285,6 +285,7 @@ fn a_repeated_frame_without_a_pose_stays_where_it_was() {
         let moment = Moment { seconds, clips: vec![0] };
         Some(
             renderer
+                .scene()
                 .pose()
                 .expect("it was made with one")
                 .frame(&scene, &moment)
