@@ -49,7 +49,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let contestants =
         Contestant::all(&device, &stage, &systems, stage.scene.eye(), REPETITIONS, &mut |_| {
             ControlFlow::Continue(())
-        })?;
+        })?
+        .unwrap_or_default();
     let rays = incoherent_rays(stage.scene.geometry().bounds(), SEED, rays);
     let traces = trace_in_turns(&device, &contestants, &rays, REPETITIONS)?;
     println!("{:<24} {:>12} {:>12} {:>14}", "system", "build ms", "trace ms", "Mrays/s");

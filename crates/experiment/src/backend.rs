@@ -115,7 +115,8 @@ pub trait Backend {
         progress: &mut OnProgress<'_>,
     ) -> Result<Comparison, ExperimentError>;
 
-    /// Compares systems on a hard case: a run per system and preset, each with its verdict.
+    /// Compares systems on a hard case: a run per system and preset, each with its verdict. When
+    /// `progress` breaks before the case is whole, there are none.
     fn hard(
         &mut self,
         job: &HardJob<'_>,

@@ -68,7 +68,10 @@ pub(super) fn compare(
         let setting = ReplaySetting { device, stage: &stage, oracle: &oracle, center };
         return replay_sets(&setting, &job.systems, sets, index);
     }
-    let contestants = Contestant::all(device, &stage, &job.systems, center, job.repetitions, progress)?;
+    let Some(contestants) = Contestant::all(device, &stage, &job.systems, center, job.repetitions, progress)?
+    else {
+        return Ok(Comparison::default());
+    };
     let count = job.ray_sets.len() + usize::from(job.rays_file.is_some());
     let total = (contestants.len() * (count + usize::from(job.image))) as u64;
     let mut comparison = Comparison::default();

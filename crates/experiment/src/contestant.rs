@@ -23,7 +23,7 @@ pub struct Contestant<'a> {
 impl<'a> Contestant<'a> {
     /// Makes the structures of all systems around `center` (metres, relative to the frame origin) and
     /// builds each `repetitions` times for its medians: one build of each in turn, so that what slows the
-    /// machine for a while slows all of them.
+    /// machine for a while slows all of them. Nothing where `progress` asks for an early end before all are built.
     ///
     /// # Errors
     /// Options that do not go together, a device that lacks something or fails, a build that does not become complete.
@@ -34,22 +34,26 @@ impl<'a> Contestant<'a> {
         center: [f32; 3],
         repetitions: u32,
         progress: &mut OnProgress<'_>,
-    ) -> Result<Vec<Self>, ExperimentError> {
+    ) -> Result<Option<Vec<Self>>, ExperimentError> {
         let mut contestants = Vec::new();
-        let mut says = |task: &str, unit: &str| _ = progress(Progress { task, done: 0, total: 0, unit });
+        let mut stops = |unit: &str| progress(Progress { task: "build", done: 0, total: 0, unit }).is_break();
         for config in systems {
-            says("build", config.system.name);
+            if stops(config.system.name) {
+                return Ok(None);
+            }
             let spec = config.spec()?.with_counters(Counters::Sums);
             let built = Built::new(device, &spec, &stage.scene, center)?;
             contestants.push(Self { config, spec, built });
         }
-        says("build", "timed builds");
         for _ in 0..repetitions {
             for contestant in &mut contestants {
+                if stops("timed builds") {
+                    return Ok(None);
+                }
                 contestant.built.build_again(device)?;
             }
         }
-        Ok(contestants)
+        Ok(Some(contestants))
     }
 
     /// A run with names, options, build times and bytes of the system.

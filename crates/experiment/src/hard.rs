@@ -44,8 +44,15 @@ pub(super) fn hard(
         rays: case.rays.iter().map(|ray| placed.device_ray(ray)).collect(),
         verdicts: oracle.closest_batch(&case.rays),
     };
-    let contestants = Contestant::all(device, &stage, job.systems, case.eye, job.repetitions, progress)?;
     let mut comparison = Comparison::default();
+    let Some(contestants) =
+        Contestant::all(device, &stage, job.systems, case.eye, job.repetitions, progress)?
+    else {
+        return Ok(comparison);
+    };
+    if progress(Progress { task: case.id, done: 0, total: 0, unit: "rays" }).is_break() {
+        return Ok(comparison);
+    }
     if job.keep {
         comparison.kept.triangles = case.triangles.clone();
         comparison.kept.case = Some(case.id.to_owned());

@@ -27,7 +27,11 @@ Every system traces the same rays and is compared with an oracle in double preci
 program can decide are counted apart. Systems take turns, so that what slows the machine slows all of
 them. An option goes to the systems that have it; SYSTEM.OPTION=VALUE addresses one, and
 SYSTEM-PRESET.OPTION=VALUE one preset of it; mmrt.buckets=1,4,8 takes part once with each value.
-Times of software devices are for ratios on that device.";
+Times of software devices are for ratios on that device.
+
+SIGINT (Ctrl-C) or SIGTERM: the report holds the runs that were whole, of hard:all the cases, exit code 130;
+where none is, the command ends within two seconds and writes nothing. A build or a trace that is under way
+ends first. A second signal stops at once and writes nothing.";
 
 /// Options of `rasray compare`.
 #[derive(Debug, Args)]

@@ -68,6 +68,9 @@ pub(super) fn compare(
             };
             if let Some(text) = &one.replay {
                 terminal::print(text)?;
+            } else if one.runs.is_empty() {
+                // A signal ended the case before it was whole.
+                break;
             }
             output::save(targets.save(), &one.kept, interrupt)?;
             triangles += count;
@@ -97,8 +100,9 @@ pub(super) fn compare(
     }
     report.runs.iter().try_for_each(check_run)?;
     if finished < ids.len() {
+        let kept = if targets.any() { "the report holds them" } else { "no report was asked for" };
         return Err(AppError::interrupted(
-            format!("stopped after {finished} of {} cases", ids.len()),
+            format!("stopped after {finished} of {} cases; {kept}", ids.len()),
             "run again for all of them",
         ));
     }

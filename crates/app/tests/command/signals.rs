@@ -165,3 +165,17 @@ fn one_signal_keeps_the_finished_runs_of_a_comparison() {
     assert!(stderr(&output).contains("of 12 runs"), "{}", stderr(&output));
     assert_eq!(entries(folder.path()), ["r.json"]);
 }
+
+#[test]
+fn one_signal_keeps_the_hard_cases_that_were_whole() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let line = "compare hard:all --systems mmrt --rays 3 --device slow --report r.json";
+    let output = interrupted(folder.path(), line, &["INT"]);
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(130), "{text}");
+    assert!(text.contains("stopped after 1 of ") && text.contains("the report holds them"), "{text}");
+    let report = std::fs::read(folder.path().join("r.json")).expect("a report");
+    let report: rasray_report::Report = serde_json::from_slice(&report).expect("the schema");
+    let ids: Vec<_> = report.runs.iter().filter_map(|run| run.ray_set.as_deref()).collect();
+    assert_eq!(ids, ["G1"]);
+}
