@@ -61,33 +61,44 @@ vec3 coverage_edge(vec3 p, vec3 q, float s, float margin) {
     return edge;
 }
 
+// Widens bounds by p, if it is deeper than `least`, and by the edge to q up to the plane of the eye, if q is not. Along
+// such an edge x/z and y/z run beyond all limits, to the side that p.z q - q.z p is on; to both where rounding leaves
+// that open.
+void coverage_widen(vec3 p, vec3 q, float least, float limit, inout vec4 bounds) {
+    if (!(p.z > least)) {
+        return;
+    }
+    vec2 place = p.xy / p.z;
+    bounds = vec4(min(bounds.xy, place - 1.0e-6), max(bounds.zw, place + 1.0e-6));
+    if (q.z > least) {
+        return;
+    }
+    vec2 at_q = p.z * q.xy;
+    vec2 at_p = q.z * p.xy;
+    vec2 rounding = 1.0e-6 * (abs(at_q) + abs(at_p));
+    bounds.xy = mix(vec2(-limit), bounds.xy, greaterThan(at_q - at_p, rounding));
+    bounds.zw = mix(vec2(limit), bounds.zw, lessThan(at_q - at_p, -rounding));
+}
+
 // Bounds in x/z and y/z (lower, upper) of the part of the triangle in front of the eye, clipped to the
 // face with its border. False where nothing does.
 bool coverage_bounds(vec3 a, vec3 b, vec3 c, uint resolution, out vec4 bounds) {
     float limit = 1.0 + 2.0 / float(resolution);
     bounds = vec4(-limit, -limit, limit, limit);
-    if (max(a.z, max(b.z, c.z)) <= 0.0) {
+    float farthest = max(a.z, max(b.z, c.z));
+    if (farthest <= 0.0) {
         return false;
     }
-    float nearest = min(a.z, min(b.z, c.z));
-    float farthest = max(a.z, max(b.z, c.z));
-    if (nearest > 1.0e-6 * farthest) {
-        vec2 pa = a.xy / a.z;
-        vec2 pb = b.xy / b.z;
-        vec2 pc = c.xy / c.z;
-        vec2 lower = min(pa, min(pb, pc)) - 1.0e-6;
-        vec2 upper = max(pa, max(pb, pc)) + 1.0e-6;
-        bounds = vec4(max(lower, vec2(-limit)), min(upper, vec2(limit)));
-    } else {
-        // The triangle reaches behind the eye: only sides beyond which all vertices lie reject it.
-        float w = limit;
-        bvec2 above = bvec2(a.x > w * a.z && b.x > w * b.z && c.x > w * c.z, a.y > w * a.z && b.y > w * b.z && c.y > w * c.z);
-        bvec2 below = bvec2(-a.x > w * a.z && -b.x > w * b.z && -c.x > w * c.z,
-            -a.y > w * a.z && -b.y > w * b.z && -c.y > w * c.z);
-        if (any(above) || any(below)) {
-            return false;
-        }
-    }
+    float least = 1.0e-6 * farthest;
+    const float far = 3.0e38;
+    vec4 front = vec4(far, far, -far, -far);
+    coverage_widen(a, b, least, limit, front);
+    coverage_widen(a, c, least, limit, front);
+    coverage_widen(b, c, least, limit, front);
+    coverage_widen(b, a, least, limit, front);
+    coverage_widen(c, a, least, limit, front);
+    coverage_widen(c, b, least, limit, front);
+    bounds = vec4(max(front.xy, vec2(-limit)), min(front.zw, vec2(limit)));
     return bounds.x <= bounds.z && bounds.y <= bounds.w;
 }
 
@@ -142,9 +153,12 @@ bool coverage_dilated(vec3 a, vec3 b, vec3 c, float margin, vec2 size, out vec2 
     return area < 1.8 * 2.0 * size.x * size.y && max(farthest.x, farthest.y) < 64.0;
 }
 
-// Corner `corner` of the one triangle over a rectangle: a corner of the rectangle, and twice its sides.
+// Corner `corner` of the one triangle over a rectangle: the corner of the rectangle nearest to the middle of the view,
+// and twice its sides, outwards.
 vec2 coverage_rectangle(vec4 bounds, uint corner) {
-    return bounds.xy + vec2(corner == 1u ? 2.0 : 0.0, corner == 2u ? 2.0 : 0.0) * (bounds.zw - bounds.xy);
+    vec2 sides = vec2(corner == 1u ? 2.0 : 0.0, corner == 2u ? 2.0 : 0.0) * (bounds.zw - bounds.xy);
+    bvec2 is_below = lessThan(bounds.xy + bounds.zw, vec2(0.0));
+    return mix(bounds.xy + sides, bounds.zw - sides, is_below);
 }
 
 // Clip-space corner `corner` of a screen triangle that covers every cell whose centre is within `margin`
