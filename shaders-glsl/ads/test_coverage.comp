@@ -1,5 +1,6 @@
 // What: evaluates the coverage of cell centres, for tests.
-// Reads: triangles with a face and a cell. Writes: whether the centre is covered, and at which depth.
+// Reads: triangles with a face and a cell. Writes: whether the centre is covered, at which depth, and whether the cell is
+// proposed.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/coverage.glsl"
@@ -14,10 +15,11 @@ struct CoverageCase {
     int y;                // row, from -1 to the resolution
 };
 
-// Whether the centre of the cell is covered. 8 bytes.
+// Whether the centre of the cell is covered. 12 bytes.
 struct CoverageResult {
     uint covered;         // 0 or 1
     float z;              // depth; 0 where it is not covered
+    uint proposed;        // 1: the cell is among those of coverage_cells, else 0
 };
 
 layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { CoverageCase cases[]; };
@@ -35,8 +37,16 @@ void main() {
         return;
     }
     CoverageCase c = cases[index];
+    vec3 corners[3];
+    for (int k = 0; k < 3; k++) {
+        corners[k] = face_from_world(c.triangle[k], c.face);
+    }
+    ivec2 cell = ivec2(c.x, c.y);
     CellCoverage coverage;
-    bool covered = coverage_at_center(face_from_world(c.triangle[0], c.face), face_from_world(c.triangle[1], c.face),
-        face_from_world(c.triangle[2], c.face), ivec2(c.x, c.y), pushed.resolution, coverage);
-    results[index] = CoverageResult(covered ? 1u : 0u, covered ? coverage.z : 0.0);
+    bool covered = coverage_at_center(corners[0], corners[1], corners[2], cell, pushed.resolution, coverage);
+    ivec2 lower;
+    ivec2 upper;
+    bool proposed = coverage_cells(corners[0], corners[1], corners[2], pushed.resolution, 0.0, lower, upper)
+        && all(greaterThanEqual(cell, lower)) && all(lessThanEqual(cell, upper));
+    results[index] = CoverageResult(covered ? 1u : 0u, covered ? coverage.z : 0.0, proposed ? 1u : 0u);
 }

@@ -45,8 +45,13 @@ pub(super) fn hard(
         verdicts: oracle.closest_batch(&case.rays),
     };
     let mut comparison = Comparison::default();
+    // Of many cases in one run, the one that takes long is named.
+    let mut of_case = |step: Progress<'_>| {
+        let task = format!("{}, {}", case.id, step.task);
+        progress(Progress { task: &task, ..step })
+    };
     let Some(contestants) =
-        Contestant::all(device, &stage, job.systems, case.eye, job.repetitions, progress)?
+        Contestant::all(device, &stage, job.systems, case.eye, job.repetitions, &mut of_case)?
     else {
         return Ok(comparison);
     };

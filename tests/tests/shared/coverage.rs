@@ -80,6 +80,40 @@ fn triangles(resolution: u32, random: &mut Random, count: usize) -> Vec<Triangle
         .collect()
 }
 
+/// What the test kernel says of cases.
+fn evaluated(bench: &Bench, cases: &[Case], resolution: u32) -> Vec<CoverageResult> {
+    let constants = CoverageTestConstants { case_count: cases.len() as u32, resolution };
+    let (found, _) = run_kernel::<CoverageResult, _>(
+        bench.device(),
+        &ADS_TEST_COVERAGE,
+        bytemuck::cast_slice(cases),
+        cases.len(),
+        None,
+        cases.len(),
+        &constants,
+    );
+    found
+}
+
+/// A wall beside the eye is proposed from where it begins in front of the eye, not all over the face ahead.
+#[test]
+fn what_reaches_behind_the_eye_is_proposed_where_it_is_in_front() {
+    let bench = Bench::new();
+    let (resolution, face) = (32, 4);
+    for side in [-1.0, 1.0] {
+        // x/z is at least 1/1.2 in front of the eye, and at most -1/1.2 behind it.
+        let wall = [[side, -1.2, -1.2], [side, -1.2, 1.2], [side, 1.2, 1.2]];
+        let triangle = wall.map(|corner| world_from_face(corner, face));
+        let places = -1..=resolution as i32;
+        let cases: Vec<_> =
+            places.clone().flat_map(|y| places.clone().map(move |x| Case { triangle, face, x, y })).collect();
+        for (case, found) in cases.iter().zip(evaluated(&bench, &cases, resolution)) {
+            let is_in_front = side * cell_center(case.x, resolution) >= 1.0 / 1.2;
+            assert_eq!(found.proposed == 1, is_in_front, "{case:?}");
+        }
+    }
+}
+
 #[test]
 fn coverage_of_centres_agrees_with_the_oracle() {
     let bench = Bench::new();
@@ -110,16 +144,7 @@ fn coverage_of_centres_agrees_with_the_oracle() {
                 }
             }
         }
-        let constants = CoverageTestConstants { case_count: cases.len() as u32, resolution };
-        let (found, _) = run_kernel::<CoverageResult, _>(
-            bench.device(),
-            &ADS_TEST_COVERAGE,
-            bytemuck::cast_slice(&cases),
-            cases.len(),
-            None,
-            cases.len(),
-            &constants,
-        );
+        let found = evaluated(&bench, &cases, resolution);
         let (mut covered, mut uncovered, mut ambiguous) = (0, 0, 0);
         for (case, found) in cases.iter().zip(&found) {
             let verdict = oracle_of(&[seen_by(&case.triangle, case.face)])
@@ -133,6 +158,7 @@ fn coverage_of_centres_agrees_with_the_oracle() {
                     covered += 1;
                     let z = f64::from(found.z);
                     assert!(found.covered == 1 && low <= z && z <= high, "{case:?}: {found:?}, {verdict:?}");
+                    assert_eq!(found.proposed, 1, "{case:?}: {found:?}");
                 }
                 None => {
                     uncovered += 1;
