@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use glam::{DAffine3, DVec3};
 use rasray_ads::{AdsError, Combined};
 use rasray_frame::{FrameError, FrameInput, FrameRenderer, FrameScene, render_in_order};
-use rasray_gpu::{Device, Timing};
+use rasray_gpu::{Device, RawDevice, Timing, vk};
 use rasray_gpu_scene::{GpuScene, PosePass, ShadingFeatures};
 use rasray_integrators::{Film, IntegratorDesc, IntegratorError, Path, Raycast, Visibility};
 use rasray_scene::{AlphaMode, Camera, LoadOptions, Mesh, Moment, Projection, Scene, builtin};
@@ -158,6 +158,35 @@ fn nothing_of_earlier_scenes_is_left() {
     assert!(second <= first + 65_536, "{first} bytes at most in the first half, {second} in the second");
     drop(renderer);
     assert_eq!(device.allocated_bytes(), before);
+}
+
+/// A device that cannot submit cannot wait either.
+#[test]
+fn a_staged_scene_neither_submits_nor_waits() {
+    let bench = Bench::new();
+    let host = bench.device();
+    let raw = RawDevice {
+        instance: host.raw_instance().clone(),
+        physical: host.raw_physical(),
+        device: host.raw().clone(),
+        queue: vk::Queue::null(),
+        queue_family: host.queue_family(),
+        api_version: host.api_version(),
+        enabled: host.enabled(),
+        debug_utils: true,
+        pipeline_cache: vk::PipelineCache::null(),
+        memory: None,
+        memory_limit: None,
+    };
+    // SAFETY: `raw` describes a device made by this crate, which outlives the adopted one.
+    let device = unsafe { Device::from_raw(raw) }.expect("it is adopted");
+    let scene = swinging();
+    let (tables, view) = (tables(&scene), view(&scene, 0.0));
+    GpuScene::upload(&device, &tables, &view).expect_err("nothing can be submitted");
+    let gpu = GpuScene::staged(&device, &tables, &view).expect("it fits");
+    let mut pose = PosePass::new(&device, &scene, &tables, &gpu).expect("it fits");
+    pose.parts(&device).expect("it fits");
+    FrameScene::new(&device, gpu, Some(pose), 2).expect("it fits");
 }
 
 #[test]
