@@ -46,8 +46,9 @@ impl Device {
     /// Records commands, submits them and waits up to [`Device::timeout`].
     ///
     /// # Errors
-    /// The first mistake of the recording, [`GpuError::Timeout`], [`GpuError::DeviceLost`],
-    /// [`GpuError::Abandoned`], or what the driver reports.
+    /// The first mistake of the recording, [`GpuError::Timeout`](crate::GpuError::Timeout),
+    /// [`GpuError::DeviceLost`](crate::GpuError::DeviceLost), [`GpuError::Abandoned`](crate::GpuError::Abandoned), or
+    /// what the driver reports.
     pub fn submit<R>(&self, record: impl FnOnce(&mut Recorder<'_>) -> R) -> Result<Submitted<R>> {
         self.submit_passes(Timing::None, record)
     }
@@ -55,8 +56,8 @@ impl Device {
     /// As [`Device::submit`], with times of the passes.
     ///
     /// # Errors
-    /// As [`Device::submit`], and [`GpuError::FeatureNotEnabled`] for [`Timing::Device`] on a queue without
-    /// timestamps.
+    /// As [`Device::submit`], and [`GpuError::FeatureNotEnabled`](crate::GpuError::FeatureNotEnabled) for
+    /// [`Timing::Device`] on a queue without timestamps.
     pub fn submit_passes<R>(
         &self,
         timing: Timing,
