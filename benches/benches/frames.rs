@@ -217,13 +217,6 @@ impl Kept {
             Self::Parts { combined, .. } => combined.as_ref(),
         }
     }
-
-    fn structure_mut(&mut self) -> &mut dyn Structure {
-        match self {
-            Self::All(structure) => structure.as_mut(),
-            Self::Parts { combined, .. } => combined.as_mut(),
-        }
-    }
 }
 
 impl Setting<'_> {
@@ -249,8 +242,9 @@ impl Setting<'_> {
 
     /// Builds what has to be: milliseconds. The camera stands still, so of parts that is the one that moves.
     fn build(&self, kept: &mut Kept) -> Result<f64> {
-        let Kept::Parts { combined, static_built } = kept else {
-            return self.build_all(kept.structure_mut());
+        let (combined, static_built) = match kept {
+            Kept::All(structure) => return self.build_all(structure.as_mut()),
+            Kept::Parts { combined, static_built } => (combined, static_built),
         };
         let mut milliseconds = 0.0;
         for moving in [false, true] {

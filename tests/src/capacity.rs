@@ -1,6 +1,6 @@
 //! Builds in pools of every edge capacity.
 
-use rasray_ads::{Check, Hit, Ray, Sizes, Structure, Viewpoint};
+use rasray_ads::{Check, Hit, Ray, Sizes, Structure, VARYING_SHARE, Viewpoint};
 
 use crate::harness::Bench;
 
@@ -15,9 +15,6 @@ pub struct Counted {
     /// collide.
     pub pages: bool,
 }
-
-/// The share of pages by which builds may differ, and which structures leave as a margin.
-const SPREAD_OF_PAGES: u64 = 64;
 
 /// As [`check_capacities`], for what is counted in a pool of scratch, seen from the origin: answers are hits.
 ///
@@ -63,7 +60,7 @@ pub fn check_capacities<T: PartialEq>(
     };
     let (check, demand, expected) = built(structure, &sizes(1 << 16));
     assert!(check == Check::Complete && expected.is_some() && demand > 10, "{demand} with ample capacity");
-    let spread = if counted.pages { demand / SPREAD_OF_PAGES } else { 0 };
+    let spread = if counted.pages { demand / VARYING_SHARE } else { 0 };
     for capacity in [0, 1, demand / 2, demand - 1] {
         let (check, found, answers) = built(structure, &sizes(capacity));
         assert!(found.abs_diff(demand) <= spread, "capacity for {capacity}: {found} for {demand}");
@@ -76,7 +73,7 @@ pub fn check_capacities<T: PartialEq>(
         };
         assert!(found > capacity && answers.is_none(), "capacity for {capacity}: incomplete with {found}");
         // Pages come with a little more capacity.
-        let more = if counted.pages { found / SPREAD_OF_PAGES } else { 0 };
+        let more = if counted.pages { found / VARYING_SHARE } else { 0 };
         let enough = sizes(found + more).elements(counted.pool);
         assert_eq!(grown.elements(counted.pool), enough, "capacity for {capacity}");
         // What is counted later, or in other pools, may have to grow then.

@@ -3,8 +3,8 @@
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use rasray_ads::{
-    BuildStatus, Domain, Draw, Geometry, GeometryDesc, Hit, Ray, RayQueue, Structure, Surface, TraceMode,
-    Viewpoint,
+    BuildStatus, Domain, Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_UNKNOWN, Ray, RayQueue, Structure,
+    Surface, TraceMode, Viewpoint,
 };
 pub use rasray_experiment::oracle_ray;
 use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Requirements, Timing};
@@ -202,6 +202,13 @@ pub fn processor_seconds() -> Option<f64> {
 /// All bits of a hit, so that equal means equal in every one of them.
 pub fn bits(hit: &Hit) -> [u32; 4] {
     [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
+}
+
+/// The bits of a hit that are the same in every build. For fragments without an id, a and b refer to a node, whose number
+/// follows the order of threads.
+pub fn bits_of_any_build(hit: &Hit) -> [u32; 4] {
+    let [t, primitive, a, b] = bits(hit);
+    if primitive == PRIMITIVE_UNKNOWN { [t, primitive, 0, 0] } else { [t, primitive, a, b] }
 }
 
 /// An oracle over the same triangles.

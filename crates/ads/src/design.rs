@@ -217,7 +217,8 @@ pub trait Design: fmt::Debug + Sized {
     /// The capacity of the pools, in the terms of the demand.
     fn capacity(parts: &Parts<Self::Config>) -> Self::Demand;
 
-    /// Whether the demand of that name varies slightly with the order in which threads run.
+    /// Whether the demand of that name varies slightly with the order in which threads run: by one in
+    /// [`VARYING_SHARE`](crate::VARYING_SHARE).
     fn varies(_config: &Self::Config, _name: &str) -> bool {
         false
     }

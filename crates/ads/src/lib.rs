@@ -69,7 +69,7 @@ pub use lengths::Lengths;
 pub use list_sort::ListSort;
 pub use passes::{BuildPipelines, BuildTarget, ViewDraw};
 pub use pool_name::PoolName;
-pub use pooled::Pooled;
+pub use pooled::{Pooled, VARYING_SHARE};
 pub use pools::Pools;
 pub use pyramid::Pyramid;
 pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};

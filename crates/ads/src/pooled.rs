@@ -13,6 +13,10 @@ use crate::{
     TraceKernelsDesc, TraceMode, Viewpoint, default_work_budget,
 };
 
+/// A demand that [varies](Design::varies) is met with capacity for one in so many more. Pages of a small scene differ by up to
+/// one in 33 from build to build where tens of thousands of threads run at a time.
+pub const VARYING_SHARE: u64 = 16;
+
 /// A structure of a header, pools and the passes of its design.
 #[derive(Debug)]
 pub struct Pooled<D: Design> {
@@ -281,7 +285,7 @@ impl<D: Design> Structure for Pooled<D> {
             let wanted = capacity.zip(capacity, |name, capacity, _| {
                 let mut demand = status.demand(name).unwrap_or(0);
                 if demand > capacity && D::varies(config, name) {
-                    demand += demand / 64;
+                    demand += demand / VARYING_SHARE;
                 }
                 growth.of(demand, capacity)
             });

@@ -6,7 +6,7 @@ use std::ops::Range;
 use rasray_ads::{AdsError, QueueCounters, Structure};
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, ShadingFeatures, View};
-use rasray_integrators::{Integrator, IntegratorError, Traced, Visibility, waves_of};
+use rasray_integrators::{Integrator, IntegratorError, Traced, Visibility, check_features, waves_of};
 use rasray_tracer::{FrameOutcome, FrameStructure, Frames, Keeping, Refresh, TracerError};
 
 use crate::readback::{FilmCopy, Readback};
@@ -180,10 +180,7 @@ impl FrameRenderer {
 
     /// Shows another scene from the next frame on; after an error the one before.
     fn set_scene(&mut self, scene: &FrameScene) -> Result<(), FrameError> {
-        let missing = self.features.lacks(scene.gpu().features());
-        if !missing.is_empty() {
-            return Err(IntegratorError::LeftOut { missing: missing.join(", ") }.into());
-        }
+        check_features(self.features, scene.gpu())?;
         if let Err(error) = self.bind(scene) {
             let before = self.scene.clone();
             // It was bound already, and pools never shrink: this allocates nothing.

@@ -116,8 +116,11 @@ pub trait Integrator {
     }
 }
 
-/// An error unless kernels with these features shade the scene.
-pub(crate) fn check_features(made_for: ShadingFeatures, scene: &GpuScene) -> Result<(), IntegratorError> {
+/// Whether kernels with these features shade the scene.
+///
+/// # Errors
+/// [`IntegratorError::LeftOut`] where they leave out what the scene has.
+pub fn check_features(made_for: ShadingFeatures, scene: &GpuScene) -> Result<(), IntegratorError> {
     let missing = made_for.lacks(scene.features());
     if missing.is_empty() { Ok(()) } else { Err(IntegratorError::LeftOut { missing: missing.join(", ") }) }
 }

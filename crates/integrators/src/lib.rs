@@ -52,7 +52,7 @@ pub use ambient_occlusion::AmbientOcclusion;
 pub use aov::AovPass;
 pub use error::IntegratorError;
 pub use film::{Film, PIXEL_LIMIT};
-pub use integrator::{Integrator, IntegratorDesc};
+pub use integrator::{Integrator, IntegratorDesc, check_features};
 pub use path::{BOUNCE_LIMIT, Path};
 pub use rasray_shaders_glsl::records::{AovPixel, FilmFaults, FilmPixel, PathState, VisibilityCounts};
 pub use raycast::Raycast;

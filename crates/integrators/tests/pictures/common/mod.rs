@@ -139,6 +139,20 @@ pub fn mean(image: &[[f32; 3]]) -> f64 {
     image.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / image.len() as f64
 }
 
+/// The largest difference of pictures by different kernels on hardware, relative to the value.
+const CONTRACTION: f32 = 1.0e-5;
+
+/// Whether pictures that different kernels made are the same: bit for bit on a software device. Hardware may contract a
+/// product and a sum in one kernel and not in another.
+pub fn are_same(device: &Device, picture: &[[f32; 3]], expected: &[[f32; 3]]) -> bool {
+    let is_close = |(a, b): (&f32, &f32)| (a - b).abs() <= CONTRACTION * b.abs();
+    if device.is_software() {
+        return picture == expected;
+    }
+    picture.len() == expected.len()
+        && picture.as_flattened().iter().zip(expected.as_flattened()).all(is_close)
+}
+
 pub fn assert_silent(device: &Device) {
     assert_eq!(device.validation_messages(), Vec::<String>::new());
 }
