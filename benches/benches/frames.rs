@@ -1,4 +1,5 @@
-//! What a frame of a scene that moves costs: `cargo bench --bench frames -- [SCENE] [WIDTHxHEIGHT] [FRAMES]`.
+//! What a frame of a scene that moves costs: `cargo bench --bench frames -- [SCENE] [WIDTHxHEIGHT] [FRAMES]
+//! [SYSTEM,...]`.
 //!
 //! Per system the medians over frames of pose, build, trace, surfaces and shade, each timed by itself, and from these
 //! the time of a frame at 1, 4 and 16 rays per pixel, divided by that of a tree rebuilt by Morton codes. `crossover` is the
@@ -21,14 +22,15 @@ use rasray_tracer::build_with_headroom;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Systems, the `builder` of some, and whether what moves is a part by itself, the only one that is built with every frame; the
+/// Systems, an option of some, and whether what moves is a part by itself, the only one that is built with every frame; the
 /// first is what the others are divided by.
-const SYSTEMS: [(&str, Option<&str>, bool); 11] = [
-    ("bvh", Some("lbvh"), false),
-    ("bvh", Some("lbvh"), true),
-    ("bvh", Some("refit"), false),
-    ("bvh", Some("sah"), false),
+const SYSTEMS: [(&str, Option<[&str; 2]>, bool); 12] = [
+    ("bvh", Some(["builder", "lbvh"]), false),
+    ("bvh", Some(["builder", "lbvh"]), true),
+    ("bvh", Some(["builder", "refit"]), false),
+    ("bvh", Some(["builder", "sah"]), false),
     ("bricks", None, false),
+    ("bricks", Some(["divisions", "1"]), false),
     ("bricks", None, true),
     ("dirt", None, false),
     ("hu", None, false),
@@ -97,11 +99,17 @@ fn main() -> Result<()> {
         loaded.scene.name,
         loaded.triangles
     );
+    let wanted: Vec<&str> = arguments.get(3).map(|names| names.split(',').collect()).unwrap_or_default();
     let mut measured = Vec::new();
-    for (system, builder, in_parts) in SYSTEMS {
-        let given = builder.map(|value| ("builder".to_owned(), value.to_owned()));
+    for (system, option, in_parts) in SYSTEMS {
+        // The baseline is always there.
+        if !(wanted.is_empty() || measured.is_empty() || wanted.contains(&system)) {
+            continue;
+        }
+        let given = option.map(|[name, value]| (name.to_owned(), value.to_owned()));
         let spec = Spec::new(system, "robust", given)?;
-        let words = [Some(system), builder, in_parts.then_some("in parts")];
+        let option = option.map(|words| words.join("="));
+        let words = [Some(system), option.as_deref(), in_parts.then_some("in parts")];
         let title = words.into_iter().flatten().collect::<Vec<_>>().join(" ");
         let (frame, work) = frames(&device, &loaded, &spec, in_parts, (size, count))?;
         measured.push(Measured { title, frame, work });

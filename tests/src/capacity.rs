@@ -1,6 +1,7 @@
 //! Builds in pools of every edge capacity.
 
 use rasray_ads::{Check, Hit, Ray, Sizes, Structure, VARYING_SHARE, Viewpoint};
+use rasray_gpu::Device;
 
 use crate::harness::Bench;
 
@@ -14,6 +15,29 @@ pub struct Counted {
     /// Whether it is pages, of which builds differ a little: the number of begun pages depends on which threads
     /// collide.
     pub pages: bool,
+}
+
+/// How far the demands of two builds in pages may be apart: the number of begun pages depends on which threads collide, few on
+/// the processor.
+pub fn spread_of_pages(device: &Device, demand: u64) -> u64 {
+    if device.is_software() { demand / 64 } else { demand / 4 }
+}
+
+/// Builds in pools that have just grown: once, and with pages again while they grow.
+///
+/// # Panics
+/// If the device fails, or the build is not complete then.
+pub fn complete_grown(bench: &Bench, structure: &mut dyn Structure, viewpoint: Viewpoint, pages: bool) {
+    for _ in 0..4 {
+        let status = bench.build_once(structure, viewpoint);
+        if status.complete {
+            return;
+        }
+        let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else { break };
+        assert!(pages, "a build completes with its exact demand: {status:?}");
+        structure.resize(bench.device(), &sizes).expect("it fits");
+    }
+    panic!("a build completes once its pools have grown");
 }
 
 /// As [`check_capacities`], for what is counted in a pool of scratch, seen from the origin: answers are hits.
@@ -60,7 +84,7 @@ pub fn check_capacities<T: PartialEq>(
     };
     let (check, demand, expected) = built(structure, &sizes(1 << 16));
     assert!(check == Check::Complete && expected.is_some() && demand > 10, "{demand} with ample capacity");
-    let spread = if counted.pages { demand / VARYING_SHARE } else { 0 };
+    let spread = if counted.pages { spread_of_pages(bench.device(), demand) } else { 0 };
     for capacity in [0, 1, demand / 2, demand - 1] {
         let (check, found, answers) = built(structure, &sizes(capacity));
         assert!(found.abs_diff(demand) <= spread, "capacity for {capacity}: {found} for {demand}");

@@ -2,6 +2,7 @@
 //! formed; and the check of lists notices every fault.
 
 use rasray_ads::{Check, Hit, Ray, Structure, TraceMode, VARYING_SHARE};
+use rasray_tests::capacity::{complete_grown, spread_of_pages};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
@@ -54,8 +55,9 @@ fn every_edge_capacity(config: Config) {
     assert!(expected.iter().filter(|hit| hit.is_hit()).count() > rays.len() / 2);
 
     // Pages come with a little more capacity: the number of begun pages depends on which threads collide.
-    let share = |pages: u64| if config.storage == Storage::Paged { pages / VARYING_SHARE } else { 0 };
-    let spread = share(demand);
+    let pages = config.storage == Storage::Paged;
+    let share = if pages { VARYING_SHARE } else { u64::MAX };
+    let spread = if pages { spread_of_pages(bench.device(), demand) } else { 0 };
     for entries in [0, 1, demand / 2, demand - spread - 1, demand + spread] {
         structure
             .resize(bench.device(), &plan(&config, capacity(entries)).expect("in range"))
@@ -78,12 +80,9 @@ fn every_edge_capacity(config: Config) {
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
             panic!("capacity for {entries} does not grow")
         };
-        assert_eq!(sizes.elements("fragments"), found + share(found));
+        assert_eq!(sizes.elements("fragments"), found + found / share);
         structure.resize(bench.device(), &sizes).expect("it fits");
-        assert!(
-            bench.build_once(&mut structure, [0.0; 3]).complete,
-            "a build completes with its exact demand"
-        );
+        complete_grown(&bench, &mut structure, [0.0; 3].into(), pages);
         let contents = structure.download(bench.device()).expect("the device works");
         well_formed(&contents, triangles.len() as u32).expect("lists are well formed");
         assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {entries}");
@@ -150,7 +149,8 @@ fn bytes_are_those_of_the_formula() {
             "there is no capacity for anything"
         );
         let found = status.pools[0].demand;
-        let spread = if config.storage == Storage::Paged { found / VARYING_SHARE } else { 0 };
+        let pages = config.storage == Storage::Paged;
+        let spread = if pages { spread_of_pages(bench.device(), found) } else { 0 };
         let given = capacity(found + spread);
         structure.resize(bench.device(), &plan(&config, given).expect("in range")).expect("it fits");
         let status = bench.build_once(&mut structure, [0.0; 3]);

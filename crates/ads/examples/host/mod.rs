@@ -8,31 +8,15 @@ pub mod hits;
 
 use std::cell::RefCell;
 use std::error::Error;
-use std::sync::atomic::{AtomicU32, Ordering};
 
 use rasray_ads::{Draw, Geometry, GeometryDesc, Hit, Ray};
-use rasray_gpu::{Buffer, BufferUsage, Device, Feature, RawBuffer, RawDevice, ash, vk};
-use vk::DebugUtilsMessageSeverityFlagsEXT as Severity;
+use rasray_gpu::{Buffer, BufferUsage, Device, Feature, RawBuffer, RawDevice, ValidationLog, ash, vk};
 
 pub type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 const VALIDATION: &std::ffi::CStr = c"VK_LAYER_KHRONOS_validation";
 /// Frames that the host has in flight at most.
 pub const FRAMES: usize = 2;
-static COMPLAINTS: AtomicU32 = AtomicU32::new(0);
-
-/// Counts and prints what the validation layer says.
-unsafe extern "system" fn complain(
-    _severity: Severity,
-    _kind: vk::DebugUtilsMessageTypeFlagsEXT,
-    message: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
-    _user: *mut std::ffi::c_void,
-) -> vk::Bool32 {
-    COMPLAINTS.fetch_add(1, Ordering::Relaxed);
-    // SAFETY: the layer hands in a message with a text that ends with zero.
-    eprintln!("{:?}", unsafe { (*message).message_as_c_str() });
-    vk::FALSE
-}
 
 /// What the renderer has. Everything made from it goes before it.
 pub struct Host {
@@ -40,6 +24,7 @@ pub struct Host {
     instance: ash::Instance,
     watcher: ash::ext::debug_utils::Instance,
     messenger: vk::DebugUtilsMessengerEXT,
+    log: Box<ValidationLog>,
     physical: vk::PhysicalDevice,
     pub device: ash::Device,
     queue: vk::Queue,
@@ -74,16 +59,14 @@ impl Host {
         unsafe {
             let entry = ash::Entry::load()?;
             let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
-            let messenger = vk::DebugUtilsMessengerCreateInfoEXT::default()
-                .message_severity(Severity::WARNING | Severity::ERROR)
-                .message_type(vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION)
-                .pfn_user_callback(Some(complain));
             let info = vk::InstanceCreateInfo::default().application_info(&application);
             let (layers, extensions) = ([VALIDATION.as_ptr()], [ash::ext::debug_utils::NAME.as_ptr()]);
             let info = info.enabled_layer_names(&layers).enabled_extension_names(&extensions);
             let instance = entry.create_instance(&info, None)?;
             let watcher = ash::ext::debug_utils::Instance::new(&entry, &instance);
-            let messenger = watcher.create_debug_utils_messenger(&messenger, None)?;
+            // What the validation layer says; boxed, since it must stay where it is.
+            let log = Box::<ValidationLog>::default();
+            let messenger = watcher.create_debug_utils_messenger(&log.messenger(), None)?;
             let physical = *instance.enumerate_physical_devices()?.first().ok_or("no Vulkan device")?;
             let mut wanted = vk::QueueFlags::COMPUTE;
             if draws {
@@ -126,6 +109,7 @@ impl Host {
                 instance,
                 watcher,
                 messenger,
+                log,
                 physical,
                 device,
                 queue,
@@ -283,8 +267,11 @@ impl Host {
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
         println!("{hit} of {} rays hit, {same} answers are those of brute force", expected.len());
         let enough = if tolerance > 0.0 { expected.len() * 95 / 100 } else { expected.len() };
-        let sound = same >= enough && hit > 100 && COMPLAINTS.load(Ordering::Relaxed) == 0;
-        sound.then_some(()).ok_or("hits differ, or the validation layer complained".into())
+        let complaints = self.log.messages();
+        if !complaints.is_empty() {
+            return Err(complaints.join("\n").into());
+        }
+        (same >= enough && hit > 100).then_some(()).ok_or("hits differ".into())
     }
 
     /// Triangles of the host as rasray takes them, in buffers of the host's.

@@ -8,6 +8,7 @@ use rasray_abuffer::{
     plan, well_formed,
 };
 use rasray_ads::{BuildStatus, Check, Ray, Structure, TraceMode, VARYING_SHARE};
+use rasray_tests::capacity::{complete_grown, spread_of_pages};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::{Bench, bits_of_any_build};
@@ -83,8 +84,9 @@ fn every_edge_capacity(config: Config) {
     let expected = trace(&bench, &structure, &rays);
 
     // Pages come with a little more capacity: the number of begun pages depends on which threads collide.
-    let share = |pages: u64| if config.storage == Storage::Paged { pages / VARYING_SHARE } else { 0 };
-    let spread = share(nodes);
+    let pages = config.storage == Storage::Paged;
+    let share = if pages { VARYING_SHARE } else { u64::MAX };
+    let spread = if pages { spread_of_pages(bench.device(), nodes) } else { 0 };
     let enough = nodes + spread;
     let full = [0, 1, nodes / 2, nodes - spread - 1, enough].map(|capacity| (capacity, near));
     let near_full = [0, 1, near / 2, near - 1].map(|capacity| (enough, capacity));
@@ -118,11 +120,10 @@ fn every_edge_capacity(config: Config) {
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
             panic!("capacity for {nodes_capacity} does not grow")
         };
-        let grown = if nodes_capacity < found { found + share(found) } else { nodes_capacity };
+        let grown = if nodes_capacity < found { found + found / share } else { nodes_capacity };
         assert_eq!((sizes.elements("nodes"), sizes.elements("near")), (grown, near));
         structure.resize(bench.device(), &sizes).expect("it fits");
-        let status = bench.build_once(&mut structure, EYE);
-        assert!(status.complete, "once grown to its exact demand a build completes");
+        complete_grown(&bench, &mut structure, EYE.into(), pages);
         check_well_formed(&bench, &structure);
         assert_eq!(
             trace(&bench, &structure, &rays),
@@ -195,7 +196,8 @@ fn every_edge_capacity_of_the_conservative_lists() {
         let (nodes, conservative) = (demand(&ample, "nodes"), demand(&ample, "conservative"));
         assert!(conservative > 100, "{ample:?}");
         // Which pages are begun depends on which threads collide.
-        let all = if storage == Storage::Paged { nodes + nodes / VARYING_SHARE } else { nodes };
+        let all =
+            if storage == Storage::Paged { nodes + spread_of_pages(bench.device(), nodes) } else { nodes };
         for capacity in [0, 1, conservative / 2, conservative - 1, conservative] {
             let (status, grown, hits) = build(all, capacity);
             assert_eq!(demand(&status, "conservative"), conservative, "{storage:?}: capacity for {capacity}");
