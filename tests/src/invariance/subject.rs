@@ -1,9 +1,9 @@
 use rasray_ads::{Geometry, Hit, Ray, Structure, StructureKind};
-use rasray_systems::{Preset, SYSTEMS, Spec};
+use rasray_systems::{Preset, SYSTEMS, Spec, System};
 
 use crate::harness::Bench;
 use crate::shapes::Triangle;
-use crate::tier::is_full;
+use crate::tier::{in_turn, is_full};
 
 /// A system, a preset, and options over it by name and value.
 pub type Row = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
@@ -79,6 +79,17 @@ impl Subject {
                 Self { spec, kind }
             })
             .collect()
+    }
+
+    /// As [`all`](Self::all), but in the quick tier one of each system, by turns: for tests whose kernels no other test has.
+    pub fn by_turns() -> Vec<Self> {
+        let all = Self::all();
+        let of_system = |system: &System| {
+            let own = all.iter().filter(|subject| subject.spec.system().name == system.name);
+            own.cloned().collect::<Vec<_>>()
+        };
+        let turns = SYSTEMS.iter().enumerate();
+        turns.flat_map(|(turn, system)| in_turn(&of_system(system), turn).to_vec()).collect()
     }
 
     /// `system preset`, with the options that make it one of several of that name.

@@ -56,7 +56,7 @@ fn difference(work: &[RayWork], sums: &QueueCounters) -> Option<String> {
 fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
     let bench = Bench::new();
     let rays = rays(1000);
-    for subject in Subject::all() {
+    for subject in Subject::by_turns() {
         let name = subject.name();
         let [off, sums, per_ray] = [Counters::Off, Counters::Sums, Counters::PerRay]
             .map(|counters| trace(&bench, &subject, counters, &rays));

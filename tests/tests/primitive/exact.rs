@@ -145,7 +145,11 @@ fn no_size_changes_a_hit() {
         (256, 2, 32),
         (300, 1, 8),
     ];
-    for (index, (resolution, tile, buckets)) in sizes.into_iter().enumerate() {
+    // Two of five in the quick tier: every value of every option occurs.
+    let is_due = |index: usize| is_full() || index % 5 < 2;
+    for (index, (resolution, tile, buckets)) in
+        sizes.into_iter().enumerate().filter(|(index, _)| is_due(*index))
+    {
         let storage = if index % 2 == 0 { Storage::Linked } else { Storage::Contiguous };
         let builder = if index % 4 < 2 { Builder::Binning } else { Builder::Raster };
         let (skip, pyramid) = (index % 3 != 0, index % 2 == 0);
@@ -165,7 +169,9 @@ fn no_size_changes_a_hit() {
     ];
     let faces = faces.map(|(grid, slices)| (Views::Cube, grid, slices));
     let axes = [1, 5, 16, 77, 256].map(|grid| (Views::Axes, grid, None));
-    for (index, (views, grid, slices)) in faces.into_iter().chain(axes).enumerate() {
+    for (index, (views, grid, slices)) in
+        faces.into_iter().chain(axes).enumerate().filter(|(index, _)| is_due(*index))
+    {
         let (skip, corners) = (index % 3 != 0, index % 2 == 0);
         let builder = if index % 4 < 2 { Builder::Raster } else { Builder::Binning };
         let own = BricksConfig::new(views);
