@@ -19,5 +19,5 @@ void main() {
         return;
     }
     uint result = trace_closest(trace.structure, ray, state, hit);
-    trace_file(slot, result, state, hit);
+    trace_store(slot, result, state, hit);
 }

@@ -23,5 +23,5 @@ void main() {
     if (result == TRACE_HIT) {
         hit = state.best;
     }
-    trace_file(slot, result, state, hit);
+    trace_store(slot, result, state, hit);
 }

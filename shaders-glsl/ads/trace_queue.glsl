@@ -13,7 +13,7 @@
 #include "ads/trace_constants.glsl"
 
 // Stores the work of a ray so far, where the queue has a buffer for it.
-void queue_file_work(uint slot, TraceState state) {
+void queue_store_work(uint slot, TraceState state) {
     if (COUNTERS < COUNTERS_PER_RAY || slot >= uint(queue_work.length())) {
         return;
     }
@@ -63,9 +63,9 @@ bool trace_begin(uint slot, Ray ray, out TraceState state) {
     return true;
 }
 
-void trace_file(uint slot, uint result, TraceState state, Hit hit) {
+void trace_store(uint slot, uint result, TraceState state, Hit hit) {
     state.rounds += 1u;
-    queue_file_work(slot, state);
+    queue_store_work(slot, state);
     if (result == TRACE_PAUSED) {
         trace_log(STEP_PAUSE, 0u, 0u, 0u, 0.0, 0.0);
         queue_states[slot] = state;

@@ -2,6 +2,7 @@
 
 use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Coverage, Storage};
 use rasray_faults::{in_child, scrambled};
+use rasray_tests::tier::in_turn;
 
 use crate::survive::{self, Flag, each_conservative_node, survive};
 
@@ -167,8 +168,8 @@ fn damaged_lists_of_the_published_preset_are_survived_and_told() {
 #[test]
 fn damaged_lists_of_every_storage_are_survived_and_told() {
     if in_child("abuffer::damaged_lists_of_every_storage_are_survived_and_told") {
-        for storage in Storage::ALL {
-            for inline in [false, true] {
+        for (turn, storage) in Storage::ALL.into_iter().enumerate() {
+            for &inline in in_turn(&[false, true], turn) {
                 println!("{}, inline: {inline}", storage.name());
                 check(Config { storage, inline, ..Config::robust(32) }, &DAMAGES_OF_ANY);
             }

@@ -1,6 +1,7 @@
 //! Damaged lists of voxels' views.
 
 use rasray_faults::{in_child, scrambled};
+use rasray_tests::tier::in_turn;
 use rasray_voxel::{Addressing, Config, Contents, Payload, Storage, Voxels};
 
 use crate::survive::{self, Flag, survive};
@@ -127,11 +128,13 @@ fn damaged_links_of_voxels_reached_by_address_are_survived_and_told() {
 #[test]
 fn damaged_lists_of_voxels_of_every_storage_are_survived_and_told() {
     if in_child("voxel::damaged_lists_of_voxels_of_every_storage_are_survived_and_told") {
-        for storage in Storage::ALL {
+        for (turn, storage) in Storage::ALL.into_iter().enumerate() {
             println!("{}", storage.name());
-            check(Config { storage, ..Config::robust(32) }, &OF_ANY);
+            let planes = Config { storage, ..Config::robust(32) };
             let parity = Config { storage, payload: Payload::Index, ..Config::published_selective(32) };
-            check(parity, &OF_ANY);
+            for &config in in_turn(&[planes, parity], turn) {
+                check(config, &OF_ANY);
+            }
         }
     }
 }
