@@ -129,6 +129,10 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
             prepared.only_camera = row.only_camera();
             let (depth_tolerance, rounding) = row.tolerances();
             progress(&format!("{} {id}", row.name));
+            // Large meshes make pools that a binding of a software driver does not hold.
+            let mut by_address =
+                if scale.full { row.make_by_address(bench, structure.as_mut(), &prepared) } else { None };
+            let structure = by_address.as_mut().unwrap_or(structure);
             let hits = answers(bench, structure.as_mut(), &prepared);
             let measured = compare(&prepared, &hits, depth_tolerance, rounding);
             if std::env::var_os("RASRAY_RATES").is_some() {
