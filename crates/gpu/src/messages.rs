@@ -87,3 +87,25 @@ unsafe extern "system" fn receive(
     log.push(message);
     vk::FALSE
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_are_kept_but_for_those_about_calls_of_others() {
+        let log = ValidationLog::default();
+        let info = messenger_info(&log);
+        let callback = info.pfn_user_callback.expect("there is one");
+        for id in [c"VUID-vkCmdDispatch-None-08114", OF_OTHERS[0]] {
+            let data = vk::DebugUtilsMessengerCallbackDataEXT::default().message_id_name(id).message(c"why");
+            let (severity, kind) = (
+                vk::DebugUtilsMessageSeverityFlagsEXT::WARNING,
+                vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION,
+            );
+            // SAFETY: data and log live during the call.
+            assert_eq!(unsafe { callback(severity, kind, &data, info.p_user_data) }, vk::FALSE);
+        }
+        assert_eq!(log.messages(), ["VUID-vkCmdDispatch-None-08114: why"]);
+    }
+}
