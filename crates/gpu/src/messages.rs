@@ -1,13 +1,13 @@
 //! What the validation layer said, kept for tests and logged for people.
 
-use std::ffi::{CStr, c_char, c_void};
+use std::ffi::{CStr, c_void};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
 
 /// Messages about calls that are not ours, by id: a driver's own layer asks for functions of the instance through the
 /// device (NVIDIA 580). `ash` asks for functions of a device alone.
-const OF_OTHERS: &[&CStr] = &[c"WARNING-vkGetDeviceProcAddr-device"];
+const OF_OTHERS: &[&str] = &["WARNING-vkGetDeviceProcAddr-device"];
 
 /// Warnings and errors of the validation layer, in order. Clones share one list, which outlives the device.
 #[derive(Debug, Clone, Default)]
@@ -65,20 +65,18 @@ unsafe extern "system" fn receive(
     let data = unsafe { &*data };
     // SAFETY: not null, and `messenger_info` requires the log to outlive the instance.
     let log = unsafe { &*user.cast::<ValidationLog>() };
-    let text = |pointer: *const c_char| {
+    let text = |pointer: *const std::ffi::c_char| {
         if pointer.is_null() {
             return String::new();
         }
         // SAFETY: not null, and Vulkan passes NUL-terminated strings that live during the call.
         unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned()
     };
-    // SAFETY: not null, and Vulkan passes NUL-terminated strings that live during the call.
-    let is_of_others =
-        |id: *const c_char| !id.is_null() && OF_OTHERS.contains(&unsafe { CStr::from_ptr(id) });
-    if is_of_others(data.p_message_id_name) {
+    let id = text(data.p_message_id_name);
+    if OF_OTHERS.contains(&id.as_str()) {
         return vk::FALSE;
     }
-    let message = format!("{}: {}", text(data.p_message_id_name), text(data.p_message));
+    let message = format!("{id}: {}", text(data.p_message));
     if severity.contains(vk::DebugUtilsMessageSeverityFlagsEXT::ERROR) {
         tracing::error!(target: "rasray_gpu::validation", "{message}");
     } else {
@@ -97,7 +95,7 @@ mod tests {
         let log = ValidationLog::default();
         let info = messenger_info(&log);
         let callback = info.pfn_user_callback.expect("there is one");
-        for id in [c"VUID-vkCmdDispatch-None-08114", OF_OTHERS[0]] {
+        for id in [c"VUID-vkCmdDispatch-None-08114", c"WARNING-vkGetDeviceProcAddr-device"] {
             let data = vk::DebugUtilsMessengerCallbackDataEXT::default().message_id_name(id).message(c"why");
             let (severity, kind) = (
                 vk::DebugUtilsMessageSeverityFlagsEXT::WARNING,

@@ -1,6 +1,8 @@
 use rasray_ads::Structure;
 use rasray_experiment::{Measured, Tolerance, device_hits};
+use rasray_gpu::Timing;
 use rasray_metrics::DeviceHit;
+use rasray_tracer::{TracerError, build_until_complete};
 
 use super::Prepared;
 use crate::harness::Bench;
@@ -10,9 +12,25 @@ use crate::harness::Bench;
 /// # Panics
 /// If the device fails or rays do not finish.
 pub fn answers(bench: &Bench, structure: &mut dyn Structure, prepared: &Prepared) -> Vec<Option<DeviceHit>> {
+    try_answers(bench, structure, prepared).expect("the build completes")
+}
+
+/// The same, where the pools may be larger than what the device holds.
+///
+/// # Errors
+/// The build fails.
+///
+/// # Panics
+/// If the geometry is not taken or rays do not finish.
+pub fn try_answers(
+    bench: &Bench,
+    structure: &mut dyn Structure,
+    prepared: &Prepared,
+) -> Result<Vec<Option<DeviceHit>>, TracerError> {
     structure.set_geometry(bench.device(), &prepared.geometry).expect("geometry is taken");
-    let hits = bench.build_and_trace(structure, prepared.viewpoint, &prepared.rays);
-    device_hits(hits.into_iter().map(|hit| prepared.placed.named(hit)))
+    build_until_complete(bench.device(), structure, prepared.viewpoint, Timing::None)?;
+    let hits = bench.trace(structure, &prepared.rays).hits;
+    Ok(device_hits(hits.into_iter().map(|hit| prepared.placed.named(hit))))
 }
 
 /// Builds, traces and compares. `depth_tolerance` is the |dt| / t up to which a depth counts as right

@@ -33,7 +33,7 @@ mod rows_mmrt;
 mod rows_voxel;
 
 pub use evaluate::{FALSE_ALARM, confidence, evaluate};
-pub use measure::{answers, compare, first_other, measure};
+pub use measure::{answers, compare, first_other, measure, try_answers};
 pub use prepare::Prepared;
 pub use rasray_experiment::Measured;
 pub use rounds::trace_in_rounds;

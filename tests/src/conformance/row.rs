@@ -1,10 +1,7 @@
-use rasray_ads::{AdsError, Geometry, Structure, StructureKind};
+use rasray_ads::{Geometry, Structure, StructureKind};
 use rasray_experiment::HIT_ROUNDING;
-use rasray_gpu::{GpuError, Timing};
 use rasray_systems::{Preset, Spec};
-use rasray_tracer::{TracerError, build_until_complete};
 
-use super::Prepared;
 use crate::harness::Bench;
 
 /// What is demanded of a row.
@@ -185,27 +182,14 @@ impl Row {
             .unwrap_or_else(|error| panic!("row {} cannot be made: {error}", self.name))
     }
 
-    /// The structure with pools reached by address, where a binding of the device does not hold those for this geometry.
+    /// A structure as the row says, with pools reached by address.
     ///
     /// # Panics
-    /// As [`make`](Self::make), or if the device fails.
-    pub fn make_by_address(
-        &self,
-        bench: &Bench,
-        structure: &mut dyn Structure,
-        prepared: &Prepared,
-    ) -> Option<Box<dyn Structure>> {
-        structure.set_geometry(bench.device(), &prepared.geometry).expect("geometry is taken");
-        let built = build_until_complete(bench.device(), structure, prepared.viewpoint, Timing::None);
-        match built {
-            Ok(_) => None,
-            Err(TracerError::Ads(AdsError::Gpu(GpuError::TooLarge { .. }))) => {
-                let spec = self.spec().with_option("addressing", "address").expect("it has pools");
-                let made = spec.create(bench.device(), &prepared.geometry, None);
-                Some(made.unwrap_or_else(|error| panic!("row {} by address: {error}", self.name)))
-            }
-            Err(error) => panic!("row {} on {}: {error}", self.name, prepared.case.id),
-        }
+    /// As [`make`](Self::make), or if the structure has no pools.
+    pub fn make_by_address(&self, bench: &Bench, geometry: &Geometry) -> Box<dyn Structure> {
+        let spec = self.spec().with_option("addressing", "address").expect("it has pools");
+        spec.create(bench.device(), geometry, None)
+            .unwrap_or_else(|error| panic!("row {} cannot be made by address: {error}", self.name))
     }
 
     /// How deep hits may be off in the error rate, and how far t may be beyond the oracle's bounds.

@@ -5,15 +5,18 @@ use std::io::Write as _;
 use std::sync::OnceLock;
 use std::time::Instant;
 
+use rasray_ads::AdsError;
+use rasray_gpu::GpuError;
 use rasray_report::Run;
 use rasray_systems::SYSTEMS;
 use rasray_tests::conformance::{
     Demand, LARGE, Law, Prepared, ROWS, Row, SHARE, Tier, answers, compare, evaluate, first_other, is_held,
-    measure,
+    measure, try_answers,
 };
 use rasray_tests::hard_cases::{self, Scale, Target};
 use rasray_tests::harness::Bench;
 use rasray_tests::tier::{Counts, is_full};
+use rasray_tracer::TracerError;
 
 use crate::report;
 
@@ -129,11 +132,16 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
             prepared.only_camera = row.only_camera();
             let (depth_tolerance, rounding) = row.tolerances();
             progress(&format!("{} {id}", row.name));
-            // Large meshes make pools that a binding of a software driver does not hold.
-            let mut by_address =
-                if scale.full { row.make_by_address(bench, structure.as_mut(), &prepared) } else { None };
+            let mut by_address = None;
+            let hits = match try_answers(bench, structure.as_mut(), &prepared) {
+                // Large meshes make pools that a binding of a software driver does not hold.
+                Err(TracerError::Ads(AdsError::Gpu(GpuError::TooLarge { .. }))) if scale.full => {
+                    let made = by_address.insert(row.make_by_address(bench, &prepared.geometry));
+                    answers(bench, made.as_mut(), &prepared)
+                }
+                hits => hits.expect("the build completes"),
+            };
             let structure = by_address.as_mut().unwrap_or(structure);
-            let hits = answers(bench, structure.as_mut(), &prepared);
             let measured = compare(&prepared, &hits, depth_tolerance, rounding);
             if std::env::var_os("RASRAY_RATES").is_some() {
                 let rate = measured.evaluated();

@@ -121,8 +121,9 @@ fn a_lamp_is_not_taken_for_its_ceiling() {
     }
     println!("{wrong} of {} rays take one for the other", rays.len());
     // Planes of both are at the same t but for rounding, by which the wrong one may be nearer: every ray ends at t = 1.
-    // Where fragments of any draw represent a triangle, 139 rays are wrong; by rounding alone up to 27.
-    assert!(wrong <= rays.len() / 50, "{wrong} rays take one for the other");
+    // Where fragments of any draw represent a triangle, 139 rays are wrong; by the rounding of hardware 27.
+    let share = if bench.device().is_software() { 100 } else { 50 };
+    assert!(wrong <= rays.len() / share, "{wrong} rays take one for the other");
 }
 
 /// On planes depth is at the level of rounding, whatever the size of a cell; with 16-bit depths too, since t is the

@@ -56,7 +56,6 @@ fn every_edge_capacity(config: Config) {
 
     // Pages come with a little more capacity: the number of begun pages depends on which threads collide.
     let pages = config.storage == Storage::Paged;
-    let share = if pages { VARYING_SHARE } else { u64::MAX };
     let spread = if pages { spread_of_pages(bench.device(), demand) } else { 0 };
     for entries in [0, 1, demand / 2, demand - spread - 1, demand + spread] {
         structure
@@ -80,9 +79,10 @@ fn every_edge_capacity(config: Config) {
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
             panic!("capacity for {entries} does not grow")
         };
-        assert_eq!(sizes.elements("fragments"), found + found / share);
+        let more = if pages { found / VARYING_SHARE } else { 0 };
+        assert_eq!(sizes.elements("fragments"), found + more);
         structure.resize(bench.device(), &sizes).expect("it fits");
-        complete_grown(&bench, &mut structure, [0.0; 3].into(), pages);
+        complete_grown(&bench, &mut structure, [0.0; 3].into(), spread > 0);
         let contents = structure.download(bench.device()).expect("the device works");
         well_formed(&contents, triangles.len() as u32).expect("lists are well formed");
         assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {entries}");
@@ -157,6 +157,7 @@ fn bytes_are_those_of_the_formula() {
         assert!(status.complete);
         let report = structure.report().expect("the header is readable");
         let demand = status.pools[0].demand;
+        assert!(demand.abs_diff(found) <= spread, "{config:?}: {demand} for {found}");
         let formula = formula_bytes(&config, capacity(demand));
         assert_eq!(report.bytes(), formula_bytes(&config, given).total(), "{config:?}");
         assert_eq!(report.formula_bytes, formula.total());

@@ -85,7 +85,6 @@ fn every_edge_capacity(config: Config) {
 
     // Pages come with a little more capacity: the number of begun pages depends on which threads collide.
     let pages = config.storage == Storage::Paged;
-    let share = if pages { VARYING_SHARE } else { u64::MAX };
     let spread = if pages { spread_of_pages(bench.device(), nodes) } else { 0 };
     let enough = nodes + spread;
     let full = [0, 1, nodes / 2, nodes - spread - 1, enough].map(|capacity| (capacity, near));
@@ -120,10 +119,11 @@ fn every_edge_capacity(config: Config) {
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
             panic!("capacity for {nodes_capacity} does not grow")
         };
-        let grown = if nodes_capacity < found { found + found / share } else { nodes_capacity };
+        let more = if pages { found / VARYING_SHARE } else { 0 };
+        let grown = if nodes_capacity < found { found + more } else { nodes_capacity };
         assert_eq!((sizes.elements("nodes"), sizes.elements("near")), (grown, near));
         structure.resize(bench.device(), &sizes).expect("it fits");
-        complete_grown(&bench, &mut structure, EYE.into(), pages);
+        complete_grown(&bench, &mut structure, EYE.into(), spread > 0);
         check_well_formed(&bench, &structure);
         assert_eq!(
             trace(&bench, &structure, &rays),
@@ -196,8 +196,8 @@ fn every_edge_capacity_of_the_conservative_lists() {
         let (nodes, conservative) = (demand(&ample, "nodes"), demand(&ample, "conservative"));
         assert!(conservative > 100, "{ample:?}");
         // Which pages are begun depends on which threads collide.
-        let all =
-            if storage == Storage::Paged { nodes + spread_of_pages(bench.device(), nodes) } else { nodes };
+        let spread = spread_of_pages(bench.device(), nodes).max(nodes / 8);
+        let all = if storage == Storage::Paged { nodes + spread } else { nodes };
         for capacity in [0, 1, conservative / 2, conservative - 1, conservative] {
             let (status, grown, hits) = build(all, capacity);
             assert_eq!(demand(&status, "conservative"), conservative, "{storage:?}: capacity for {capacity}");
