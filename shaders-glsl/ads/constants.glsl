@@ -75,8 +75,9 @@
 #define PLACEMENT_FLATTEST 0.25
 // Margins of cells along axes for a distant eye are no wider than this share of a cell.
 #define PLACEMENT_WIDEST_MARGIN 0.125
-// Cells along axes reach this many margins below the bounds, and twice as many above.
-#define PLACEMENT_WIDENING 4.0
+// Cells along axes reach this many margins below the bounds, and that many above.
+#define PLACEMENT_BELOW 6.0
+#define PLACEMENT_ABOVE 10.0
 // Side of a cube over the longest side of the geometry in it.
 #define PLACEMENT_WIDENED 1.0039063
 // Size of geometry without extent, metres: all that follows from it stays within the range of floats.

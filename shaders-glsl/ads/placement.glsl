@@ -61,8 +61,8 @@ struct BoxPlacement {
 
 // This number of cells along each axis, 1 or more, over the bounds, for rays from around the eye and from everywhere within
 // the bounds around them: those of the whole geometry where the cells are of a part.
-// The cells reach PLACEMENT_WIDENING margins below the bounds and twice as many above: sides lie well within a cell then,
-// and so does the middle.
+// The cells reach PLACEMENT_BELOW margins below the bounds and PLACEMENT_ABOVE above: sides lie well within a cell then, and so
+// does the middle. Without thickness, and cut into 4 cells, the bounds are in the middle of the second.
 BoxPlacement box_placement(vec3 lower, vec3 upper, vec3 around_lower, vec3 around_upper, uvec3 cells, vec3 eye) {
     precise vec3 centre = 0.5 * lower + 0.5 * upper;
     precise vec3 first = lower - centre;
@@ -77,11 +77,10 @@ BoxPlacement box_placement(vec3 lower, vec3 upper, vec3 around_lower, vec3 aroun
     precise float limit = (2.0 * PLACEMENT_WIDEST_MARGIN / CELL_ROUNDING) * own / most;
     float reach = max(min(away / PLACEMENT_EYE_LIMIT, limit), own);
     precise float rounding = CELL_ROUNDING * reach;
-    precise float wider = PLACEMENT_WIDENING * rounding;
     // Halves, so that they stay within the range of numbers.
-    precise vec3 half_extent = 0.5 * last - 0.5 * first + 1.5 * wider;
+    precise vec3 half_extent = 0.5 * last - 0.5 * first + 0.5 * (PLACEMENT_BELOW + PLACEMENT_ABOVE) * rounding;
     precise vec3 per_metre = 0.5 * vec3(cells) / half_extent;
-    precise vec3 corner = first - wider;
+    precise vec3 corner = first - PLACEMENT_BELOW * rounding;
     return BoxPlacement(centre, reach, rounding, corner, per_metre);
 }
 

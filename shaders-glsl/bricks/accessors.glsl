@@ -61,9 +61,15 @@ BrickSlices brick_slices(BrickRef s) {
     return BrickSlices(int(BRICK_HEADER(s).slices), BRICK_HEADER(s).slice_first, BRICK_HEADER(s).slice_shift);
 }
 
+// How often cells of a level were divided along each axis.
+uvec3 brick_divisions(BrickRef s, uint level) {
+    return BRICK_DEPTH == 0u ? uvec3(0u) : min(uvec3(level), BRICK_HEADER(s).depths);
+}
+
 // Cells of a level: of the views, or the cells of those divided that often.
 BoxCells brick_axes(BrickRef s, uint level) {
-    return BoxCells(BRICK_HEADER(s).cells_lower, BRICK_HEADER(s).cells_per_metre * float(1u << (2u * level)), BRICK_HEADER(s).rounding);
+    return BoxCells(BRICK_HEADER(s).cells_lower, BRICK_HEADER(s).cells_per_metre * vec3(uvec3(1u) << 2u * brick_divisions(s, level)),
+        BRICK_HEADER(s).rounding);
 }
 
 // Faces of the cube, or the one view along an axis.
@@ -108,6 +114,11 @@ uvec2 brick_divided(BrickRef s, uint brick) {
 bool brick_has_nothing(BrickRef s, uint brick) {
     uvec2 cells = brick_mask(s, brick) | brick_divided(s, brick);
     return (cells.x | cells.y) == 0u;
+}
+
+// Cells of a brick of a level along each axis: 4, or the one that was not divided.
+ivec3 brick_side(BrickRef s, uint level) {
+    return BRICK_DEPTH == 0u ? ivec3(4) : mix(ivec3(1), ivec3(4), lessThanEqual(uvec3(level), BRICK_HEADER(s).depths));
 }
 
 // Where a brick of a level is, in bricks of that level.

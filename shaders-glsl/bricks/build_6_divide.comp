@@ -1,5 +1,5 @@
 // What: divides the cells of a level that list more than BRICK_CROWDED small triangles: each gets a brick of the next level.
-// Two of the three sides of a smaller cell are BRICK_DIVIDED_MARGINS margins long, at the least. One invocation per brick of the level.
+// One invocation per brick of the level.
 // Reads: lists, header. Writes: bricks, header.brick_demand, header.brick_groups, lists (zeros).
 // Source: not in the paper.
 #version 460
@@ -23,13 +23,10 @@ uvec2 crowded_cells(uvec2 mask, uint first) {
 }
 
 void main() {
-    // Margins of a smaller cell, in its widths.
-    vec3 margins = BRICK_HEADER(build.structure).rounding * BRICK_HEADER(build.structure).cells_per_metre * float(4u << (2u * build.step));
-    bvec3 wide = lessThanEqual(margins * BRICK_DIVIDED_MARGINS, vec3(1.0));
-    bool worth_it = (wide.x && wide.y) || (wide.y && wide.z) || (wide.z && wide.x);
-    if (build.step >= BRICK_HEADER(build.structure).depth || !worth_it) {
+    if (all(greaterThanEqual(uvec3(build.step), BRICK_HEADER(build.structure).depths))) {
         return;
     }
+    ivec3 side = brick_side(build.structure, build.step);
     uvec2 range = brick_level_bricks();
     for (uint brick = range.x; brick < range.y; brick += BRICK_LEVEL_STRIDE) {
         uvec2 mask = brick_mask(build.structure, brick);
@@ -53,7 +50,7 @@ void main() {
         uint bit;
         for (uint at = brick_place_at(child); brick_take_cell(left, word, bit); at += BRICK_STRIDE) {
             BRICK_LISTS(build.structure)[list + brick_rank(mask, word, bit)] = 0u;
-            uvec3 cell = 4u * place + uvec3(brick_cell_of_bit(word, bit));
+            uvec3 cell = uvec3(side) * place + uvec3(brick_cell_of_bit(word, bit));
             BRICK_WORDS(build.structure)[at] = cell.x | cell.y << 16;
             BRICK_WORDS(build.structure)[at + 1u] = cell.z;
         }

@@ -14,15 +14,18 @@ struct Refined {
     ivec3 corner;         // first cell of the brick
     ivec2 lower;          // first and last column that the triangle may reach into, within the brick
     ivec2 upper;
+    int slices;           // of a column of the brick
     ivec2 column;         // the next
     uvec2 cells;          // reached so far
 };
 
-Refined refined_begin(BoxClip clip, uvec3 brick) {
+// `brick`: its place among those of the level; `side`: its cells along each axis.
+Refined refined_begin(BoxClip clip, uvec3 brick, ivec3 side) {
     Refined part;
-    part.corner = ivec3(4u * brick);
+    part.corner = side * ivec3(brick);
     part.lower = max(ivec2(floor(clip.lower.xy - clip.margin.xy)) - part.corner.xy, ivec2(0));
-    part.upper = min(ivec2(floor(clip.upper.xy + clip.margin.xy)) - part.corner.xy, ivec2(3));
+    part.upper = min(ivec2(floor(clip.upper.xy + clip.margin.xy)) - part.corner.xy, side.xy - 1);
+    part.slices = side.z;
     part.column = part.lower;
     part.cells = uvec2(0u);
     return part;
@@ -36,8 +39,8 @@ bool refined_column(BoxClip clip, inout Refined part) {
     vec2 depths;
     if (box_clip_depths(clip, part.corner.xy + part.column, 1, depths)) {
         ivec2 slices = ivec2(floor(depths)) - part.corner.z;
-        if (slices.x <= 3 && slices.y >= 0) {
-            part.cells |= brick_column_bits(uvec2(part.column), uint(max(slices.x, 0)), uint(min(slices.y, 3)));
+        if (slices.x < part.slices && slices.y >= 0) {
+            part.cells |= brick_column_bits(uvec2(part.column), uint(max(slices.x, 0)), uint(min(slices.y, part.slices - 1)));
         }
     }
     bool next_row = part.column.x == part.upper.x;
@@ -48,7 +51,9 @@ bool refined_column(BoxClip clip, inout Refined part) {
 void main() {
     uint next = build.step + 1u;
     BoxCells axes = brick_axes(build.structure, next);
-    uvec3 all = brick_cells(build.structure) << (2u * next);
+    uvec3 all = brick_cells(build.structure) << 2u * brick_divisions(build.structure, next);
+    uvec3 side = uvec3(brick_side(build.structure, build.step));
+    ivec3 next_side = brick_side(build.structure, next);
     uint entries = 0u;
     uvec2 range = brick_level_records();
     for (uint place = range.x; place < range.y; place += BRICK_LEVEL_STRIDE) {
@@ -76,7 +81,7 @@ void main() {
                 if (!brick_take_cell(cells, word, bit)) {
                     break;
                 }
-                part = refined_begin(clip, 4u * brick + uvec3(brick_cell_of_bit(word, bit)));
+                part = refined_begin(clip, side * brick + uvec3(brick_cell_of_bit(word, bit)), next_side);
             }
             begins = !refined_column(clip, part);
             if (begins) {

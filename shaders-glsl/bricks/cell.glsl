@@ -10,7 +10,7 @@
 // Values that are constant along a ray.
 struct BrickTraversal {
     ivec3 cells;          // columns, rows and slices, of the smallest cells
-    int shift;            // log2 of the smallest cells along a side of a cell of a view
+    ivec3 shift;          // log2 of the smallest cells along each side of a cell of a view
     float steepness;      // rows that the ray crosses for each column or slice, whichever are more
     // The following is for the faces of a cube only.
     BrickSlices slices;
@@ -44,14 +44,17 @@ struct BrickBox {
     uint list;
 };
 
-// The box of a brick whose cells are as large as 2^shift of the smallest along a side. False, and the brick of the cell, if
-// that is divided.
-bool brick_box_in(BrickRef s, inout uint brick, int shift, ivec3 cell, bvec3 up, inout BrickBox box) {
-    ivec3 at = cell >> shift;
+// The box of a brick whose cells are as large as 2^shift of the smallest along a side; it has one cell along an axis where that
+// would be less than 1. False, and the brick of the cell, if that is divided.
+bool brick_box_in(BrickRef s, inout uint brick, ivec3 shift, ivec3 cell, bvec3 up, inout BrickBox box) {
+    ivec3 size = max(shift, 0);
+    ivec3 within = mix(ivec3(3), ivec3(0), lessThan(shift, ivec3(0)));
+    ivec3 place = cell >> size;
+    ivec3 at = place & within;
     uint word = brick_word(at);
     uint bit = brick_bit(at);
     uvec2 divided = brick_divided(s, brick);
-    if ((divided[word] >> bit & 1u) != 0u && shift > 0) {
+    if ((divided[word] >> bit & 1u) != 0u && any(greaterThan(shift, ivec3(0)))) {
         brick = BRICK_WORDS(s)[brick_child_at(brick)] + brick_rank(divided, word, bit);
         return false;
     }
@@ -66,26 +69,27 @@ bool brick_box_in(BrickRef s, inout uint brick, int shift, ivec3 cell, bvec3 up,
         box.listed = true;
         box.list = BRICK_WORDS(s)[brick_at(brick)] + brick_rank(all, word, bit);
     }
-    box.first = first << shift;
-    box.last = (last + 1 << shift) - 1;
+    ivec3 corner = place - at;
+    box.first = corner + (first & within) << size;
+    box.last = (corner + (last & within) + 1 << size) - 1;
     return true;
 }
 
 BrickBox brick_box(BrickRef s, BrickTraversal traversal, uint face, ivec3 cell, bvec3 up) {
-    uvec3 of_view = uvec3(traversal.cells) >> traversal.shift;
+    uvec3 of_view = uvec3(traversal.cells >> traversal.shift);
     uint brick = brick_index(face, cell >> traversal.shift, of_view);
     BrickBox box = BrickBox(cell, cell, false, 0u);
     if (BRICK_SKIP != 0u) {
         uint word = BRICK_WORDS(s)[brick_at(brick)];
         if (brick_is_empty(word)) {
-            int inside = (4 << traversal.shift) - 1;
+            ivec3 inside = (ivec3(4) << traversal.shift) - 1;
             ivec3 beyond = brick_empty_bricks(s, brick, word, brick_octant(up), traversal.steepness) * (inside + 1);
             box.first = max((cell & ~inside) - beyond, ivec3(0));
             box.last = min((cell | inside) + beyond, traversal.cells - 1);
             return box;
         }
     }
-    int shift = traversal.shift;
+    ivec3 shift = traversal.shift;
     for (uint level = 0u; level <= BRICK_DEPTH; level++) {
         if (brick_box_in(s, brick, shift, cell, up, box)) {
             break;

@@ -18,7 +18,7 @@
 // are no longer than the cell along any axis.
 #define BRICK_DEPTH_MOST 3u
 #define BRICK_CROWDED 16u
-// Margins that smaller cells are wide, at the least, along two axes. Bounds that are flat have cells that are.
+// Margins that smaller cells are wide, at the least: along an axis where they were narrower a cell is not divided.
 #define BRICK_DIVIDED_MARGINS 2.0
 // Maximum columns along a side of a view of the smallest cells: positions of bricks have 16 bits.
 #define BRICK_FINEST_LIMIT 16384u

@@ -8,12 +8,24 @@
 #include "ads/placement.glsl"
 #include "bricks/header.glsl"
 
+// How often cells may be divided along each axis, at the most: smaller ones are not much narrower than their margins, which
+// cells of flat bounds are already.
+uvec3 brick_depths_for(BoxPlacement at) {
+    vec3 margins = BRICK_DIVIDED_MARGINS * at.rounding * at.per_metre;
+    uvec3 depths = uvec3(0u);
+    for (uint level = 1u; level <= BRICK_DEPTH; level++) {
+        depths += uvec3(lessThanEqual(margins * float(1u << (2u * level)), vec3(1.0)));
+    }
+    return depths;
+}
+
 void brick_from_bounds(BrickRef s, vec3 lower, vec3 upper) {
     uvec3 cells = uvec3(BRICK_HEADER(s).columns, BRICK_HEADER(s).rows, BRICK_HEADER(s).slices);
     BoxPlacement at;
     if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
         at = box_placement(lower, upper, geometry_header.around_lower, geometry_header.around_upper, cells,
             BRICK_HEADER(s).eye);
+        BRICK_HEADER(s).depths = min(BRICK_HEADER(s).depths, brick_depths_for(at));
     } else {
         at.centre = centre_within(BRICK_HEADER(s).eye, lower, upper);
         at.reach = box_reach(lower - at.centre, upper - at.centre);

@@ -42,7 +42,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
     bool resumed, inout TraceState state, inout uint work) {
     BrickTraversal traversal;
     const bool axes = BRICK_VIEWS == BRICK_VIEWS_AXES;
-    traversal.shift = BRICK_DEPTH == 0u ? 0 : int(2u * min(BRICK_HEADER(s).depth, BRICK_DEPTH));
+    traversal.shift = 2 * ivec3(brick_divisions(s, BRICK_DEPTH));
     traversal.cells = ivec3(brick_cells(s)) << traversal.shift;
     traversal.bricks = brick_stored(s);
     traversal.steepness = 1.0;
@@ -85,7 +85,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
     while (t <= t_last && !(t > state.best.t + slack)) {
         if (turns) {
             if (axes) {
-                line = box_line(brick_axes(s, uint(traversal.shift) >> 1), origin, ray.direction);
+                line = box_line(brick_axes(s, BRICK_DEPTH), origin, ray.direction);
                 up = greaterThanEqual(line.direction, vec3(0.0));
                 vec3 speed = abs(line.direction);
                 traversal.steepness = speed.y / max(speed.x, speed.z);

@@ -15,7 +15,7 @@ layout(constant_id = 42) const uint BRICK_CORNERS_KEPT = 1u;
 // How often cells are divided at most. Bricks that may have divided cells have words for those.
 layout(constant_id = 43) const uint BRICK_DEPTH = 0u;
 
-// State and sizes of bricks. 496 bytes.
+// State and sizes of bricks. 504 bytes.
 struct BrickHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
@@ -55,7 +55,7 @@ struct BrickHeader {
     uint large_demand;           // triangles in the large-triangle queue
     uint groups[3];       // workgroups for those triangles, one each
     uint octaves[BRICK_OCTAVES]; // triangles that begin that many octaves before the farthest geometry
-    uint depth;           // how often cells may be divided, BRICK_DEPTH or less
+    uvec3 depths;         // how often cells may be divided along each axis, BRICK_DEPTH or less
     uint brick_demand;    // bricks of all levels, also those beyond the capacity
     uint brick_capacity;  // bricks the pool holds
     // Level 0 are the bricks of the views, level n + 1 those of divided cells of level n.

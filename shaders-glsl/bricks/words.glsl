@@ -86,27 +86,24 @@ uvec2 brick_cells_between(ivec3 first, ivec3 last) {
     return uvec2(slices.x | slices.y << 16, slices.z | slices.w << 16);
 }
 
-// First and last of the empty cells of a brick that a ray crosses in one step from an empty one: 2x2x2 of them where those are,
-// and as far as the brick where all cells ahead are empty, one axis after the other. `mask` has the bits of cells that are
-// not.
+// First and last of the empty cells of a brick that a ray crosses in one step from an empty one, all of them within the brick:
+// 2x2x2 where those are, and as far as the brick where all cells ahead are empty, one axis after the other. `mask` has the bits
+// of cells that are not.
 void brick_empty_cells(uvec2 mask, ivec3 cell, bvec3 up, out ivec3 first, out ivec3 last) {
-    ivec3 own = cell & 3;
     bool around = (mask[brick_word(cell)] & brick_octet(cell)) == 0u;
-    ivec3 lower = around ? own & ~1 : own;
-    ivec3 upper = around ? own | 1 : own;
+    first = around ? cell & ~1 : cell;
+    last = around ? cell | 1 : cell;
     for (int axis = 0; axis < 3; axis++) {
-        ivec3 from = lower;
-        ivec3 to = upper;
+        ivec3 from = first;
+        ivec3 to = last;
         from[axis] = up[axis] ? from[axis] : 0;
         to[axis] = up[axis] ? 3 : to[axis];
         uvec2 hidden = mask & brick_cells_between(from, to);
         if ((hidden.x | hidden.y) == 0u) {
-            lower = from;
-            upper = to;
+            first = from;
+            last = to;
         }
     }
-    first = (cell & ~3) + lower;
-    last = (cell & ~3) + upper;
 }
 
 // Bits of the cells of a column of a brick, from the first slice to the last of it.

@@ -114,7 +114,7 @@ pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
         cells: brick * demand.bricks.max(of_views) + list * demand.cells,
         entries: 4 * demand.entries,
         scan: 4 * if config.skip { of_views.max(sums) } else { sums },
-        rest: 496
+        rest: 504
             + 4 * demand.near
             + 16 * demand.records
             + demand.triangles * if config.corners { 36 } else { 24 },

@@ -44,7 +44,7 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
     let (cells, fits) = cells(parts);
     let of_views = bricks_of(parts.config.views, cells).1 as u32;
     Header {
-        depth: parts.config.depth_for(cells),
+        depths: [parts.config.depth_for(cells); 3],
         brick_demand: of_views,
         brick_capacity: parts.elements(Pool::Bricks) as u32,
         brick_first: [0, of_views, 0, 0, 0],

@@ -2,6 +2,7 @@
 
 use rasray_shaders_glsl::constants::bricks::BRICK_EMPTY;
 
+use crate::grid::BRICK_SIDE;
 use crate::{Config, Header};
 
 /// All pools as downloaded, in words.
@@ -77,6 +78,16 @@ pub enum Fault {
         cell: u32,
         /// Its brick.
         child: usize,
+    },
+    /// A cell beyond the first, along an axis that is not divided.
+    #[error("brick {brick}: there is no cell {cell} along the axes that level {level} divides")]
+    Beyond {
+        /// Brick.
+        brick: usize,
+        /// The cell, as the bit of the mask.
+        cell: u32,
+        /// Level of the brick.
+        level: u32,
     },
     /// A brick that lists something is skipped.
     #[error("brick {brick}: towards octant {octant} its distance skips a brick that lists something")]
@@ -185,7 +196,7 @@ impl Contents {
                     brick: child,
                     level: parent.level + 1,
                     view: parent.view,
-                    at: cell_at(parent.at, cell),
+                    at: self.cell_at(parent, cell),
                 };
                 let fault = Fault::Division { brick: parent.brick, cell, child };
                 let known = child.checked_sub(first).and_then(|child| seen.get_mut(child));
@@ -202,20 +213,31 @@ impl Contents {
         Ok(places)
     }
 
+    /// Cells of a brick of a level along each axis: 4, or the one that was not divided.
+    fn side(&self, level: u32) -> [u32; 3] {
+        self.header.depths.map(|depth| if level <= depth { BRICK_SIDE } else { 1 })
+    }
+
+    /// The cell of a bit of a brick, among cells of the brick's level.
+    fn cell_at(&self, brick: Place, bit: u32) -> [u32; 3] {
+        let (side, within) = (self.side(brick.level), within_brick(bit));
+        std::array::from_fn(|axis| side[axis] * brick.at[axis] + within[axis])
+    }
+
     /// All cells that list something.
     ///
     /// # Errors
     /// The brick of a divided cell is another cell's.
     pub fn cells(&self) -> Result<Vec<Cell>, Fault> {
         let mut cells = Vec::new();
-        for Place { brick, level, view, at } in self.all_bricks()? {
+        for place in self.all_bricks()? {
+            let Place { brick, level, view, .. } = place;
             let [listed, divided] = self.masks(brick);
             let list = self.words(brick)[0] as usize;
             cells.extend(
-                bits_of(listed | divided)
-                    .enumerate()
-                    .filter(|(_, cell)| listed >> cell & 1 != 0)
-                    .map(|(rank, cell)| Cell { level, view, place: cell_at(at, cell), list: list + rank }),
+                bits_of(listed | divided).enumerate().filter(|(_, cell)| listed >> cell & 1 != 0).map(
+                    |(rank, cell)| Cell { level, view, place: self.cell_at(place, cell), list: list + rank },
+                ),
             );
         }
         Ok(cells)
@@ -227,10 +249,9 @@ fn bits_of(mask: u64) -> impl Iterator<Item = u32> {
     (0..u64::BITS).filter(move |bit| mask >> bit & 1 != 0)
 }
 
-/// The cell of a bit of the brick at a place.
-fn cell_at(brick: [u32; 3], bit: u32) -> [u32; 3] {
-    let within = [bit % 4, bit / 4 % 4, bit / 16];
-    std::array::from_fn(|axis| 4 * brick[axis] + within[axis])
+/// Column, row and slice of a bit within a brick.
+fn within_brick(bit: u32) -> [u32; 3] {
+    [bit % 4, bit / 4 % 4, bit / 16]
 }
 
 /// Checks that words of bricks number the cells that list something, each once, and that divided cells have none.
@@ -246,7 +267,11 @@ fn words_are_well_formed(contents: &Contents) -> Result<(), Fault> {
         if cells == 0 {
             continue;
         }
+        let side = contents.side(level);
         for (rank, cell) in bits_of(listed | divided).enumerate() {
+            if (0..3).any(|axis| within_brick(cell)[axis] >= side[axis]) {
+                return Err(Fault::Beyond { brick, cell, level });
+            }
             let list = word as usize + rank;
             let taken = taken.get_mut(list).filter(|taken| !**taken).ok_or(fault.clone())?;
             *taken = true;

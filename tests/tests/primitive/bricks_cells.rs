@@ -68,14 +68,94 @@ fn reaches_into(triangle: &[[f64; 3]; 3], lower: [f64; 3], upper: [f64; 3]) -> b
     !polygon.is_empty()
 }
 
-/// Every cell that a triangle reaches into lists it, and none that is farther from it than the margins; also those of divided
-/// cells.
-#[test]
-fn cells_list_what_reaches_into_them_and_nothing_else() {
-    let bench = Bench::new();
-    let mut random = Random::new(41);
-    let mut triangles = mixed(&mut random);
-    // Crowds of small ones, the second of smaller ones within the first.
+/// What [`check_lists`] counts: cells of each level, entries, and those of a triangle that reaches into the cell without margins.
+#[derive(Debug)]
+struct Listed {
+    of_levels: [usize; 4],
+    entries: usize,
+    reached: usize,
+    depths: [u32; 3],
+}
+
+/// Checks every list of bricks of a scene with that many cells along it against clipping in double precision.
+fn check_lists(bench: &Bench, config: Config, grid: u32, triangles: &[Triangle]) -> Listed {
+    let divisions = config.divisions.expect("the test says how often");
+    let structure = built(bench, config, triangles, [0.0; 3]);
+    let contents = structure.download(bench.device()).expect("the device works");
+    well_formed(&contents, triangles.len() as u32).expect("bricks are well formed");
+    let header = &contents.header;
+    let cells = contents.cells().expect("bricks are well formed");
+    let mut of_levels = [0; 4];
+    let (mut reached, mut entries) = (0, 0);
+    let mut lists = HashMap::new();
+    let in_double: Vec<_> = triangles.iter().map(|triangle| triangle.map(|p| p.map(f64::from))).collect();
+    for cell in &cells {
+        of_levels[cell.level as usize] += 1;
+        let finer = header.depths.map(|depth| f64::from(1 << (2 * depth.min(cell.level))));
+        let per_metre: [f64; 3] =
+            std::array::from_fn(|axis| f64::from(header.cells_per_metre[axis]) * finer[axis]);
+        let along = f64::from(grid) * finer.into_iter().fold(1.0, f64::max);
+        let margin: [f64; 3] =
+            std::array::from_fn(|axis| f64::from(header.rounding) * per_metre[axis] + 2.0e-6 * along);
+        let sides = |share: f64| {
+            [0.0, 1.0].map(|side| {
+                std::array::from_fn::<f64, 3, _>(|axis| {
+                    let beyond = share * margin[axis] * (2.0 * side - 1.0);
+                    let at = (f64::from(cell.place[axis]) + side + beyond) / per_metre[axis];
+                    at + f64::from(header.cells_lower[axis]) + f64::from(header.centre[axis])
+                })
+            })
+        };
+        let list = contents.list(cell.list).expect("lists are well formed");
+        lists.insert((cell.level, cell.place), list);
+        entries += list.len();
+        let [near, exact, far] = [0.9, 0.0, 1.5].map(sides);
+        for (primitive, triangle) in in_double.iter().enumerate() {
+            let outside = |axis: usize| {
+                triangle.iter().all(|p| p[axis] < far[0][axis])
+                    || triangle.iter().all(|p| p[axis] > far[1][axis])
+            };
+            let lists = list.contains(&(primitive as u32));
+            if !lists && (0..3).any(outside) {
+                continue;
+            }
+            let reaches = |[lower, upper]: [[f64; 3]; 2]| reaches_into(triangle, lower, upper);
+            assert!(!lists || reaches(far), "{cell:?} lists {triangle:?}");
+            assert!(lists || !reaches(near), "{cell:?} does not list {triangle:?}");
+            reached += usize::from(reaches(exact));
+        }
+    }
+    // Cells that list nothing hold nothing: places of triangles are in a cell that lists them.
+    let mut random = Random::new(44);
+    for (primitive, triangle) in in_double.iter().enumerate() {
+        for _ in 0..20 {
+            let [u, v] = [(); 2].map(|()| f64::from(random.between(0.0, 1.0)));
+            let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+            let in_cells: [f64; 3] = std::array::from_fn(|axis| {
+                let at = triangle[0][axis]
+                    + u * (triangle[1][axis] - triangle[0][axis])
+                    + v * (triangle[2][axis] - triangle[0][axis]);
+                (at - f64::from(header.centre[axis]) - f64::from(header.cells_lower[axis]))
+                    * f64::from(header.cells_per_metre[axis])
+            });
+            let found = (0..=divisions).find_map(|level| {
+                let place = std::array::from_fn(|axis| {
+                    (in_cells[axis] * f64::from(1 << (2 * header.depths[axis].min(level)))) as u32
+                });
+                lists.get(&(level, place))
+            });
+            assert!(
+                found.is_some_and(|list| list.contains(&(primitive as u32))),
+                "nothing lists {triangle:?} at {in_cells:?}"
+            );
+        }
+    }
+    Listed { of_levels, entries, reached, depths: header.depths }
+}
+
+/// Crowds of small triangles among larger ones, the second crowd of smaller ones within the first.
+fn crowded(random: &mut Random) -> Vec<Triangle> {
+    let mut triangles = mixed(random);
     for (count, spread, size) in [(2000, 1.0, 0.03), (2000, 0.05, 0.002)] {
         triangles.extend((0..count).map(|_| -> Triangle {
             let at = random.point(-spread, spread);
@@ -85,6 +165,15 @@ fn cells_list_what_reaches_into_them_and_nothing_else() {
             })
         }));
     }
+    triangles
+}
+
+/// Every cell that a triangle reaches into lists it, and none that is farther from it than the margins; also those of divided
+/// cells.
+#[test]
+fn cells_list_what_reaches_into_them_and_nothing_else() {
+    let bench = Bench::new();
+    let triangles = crowded(&mut Random::new(41));
     for (grid, divisions, builder) in [
         (24, 0, Builder::Binning),
         (61, 1, Builder::Binning),
@@ -93,74 +182,36 @@ fn cells_list_what_reaches_into_them_and_nothing_else() {
         (24, 2, Builder::Raster),
     ] {
         let config = Config { builder, divisions: Some(divisions), ..axes(Some(grid)) };
-        let structure = built(&bench, config, &triangles, [0.0; 3]);
-        let contents = structure.download(bench.device()).expect("the device works");
-        well_formed(&contents, triangles.len() as u32).expect("bricks are well formed");
-        let header = &contents.header;
-        let cells = contents.cells().expect("bricks are well formed");
-        let mut of_levels = [0; 4];
-        let (mut reached, mut entries) = (0, 0);
-        let mut lists = HashMap::new();
-        let in_double: Vec<_> = triangles.iter().map(|triangle| triangle.map(|p| p.map(f64::from))).collect();
-        for cell in &cells {
-            of_levels[cell.level as usize] += 1;
-            let finer = f64::from(1 << (2 * cell.level));
-            let per_metre: [f64; 3] =
-                std::array::from_fn(|axis| f64::from(header.cells_per_metre[axis]) * finer);
-            let margin: [f64; 3] = std::array::from_fn(|axis| {
-                f64::from(header.rounding) * per_metre[axis] + 2.0e-6 * f64::from(grid) * finer
-            });
-            let sides = |share: f64| {
-                [0.0, 1.0].map(|side| {
-                    std::array::from_fn::<f64, 3, _>(|axis| {
-                        let beyond = share * margin[axis] * (2.0 * side - 1.0);
-                        let at = (f64::from(cell.place[axis]) + side + beyond) / per_metre[axis];
-                        at + f64::from(header.cells_lower[axis]) + f64::from(header.centre[axis])
-                    })
-                })
-            };
-            let list = contents.list(cell.list).expect("lists are well formed");
-            lists.insert((cell.level, cell.place), list);
-            entries += list.len();
-            let [near, exact, far] = [0.9, 0.0, 1.5].map(sides);
-            for (primitive, triangle) in in_double.iter().enumerate() {
-                let outside = |axis: usize| {
-                    triangle.iter().all(|p| p[axis] < far[0][axis])
-                        || triangle.iter().all(|p| p[axis] > far[1][axis])
-                };
-                let lists = list.contains(&(primitive as u32));
-                if !lists && (0..3).any(outside) {
-                    continue;
-                }
-                let reaches = |[lower, upper]: [[f64; 3]; 2]| reaches_into(triangle, lower, upper);
-                assert!(!lists || reaches(far), "{cell:?} lists {triangle:?}");
-                assert!(lists || !reaches(near), "{cell:?} does not list {triangle:?}");
-                reached += usize::from(reaches(exact));
-            }
-        }
-        // Cells that list nothing hold nothing: places of triangles are in a cell that lists them.
-        for (primitive, triangle) in in_double.iter().enumerate() {
-            for _ in 0..20 {
-                let [u, v] = [(); 2].map(|()| f64::from(random.between(0.0, 1.0)));
-                let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
-                let in_cells: [f64; 3] = std::array::from_fn(|axis| {
-                    let at = triangle[0][axis]
-                        + u * (triangle[1][axis] - triangle[0][axis])
-                        + v * (triangle[2][axis] - triangle[0][axis]);
-                    (at - f64::from(header.centre[axis]) - f64::from(header.cells_lower[axis]))
-                        * f64::from(header.cells_per_metre[axis])
-                });
-                let found = (0..=divisions).find_map(|level| {
-                    lists.get(&(level, in_cells.map(|at| (at * f64::from(1 << (2 * level))) as u32)))
-                });
-                assert!(
-                    found.is_some_and(|list| list.contains(&(primitive as u32))),
-                    "nothing lists {triangle:?} at {in_cells:?}"
-                );
-            }
-        }
-        println!("{grid} cells, levels {of_levels:?}: {entries} entries, {reached} of them exactly");
-        assert_eq!(of_levels.iter().filter(|&&cells| cells > 0).count(), divisions as usize + 1);
+        let listed = check_lists(&bench, config, grid, &triangles);
+        println!("{grid} cells: {listed:?}");
+        assert_eq!(listed.depths, [divisions; 3]);
+        assert_eq!(listed.of_levels.iter().filter(|&&cells| cells > 0).count(), divisions as usize + 1);
+        let Listed { entries, reached, .. } = listed;
+        assert!(reached > 5000 && entries < reached + reached / 20, "{entries} entries for {reached}");
+    }
+}
+
+/// Cells are not divided along an axis where they are no wider than their margins, and are along the others.
+#[test]
+fn cells_of_a_flat_scene_are_divided_along_it_alone() {
+    let bench = Bench::new();
+    for axis in 0..3 {
+        let mut triangles = crowded(&mut Random::new(42));
+        triangles.iter_mut().flatten().for_each(|corner| corner[axis] = 2.0);
+        // What was across another axis is a line now, which no cell lists.
+        triangles.retain(|[a, b, c]| {
+            let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+            let side = |p: &[f32; 3]| [p[u] - a[u], p[v] - a[v]].map(f64::from);
+            let ([bu, bv], [cu, cv]) = (side(b), side(c));
+            bu * cv != bv * cu
+        });
+        let config = Config { divisions: Some(3), ..axes(Some(24)) };
+        let listed = check_lists(&bench, config, 24, &triangles);
+        println!("flat along axis {axis}: {listed:?}");
+        let depths: [u32; 3] = std::array::from_fn(|at| if at == axis { 0 } else { 3 });
+        assert_eq!(listed.depths, depths);
+        assert!(listed.of_levels.iter().all(|&cells| cells > 0), "{listed:?}");
+        let Listed { entries, reached, .. } = listed;
         assert!(reached > 5000 && entries < reached + reached / 20, "{entries} entries for {reached}");
     }
 }
