@@ -65,7 +65,7 @@ pub(super) fn count_unfinished(
     for queue in queues {
         let counters = queue.download_counters(device).map_err(device_error)?;
         if counters.corrupted > 0 {
-            let (structure, entries) = (built.structure.name(), counters.corrupted.into());
+            let (structure, entries) = (built.structure().name(), counters.corrupted.into());
             return Err(tracer_error(&TracerError::Corrupted { structure, entries }));
         }
         unfinished += u64::from(counters.unfinished) + u64::from(counters.not_ready);
@@ -175,7 +175,7 @@ impl Accumulation {
         // What is on the film lacks light where a ray had no answer, so it is found now and not after the last wave.
         // Queues count on from wave to wave.
         self.unfinished = count_unfinished(device, built, &self.integrator.queues())?;
-        if self.unfinished > 0 && built.structure.allow_more_rounds() {
+        if self.unfinished > 0 && built.structure().allow_more_rounds() {
             self.clear(device)?;
             return Ok(false);
         }
@@ -189,7 +189,7 @@ impl Accumulation {
     }
 
     fn traced<'a>(&'a self, built: &'a Built) -> Traced<'a> {
-        Traced::from(built.structure.as_ref()).with_primary(self.visibility.as_ref())
+        Traced::from(built.structure()).with_primary(self.visibility.as_ref())
     }
 
     /// Says how many triangles were drawn over all pixels, where camera rays are drawn.

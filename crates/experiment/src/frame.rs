@@ -96,6 +96,45 @@ impl Primary {
     }
 }
 
+/// What of a structure a picture builds where the scene has moved since the one before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Refresh {
+    /// All of it.
+    #[default]
+    All,
+    /// The part that moves; what stands still is a part of its own, built once.
+    Moving,
+}
+
+impl Refresh {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::All, Self::Moving];
+
+    /// Its name on the command line and in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::All => "all",
+            Self::Moving => "moving",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::All => "Everything",
+            Self::Moving => {
+                "What moves; what stands still has a part of its own, built once. The same hits, for systems that find every \
+                 triangle"
+            }
+        }
+    }
+
+    /// The one of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|refresh| refresh.name() == name)
+    }
+}
+
 /// Where random numbers come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sampler {

@@ -1,6 +1,6 @@
 //! Jobs and results as plain data.
 
-pub use crate::frame::{Frame, Integrator, Primary, Sampler};
+pub use crate::frame::{Frame, Integrator, Primary, Refresh, Sampler};
 use crate::shard::Shard;
 use crate::system_config::SystemConfig;
 use rasray_ads::{Hit, Ray, StructureKind};
@@ -31,13 +31,15 @@ pub struct RenderJob<'a> {
     pub scene: &'a Scene,
     /// When it is shown, where the scene is at rest: the device poses it. Absent: as it is.
     pub moment: Option<&'a Moment>,
-    /// Whether scene, size, seed and needs are those of the job before, which was at another moment: what the device has of
-    /// the scene is kept.
+    /// Whether scene, size, seed, needs and refresh are those of the job before, which was at another moment: what the device has of
+    /// the scene is kept, and the structure, of the same system.
     pub is_next: bool,
     /// From where.
     pub camera: Camera,
     /// Through which structure.
     pub system: SystemConfig,
+    /// What of it the image builds.
+    pub refresh: Refresh,
     /// The image.
     pub frame: Frame,
     /// Which of its samples are made; absent: all.

@@ -21,6 +21,8 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         is_next: _,
         camera,
         system,
+        // Hits are the same.
+        refresh: _,
         frame,
         shard: _,
         aovs,
@@ -46,7 +48,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::jobs::{AovSelection, Frame, Integrator, Primary, Sampler};
+    use crate::jobs::{AovSelection, Frame, Integrator, Primary, Refresh, Sampler};
     use crate::{Shard, StructureOptions, default_view, load, one_system};
     use rasray_scene::Environment;
     use rasray_scene::needs::Needs;
@@ -73,6 +75,7 @@ mod tests {
             is_next: false,
             camera: default_view(&loaded.scene).camera,
             system: system.expect("the default"),
+            refresh: Refresh::All,
             frame: FRAME,
             shard: None,
             aovs: AovSelection::default(),
@@ -104,10 +107,12 @@ mod tests {
         let keys: BTreeSet<_> = changes.iter().map(|change| key(change)).chain([first.clone()]).collect();
         assert_eq!(keys.len(), changes.len() + 1);
         assert_ne!(picture_key("2", &loaded, &job(&loaded)), first, "another program");
-        let same: [&dyn Fn(&mut RenderJob<'_>); 3] =
-            [&|job| job.repetitions = 3, &|job| job.shard = Shard::new(2, 4), &|job| {
-                job.camera.name = "another".to_owned()
-            }];
+        let same: [&dyn Fn(&mut RenderJob<'_>); 4] = [
+            &|job| job.repetitions = 3,
+            &|job| job.refresh = Refresh::Moving,
+            &|job| job.shard = Shard::new(2, 4),
+            &|job| job.camera.name = "another".to_owned(),
+        ];
         assert!(same.iter().all(|change| key(change) == first));
     }
 

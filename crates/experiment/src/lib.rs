@@ -64,7 +64,7 @@ pub use evaluate::device_hits;
 pub use hard_file::compare_file;
 pub use jobs::{
     Answers, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, HardJob, Integrator, Kept,
-    KeptSet, Primary, RaySet, RenderJob, RenderOutput, Sampler,
+    KeptSet, Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler,
 };
 pub use kept_files::NamedBytes;
 pub use key::picture_key;

@@ -9,7 +9,7 @@ use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Moment, Scene};
 
 use crate::error::ExperimentError;
-use crate::jobs::{Frame, RenderJob};
+use crate::jobs::{Frame, Refresh, RenderJob};
 use crate::stage::{Stage, device_error, scene_error};
 
 impl Stage {
@@ -41,6 +41,10 @@ impl Stage {
             return Self::new(device, job.scene, &job.camera, [width, height], seed, &job.needs);
         };
         let mut stage = Self::moving(device, job.scene, &job.camera, [width, height], seed, &job.needs)?;
+        if job.refresh == Refresh::Moving {
+            // The pose measures the bounds of the parts that there are.
+            stage.parts(device)?;
+        }
         stage.pose(device, job.scene, moment, Timing::None)?;
         Ok(stage)
     }
@@ -55,10 +59,12 @@ impl Stage {
     /// # Errors
     /// Nothing here moves, out of memory, or a lost device.
     pub fn parts(&mut self, device: &Device) -> Result<GeometryParts, ExperimentError> {
-        let pass = self
-            .pose
-            .as_mut()
-            .ok_or_else(|| device_error("a scene that was not made to move has no parts"))?;
+        let Some(pass) = self.pose.as_mut() else {
+            return Err(ExperimentError::usage(
+                "a scene whose triangles are others in each frame has no part that stands still",
+                "leave out --refresh",
+            ));
+        };
         pass.parts(device).map_err(scene_error)
     }
 

@@ -14,18 +14,19 @@ const RAYS: u32 = 1;
 /// kinds and the lookup of surfaces.
 pub(super) fn pass_list(device: &Device, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError> {
     let spec = job.system.spec()?;
-    let stage = Stage::of_job(device, job)?;
-    let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
+    let mut stage = Stage::of_job(device, job)?;
+    let mut built = Built::refreshed(device, &spec, &mut stage, job.refresh)?;
     let queue = RayQueue::new(device, "listed", RAYS, true).map_err(device_error)?;
     let viewpoint = stage.scene.viewpoint().at(stage.scene.eye());
-    let structure = built.structure.as_mut();
-    structure.prepare_build(device).map_err(device_error)?;
-    let rounds = structure.rounds();
+    let frames = &mut built.frames;
+    frames.geometry_moved();
+    frames.prepare(device, viewpoint).map_err(device_error)?;
     let submitted = device
         .submit(|recorder| {
             queue.record_reset(recorder);
-            structure.record_build(recorder, 0, viewpoint)?;
-            let all = Domain::First(RAYS);
+            frames.record(recorder, 0, viewpoint)?;
+            let (structure, all) = (frames.structure(), Domain::First(RAYS));
+            let rounds = structure.rounds();
             structure.record_trace(recorder, &queue, all, TraceMode::Closest, rounds);
             structure.record_trace(recorder, &queue, all, TraceMode::Occluded, rounds);
             structure.record_surfaces(recorder, &queue, all)?;

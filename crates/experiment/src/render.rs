@@ -12,10 +12,11 @@ use rasray_scene::needs::Needs;
 use crate::accumulation::{Accumulation, count_unfinished, visibility};
 use crate::backend::{OnProgress, Progress};
 use crate::error::ExperimentError;
-use crate::jobs::{AovSelection, FilmSums, Frame, Primary, RenderJob, RenderOutput};
+use crate::jobs::{AovSelection, FilmSums, Frame, Primary, Refresh, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::shard::Shard;
 use crate::stage::{Built, Stage, device_error};
+use crate::system_config::SystemConfig;
 use rasray_report::{Counters, Times};
 
 /// Which pixels are made.
@@ -105,34 +106,60 @@ pub(super) fn visible_ms(passes: &Passes, frame: &Frame) -> Option<f64> {
     (frame.primary == Primary::Raster).then(|| passes.total(|label| label.contains("/visibility")))
 }
 
-/// The scene of a job: that of the job before at this moment, where it is the next of it and its eye is not far from that.
-fn stage_of(device: &Device, job: &RenderJob<'_>, before: Option<Stage>) -> Result<Stage, ExperimentError> {
-    let origin = SceneTables::default_frame_origin(job.scene, job.camera.world_from_camera.translation);
-    let is_kept = |stage: &Stage| job.is_next && stage.is_moving() && stage.scene.frame_origin() == origin;
-    let (Some(moment), Some(mut stage)) = (job.moment, before.filter(is_kept)) else {
-        return Stage::of_job(device, job);
-    };
-    let Frame { width, height, seed, .. } = job.frame;
-    stage.look(&View { camera: job.camera.clone(), width, height, seed })?;
-    stage.pose(device, job.scene, moment, Timing::None)?;
-    Ok(stage)
+/// What the device has of a job, for one that is the next of it.
+pub(super) struct Made {
+    stage: Stage,
+    built: Built,
+    system: SystemConfig,
 }
 
-/// Renders an image with all requested additional images. `kept` is the scene of the job before, and then of this one.
+/// The scene of a job, and the structure over it: those of the job before at this moment, where it is the next of it and its eye
+/// is not far from that.
+fn made_for(
+    device: &Device,
+    job: &RenderJob<'_>,
+    before: Option<Made>,
+    progress: &mut OnProgress<'_>,
+) -> Result<Made, ExperimentError> {
+    let spec = job.system.spec()?;
+    _ = progress(Progress { task: "scene", done: 0, total: 0, unit: "to the device" });
+    let origin = SceneTables::default_frame_origin(job.scene, job.camera.world_from_camera.translation);
+    let is_kept =
+        |made: &Made| job.is_next && made.stage.is_moving() && made.stage.scene.frame_origin() == origin;
+    let kept = job.moment.zip(before.filter(is_kept));
+    let (mut stage, kept) = match kept {
+        Some((moment, Made { mut stage, built, system })) => {
+            let Frame { width, height, seed, .. } = job.frame;
+            stage.look(&View { camera: job.camera.clone(), width, height, seed })?;
+            stage.pose(device, job.scene, moment, Timing::None)?;
+            (stage, Some(built).filter(|_| system == job.system))
+        }
+        None => (Stage::of_job(device, job)?, None),
+    };
+    stage.sample_as(&job.frame)?;
+    if let Some(mut built) = kept {
+        _ = progress(Progress { task: "build", done: 0, total: 0, unit: "of the frame" });
+        // One that cannot grow to what the frame needs is made anew, which may be by other means.
+        if built.follow(device, &stage.scene, true).is_ok() {
+            return Ok(Made { stage, built, system: job.system.clone() });
+        }
+    }
+    _ = progress(Progress { task: "build", done: 0, total: 0, unit: "first build" });
+    let built = Built::refreshed(device, &spec, &mut stage, job.refresh)?;
+    Ok(Made { stage, built, system: job.system.clone() })
+}
+
+/// Renders an image with all requested additional images. `kept` is what the device has of the job before, and then of this one.
 pub(super) fn render(
     device: &Device,
     job: &RenderJob<'_>,
-    kept: &mut Option<Stage>,
+    kept: &mut Option<Made>,
     progress: &mut OnProgress<'_>,
 ) -> Result<RenderOutput, ExperimentError> {
     let started = Instant::now();
     let frame = job.frame;
-    let spec = job.system.spec()?;
-    _ = progress(Progress { task: "scene", done: 0, total: 0, unit: "to the device" });
-    let mut stage = stage_of(device, job, kept.take())?;
-    stage.sample_as(&frame)?;
-    _ = progress(Progress { task: "build", done: 0, total: 0, unit: "first build" });
-    let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
+    let mut made = made_for(device, job, kept.take(), progress)?;
+    let Made { stage, built, .. } = &mut made;
     for _ in 0..job.repetitions {
         if progress(Progress { task: "build", done: 0, total: 0, unit: "timed builds" }).is_break() {
             break;
@@ -140,8 +167,11 @@ pub(super) fn render(
         built.build_again(device)?;
     }
     let wanted = Wanted { frame: &frame, shard: job.shard, needs: &job.needs, task: "render" };
-    let pixels = render_pixels(device, &stage, &built, &wanted, progress)?;
-    let (options, paths) = built.resolved()?;
+    let pixels = render_pixels(device, stage, built, &wanted, progress)?;
+    let (options, mut paths) = built.resolved()?;
+    if job.refresh != Refresh::All {
+        paths.insert("refresh".to_owned(), job.refresh.name().to_owned());
+    }
     let mut memory = built.memory(device)?;
     for (name, bytes) in stage.scene.bytes_by_part() {
         memory.by_part.insert(format!("scene {name}"), *bytes);
@@ -175,10 +205,10 @@ pub(super) fn render(
     output.spread = built.spread().collect();
     if job.aovs != AovSelection::default() {
         _ = progress(Progress { task: "render", done: 0, total: 0, unit: "additional images" });
-        add_aovs(device, &stage, &built, job, &mut output)?;
+        add_aovs(device, stage, built, job, &mut output)?;
     }
     output.times.frame_ms = Some(started.elapsed().as_secs_f64() * 1.0e3);
-    *kept = Some(stage).filter(Stage::is_moving);
+    *kept = Some(made).filter(|made| made.stage.is_moving());
     Ok(output)
 }
 
@@ -194,7 +224,7 @@ fn add_aovs(
     let capacity = rasray_integrators::wave_capacity(device).min(pixels);
     let aov = AovPass::new(device, &stage.scene, capacity).map_err(device_error)?;
     let visibility = visibility(device, stage, &job.frame)?;
-    let traced = Traced::from(built.structure.as_ref()).with_primary(visibility.as_ref());
+    let traced = Traced::from(built.structure()).with_primary(visibility.as_ref());
     loop {
         device.submit(|recorder| aov.record_reset(recorder)).map_err(device_error)?;
         for wave in waves(pixels, 1, capacity) {
@@ -206,7 +236,7 @@ fn add_aovs(
         if count_unfinished(device, built, &[aov.queue()])? == 0 {
             break;
         }
-        if !built.structure.allow_more_rounds() {
+        if !built.structure().allow_more_rounds() {
             return Err(ExperimentError::refused(
                 "rays through pixel centres did not finish",
                 "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, \

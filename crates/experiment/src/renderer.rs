@@ -6,14 +6,14 @@ use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, Texel
 use crate::describe::requirements;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
-use crate::stage::Stage;
+use crate::render::Made;
 use rasray_report::Device;
 
-/// A device; everything made for a job goes with the job, but for the scene of a render that moves.
+/// A device; everything made for a job goes with the job, but for the scene of a render that moves and its structure.
 struct Renderer {
     device: GpuDevice,
     /// Of the last render.
-    stage: Option<Stage>,
+    made: Option<Made>,
     validation: bool,
 }
 
@@ -21,7 +21,7 @@ impl Renderer {
     /// Opens the wanted device.
     fn open(choice: &DeviceChoice) -> Result<Self, ExperimentError> {
         let device = open_device(choice)?;
-        Ok(Self { device, stage: None, validation: choice.validation })
+        Ok(Self { device, made: None, validation: choice.validation })
     }
 
     /// Messages of the validation layer are errors.
@@ -54,7 +54,7 @@ impl Backend for Renderer {
         job: &RenderJob<'_>,
         progress: &mut OnProgress<'_>,
     ) -> Result<RenderOutput, ExperimentError> {
-        let output = crate::render::render(&self.device, job, &mut self.stage, progress)?;
+        let output = crate::render::render(&self.device, job, &mut self.made, progress)?;
         self.check_validation()?;
         Ok(output)
     }

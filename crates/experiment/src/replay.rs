@@ -48,9 +48,8 @@ impl ReplaySetting<'_> {
             let spec = spec.clone().with_counters(Counters::Steps);
             let built = Built::new(self.device, &spec, &self.stage.scene, self.center)?;
             let tracer = BatchTracer::new(self.device, 1).map_err(|e| tracer_error(&e))?;
-            let replay = tracer
-                .replay(built.structure.as_ref(), ray, TraceMode::Closest)
-                .map_err(|e| tracer_error(&e))?;
+            let replay =
+                tracer.replay(built.structure(), ray, TraceMode::Closest).map_err(|e| tracer_error(&e))?;
             let _ = write!(text, "\n{} {}: {replay}", spec.system().name, spec.preset().name());
             text.push_str(&met(&replay, &truth));
             if let Some(resolution) = cube_resolution(&built)? {
@@ -110,7 +109,7 @@ fn met(replay: &Replay, truth: &OracleReplay) -> String {
 
 /// Cells a side of a system's cube of views; absent where it has none.
 fn cube_resolution(built: &Built) -> Result<Option<u32>, ExperimentError> {
-    let report = built.structure.report().map_err(device_error)?;
+    let report = built.structure().report().map_err(device_error)?;
     let value = |name: &str| report.options.iter().find(|(known, _)| *known == name).map(|(_, value)| value);
     let cube = value("views").is_some_and(|views| views.starts_with("cube"));
     Ok(value("resolution").filter(|_| cube).and_then(|resolution| resolution.parse().ok()))

@@ -4,17 +4,17 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use glam::DVec3;
-use rasray_ads::{AdsError, Structure, Viewpoint};
+use rasray_ads::{AdsError, Combined, GeometryParts, Structure, Viewpoint};
 use rasray_gpu::{Device, Feature, GpuError, Timing};
 use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, PosePass, Sampling, SceneTables, View};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
 use rasray_systems::{Spec, SystemsError};
-use rasray_tracer::{BuildOutcome, TracerError, build_until_complete};
+use rasray_tracer::{BuildOutcome, FrameStructure, Keeping, TracerError, refresh_until_complete};
 use serde_json::Value;
 
 use crate::error::ExperimentError;
-use crate::jobs::{Frame, Sampler};
+use crate::jobs::{Frame, Refresh, Sampler};
 use crate::passes::{Passes, median, spread};
 use rasray_report::{Counters, Memory, Pass, Spread, Times};
 
@@ -182,14 +182,17 @@ fn may_use_addresses(device: &Device, spec: &Spec) -> bool {
     has_option && !spec.options().contains_key("addressing") && device.has(Feature::BufferDeviceAddress)
 }
 
-/// Makes a structure and builds it until complete.
+/// Frames are made one after the other, and each waits for its build: pools are as large as they have to be.
+const KEEPING: Keeping = Keeping { slots: 1, headroom: 0 };
+
+/// Makes a structure, in parts where these are given, and builds it until complete.
 fn first_build(
     device: &Device,
     spec: &Spec,
-    scene: &GpuScene,
+    (scene, parts): (&GpuScene, Option<&GeometryParts>),
     viewpoint: Viewpoint,
     timing: Timing,
-) -> Result<(Box<dyn Structure>, BuildOutcome), FirstBuild> {
+) -> Result<(FrameStructure, BuildOutcome), FirstBuild> {
     let refuse = |error: ExperimentError| FirstBuild::Other(error);
     let requirements = spec.requirements().map_err(|e| refuse(ExperimentError::usage(e.to_string(), "")))?;
     if let Some(missing) = requirements.required.iter().find(|feature| !device.has(**feature)) {
@@ -202,13 +205,22 @@ fn first_build(
             "choose another --device or --system",
         )));
     }
-    let mut structure =
-        spec.create(device, scene.geometry(), Some(scene.binding())).map_err(|error| match error {
-            SystemsError::Ads(error) => ads_error(error),
-            other => refuse(ExperimentError::usage(other.to_string(), "see `rasray render --help`")),
-        })?;
+    let create = |geometry: &_| spec.create(device, geometry, Some(scene.binding()));
+    let made: rasray_tracer::Refresh = match parts {
+        Some(parts) => Combined::new(parts, create).map(Into::into),
+        None => create(scene.geometry()).map(Into::into),
+    }
+    .map_err(|error| match error {
+        SystemsError::Ads(error @ AdsError::InParts { .. }) => refuse(ExperimentError::usage(
+            error.to_string(),
+            "leave out --refresh, or choose another --system",
+        )),
+        SystemsError::Ads(error) => ads_error(error),
+        other => refuse(ExperimentError::usage(other.to_string(), "see `rasray render --help`")),
+    })?;
+    let mut structure = FrameStructure::new(device, made, KEEPING).map_err(ads_error)?;
     let outcome =
-        build_until_complete(device, structure.as_mut(), viewpoint, timing).map_err(|error| match error {
+        refresh_until_complete(device, &mut structure, viewpoint, timing).map_err(|error| match error {
             TracerError::Ads(error) => ads_error(error),
             other => refuse(tracer_error(&other)),
         })?;
@@ -231,16 +243,18 @@ pub type Resolved = (BTreeMap<String, Value>, BTreeMap<String, String>);
 /// A structure, built, with what the building cost.
 pub struct Built {
     /// Whose last build was complete.
-    pub structure: Box<dyn Structure>,
+    pub(super) frames: FrameStructure,
     pub(super) outcome: BuildOutcome,
     pub(super) passes: Passes,
     viewpoint: Viewpoint,
-    /// From nothing to complete, milliseconds.
-    first_ms: f64,
-    /// Of each repeated build, as the host saw it, milliseconds.
+    /// From nothing to complete, milliseconds; absent where something was there.
+    first_ms: Option<f64>,
+    /// Of each repeated build, or of the one that a frame took, as the host saw it, milliseconds.
     whole: Vec<f64>,
     /// The host's own part of each, milliseconds.
     prepare: Vec<f64>,
+    /// Whether these are of builds that were repeated to be timed.
+    is_repeated: bool,
 }
 
 impl Built {
@@ -256,10 +270,37 @@ impl Built {
         scene: &GpuScene,
         eye: [f32; 3],
     ) -> Result<Self, ExperimentError> {
+        Self::over(device, spec, (scene, None), eye)
+    }
+
+    /// The same for a scene that may move, in two parts where [`Refresh::Moving`] asks for them. [`Stage::parts`] was called then
+    /// before the scene was posed.
+    ///
+    /// # Errors
+    /// As [`Built::new`], and where nothing of the scene moves on the device or the structure cannot be in parts.
+    pub fn refreshed(
+        device: &Device,
+        spec: &Spec,
+        stage: &mut Stage,
+        refresh: Refresh,
+    ) -> Result<Self, ExperimentError> {
+        let parts = match refresh {
+            Refresh::All => None,
+            Refresh::Moving => Some(stage.parts(device)?),
+        };
+        Self::over(device, spec, (&stage.scene, parts.as_ref()), stage.scene.eye())
+    }
+
+    fn over(
+        device: &Device,
+        spec: &Spec,
+        (scene, parts): (&GpuScene, Option<&GeometryParts>),
+        eye: [f32; 3],
+    ) -> Result<Self, ExperimentError> {
         let started = Instant::now();
         let timing = device.best_timing();
         let viewpoint = scene.viewpoint().at(eye);
-        let (structure, outcome) = match first_build(device, spec, scene, viewpoint, timing) {
+        let (frames, outcome) = match first_build(device, spec, (scene, parts), viewpoint, timing) {
             Err(FirstBuild::ExceedsBinding(_)) if may_use_addresses(device, spec) => {
                 tracing::info!(
                     system = spec.system().name,
@@ -268,38 +309,54 @@ impl Built {
                 let spec = spec
                     .with_option("addressing", "address")
                     .map_err(|error| ExperimentError::usage(error.to_string(), ""))?;
-                first_build(device, &spec, scene, viewpoint, timing).map_err(ExperimentError::from)?
+                first_build(device, &spec, (scene, parts), viewpoint, timing)
+                    .map_err(ExperimentError::from)?
             }
             other => other.map_err(ExperimentError::from)?,
         };
         let mut passes = Passes::default();
         passes.add(&outcome.passes);
         Ok(Self {
-            structure,
+            frames,
             outcome,
             passes,
             viewpoint,
-            first_ms: started.elapsed().as_secs_f64() * 1.0e3,
+            first_ms: Some(started.elapsed().as_secs_f64() * 1.0e3),
             whole: Vec::new(),
             prepare: Vec::new(),
+            is_repeated: false,
         })
     }
 
-    /// Builds for what the scene's camera sees now, from where it is; times stay as they are.
+    /// What rays are traced through.
+    pub fn structure(&self) -> &dyn Structure {
+        self.frames.structure()
+    }
+
+    /// Builds what is stale for the scene as it is now: where it has `moved` what moves, and what depends on where its camera
+    /// looks from. Times and passes are those of this frame from here on.
     ///
     /// # Errors
     /// As [`Built::build_again`].
-    pub fn follow_camera(&mut self, device: &Device, scene: &GpuScene) -> Result<(), ExperimentError> {
+    pub fn follow(&mut self, device: &Device, scene: &GpuScene, moved: bool) -> Result<(), ExperimentError> {
+        let started = Instant::now();
         self.viewpoint = scene.viewpoint().at(scene.eye());
-        self.outcome =
-            build_until_complete(device, self.structure.as_mut(), self.viewpoint, device.best_timing())
-                .map_err(|e| tracer_error(&e))?;
+        if moved {
+            self.frames.geometry_moved();
+        }
+        self.outcome = self.refresh(device)?;
+        self.passes = Passes::default();
+        self.passes.add(&self.outcome.passes);
+        self.first_ms = None;
+        self.whole = vec![started.elapsed().as_secs_f64() * 1.0e3];
+        self.prepare = vec![self.outcome.prepare_milliseconds];
+        self.is_repeated = false;
         Ok(())
     }
 
-    /// Whether the scene's camera has moved so that the build is none for it. What else has moved only the caller knows.
-    pub fn is_stale(&self, scene: &GpuScene) -> bool {
-        self.structure.is_stale(self.viewpoint, scene.viewpoint().at(scene.eye()))
+    fn refresh(&mut self, device: &Device) -> Result<BuildOutcome, ExperimentError> {
+        refresh_until_complete(device, &mut self.frames, self.viewpoint, device.best_timing())
+            .map_err(|error| tracer_error(&error))
     }
 
     /// Times of the passes of builds.
@@ -307,19 +364,20 @@ impl Built {
         self.passes.report()
     }
 
-    /// Builds once more and keeps the times.
+    /// Builds what moves once more, which is everything but in parts, and keeps the times.
     ///
     /// # Errors
     /// The device fails, or the build does not become complete.
     pub fn build_again(&mut self, device: &Device) -> Result<(), ExperimentError> {
         let regrows = self.outcome.regrows;
-        let timing = device.best_timing();
-        self.outcome = build_until_complete(device, self.structure.as_mut(), self.viewpoint, timing)
-            .map_err(|e| tracer_error(&e))?;
+        self.frames.geometry_moved();
+        self.outcome = self.refresh(device)?;
         self.outcome.regrows += regrows;
-        if self.whole.is_empty() {
-            // Passes of the first build hold what the driver compiled.
+        if !std::mem::replace(&mut self.is_repeated, true) {
+            // Those of the first build hold what the driver compiled, and of a frame's what had to grow.
             self.passes = Passes::default();
+            self.whole.clear();
+            self.prepare.clear();
         }
         self.passes.add(&self.outcome.passes);
         self.whole.push(self.outcome.host_milliseconds);
@@ -329,7 +387,7 @@ impl Built {
 
     /// Sets the times of the build in a run.
     pub fn write_times(&self, times: &mut Times) {
-        times.first_build_ms = Some(self.first_ms);
+        times.first_build_ms = self.first_ms;
         if !self.whole.is_empty() {
             times.build_ms = Some(median(&self.whole));
             times.build_host_ms = Some(median(&self.prepare));
@@ -348,7 +406,7 @@ impl Built {
     /// # Errors
     /// The device fails.
     pub fn resolved(&self) -> Result<Resolved, ExperimentError> {
-        let report = self.structure.report().map_err(device_error)?;
+        let report = self.structure().report().map_err(device_error)?;
         let paths = report.paths.into_iter().map(|(name, value)| (name.to_owned(), value));
         Ok((rasray_report::options(report.options), paths.collect()))
     }
@@ -358,7 +416,7 @@ impl Built {
     /// # Errors
     /// The device fails.
     pub fn memory(&self, device: &Device) -> Result<Memory, ExperimentError> {
-        let report = self.structure.report().map_err(device_error)?;
+        let report = self.structure().report().map_err(device_error)?;
         Ok(Memory {
             structure_bytes: Some(report.bytes() - report.slack() - report.diagnostic_bytes),
             formula_bytes: Some(report.formula_bytes - report.diagnostic_bytes),
@@ -371,7 +429,7 @@ impl Built {
 
     /// Counts of the build.
     pub(super) fn counters(&self) -> Result<Counters, ExperimentError> {
-        let report = self.structure.report().map_err(device_error)?;
+        let report = self.structure().report().map_err(device_error)?;
         let pool = self.outcome.status.pools.first();
         Ok(Counters {
             fragments: report.stored,

@@ -85,7 +85,7 @@ pub(super) fn compare_set(
     {
         traced.hits = name_hits(traced.hits);
         let mut run = run_of(device, contestant, set, &traced, wanted.seed)?;
-        let kind = contestant.built.structure.kind();
+        let kind = contestant.built.structure().kind();
         evaluate(&mut run, kind, &set.verdicts, &traced.hits, wanted.figures, comparison)?;
         answers.push(Answers { name: format!("{}-{}", run.system, run.preset), kind, hits: traced.hits });
         comparison.runs.push(run);
@@ -151,7 +151,7 @@ pub fn trace_in_turns(
     for repetition in 0..=repetitions {
         for (contestant, traced) in contestants.iter().zip(&mut traces) {
             let outcome = tracer
-                .trace(contestant.built.structure.as_ref(), rays, TraceMode::Closest, timing)
+                .trace(contestant.built.structure(), rays, TraceMode::Closest, timing)
                 .map_err(|e| tracer_error(&e))?;
             if repetition == 0 {
                 traced.hits = outcome.hits;

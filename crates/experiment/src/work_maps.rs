@@ -59,7 +59,7 @@ pub fn work_per_pixel(
     let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
     let built = Built::new(device, &spec.clone().with_counters(Counters::PerRay), &stage.scene, eye)?;
     let outcome = tracer
-        .trace(built.structure.as_ref(), &rays, TraceMode::Closest, device.best_timing())
+        .trace(built.structure(), &rays, TraceMode::Closest, device.best_timing())
         .map_err(|e| tracer_error(&e))?;
     let of = |count: fn(&RayWork) -> u32| outcome.work.iter().map(count).collect();
     Ok((outcome.work.len() == rays.len()).then(|| WorkMap {

@@ -2,10 +2,10 @@
 
 use std::time::Instant;
 
-use rasray_ads::{BuildStatus, Check, Structure, Viewpoint};
-use rasray_gpu::{Device, PassTiming, Timing};
+use rasray_ads::{AdsError, BuildStatus, Check, Structure, Viewpoint};
+use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 
-use crate::TracerError;
+use crate::{FrameOutcome, FrameStructure, TracerError};
 
 /// Rebuilds after which a structure counts as unstable. One is enough where all pools are counted at once; a later
 /// pool's demand may only be known once an earlier pool sufficed, such as that of the cells of divided cells, which may
@@ -53,31 +53,130 @@ pub fn build_with_headroom(
     timing: Timing,
     headroom: u32,
 ) -> Result<BuildOutcome, TracerError> {
-    let viewpoint = viewpoint.into();
-    let mut outcome = BuildOutcome::default();
-    loop {
-        let started = Instant::now();
-        structure.prepare_build(device)?;
-        outcome.prepare_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
-        let submitted =
-            device.submit_passes(timing, |recorder| structure.record_build(recorder, 0, viewpoint))?;
-        submitted.value?;
-        outcome.host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
-        outcome.passes = submitted.passes;
-        outcome.status = structure.status(0)?;
-        match structure.check(&outcome.status, headroom)? {
-            Check::Complete if outcome.status.complete => return Ok(outcome),
-            Check::Grow(sizes) if outcome.regrows < REBUILDS => {
+    until_complete(device, &mut Whole { structure, headroom }, viewpoint.into(), timing)
+}
+
+/// Builds what of a structure over frames is stale from a viewpoint, in its first slot, until all of it is complete. A frame of it
+/// that is in flight has ended before. Passes, and the sums of the outcome, are those of the parts that were built; none where
+/// nothing is stale.
+///
+/// # Errors
+/// As [`build_until_complete`].
+pub fn refresh_until_complete(
+    device: &Device,
+    structure: &mut FrameStructure,
+    viewpoint: impl Into<Viewpoint>,
+    timing: Timing,
+) -> Result<BuildOutcome, TracerError> {
+    until_complete(device, structure, viewpoint.into(), timing)
+}
+
+/// What became of a build.
+enum Step {
+    Complete,
+    /// What was too small has grown.
+    Grown,
+    /// Incomplete, and growing does not help.
+    Stuck,
+}
+
+/// What [`until_complete`] builds.
+trait Builds {
+    fn prepare(&mut self, device: &Device, viewpoint: Viewpoint) -> Result<(), AdsError>;
+    fn record(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError>;
+    /// After the build.
+    fn finish(&mut self, device: &Device, may_grow: bool) -> Result<Step, AdsError>;
+    fn structure(&self) -> &dyn Structure;
+    /// What was recorded was not submitted.
+    fn take_back(&mut self) {}
+}
+
+/// A structure that every build builds anew.
+struct Whole<'a> {
+    structure: &'a mut dyn Structure,
+    headroom: u32,
+}
+
+impl Builds for Whole<'_> {
+    fn prepare(&mut self, device: &Device, _viewpoint: Viewpoint) -> Result<(), AdsError> {
+        self.structure.prepare_build(device)
+    }
+
+    fn record(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError> {
+        self.structure.record_build(recorder, 0, viewpoint)
+    }
+
+    fn finish(&mut self, device: &Device, may_grow: bool) -> Result<Step, AdsError> {
+        let status = self.structure.status(0)?;
+        match self.structure.check(&status, self.headroom)? {
+            Check::Complete if status.complete => Ok(Step::Complete),
+            Check::Grow(sizes) if may_grow => {
                 tracing::debug!(
-                    structure = structure.name(),
+                    structure = self.structure.name(),
                     bytes = sizes.bytes(),
                     "grows to the demand of the build"
                 );
-                structure.resize(device, &sizes)?;
-                outcome.regrows += 1;
+                self.structure.resize(device, &sizes)?;
+                Ok(Step::Grown)
             }
-            Check::Complete | Check::Grow(_) => {
-                return Err(TracerError::Unstable { structure: structure.name(), rebuilds: outcome.regrows });
+            Check::Complete | Check::Grow(_) => Ok(Step::Stuck),
+        }
+    }
+
+    fn structure(&self) -> &dyn Structure {
+        self.structure
+    }
+}
+
+impl Builds for FrameStructure {
+    fn prepare(&mut self, device: &Device, viewpoint: Viewpoint) -> Result<(), AdsError> {
+        FrameStructure::prepare(self, device, viewpoint)
+    }
+
+    fn record(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError> {
+        FrameStructure::record(self, recorder, 0, viewpoint).map(drop)
+    }
+
+    fn finish(&mut self, device: &Device, _may_grow: bool) -> Result<Step, AdsError> {
+        let outcome = FrameStructure::finish(self, device, 0)?;
+        Ok(if outcome == FrameOutcome::Complete { Step::Complete } else { Step::Grown })
+    }
+
+    fn structure(&self) -> &dyn Structure {
+        FrameStructure::structure(self)
+    }
+
+    fn take_back(&mut self) {
+        FrameStructure::take_back(self, 0);
+    }
+}
+
+fn until_complete(
+    device: &Device,
+    built: &mut impl Builds,
+    viewpoint: Viewpoint,
+    timing: Timing,
+) -> Result<BuildOutcome, TracerError> {
+    let mut outcome = BuildOutcome::default();
+    loop {
+        let started = Instant::now();
+        built.prepare(device, viewpoint)?;
+        outcome.prepare_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
+        let submitted = device
+            .submit_passes(timing, |recorder| built.record(recorder, viewpoint))
+            .inspect_err(|_| built.take_back())?;
+        submitted.value?;
+        outcome.host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
+        outcome.passes = submitted.passes;
+        match built.finish(device, outcome.regrows < REBUILDS)? {
+            Step::Complete => {
+                outcome.status = built.structure().status(0)?;
+                return Ok(outcome);
+            }
+            Step::Grown if outcome.regrows < REBUILDS => outcome.regrows += 1,
+            Step::Grown | Step::Stuck => {
+                let structure = built.structure().name();
+                return Err(TracerError::Unstable { structure, rebuilds: outcome.regrows });
             }
         }
     }

@@ -45,10 +45,8 @@ pub(crate) fn follow(
     let Some((stage, _)) = stage else { return Ok(()) };
     match traced.take() {
         Some(mut kept) if kept.config == *config => {
-            if kept.seconds != seconds || kept.built.is_stale(&stage.scene) {
-                kept.built.follow_camera(device, &stage.scene)?;
-                kept.seconds = seconds;
-            }
+            kept.built.follow(device, &stage.scene, kept.seconds != seconds)?;
+            kept.seconds = seconds;
             *traced = Some(kept);
         }
         _ => {

@@ -5,8 +5,8 @@ use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use rasray_experiment::{
-    AovSelection, Backend, DeviceChoice, Frame, Integrator, LoadedScene, Primary, RenderJob, Sampler,
-    StructureOptions, SystemConfig, load, open, open_device,
+    AovSelection, Backend, DeviceChoice, Frame, Integrator, LoadedScene, Primary, Refresh, RenderJob,
+    Sampler, StructureOptions, SystemConfig, load, open, open_device,
 };
 use rasray_scene::needs::Needs;
 use rasray_systems::{Preset, System};
@@ -113,6 +113,7 @@ fn rendered_of(scene: &OsStr, backend: &mut dyn Backend, settings: &Settings) ->
         is_next: false,
         camera,
         system: settings.system.clone(),
+        refresh: Refresh::All,
         frame: settings.frame,
         aovs: AovSelection::default(),
         needs: Needs::of(&loaded.scene, settings.frame.workload()),

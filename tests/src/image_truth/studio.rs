@@ -75,7 +75,7 @@ impl<'a> Studio<'a> {
     pub fn look(&mut self, camera: Camera) {
         self.view.camera = camera;
         self.stage.scene.update_camera(&self.view).expect("the frame can be written");
-        self.built.follow_camera(self.bench.device(), &self.stage.scene).expect("the build completes");
+        self.built.follow(self.bench.device(), &self.stage.scene, false).expect("the build completes");
     }
 
     /// Draws other random numbers from now on.
@@ -150,9 +150,7 @@ impl<'a> Studio<'a> {
         for sample in samples {
             let wave = Wave { first_pixel: 0, pixel_count, sample };
             let submitted = device
-                .submit(|recorder| {
-                    integrator.record_wave(recorder, self.built.structure.as_ref().into(), wave)
-                })
+                .submit(|recorder| integrator.record_wave(recorder, self.built.structure().into(), wave))
                 .expect("the device works");
             submitted.value.expect("the wave fits");
         }

@@ -1,12 +1,12 @@
 //! Options of `rasray render`.
 
 use super::shared::WorkArguments;
-use super::structure::{preset_parser, system_parser};
+use super::structure::{preset_parser, refresh_parser, system_parser};
 use super::values;
 use crate::error::AppError;
 use crate::output::ImageFormat;
 use clap::{Args, ValueEnum};
-use rasray_experiment::{AovSelection, Shard, SystemConfig, one_system};
+use rasray_experiment::{AovSelection, Refresh, Shard, SystemConfig, one_system};
 use rasray_systems::{Preset, SYSTEMS, System};
 use std::ffi::OsString;
 use std::ops::RangeInclusive;
@@ -73,6 +73,9 @@ pub struct RenderArguments {
     #[arg(long, value_name = "FIRST-LAST", value_parser = values::frames, requires = "output", conflicts_with = "time",
           help_heading = FRAMES)]
     pub frames: Option<RangeInclusive<u32>>,
+    /// What of the structure each frame builds
+    #[arg(long, value_parser = refresh_parser(), default_value = Refresh::All.name(), requires = "frames", help_heading = FRAMES)]
+    pub refresh: Refresh,
     /// Leave whole images alone that this command would make again, by the key that they carry: it goes on where it was
     /// stopped, and replaces what was made of another scene or with other options
     #[arg(long, requires = "output", help_heading = FRAMES)]

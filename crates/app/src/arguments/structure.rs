@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
-use rasray_experiment::{ExperimentError, Primary, RaySet, Sampler, StructureOptions};
+use rasray_experiment::{ExperimentError, Primary, RaySet, Refresh, Sampler, StructureOptions};
 use rasray_systems::{Group, OPTIONS, OptionRow, Preset, SYSTEMS, System, Values};
 use serde_json::Value;
 
@@ -35,6 +35,13 @@ pub fn sampler_parser() -> impl TypedValueParser<Value = Sampler> {
     let names = Sampler::ALL.map(|sampler| PossibleValue::new(sampler.name()).help(sampler.doc()));
     PossibleValuesParser::new(names)
         .map(|name| Sampler::named(&name).expect("only names of samplers are possible values"))
+}
+
+/// Reads what of a structure frames build.
+pub fn refresh_parser() -> impl TypedValueParser<Value = Refresh> {
+    let names = Refresh::ALL.map(|refresh| PossibleValue::new(refresh.name()).help(refresh.doc()));
+    PossibleValuesParser::new(names)
+        .map(|name| Refresh::named(&name).expect("only names of ways are possible values"))
 }
 
 /// Reads how the camera's first hits are found.

@@ -44,6 +44,7 @@ impl Pictures<'_> {
             is_next: self.is_next,
             camera: chosen.camera.clone(),
             system: self.system.clone().seen_by(&chosen.camera, frame.width, frame.height),
+            refresh: given.refresh,
             frame: *frame,
             shard: *shard,
             aovs: *aovs,

@@ -109,9 +109,22 @@ fn frames_are_the_pictures_of_their_times() {
         assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
     };
     let pixels = |name: &str| image::open(folder.path().join(name)).expect("an image").to_rgb8().into_raw();
-    for (scene, system) in [("cloth-ball:1k", "bvh"), ("walker:8k", "mmrt")] {
+    for (scene, system, refresh) in [
+        ("cloth-ball:1k", "bvh", "all"),
+        ("walker:8k", "mmrt", "all"),
+        ("cloth-ball:1k", "bvh", "moving"),
+        ("walker:8k", "bricks", "moving"),
+    ] {
         let of = format!("render {scene} --system {system} --size 40x30 --spp 1 --integrator ao");
-        run(&format!("{of} --frames 2-4 --fps 4 --output f#.png"));
+        run(&format!("{of} --frames 2-4 --fps 4 --refresh {refresh} --output f#.png --report r.jsonl"));
+        let rows = std::fs::read_to_string(folder.path().join("r.jsonl")).expect("the report");
+        for (frame, row) in rows.lines().enumerate() {
+            let run = &serde_json::from_str::<Value>(row).expect("JSON in each line")["runs"][0];
+            // The first frame makes the structure, the others keep it.
+            let (first, build) = (&run["first_build_ms"], &run["build_ms"]);
+            assert_eq!((first.is_number(), build.is_number()), (frame == 0, frame > 0), "{row}");
+            assert_eq!(run["paths"]["refresh"] == "moving", refresh == "moving", "{row}");
+        }
         for frame in 2..=4 {
             run(&format!("{of} --time {} --output t.png", f64::from(frame) / 4.0));
             assert!(pixels(&format!("f{frame}.png")) == pixels("t.png"), "{scene}, frame {frame}");
@@ -172,6 +185,7 @@ fn numbered_files_are_shown_at_their_times() {
         ("render s.###.ply --time 0.16 -o x.png", "s.004.ply"),
         ("render s.###.ply --frames 3-4 -o x#.png", "s.004.ply"),
         ("render s.###.ply --time 1 --clip 0 -o x.png", "leave --clip out"),
+        ("render s.###.ply --frames 1-2 --refresh moving -o x#.png", "others in each frame"),
         ("render t.###.ply -o x.png", "no such file, such as t.001.ply"),
         ("render s.###.ply --time 0.08 --report s.003.ply -o x.png", "names a file of the scene"),
     ] {
@@ -223,6 +237,8 @@ fn times_and_clips_that_there_are_not_are_refused() {
         ("compare rising.gltf --fps 30 --systems bricks", "--fps is of frames"),
         ("render cornell --frames 0-3 -o #.png", "has no clips"),
         ("render rising.gltf --time soon -o x.png", "finite number of seconds"),
+        ("render rising.gltf --refresh moving -o x.png", "--frames"),
+        ("render rising.gltf --system mmrt --frames 0-3 --refresh moving -o x#.png", "cannot be in parts"),
     ] {
         let output = rasray(folder.path(), line);
         assert_eq!(output.status.code(), Some(2), "{line}: {}", stderr(&output));

@@ -10,7 +10,7 @@ use crate::error::AppError;
 use crate::progress::during;
 use crate::terminal;
 use rasray_experiment::{
-    AovSelection, Frame, OpenBackend, Primary, RenderJob, Sampler, SceneInfo, default_view,
+    AovSelection, Frame, OpenBackend, Primary, Refresh, RenderJob, Sampler, SceneInfo, default_view,
 };
 use rasray_report::json_shown;
 use rasray_scene::needs::Needs;
@@ -58,6 +58,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
                 scene: &loaded.scene,
                 camera: view.camera,
                 system,
+                refresh: Refresh::All,
                 frame,
                 shard: None,
                 aovs: AovSelection::default(),
