@@ -10,11 +10,12 @@ use rasray_integrators::{
 use rasray_scene::needs::Needs;
 use rasray_tracer::TracerError;
 
+use crate::built::Built;
 use crate::error::ExperimentError;
 use crate::jobs::{Frame, Integrator, Primary};
 use crate::passes::Passes;
 use crate::shard::Shard;
-use crate::stage::{Built, Stage, device_error, tracer_error};
+use crate::stage::{Stage, device_error, tracer_error};
 use rasray_report::Pass;
 
 /// Makes the integrator of a frame.

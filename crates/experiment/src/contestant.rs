@@ -5,8 +5,9 @@ use rasray_gpu::Device;
 use rasray_systems::Spec;
 
 use crate::backend::{OnProgress, Progress};
+use crate::built::Built;
 use crate::error::ExperimentError;
-use crate::stage::{Built, Stage};
+use crate::stage::Stage;
 use crate::system_config::SystemConfig;
 use rasray_report::{Run, Times};
 

@@ -6,11 +6,12 @@ use rasray_reference::integrators::Image;
 use rasray_reference::shading::{PosedScene, View};
 
 use crate::backend::OnProgress;
+use crate::built::Built;
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, Frame, Integrator};
 use crate::render::{Wanted, render_pixels, trace_ms, visible_ms};
-use crate::stage::{Built, Stage, device_error};
+use crate::stage::{Stage, device_error};
 use rasray_report::figures::{Images, SystemImage};
 use rasray_report::{ImageError, Run};
 

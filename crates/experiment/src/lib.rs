@@ -16,6 +16,7 @@
 
 mod accumulation;
 mod backend;
+mod built;
 mod camera;
 mod compare;
 mod contestant;
@@ -56,6 +57,7 @@ pub use backend::{
     Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OpenBackend, Progress,
     TexelCapacity,
 };
+pub use built::{Built, Resolved};
 pub use camera::{Chosen, default_view, named_view, placed_view};
 pub use contestant::Contestant;
 pub use describe::requirements;
@@ -79,7 +81,7 @@ pub use scene_info::SceneInfo;
 pub use scene_source::{LoadedScene, load, load_with};
 pub use selection::{ReadValue, one_system, several_systems};
 pub use shard::Shard;
-pub use stage::{Built, Resolved, Stage};
+pub use stage::Stage;
 pub use system_config::{StructureOptions, SystemConfig};
 pub use traced_set::{TracedSet, trace_in_turns};
 pub use whole::check_run;

@@ -3,9 +3,10 @@
 use rasray_ads::{Domain, RayQueue, TraceMode};
 use rasray_gpu::{Device, PassCommands};
 
+use crate::built::Built;
 use crate::error::ExperimentError;
 use crate::jobs::RenderJob;
-use crate::stage::{Built, Stage, device_error};
+use crate::stage::{Stage, device_error};
 
 /// Rays of the traces that are listed: as few as there can be, since their number is no matter of the structure.
 const RAYS: u32 = 1;

@@ -11,11 +11,12 @@ use rasray_scene::needs::Needs;
 
 use crate::accumulation::{Accumulation, count_unfinished, visibility};
 use crate::backend::{OnProgress, Progress};
+use crate::built::Built;
 use crate::error::ExperimentError;
 use crate::jobs::{AovSelection, FilmSums, Frame, Primary, Refresh, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::shard::Shard;
-use crate::stage::{Built, Stage, device_error};
+use crate::stage::{Stage, device_error};
 use crate::system_config::SystemConfig;
 use rasray_report::{Counters, Times};
 

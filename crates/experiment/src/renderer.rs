@@ -9,6 +9,10 @@ use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
 use crate::render::Made;
 use rasray_report::Device;
 
+/// Pipelines kept for structures that are made again: those of hard cases, of variants, and of frames with other triangles. Two
+/// systems with an integrator have about 60.
+const KEPT_PIPELINES: usize = 256;
+
 /// A device; everything made for a job goes with the job, but for the scene of a render that moves and its structure.
 struct Renderer {
     device: GpuDevice,
@@ -102,6 +106,7 @@ pub fn open_device(choice: &DeviceChoice) -> Result<GpuDevice, ExperimentError> 
         application: "rasray".to_owned(),
     })
     .map_err(|error| ExperimentError::device(error, "`rasray info` lists the devices and what they lack"))?;
+    device.keep_pipelines(KEPT_PIPELINES);
     tracing::info!(device = device.name(), why = device.why_chosen(), "device");
     Ok(device)
 }

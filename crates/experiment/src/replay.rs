@@ -9,10 +9,11 @@ use rasray_reference::views::cells_along;
 use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, Replay};
 
+use crate::built::Built;
 use crate::error::ExperimentError;
 use crate::jobs::Comparison;
 use crate::rays::oracle_ray;
-use crate::stage::{Built, Stage, device_error, tracer_error};
+use crate::stage::{Stage, device_error, tracer_error};
 use crate::system_config::SystemConfig;
 
 /// Cells of a view that are listed at most: more do not help a reader.

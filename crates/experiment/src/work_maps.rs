@@ -8,10 +8,11 @@ use rasray_scene::Camera;
 use rasray_systems::Spec;
 use rasray_tracer::BatchTracer;
 
+use crate::built::Built;
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
 use crate::rays::{RaySource, from_shading};
-use crate::stage::{Built, Stage, tracer_error};
+use crate::stage::{Stage, tracer_error};
 use rasray_report::Run;
 use rasray_report::figures::WorkMap;
 

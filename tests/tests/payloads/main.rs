@@ -1,5 +1,6 @@
 //! The payload of fragments, and the integrators that read it.
 
 mod capacity;
+mod ids;
 mod integrators;
 mod published;

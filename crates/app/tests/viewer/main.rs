@@ -9,18 +9,16 @@ use std::io::Read;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use window::{Display, RASRAY, Window, is_there, made_by, pixels};
+use window::{Display, RASRAY, Window, made_by, pixels};
 
 #[test]
 fn a_window_follows_keys_and_drags_and_its_pictures_are_those_of_render() {
-    if !is_there("Xvfb") || !is_there("xdotool") {
-        eprintln!(
-            "skipped: a_window_follows_keys_and_drags_and_its_pictures_are_those_of_render needs Xvfb and xdotool"
-        );
+    let Some(display) =
+        Display::start("a_window_follows_keys_and_drags_and_its_pictures_are_those_of_render")
+    else {
         return;
-    }
+    };
     let folder = tempfile::tempdir().expect("a folder");
-    let display = Display::start();
     let line = "view cornell --size 60x40 --spp 2 --bounces 1 --validation";
     let mut window = Window::open(&display, folder.path(), line);
 
@@ -54,12 +52,8 @@ fn a_window_follows_keys_and_drags_and_its_pictures_are_those_of_render() {
 
 #[test]
 fn a_signal_closes_the_window() {
-    if !is_there("Xvfb") || !is_there("xdotool") {
-        eprintln!("skipped: a_signal_closes_the_window needs Xvfb and xdotool");
-        return;
-    }
+    let Some(display) = Display::start("a_signal_closes_the_window") else { return };
     let folder = tempfile::tempdir().expect("a folder");
-    let display = Display::start();
     let mut window = Window::open(&display, folder.path(), "view cornell --size 24x16 --integrator raycast");
     let status = Command::new("kill").args(["-INT", &window.command.id().to_string()]).status();
     assert!(status.expect("kill").success());

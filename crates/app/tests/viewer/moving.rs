@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use crate::panel::TIME_SLIDER;
-use crate::window::{Display, Window, is_there, made_by, pixels};
+use crate::window::{Display, Window, made_by, pixels};
 
 /// The time that a command line names, seconds.
 fn time(line: &str) -> Option<f64> {
@@ -14,14 +14,11 @@ fn time(line: &str) -> Option<f64> {
 /// A walker, and a cloth that the host simulates. Pictures while it plays are not compared: they are of the moment.
 #[test]
 fn what_plays_and_is_put_to_a_time_is_what_render_makes_of_that_time() {
-    if !is_there("Xvfb") || !is_there("xdotool") {
-        eprintln!(
-            "skipped: what_plays_and_is_put_to_a_time_is_what_render_makes_of_that_time needs Xvfb and xdotool"
-        );
+    let Some(display) = Display::start("what_plays_and_is_put_to_a_time_is_what_render_makes_of_that_time")
+    else {
         return;
-    }
+    };
     let folder = tempfile::tempdir().expect("a folder");
-    let display = Display::start();
     for scene in ["walker:8k", "cloth-ball:1k"] {
         let line = format!("view {scene} --size 60x40 --spp 1 --integrator ao --system bvh --validation");
         let mut window = Window::open(&display, folder.path(), &line);

@@ -1,6 +1,6 @@
 //! The panel: systems, options and maps, chosen with the mouse. Places are those in a window for a small picture.
 
-use crate::window::{Display, Window, is_there, made_by, pixels};
+use crate::window::{Display, Window, made_by, pixels};
 
 /// The left and right end of the way of the slider of the time, and how far down it is.
 pub const TIME_SLIDER: [i32; 3] = [335, 453, 247];
@@ -27,12 +27,8 @@ fn choose(window: &Window<'_>, list: [i32; 2], position: i32) {
 
 #[test]
 fn systems_options_and_maps_are_chosen_with_the_mouse() {
-    if !is_there("Xvfb") || !is_there("xdotool") {
-        eprintln!("skipped: systems_options_and_maps_are_chosen_with_the_mouse needs Xvfb and xdotool");
-        return;
-    }
+    let Some(display) = Display::start("systems_options_and_maps_are_chosen_with_the_mouse") else { return };
     let folder = tempfile::tempdir().expect("a folder");
-    let display = Display::start();
     let line = "view cornell --size 60x40 --spp 1 --bounces 1 --system bvh --validation";
     let mut window = Window::open(&display, folder.path(), line);
     let (first, _) = window.save();

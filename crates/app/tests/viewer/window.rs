@@ -13,7 +13,7 @@ pub const PATIENCE: Duration = Duration::from_secs(300);
 pub const RASRAY: &str = env!("CARGO_BIN_EXE_rasray");
 
 /// Whether a program is on the path.
-pub fn is_there(program: &str) -> bool {
+fn is_there(program: &str) -> bool {
     let path = std::env::var_os("PATH").unwrap_or_default();
     std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
 }
@@ -25,7 +25,12 @@ pub struct Display {
 }
 
 impl Display {
-    pub fn start() -> Self {
+    /// Absent, and the test of this name said to be skipped, without the programs that it takes.
+    pub fn start(test: &str) -> Option<Self> {
+        if !is_there("Xvfb") || !is_there("xdotool") {
+            eprintln!("skipped: {test} needs Xvfb and xdotool");
+            return None;
+        }
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp"])
             .stdout(Stdio::piped())
@@ -34,7 +39,7 @@ impl Display {
             .expect("Xvfb starts");
         let mut number = String::new();
         BufReader::new(server.stdout.take().expect("a pipe")).read_line(&mut number).expect("a display");
-        Self { server, name: format!(":{}", number.trim()) }
+        Some(Self { server, name: format!(":{}", number.trim()) })
     }
 
     /// Runs xdotool with these words and returns what it printed.

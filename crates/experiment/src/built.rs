@@ -1,0 +1,300 @@
+//! A structure over a scene on the device, built, and what that took.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use rasray_ads::{AdsError, Combined, GeometryParts, Structure, Viewpoint};
+use rasray_gpu::{Device, Feature, GpuError, Timing};
+use rasray_gpu_scene::GpuScene;
+use rasray_systems::{Spec, SystemsError};
+use rasray_tracer::{BuildOutcome, FrameStructure, Keeping, TracerError, refresh_until_complete};
+use serde_json::Value;
+
+use crate::error::ExperimentError;
+use crate::jobs::Refresh;
+use crate::passes::{Passes, median, spread};
+use crate::stage::{Stage, device_error, tracer_error};
+use rasray_report::{Counters, Memory, Pass, Spread, Times};
+
+/// Why a first build failed.
+enum FirstBuild {
+    /// A pool is larger than one binding.
+    ExceedsBinding(ExperimentError),
+    /// Anything else.
+    Other(ExperimentError),
+}
+
+impl From<FirstBuild> for ExperimentError {
+    fn from(error: FirstBuild) -> Self {
+        match error {
+            FirstBuild::ExceedsBinding(error) | FirstBuild::Other(error) => error,
+        }
+    }
+}
+
+/// Whether addressing was left open, and the device has addresses.
+fn may_use_addresses(device: &Device, spec: &Spec) -> bool {
+    let has_option = spec.system().has("addressing");
+    has_option && !spec.options().contains_key("addressing") && device.has(Feature::BufferDeviceAddress)
+}
+
+/// Frames are made one after the other, and each waits for its build: pools are as large as they have to be.
+const KEEPING: Keeping = Keeping { slots: 1, headroom: 0 };
+
+/// Makes a structure, in parts where these are given, and builds it until complete.
+fn first_build(
+    device: &Device,
+    spec: &Spec,
+    (scene, parts): (&GpuScene, Option<&GeometryParts>),
+    viewpoint: Viewpoint,
+    timing: Timing,
+) -> Result<(FrameStructure, BuildOutcome), FirstBuild> {
+    let refuse = |error: ExperimentError| FirstBuild::Other(error);
+    let requirements = spec.requirements().map_err(|e| refuse(ExperimentError::usage(e.to_string(), "")))?;
+    if let Some(missing) = requirements.required.iter().find(|feature| !device.has(**feature)) {
+        return Err(refuse(ExperimentError::device(
+            format!(
+                "system {} needs the feature {missing}, which {} lacks",
+                spec.system().name,
+                device.name()
+            ),
+            "choose another --device or --system",
+        )));
+    }
+    let create = |geometry: &_| spec.create(device, geometry, Some(scene.binding()));
+    let made: rasray_tracer::Refresh = match parts {
+        Some(parts) => Combined::new(parts, create).map(Into::into),
+        None => create(scene.geometry()).map(Into::into),
+    }
+    .map_err(|error| match error {
+        SystemsError::Ads(error @ AdsError::InParts { .. }) => refuse(ExperimentError::usage(
+            error.to_string(),
+            "leave out --refresh, or choose another --system",
+        )),
+        SystemsError::Ads(error) => ads_error(error),
+        other => refuse(ExperimentError::usage(other.to_string(), "see `rasray render --help`")),
+    })?;
+    let mut structure = FrameStructure::new(device, made, KEEPING).map_err(ads_error)?;
+    let outcome =
+        refresh_until_complete(device, &mut structure, viewpoint, timing).map_err(|error| match error {
+            TracerError::Ads(error) => ads_error(error),
+            other => refuse(tracer_error(&other)),
+        })?;
+    Ok((structure, outcome))
+}
+
+fn ads_error(error: AdsError) -> FirstBuild {
+    match error {
+        AdsError::Gpu(GpuError::TooLarge { .. }) => FirstBuild::ExceedsBinding(ExperimentError::device(
+            error,
+            "try --addressing address, or a smaller --resolution",
+        )),
+        other => FirstBuild::Other(device_error(other)),
+    }
+}
+
+/// Options and paths by name.
+pub type Resolved = (BTreeMap<String, Value>, BTreeMap<String, String>);
+
+/// A structure, built, with what the building cost.
+pub struct Built {
+    /// Whose last build was complete.
+    pub(super) frames: FrameStructure,
+    pub(super) outcome: BuildOutcome,
+    pub(super) passes: Passes,
+    viewpoint: Viewpoint,
+    /// From nothing to complete, milliseconds; absent where something was there.
+    first_ms: Option<f64>,
+    /// Of each repeated build, or of the one that a frame took, as the host saw it, milliseconds.
+    whole: Vec<f64>,
+    /// The host's own part of each, milliseconds.
+    prepare: Vec<f64>,
+    /// Whether these are of builds that were repeated to be timed.
+    is_repeated: bool,
+}
+
+impl Built {
+    /// Makes the structure of a spec and builds it as seen from `eye`, with the scene's camera there, until
+    /// complete. Where a pool exceeds what one binding can hold and nothing was said of addressing, the pools
+    /// are reached by device address instead.
+    ///
+    /// # Errors
+    /// The device lacks something or fails, or the build does not become complete.
+    pub fn new(
+        device: &Device,
+        spec: &Spec,
+        scene: &GpuScene,
+        eye: [f32; 3],
+    ) -> Result<Self, ExperimentError> {
+        Self::over(device, spec, (scene, None), eye)
+    }
+
+    /// The same for a scene that may move, in two parts where [`Refresh::Moving`] asks for them. [`Stage::parts`] was called then
+    /// before the scene was posed.
+    ///
+    /// # Errors
+    /// As [`Built::new`], and where nothing of the scene moves on the device or the structure cannot be in parts.
+    pub fn refreshed(
+        device: &Device,
+        spec: &Spec,
+        stage: &mut Stage,
+        refresh: Refresh,
+    ) -> Result<Self, ExperimentError> {
+        let parts = match refresh {
+            Refresh::All => None,
+            Refresh::Moving => Some(stage.parts(device)?),
+        };
+        Self::over(device, spec, (&stage.scene, parts.as_ref()), stage.scene.eye())
+    }
+
+    fn over(
+        device: &Device,
+        spec: &Spec,
+        (scene, parts): (&GpuScene, Option<&GeometryParts>),
+        eye: [f32; 3],
+    ) -> Result<Self, ExperimentError> {
+        let started = Instant::now();
+        let timing = device.best_timing();
+        let viewpoint = scene.viewpoint().at(eye);
+        let (frames, outcome) = match first_build(device, spec, (scene, parts), viewpoint, timing) {
+            Err(FirstBuild::ExceedsBinding(_)) if may_use_addresses(device, spec) => {
+                tracing::info!(
+                    system = spec.system().name,
+                    "a pool exceeds one binding: reached by device address"
+                );
+                let spec = spec
+                    .with_option("addressing", "address")
+                    .map_err(|error| ExperimentError::usage(error.to_string(), ""))?;
+                first_build(device, &spec, (scene, parts), viewpoint, timing)
+                    .map_err(ExperimentError::from)?
+            }
+            other => other.map_err(ExperimentError::from)?,
+        };
+        let mut passes = Passes::default();
+        passes.add(&outcome.passes);
+        Ok(Self {
+            frames,
+            outcome,
+            passes,
+            viewpoint,
+            first_ms: Some(started.elapsed().as_secs_f64() * 1.0e3),
+            whole: Vec::new(),
+            prepare: Vec::new(),
+            is_repeated: false,
+        })
+    }
+
+    /// What rays are traced through.
+    pub fn structure(&self) -> &dyn Structure {
+        self.frames.structure()
+    }
+
+    /// Builds what is stale for the scene as it is now: where it has `moved` what moves, and what depends on where its camera
+    /// looks from. Times and passes are those of this frame from here on.
+    ///
+    /// # Errors
+    /// As [`Built::build_again`].
+    pub fn follow(&mut self, device: &Device, scene: &GpuScene, moved: bool) -> Result<(), ExperimentError> {
+        let started = Instant::now();
+        self.viewpoint = scene.viewpoint().at(scene.eye());
+        if moved {
+            self.frames.geometry_moved();
+        }
+        self.outcome = self.refresh(device)?;
+        self.passes = Passes::default();
+        self.passes.add(&self.outcome.passes);
+        self.first_ms = None;
+        self.whole = vec![started.elapsed().as_secs_f64() * 1.0e3];
+        self.prepare = vec![self.outcome.prepare_milliseconds];
+        self.is_repeated = false;
+        Ok(())
+    }
+
+    fn refresh(&mut self, device: &Device) -> Result<BuildOutcome, ExperimentError> {
+        refresh_until_complete(device, &mut self.frames, self.viewpoint, device.best_timing())
+            .map_err(|error| tracer_error(&error))
+    }
+
+    /// Times of the passes of builds.
+    pub fn pass_times(&self) -> Vec<Pass> {
+        self.passes.report()
+    }
+
+    /// Builds what moves once more, which is everything but in parts, and keeps the times.
+    ///
+    /// # Errors
+    /// The device fails, or the build does not become complete.
+    pub fn build_again(&mut self, device: &Device) -> Result<(), ExperimentError> {
+        let regrows = self.outcome.regrows;
+        self.frames.geometry_moved();
+        self.outcome = self.refresh(device)?;
+        self.outcome.regrows += regrows;
+        if !std::mem::replace(&mut self.is_repeated, true) {
+            // Those of the first build hold what the driver compiled, and of a frame's what had to grow.
+            self.passes = Passes::default();
+            self.whole.clear();
+            self.prepare.clear();
+        }
+        self.passes.add(&self.outcome.passes);
+        self.whole.push(self.outcome.host_milliseconds);
+        self.prepare.push(self.outcome.prepare_milliseconds);
+        Ok(())
+    }
+
+    /// Sets the times of the build in a run.
+    pub fn write_times(&self, times: &mut Times) {
+        times.first_build_ms = self.first_ms;
+        if !self.whole.is_empty() {
+            times.build_ms = Some(median(&self.whole));
+            times.build_host_ms = Some(median(&self.prepare));
+        }
+    }
+
+    /// How far the times of repeated builds lie apart, by the names of a report.
+    pub(super) fn spread(&self) -> impl Iterator<Item = (String, Spread)> {
+        [("build_ms", &self.whole), ("build_host_ms", &self.prepare)]
+            .into_iter()
+            .filter_map(|(name, times)| Some((name.to_owned(), spread(times)?)))
+    }
+
+    /// Options and paths as the structure resolved them.
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn resolved(&self) -> Result<Resolved, ExperimentError> {
+        let report = self.structure().report().map_err(device_error)?;
+        let paths = report.paths.into_iter().map(|(name, value)| (name.to_owned(), value));
+        Ok((rasray_report::options(report.options), paths.collect()))
+    }
+
+    /// Bytes of the structure, by part, with its formula.
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn memory(&self, device: &Device) -> Result<Memory, ExperimentError> {
+        let report = self.structure().report().map_err(device_error)?;
+        Ok(Memory {
+            structure_bytes: Some(report.bytes() - report.slack() - report.diagnostic_bytes),
+            formula_bytes: Some(report.formula_bytes - report.diagnostic_bytes),
+            capacity_bytes: Some(report.bytes()),
+            diagnostic_bytes: (report.diagnostic_bytes > 0).then_some(report.diagnostic_bytes),
+            device_peak_bytes: Some(device.peak_bytes()),
+            by_part: report.bytes_by_part.into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect(),
+        })
+    }
+
+    /// Counts of the build.
+    pub(super) fn counters(&self) -> Result<Counters, ExperimentError> {
+        let report = self.structure().report().map_err(device_error)?;
+        let pool = self.outcome.status.pools.first();
+        Ok(Counters {
+            fragments: report.stored,
+            lost: report.lost,
+            demand: pool.map(|pool| pool.demand),
+            capacity: pool.map(|pool| pool.capacity),
+            overflow: pool.map(|pool| pool.demand.saturating_sub(pool.capacity)),
+            regrows: Some(self.outcome.regrows.into()),
+            ..Counters::default()
+        })
+    }
+}
