@@ -46,6 +46,7 @@ pub(super) const HARDWARE: &[Deviation] = &[
     deviation("E3", GAPS, 0.154, 0.241),
     deviation("E5", GAPS, 0.081, 0.126),
     deviation("E8", GAPS, 0.38, 0.594),
+    deviation("E9", GAPS, 0.069, 0.108),
     deviation("G1", THIN, 0.583, 1.0),
     deviation("G11", GAPS, 0.101, 0.158),
     deviation("G12", EDGE_ON, 0.9, 1.0),

@@ -182,6 +182,8 @@ fn rays(
     count: usize,
 ) -> Vec<rasray_ads::Ray> {
     let mut random = Random::new(seed);
+    let sizes: [f32; 3] = std::array::from_fn(|axis| upper[axis] - lower[axis]);
+    let longest = sizes.into_iter().fold(0.0, f32::max);
     let mut rays = incoherent_rays([lower, upper], seed as u32, count as u32 / 2);
     while rays.len() < count {
         let corners = triangles[(random.bits() % triangles.len() as u64) as usize];
@@ -190,7 +192,8 @@ fn rays(
         weights.iter_mut().for_each(|weight| *weight /= sum);
         let at = |axis: usize| (0..3).map(|corner| weights[corner] * corners[corner][axis]).sum::<f32>();
         let origin: [f32; 3] = std::array::from_fn(|axis| {
-            let size = upper[axis] - lower[axis];
+            // Rays within the plane of a flat scene hit nothing.
+            let size = if sizes[axis] > 0.0 { sizes[axis] } else { longest };
             random.between(lower[axis] - 0.5 * size, upper[axis] + 0.5 * size)
         });
         rays.push(rasray_ads::Ray::new(origin, std::array::from_fn(|axis| at(axis) - origin[axis])));
