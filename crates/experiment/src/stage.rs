@@ -132,7 +132,7 @@ impl Stage {
     }
 
     /// Looks from elsewhere, or at another size in pixels; the frame origin stays. Structures that depend on it are
-    /// stale then ([`Built::is_stale`]).
+    /// stale then ([`Built::follow`](crate::Built::follow)).
     ///
     /// # Errors
     /// The device fails.
