@@ -4,6 +4,8 @@
 //! default systems of triangles, alternated between layouts in one process, and their ratios to packed buffers. Hits are the
 //! same for all layouts, and are compared. Times of software devices are for ratios on that device.
 
+mod setting;
+
 use std::collections::HashMap;
 use std::error::Error;
 
@@ -11,20 +13,16 @@ use rasray_ads::{
     BufferOffset, Draw, Geometry, GeometryDesc, Hit, IndexFormat, IndexRange, Indexing, PositionRange,
     Structure, TraceMode,
 };
-use rasray_experiment::{Stage, incoherent_rays, requirements};
-use rasray_gpu::{BufferUsage, Device, DeviceDesc};
+use rasray_experiment::incoherent_rays;
+use rasray_gpu::{BufferUsage, Device};
 use rasray_metrics::median;
-use rasray_scene::needs::{Integrator, Needs, Workload};
-use rasray_scene::{builtin, default_view};
 use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, build_until_complete};
+use setting::{SEED, Setting};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 const REPETITIONS: u32 = 7;
-
-/// Of all random numbers.
-const SEED: u32 = 1;
 
 /// Triangles of a draw: its vertices have indices of 16 bits.
 const DRAW_TRIANGLES: usize = 20_000;
@@ -136,20 +134,8 @@ struct Measured {
 }
 
 fn main() -> Result<()> {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
-    let name = arguments.first().map_or("spheres:100k", String::as_str);
-    let count: u32 = match arguments.get(1) {
-        Some(text) => text.parse().ok().filter(|rays| *rays > 0).ok_or_else(|| {
-            format!("RAYS must be a whole number above 0, not `{text}`; cargo bench --bench geometry -- [SCENE] [RAYS]")
-        })?,
-        None => 50_000,
-    };
-    let scene = builtin::builtin(name).ok_or_else(|| format!("there is no built-in scene `{name}`"))??;
-    let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(&scene));
-    let device = Device::create(&DeviceDesc { requirements: requirements(), ..DeviceDesc::default() })?;
-    device.keep_pipelines(256);
-    let needs = Needs::of(&scene, Workload { integrator: Integrator::Raycast, bounces: 0 });
-    let stage = Stage::new(&device, &scene, &camera, [64, 64], SEED, &needs)?;
+    let Setting { name, rays: count, device, stage } =
+        Setting::read("cargo bench --bench geometry", "spheres:100k", 50_000)?;
     let (positions, indices) = stage.triangles(&device)?;
     let bounds = stage.scene.geometry().bounds();
     let rays = incoherent_rays(bounds, SEED, count);

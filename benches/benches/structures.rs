@@ -4,38 +4,20 @@
 //! alternated between systems in one process. Times of software devices are for ratios on that device. For errors
 //! beside speed use `rasray compare`.
 
+mod setting;
+
 use std::ops::ControlFlow;
 
-use rasray_experiment::{
-    Contestant, Stage, StructureOptions, SystemConfig, incoherent_rays, requirements, trace_in_turns,
-};
-use rasray_gpu::{Device, DeviceDesc};
+use rasray_experiment::{Contestant, StructureOptions, SystemConfig, incoherent_rays, trace_in_turns};
 use rasray_metrics::median;
-use rasray_scene::needs::{Integrator, Needs, Workload};
-use rasray_scene::{builtin, default_view};
 use rasray_systems::SYSTEMS;
+use setting::{SEED, Setting};
 
 const REPETITIONS: u32 = 5;
 
-/// Of all random numbers.
-const SEED: u32 = 1;
-
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
-    let name = arguments.first().map_or("spheres:10k", String::as_str);
-    let rays: u32 = match arguments.get(1) {
-        Some(text) => text.parse().ok().filter(|rays| *rays > 0).ok_or_else(|| {
-            format!("RAYS must be a whole number above 0, not `{text}`; cargo bench -- [SCENE] [RAYS]")
-        })?,
-        None => 4096,
-    };
-    let scene = builtin::builtin(name).ok_or_else(|| format!("there is no built-in scene `{name}`"))??;
-    let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(&scene));
-    let device = Device::create(&DeviceDesc { requirements: requirements(), ..DeviceDesc::default() })?;
+    let Setting { name, rays, device, stage } = Setting::read("cargo bench", "spheres:10k", 4096)?;
     println!("{}, {name}, {rays} incoherent rays, medians of {REPETITIONS}", device.name());
-
-    let needs = Needs::of(&scene, Workload { integrator: Integrator::Raycast, bounces: 0 });
-    let stage = Stage::new(&device, &scene, &camera, [64, 64], SEED, &needs)?;
     let systems: Vec<SystemConfig> = SYSTEMS
         .iter()
         .flat_map(|system| system.presets.iter().map(move |preset| (system, *preset)))

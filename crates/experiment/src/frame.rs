@@ -89,11 +89,6 @@ impl Primary {
             }
         }
     }
-
-    /// The one of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|primary| primary.name() == name)
-    }
 }
 
 /// What of a structure a picture builds where the scene has moved since the one before.
@@ -128,11 +123,6 @@ impl Refresh {
             }
         }
     }
-
-    /// The one of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|refresh| refresh.name() == name)
-    }
 }
 
 /// Where random numbers come from.
@@ -165,11 +155,6 @@ impl Sampler {
             }
             Self::Pcg => "Independent numbers",
         }
-    }
-
-    /// The sampler of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|sampler| sampler.name() == name)
     }
 }
 

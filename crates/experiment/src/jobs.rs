@@ -92,11 +92,6 @@ impl RaySet {
             Self::Surface => "Origins uniform on the triangles, which are not excluded, directions uniform",
         }
     }
-
-    /// The ray set of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|set| set.name() == name)
-    }
 }
 
 /// Systems side by side.

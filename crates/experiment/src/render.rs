@@ -140,9 +140,10 @@ fn made_for(
     stage.sample_as(&job.frame)?;
     if let Some(mut built) = kept {
         _ = progress(Progress { task: "build", done: 0, total: 0, unit: "of the frame" });
-        // One that cannot grow to what the frame needs is made anew, which may be by other means.
-        if built.follow(device, &stage.scene, true).is_ok() {
-            return Ok(Made { stage, built, system: job.system.clone() });
+        match built.follow(device, &stage.scene, true) {
+            Ok(()) => return Ok(Made { stage, built, system: job.system.clone() }),
+            // A pool that it cannot have may be reached by device address.
+            Err(error) => tracing::info!("the structure is made anew: {error}"),
         }
     }
     _ = progress(Progress { task: "build", done: 0, total: 0, unit: "first build" });

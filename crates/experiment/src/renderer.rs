@@ -9,8 +9,7 @@ use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
 use crate::render::Made;
 use rasray_report::Device;
 
-/// Pipelines kept for structures that are made again: those of hard cases, of variants, and of frames with other triangles. Two
-/// systems with an integrator have about 60.
+/// Pipelines kept for structures that are made again: those of hard cases, of variants, and of frames with other triangles.
 const KEPT_PIPELINES: usize = 256;
 
 /// A device; everything made for a job goes with the job, but for the scene of a render that moves and its structure.

@@ -76,7 +76,7 @@ enum Step {
     Complete,
     /// What was too small has grown.
     Grown,
-    /// Incomplete, and growing does not help.
+    /// Incomplete, and growing does not help or is not allowed any more.
     Stuck,
 }
 
@@ -137,9 +137,12 @@ impl Builds for FrameStructure {
         FrameStructure::record(self, recorder, 0, viewpoint).map(drop)
     }
 
-    fn finish(&mut self, device: &Device, _may_grow: bool) -> Result<Step, AdsError> {
-        let outcome = FrameStructure::finish(self, device, 0)?;
-        Ok(if outcome == FrameOutcome::Complete { Step::Complete } else { Step::Grown })
+    fn finish(&mut self, device: &Device, may_grow: bool) -> Result<Step, AdsError> {
+        Ok(match FrameStructure::finish(self, device, 0)? {
+            FrameOutcome::Complete => Step::Complete,
+            FrameOutcome::Incomplete if may_grow => Step::Grown,
+            FrameOutcome::Incomplete => Step::Stuck,
+        })
     }
 
     fn structure(&self) -> &dyn Structure {
@@ -173,8 +176,8 @@ fn until_complete(
                 outcome.status = built.structure().status(0)?;
                 return Ok(outcome);
             }
-            Step::Grown if outcome.regrows < REBUILDS => outcome.regrows += 1,
-            Step::Grown | Step::Stuck => {
+            Step::Grown => outcome.regrows += 1,
+            Step::Stuck => {
                 let structure = built.structure().name();
                 return Err(TracerError::Unstable { structure, rebuilds: outcome.regrows });
             }

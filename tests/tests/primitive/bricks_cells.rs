@@ -193,7 +193,7 @@ fn cells_list_what_reaches_into_them_and_nothing_else() {
 
 /// Cells are not divided along an axis where they are no wider than their margins, and are along the others.
 #[test]
-fn cells_of_a_flat_scene_are_divided_along_it_alone() {
+fn cells_of_a_flat_scene_are_divided_within_its_plane() {
     let bench = Bench::new();
     for axis in 0..3 {
         let mut triangles = crowded(&mut Random::new(42));

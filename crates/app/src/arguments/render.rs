@@ -74,7 +74,8 @@ pub struct RenderArguments {
           help_heading = FRAMES)]
     pub frames: Option<RangeInclusive<u32>>,
     /// What of the structure each frame builds
-    #[arg(long, value_parser = refresh_parser(), default_value = Refresh::All.name(), requires = "frames", help_heading = FRAMES)]
+    #[arg(long, value_parser = refresh_parser(), default_value = Refresh::All.name(), requires = "frames", conflicts_with = "time",
+          help_heading = FRAMES)]
     pub refresh: Refresh,
     /// Leave whole images alone that this command would make again, by the key that they carry: it goes on where it was
     /// stopped, and replaces what was made of another scene or with other options

@@ -9,46 +9,51 @@ use serde_json::Value;
 use super::mistakes::usage_error;
 use super::values;
 
+/// Reads one of these values by its name; `told` says its name and its line of help.
+fn choice<T: Copy + Send + Sync + 'static>(
+    values: impl IntoIterator<Item = T>,
+    told: fn(T) -> (&'static str, &'static str),
+) -> impl TypedValueParser<Value = T> {
+    let values: Vec<T> = values.into_iter().collect();
+    let names: Vec<_> = values
+        .iter()
+        .map(|value| told(*value))
+        .map(|(name, doc)| PossibleValue::new(name).help(doc))
+        .collect();
+    PossibleValuesParser::new(names).map(move |given| {
+        let named = |value: &T| told(*value).0 == given;
+        values.iter().copied().find(named).expect("only names of values are possible")
+    })
+}
+
 /// Reads the name of a system.
 pub fn system_parser() -> impl TypedValueParser<Value = &'static System> {
-    let names = SYSTEMS.iter().map(|system| PossibleValue::new(system.name).help(system.doc));
-    PossibleValuesParser::new(names)
-        .map(|name| System::named(&name).expect("only names of systems are possible values"))
+    choice(SYSTEMS, |system| (system.name, system.doc))
 }
 
 /// Reads the name of a preset.
 pub fn preset_parser() -> impl TypedValueParser<Value = Preset> {
-    let names = Preset::ALL.map(|preset| PossibleValue::new(preset.name()).help(preset.doc()));
-    PossibleValuesParser::new(names)
-        .map(|name| Preset::named(&name).expect("only names of presets are possible values"))
+    choice(Preset::ALL, |preset| (preset.name(), preset.doc()))
 }
 
 /// Reads the name of a set of rays.
 pub fn ray_set_parser() -> impl TypedValueParser<Value = RaySet> {
-    let names = RaySet::ALL.map(|set| PossibleValue::new(set.name()).help(set.doc()));
-    PossibleValuesParser::new(names)
-        .map(|name| RaySet::named(&name).expect("only names of sets are possible values"))
+    choice(RaySet::ALL, |set| (set.name(), set.doc()))
 }
 
 /// Reads the name of a sampler.
 pub fn sampler_parser() -> impl TypedValueParser<Value = Sampler> {
-    let names = Sampler::ALL.map(|sampler| PossibleValue::new(sampler.name()).help(sampler.doc()));
-    PossibleValuesParser::new(names)
-        .map(|name| Sampler::named(&name).expect("only names of samplers are possible values"))
+    choice(Sampler::ALL, |sampler| (sampler.name(), sampler.doc()))
 }
 
 /// Reads what of a structure frames build.
 pub fn refresh_parser() -> impl TypedValueParser<Value = Refresh> {
-    let names = Refresh::ALL.map(|refresh| PossibleValue::new(refresh.name()).help(refresh.doc()));
-    PossibleValuesParser::new(names)
-        .map(|name| Refresh::named(&name).expect("only names of ways are possible values"))
+    choice(Refresh::ALL, |refresh| (refresh.name(), refresh.doc()))
 }
 
 /// Reads how the camera's first hits are found.
 pub fn primary_parser() -> impl TypedValueParser<Value = Primary> {
-    let names = Primary::ALL.map(|primary| PossibleValue::new(primary.name()).help(primary.doc()));
-    PossibleValuesParser::new(names)
-        .map(|name| Primary::named(&name).expect("only names of ways are possible values"))
+    choice(Primary::ALL, |primary| (primary.name(), primary.doc()))
 }
 
 /// The options of a structure on the command line.

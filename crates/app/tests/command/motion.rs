@@ -238,6 +238,7 @@ fn times_and_clips_that_there_are_not_are_refused() {
         ("render cornell --frames 0-3 -o #.png", "has no clips"),
         ("render rising.gltf --time soon -o x.png", "finite number of seconds"),
         ("render rising.gltf --refresh moving -o x.png", "--frames"),
+        ("render rising.gltf --time 1 --refresh moving -o x.png", "--time"),
         ("render rising.gltf --system mmrt --frames 0-3 --refresh moving -o x#.png", "cannot be in parts"),
     ] {
         let output = rasray(folder.path(), line);

@@ -1,0 +1,41 @@
+//! What benches of structures have in common: a built-in scene and a number of rays, as the command line has them.
+
+use std::error::Error;
+
+use rasray_experiment::{DeviceChoice, Stage, open_device};
+use rasray_gpu::Device;
+use rasray_scene::needs::{Integrator, Needs, Workload};
+use rasray_scene::{builtin, default_view};
+
+/// Of all random numbers.
+pub const SEED: u32 = 1;
+
+/// A scene on a device, and how many rays are traced.
+pub struct Setting {
+    /// Name of the scene.
+    pub name: String,
+    pub rays: u32,
+    pub device: Device,
+    pub stage: Stage,
+}
+
+impl Setting {
+    /// Reads `[SCENE] [RAYS]` behind the words of the command, with what stands for them where they are left out.
+    pub fn read(command: &str, scene: &str, rays: u32) -> Result<Self, Box<dyn Error>> {
+        let mut arguments = std::env::args().skip(1).filter(|argument| !argument.starts_with("--"));
+        let name = arguments.next().unwrap_or_else(|| scene.to_owned());
+        let rays = match arguments.next() {
+            Some(text) => text.parse().ok().filter(|rays| *rays > 0).ok_or_else(|| {
+                format!("RAYS must be a whole number above 0, not `{text}`; {command} -- [SCENE] [RAYS]")
+            })?,
+            None => rays,
+        };
+        let scene =
+            builtin::builtin(&name).ok_or_else(|| format!("there is no built-in scene `{name}`"))??;
+        let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(&scene));
+        let device = open_device(&DeviceChoice::default())?;
+        let needs = Needs::of(&scene, Workload { integrator: Integrator::Raycast, bounces: 0 });
+        let stage = Stage::new(&device, &scene, &camera, [64, 64], SEED, &needs)?;
+        Ok(Self { name, rays, device, stage })
+    }
+}
