@@ -18,31 +18,49 @@ struct BvhRef {
 #ifdef ADDRESSING_ADDRESS
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhHeaderAddress { BvhHeader header; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhNodeAddress { BvhNode nodes[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhNodeVectorAddress { uvec4 vectors[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhRecordAddress { BvhRecord records[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhRecordVectorAddress { uvec2 vectors[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhScratchAddress { uint words[]; };
 #define BVH_HEADER(s) BvhHeaderAddress(s.header).header
 #define BVH_NODES(s) BvhNodeAddress(BVH_HEADER(s).nodes_address).nodes
+#define BVH_NODE_VECTORS(s) BvhNodeVectorAddress(BVH_HEADER(s).nodes_address).vectors
 #define BVH_RECORDS(s) BvhRecordAddress(BVH_HEADER(s).records_address).records
+#define BVH_RECORD_VECTORS(s) BvhRecordVectorAddress(BVH_HEADER(s).records_address).vectors
 #define BVH_SCRATCH(s) BvhScratchAddress(BVH_HEADER(s).scratch_address).words
 #else
 layout(set = STRUCTURE_SET, binding = 0, scalar) buffer BvhHeaderBuffer { BvhHeader bvh_header; };
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer BvhNodeBuffer { BvhNode bvh_nodes[]; };
+layout(set = STRUCTURE_SET, binding = 1, scalar) readonly buffer BvhNodeVectorBuffer { uvec4 bvh_node_vectors[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer BvhRecordBuffer { BvhRecord bvh_records[]; };
+layout(set = STRUCTURE_SET, binding = 2, scalar) readonly buffer BvhRecordVectorBuffer { uvec2 bvh_record_vectors[]; };
 layout(set = STRUCTURE_SET, binding = 3, scalar) buffer BvhScratchBuffer { uint bvh_scratch_words[]; };
 #define BVH_HEADER(s) bvh_header
 #define BVH_NODES(s) bvh_nodes
+#define BVH_NODE_VECTORS(s) bvh_node_vectors
 #define BVH_RECORDS(s) bvh_records
+#define BVH_RECORD_VECTORS(s) bvh_record_vectors
 #define BVH_SCRATCH(s) bvh_scratch_words
 #endif
 
-// A node. An index past the end is counted and gives a node whose boxes no ray hits.
+// A node, read as whole vectors. An index past the end is counted and gives a node whose boxes no ray hits.
 BvhNode bvh_node(BvhRef s, uint node) {
     if (node >= BVH_HEADER(s).node_capacity) {
         atomicAdd(BVH_HEADER(s).corrupted, 1u);
         const vec3 far = vec3(3.0e38);
         return BvhNode(far, BVH_NONE, -far, BVH_NONE, far, BVH_NONE, -far, 0u);
     }
-    return BVH_NODES(s)[node];
+    uvec4 a = BVH_NODE_VECTORS(s)[4u * node];
+    uvec4 b = BVH_NODE_VECTORS(s)[4u * node + 1u];
+    uvec4 c = BVH_NODE_VECTORS(s)[4u * node + 2u];
+    uvec4 d = BVH_NODE_VECTORS(s)[4u * node + 3u];
+    return BvhNode(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), c.w,
+        uintBitsToFloat(d.xyz), d.w);
+}
+
+// The link by which a node is reached.
+uint bvh_parent(BvhRef s, uint node) {
+    return node < BVH_HEADER(s).node_capacity ? BVH_NODES(s)[node].parent : BVH_NONE;
 }
 
 // The child that a link refers to.
@@ -54,13 +72,18 @@ uint bvh_child(BvhRef s, uint link) {
     return (link & 1u) == 0u ? BVH_NODES(s)[node].child_0 : BVH_NODES(s)[node].child_1;
 }
 
-// A triangle. An index past the end is counted and gives a triangle without area.
+// A triangle, read as whole vectors. An index past the end is counted and gives a triangle without area.
 BvhRecord bvh_record(BvhRef s, uint record) {
     if (record >= BVH_HEADER(s).record_capacity) {
         atomicAdd(BVH_HEADER(s).corrupted, 1u);
         return BvhRecord(vec3(0.0), vec3(0.0), vec3(0.0), PRIMITIVE_NONE);
     }
-    return BVH_RECORDS(s)[record];
+    uvec2 a = BVH_RECORD_VECTORS(s)[5u * record];
+    uvec2 b = BVH_RECORD_VECTORS(s)[5u * record + 1u];
+    uvec2 c = BVH_RECORD_VECTORS(s)[5u * record + 2u];
+    uvec2 d = BVH_RECORD_VECTORS(s)[5u * record + 3u];
+    uvec2 e = BVH_RECORD_VECTORS(s)[5u * record + 4u];
+    return BvhRecord(uintBitsToFloat(uvec3(a, b.x)), uintBitsToFloat(uvec3(b.y, c)), uintBitsToFloat(uvec3(d, e.x)), e.y);
 }
 
 void bvh_set_record(BvhRef s, uint record, BvhRecord value) {

@@ -13,13 +13,13 @@
 // Maximum number of triangles per leaf.
 #define BVH_LEAF_LIMIT 16u
 
-// Subtrees a ray remembers; forgotten ones are found again through the links to parents.
-#define BVH_STACK 16u
+// Subtrees a ray remembers; where there are more, all are forgotten, and found again through the links to parents.
+#define BVH_STACK 32u
 
-// How far a box is widened, times the largest coordinate of its corners relative to the ray's origin:
-// 64 units of rounding. The watertight test accepts a ray up to 16 units outside of a triangle, and the box
-// test itself is off by fewer than 16.
+// How far boxes are widened: 64 units of rounding of the largest coordinate of the tree's corners relative to the ray's
+// origin, and 2 of the origin's. docs/systems/bvh.md derives both.
 #define BVH_BOX_MARGIN 0.0000038146973
+#define BVH_ORIGIN_MARGIN 0.00000011920929
 
 // The smallest component a direction is treated as having, relative to its largest: 2^-60.
 #define BVH_DIRECTION_FLOOR 0.00000000000000000086736174

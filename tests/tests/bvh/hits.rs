@@ -177,6 +177,48 @@ fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
     }
 }
 
+/// Triangles around one place, whose middles halve their way to it along each axis in turn, and a thousand in that
+/// place: a tree by Morton codes with 27 levels of one triangle each above ten levels.
+fn chain() -> Vec<Triangle> {
+    let around = |middle: [f32; 3]| -> Triangle {
+        [[-0.2, -0.2, -0.2], [0.2, 0.2, -0.2], [0.2, -0.2, 0.2]]
+            .map(|corner: [f32; 3]| std::array::from_fn(|axis| middle[axis] + corner[axis]))
+    };
+    // Half a cell of the codes above the middle, so that rounding does not decide on which side of it.
+    let place = 0.5 + 0.5_f32.powi(11);
+    let mut triangles = vec![around([place; 3]); 1024];
+    for level in 2..11 {
+        let step = 0.5_f32.powi(level);
+        for axes in 1..4 {
+            triangles
+                .push(around(std::array::from_fn(|axis| if axis < axes { place + step } else { place })));
+        }
+    }
+    // They bring the bounds to the unit cube, so that the middle is where codes part.
+    triangles.push([[0.0, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]]);
+    triangles.push([[1.0, 1.0, 1.0], [1.0, 0.9, 1.0], [1.0, 1.0, 0.9]]);
+    triangles
+}
+
+/// A ray from within all boxes remembers a sibling at every level: more than its stack holds.
+#[test]
+fn rays_that_remember_more_than_their_stack_lose_nothing() {
+    let bench = Bench::new();
+    let triangles = chain();
+    let geometry = bench.geometry(&triangles);
+    let mut random = Random::new(7);
+    let rays: Vec<_> = (0..500).map(|_| Ray::new(random.point(0.4, 0.6), random.direction())).collect();
+    let expected = reference_answers(&bench, &geometry, &rays);
+    assert!(expected.occluded.iter().any(|occluded| *occluded));
+    for builder in [Builder::Sah, Builder::Lbvh] {
+        for budget in [None, Some(50)] {
+            let config = Config { work_budget: budget, ..Config::new(builder) };
+            let found = of_bvh(&bench, config, &geometry, &rays, budget.map(|_| 400));
+            same(&expected, &found, &rays, &format!("{builder:?}, {budget:?}"));
+        }
+    }
+}
+
 /// Shows that the comparison would notice.
 #[test]
 fn another_scene_has_other_hits() {
