@@ -30,6 +30,7 @@ mod recognise;
 mod remarks;
 pub mod sequence;
 mod text;
+mod time;
 mod warning;
 
 pub use decode::decode_image;

@@ -8,13 +8,13 @@ use crate::animation::{
     Channel, ChannelValues, DeformedMesh, Interpolation, NodeTransform, Rig, Skin, SkinBinding,
 };
 use crate::remarks::Remarks;
-use crate::{Camera, Light, Mesh, Scene, check};
+use crate::{Camera, Light, Mesh, Scene, check, time};
 
 /// When a scene is shown, and what moves it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Moment {
     /// Seconds from the beginning of every clip. Before the first and after the last key of a channel its value is the one
-    /// of that key.
+    /// of that key. A time that is a key's but for single precision, as files hold keys, is at that key.
     pub seconds: f64,
     /// Indices into [`Rig::clips`]; of two that animate the same property of a node the later one counts.
     pub clips: Vec<usize>,
@@ -139,18 +139,15 @@ struct Between {
 
 impl Between {
     fn keys(times: &[f32], seconds: f64) -> Self {
-        let after = times.partition_point(|&time| f64::from(time) <= seconds);
+        let after = times.partition_point(|&key| time::has_come(key.into(), seconds));
         if after == 0 || after == times.len() {
             let key = after.saturating_sub(1);
             return Self { first: key, second: key, share: 0.0, seconds: 0.0 };
         }
         let (begin, end) = (f64::from(times[after - 1]), f64::from(times[after]));
-        Self {
-            first: after - 1,
-            second: after,
-            share: (seconds - begin) / (end - begin),
-            seconds: end - begin,
-        }
+        // What is not at the first key lies between both.
+        let share = if time::is_at(begin, seconds) { 0.0 } else { (seconds - begin) / (end - begin) };
+        Self { first: after - 1, second: after, share, seconds: end - begin }
     }
 
     /// What is added up for a value that is interpolated number by number: places in the list of elements, with their shares.

@@ -102,8 +102,7 @@ impl Sequence {
 
     /// The place in `files` of what is shown at a time: the last file that has begun.
     fn index(&self, seconds: f64) -> usize {
-        // A time that was computed as n / fps is frame n, however it was rounded.
-        let number = (seconds * self.options.fps * (1.0 + 4.0 * f64::EPSILON)).floor();
+        let number = crate::time::frame(seconds, self.options.fps);
         ((number - self.first as f64).max(0.0) as usize).min(self.files.len() - 1)
     }
 }
