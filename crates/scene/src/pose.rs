@@ -208,46 +208,62 @@ impl Between {
 /// How joints have moved since a mesh was bound to them.
 pub(crate) struct Joints<'a> {
     binding: &'a SkinBinding,
-    /// Of each joint: from mesh space to the world, less `origin`.
+    /// Of each joint: from mesh space to the world.
     moves: Vec<DAffine3>,
-    origin: DVec3,
 }
 
 impl<'a> Joints<'a> {
     pub fn new(skin: &Skin, binding: &'a SkinBinding, world_from_node: &[DAffine3]) -> Self {
         let world = |joint: usize| world_from_node.get(joint).copied().unwrap_or(DAffine3::IDENTITY);
-        let origin = skin.joints.first().map_or(DVec3::ZERO, |&joint| world(joint).translation);
-        let to_origin = DAffine3::from_translation(-origin);
         let moves = skin.joints.iter().zip(&skin.joint_from_mesh);
-        let moves =
-            moves.map(|(&joint, &joint_from_mesh)| to_origin * world(joint) * joint_from_mesh).collect();
-        Self { binding, moves, origin }
+        let moves = moves.map(|(&joint, &joint_from_mesh)| world(joint) * joint_from_mesh).collect();
+        Self { binding, moves }
     }
 
-    /// Where deformed vertices are, relative to which they are rounded: the first joint's place, so that f32 suffices far
-    /// from the origin. As the format asks, the transform of the node that holds the mesh plays no part.
-    pub fn world_from_mesh(&self) -> DAffine3 {
-        DAffine3::from_translation(self.origin)
-    }
-
-    /// The weighted sum of the joints of a vertex.
+    /// The mean of the joints of a vertex. Weights add up to 1 but for rounding, which would be multiplied by the way from
+    /// the world's origin: so the sum is divided by theirs.
     fn of_vertex(&self, vertex: usize) -> DAffine3 {
-        let zero = DAffine3 { matrix3: DMat3::ZERO, translation: DVec3::ZERO };
-        self.binding.of_vertex(vertex).filter(|(_, weight)| *weight > 0.0).fold(
-            zero,
-            |sum, (joint, weight)| {
-                let (step, weight) = (self.moves[joint as usize], f64::from(weight));
-                DAffine3 {
-                    matrix3: sum.matrix3 + step.matrix3 * weight,
-                    translation: sum.translation + step.translation * weight,
-                }
-            },
-        )
+        let (mut matrix3, mut translation, mut total) = (DMat3::ZERO, DVec3::ZERO, 0.0);
+        for (joint, weight) in self.binding.of_vertex(vertex).filter(|(_, weight)| *weight > 0.0) {
+            let (step, weight) = (self.moves[joint as usize], f64::from(weight));
+            matrix3 += step.matrix3 * weight;
+            translation += step.translation * weight;
+            total += weight;
+        }
+        let share = if total > 0.0 { total.recip() } else { 0.0 };
+        DAffine3 { matrix3: matrix3 * share, translation: translation * share }
     }
 }
 
-/// Moves the vertices of `mesh`, which is as the file has it, by weighted targets of `deformed` and by joints.
-pub(crate) fn deform(mesh: &mut Mesh, deformed: &DeformedMesh, weights: &[f64], joints: Option<&Joints<'_>>) {
+/// What positions are rounded to f32 relative to, so that each keeps its digits: the world's origin where it lies among
+/// them or not far away, so that they are rounded once; else a place among them, on a grid of at least their size, which
+/// stays while they move a little. Wherever that is, a position
+/// is rounded by at most a unit in the last place of half their size.
+fn origin_for(positions: &[DVec3]) -> DVec3 {
+    let finite = positions.iter().filter(|position| position.is_finite());
+    let (lower, upper) = finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lower, upper), position| {
+        (lower.min(*position), upper.max(*position))
+    });
+    let (centre, half) = (0.5 * lower + 0.5 * upper, (0.5 * upper - 0.5 * lower).max_element());
+    if !centre.is_finite() {
+        return DVec3::ZERO;
+    }
+    // A power of two above their size: places of the grid, and ways from them, are exact.
+    let spacing = ((2.0 * half).log2().floor() + 1.0).exp2();
+    let origin =
+        if half > 0.0 && spacing.is_finite() { (centre / spacing).round() * spacing } else { centre };
+    // A zero has no sign.
+    origin + DVec3::ZERO
+}
+
+/// Moves the vertices of `mesh`, which is as the file has it, by weighted targets of `deformed` and by joints. Answers where
+/// a mesh is that joints place; as the format asks, the transform of the node that holds it plays no part.
+pub(crate) fn deform(
+    mesh: &mut Mesh,
+    deformed: &DeformedMesh,
+    weights: &[f64],
+    joints: Option<&Joints<'_>>,
+) -> Option<DAffine3> {
     type Displacements = Option<Vec<[f32; 3]>>;
     let shown: Vec<_> = deformed.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0).collect();
     let morphed =
@@ -260,13 +276,13 @@ pub(crate) fn deform(mesh: &mut Mesh, deformed: &DeformedMesh, weights: &[f64], 
     // What nothing moves keeps every bit.
     let is_still = shown.is_empty();
     if is_still && joints.is_none() {
-        return;
+        return None;
     }
+    let mut positions = Vec::with_capacity(mesh.positions.len());
     for vertex in 0..mesh.positions.len() {
         let moved = joints.map(|joints| joints.of_vertex(vertex));
         let position = morphed(|target| &target.positions, vertex, mesh.positions[vertex]);
-        let position = moved.map_or(position, |moved| moved.transform_point3(position));
-        mesh.positions[vertex] = position.as_vec3().to_array();
+        positions.push(moved.map_or(position, |moved| moved.transform_point3(position)));
         if let Some(normal) = mesh.normals.as_mut().and_then(|normals| normals.get_mut(vertex)) {
             let turned = morphed(|target| &target.normals, vertex, *normal);
             let turned = moved.map_or(turned, |moved| cofactors(moved.matrix3) * turned);
@@ -278,6 +294,11 @@ pub(crate) fn deform(mesh: &mut Mesh, deformed: &DeformedMesh, weights: &[f64], 
             [*x, *y, *z] = turned.normalize_or_zero().as_vec3().to_array();
         }
     }
+    let origin = joints.map(|_| origin_for(&positions));
+    for (rounded, position) in mesh.positions.iter_mut().zip(positions) {
+        *rounded = (position - origin.unwrap_or_default()).as_vec3().to_array();
+    }
+    origin.map(DAffine3::from_translation)
 }
 
 /// The matrix that turns normals, whatever the determinant; for a mirrored map it also flips them back to the side that the
@@ -374,10 +395,10 @@ pub fn posed_mesh(
         .skin
         .as_ref()
         .and_then(|binding| Some(Joints::new(rig.skins.get(binding.skin)?, binding, &pose.world_from_node)));
-    deform(&mut mesh, deformed, weights, joints.as_ref());
+    let placed = deform(&mut mesh, deformed, weights, joints.as_ref());
     // What was wrong with the file was said when it was read.
     check::clean_attributes(&mut mesh, &mut Remarks::default());
-    (mesh, joints.map(|joints| joints.world_from_mesh()))
+    (mesh, placed)
 }
 
 /// Moves a light to where its node is; one whose node degenerates stays.

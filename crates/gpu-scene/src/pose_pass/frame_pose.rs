@@ -9,7 +9,7 @@ use rasray_scene::pose::Pose;
 use rasray_shaders_glsl::constants::scene::DRAW_MIRRORED;
 use rasray_shaders_glsl::records::{PoseMatrix, PosePlacement, PoseTarget};
 
-use super::sources::{DrawPlace, SkinPlace};
+use super::sources::{DrawPlace, JointPlace, SkinPlace};
 use crate::attributes::normal_matrix;
 use crate::layout::{EmissiveTriangle, Light};
 
@@ -64,24 +64,29 @@ pub(super) struct Placer<'a> {
 }
 
 impl Placer<'_> {
-    /// Appends the matrices of the joints of a skin, which take the pivot to about zero, and answers where that is, world,
-    /// metres: the place of joint 0.
+    /// Appends the matrices of the joints of a mesh, and answers what they are relative to, world, metres: a place from which
+    /// single precision reaches all that they move. That is the frame origin where it is no farther away than they are from
+    /// each other, and else the mean of all vertices.
     pub fn joints(&self, place: &SkinPlace, joints: &mut Vec<PoseMatrix>) -> DVec3 {
         let skin = &self.rig.skins[place.skin];
-        let moves: Vec<DAffine3> = skin
-            .joints
-            .iter()
-            .zip(&skin.joint_from_mesh)
-            .map(|(&joint, &joint_from_mesh)| self.pose.world(joint) * joint_from_mesh)
-            .collect();
-        let anchor = moves.first().map_or(DVec3::ZERO, |first| first.transform_point3(place.pivot));
+        let step = |of: &JointPlace| {
+            let joint = of.joint as usize;
+            self.pose.world(skin.joints[joint]) * skin.joint_from_mesh[joint]
+        };
+        let moves: Vec<DAffine3> = place.joints.iter().map(step).collect();
+        let weighted = place.joints.iter().zip(&moves);
+        let mean: DVec3 = weighted.map(|(of, step)| of.share * step.transform_point3(of.mean)).sum();
+        let reach =
+            moves.iter().map(|step| step.transform_point3(place.pivot).distance(mean)).fold(0.0, f64::max);
+        let is_far = mean.is_finite() && mean.distance(self.frame_origin) > reach;
+        let anchor = if is_far { mean } else { self.frame_origin };
         joints.extend(
             moves.iter().map(|step| matrix(step.matrix3, step.transform_point3(place.pivot) - anchor)),
         );
         anchor
     }
 
-    /// The placement of a draw; `anchors` are those of the skins, `pivots` of the shapes. Targets that count are appended.
+    /// The placement of a draw; `anchors` are those of the joints, `pivots` of the shapes. Targets that count are appended.
     pub fn draw(
         &self,
         place: &DrawPlace,

@@ -1,6 +1,6 @@
 //! Shapes at rest of all that moves, packed as the device reads them.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use glam::DVec3;
 use rasray_scene::animation::{DeformedMesh, Rig, SkinBinding};
@@ -24,7 +24,7 @@ pub struct Sources {
     pub places: Vec<DrawPlace>,
     /// Vertices of workgroups.
     pub groups: Vec<PoseGroup>,
-    /// Skins with joints that move.
+    /// Meshes with joints that move.
     pub skins: Vec<SkinPlace>,
     /// Meshes that a deformer changes.
     pub shapes: Vec<ShapePlace>,
@@ -56,15 +56,49 @@ pub struct DrawPlace {
     pub targets: Vec<[u32; 3]>,
 }
 
-/// A skin and its place in the joint matrices.
+/// The joints of a mesh and their place in the joint matrices. Each mesh has its own, so that what other meshes of a skin
+/// are bound to costs it no digits.
 #[derive(Clone, Debug)]
 pub struct SkinPlace {
     /// Index into the skins of the rig.
     pub skin: usize,
-    /// Mesh space of all meshes bound to it, metres.
+    /// Index into the deformed meshes of the rig.
+    deformed: usize,
+    /// Those that have weight, in ascending order.
+    pub joints: Vec<JointPlace>,
+    /// Mesh space, metres.
     pub pivot: DVec3,
-    /// Of joint 0.
+    /// Of the first of `joints`.
     pub first_joint: u32,
+}
+
+/// What a joint has of the vertices of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct JointPlace {
+    /// Index into the joints of the skin.
+    pub joint: u32,
+    /// Its share of the weights of all vertices: that of all joints is 1.
+    pub share: f64,
+    /// The mean of positions, weighted by what it has of each: mesh space, metres.
+    pub mean: DVec3,
+}
+
+impl JointPlace {
+    /// The joints with weight, in ascending order.
+    fn all(shape: &DeformedMesh, binding: &SkinBinding) -> Vec<Self> {
+        let mut sums: BTreeMap<u32, (f64, DVec3)> = BTreeMap::new();
+        for (vertex, position) in shape.positions.iter().enumerate() {
+            let position = DVec3::from(position.map(f64::from));
+            for (joint, weight) in binding.of_vertex(vertex).filter(|(_, weight)| *weight > 0.0) {
+                let (sum, places) = sums.entry(joint).or_default();
+                *sum += f64::from(weight);
+                *places += f64::from(weight) * position;
+            }
+        }
+        let total: f64 = sums.values().map(|(sum, _)| sum).sum();
+        let of = |(joint, (sum, places))| Self { joint, share: sum / total, mean: places / sum };
+        sums.into_iter().map(of).collect()
+    }
 }
 
 /// Words of a mesh that several instances may show.
@@ -122,7 +156,8 @@ impl Sources {
             }
             let binding = shape.and_then(|shape| shape.skin.as_ref());
             let skin = binding.filter(|binding| binding.skin < rig.skins.len());
-            let skin_index = skin.map(|binding| sources.skin(rig, binding.skin));
+            let skin_index =
+                skin.zip(deformed).map(|(binding, deformed)| sources.skin(rig, deformed, binding));
             let pivot = match skin_index {
                 Some(skin) => sources.skins[skin].pivot,
                 None => centre([shape.map_or(&mesh.positions[..], |shape| &shape.positions)]),
@@ -132,6 +167,7 @@ impl Sources {
             let words = match packed.get(&mesh_index) {
                 Some(words) => words.clone(),
                 None => {
+                    let skin = skin.zip(skin_index);
                     let words = sources.mesh(mesh, shape, skin, pivot, (is_shaded, own_shape.is_some()))?;
                     if let Some(own) = own_shape {
                         shape_words[own] = [words.rest_positions, words.rest_normals];
@@ -174,15 +210,17 @@ impl Sources {
         Ok(sources)
     }
 
-    /// The place of a skin of the rig, which it gets when it is first asked for.
-    fn skin(&mut self, rig: &Rig, skin: usize) -> usize {
-        if let Some(known) = self.skins.iter().position(|place| place.skin == skin) {
+    /// The place of the joints of a mesh, which it gets when it is first asked for.
+    fn skin(&mut self, rig: &Rig, deformed: usize, binding: &SkinBinding) -> usize {
+        if let Some(known) = self.skins.iter().position(|place| place.deformed == deformed) {
             return known;
         }
-        let bound = |shape: &&DeformedMesh| shape.skin.as_ref().is_some_and(|binding| binding.skin == skin);
-        let pivot = centre(rig.deformed.iter().filter(bound).map(|shape| &shape.positions[..]));
-        self.skins.push(SkinPlace { skin, pivot, first_joint: self.joint_count as u32 });
-        self.joint_count += rig.skins[skin].joints.len();
+        let shape = &rig.deformed[deformed];
+        let joints = JointPlace::all(shape, binding);
+        let first_joint = self.joint_count as u32;
+        self.joint_count += joints.len();
+        let pivot = centre([&shape.positions[..]]);
+        self.skins.push(SkinPlace { skin: binding.skin, deformed, joints, pivot, first_joint });
         self.skins.len() - 1
     }
 
@@ -192,7 +230,7 @@ impl Sources {
         &mut self,
         mesh: &Mesh,
         shape: Option<&DeformedMesh>,
-        skin: Option<&SkinBinding>,
+        skin: Option<(&SkinBinding, usize)>,
         pivot: DVec3,
         (is_shaded, is_deforming): ([bool; 2], bool),
     ) -> Result<MeshWords, GpuSceneError> {
@@ -223,23 +261,28 @@ impl Sources {
             ]);
         }
         let skin = match skin {
-            Some(binding) => self.append_skin(binding)?,
+            Some((binding, place)) => self.append_skin(binding, place)?,
             None => ATTRIBUTE_NONE,
         };
         Ok(MeshWords { rest_positions, rest_normals, rest_tangents, skin, targets })
     }
 
-    /// Of each vertex its joints, then their weights.
-    fn append_skin(&mut self, binding: &SkinBinding) -> Result<u32, GpuSceneError> {
+    /// Of each vertex its joints, by their place among those with weight, then their weights: of a sum that is 1 but for the
+    /// rounding of each.
+    fn append_skin(&mut self, binding: &SkinBinding, place: usize) -> Result<u32, GpuSceneError> {
         let first = self.skin_words.len();
         let (count, limit) = (first as u64 + 2 * binding.joints.len() as u64, u64::from(ATTRIBUTE_NONE));
         if count >= limit {
             return Err(GpuSceneError::TooManyVertices { count, limit });
         }
+        let joints = &self.skins[place].joints;
+        let position = |joint: &u32| joints.binary_search_by_key(joint, |own| own.joint).unwrap_or(0) as u32;
         let width = binding.per_vertex.max(1);
         for (joints, weights) in binding.joints.chunks(width).zip(binding.weights.chunks(width)) {
-            self.skin_words.extend(joints);
-            self.skin_words.extend(weights.iter().map(|weight| weight.to_bits()));
+            let sum: f64 = weights.iter().copied().map(f64::from).sum();
+            let share = |weight: &f32| if sum > 0.0 { (f64::from(*weight) / sum) as f32 } else { 0.0 };
+            self.skin_words.extend(joints.iter().map(position));
+            self.skin_words.extend(weights.iter().map(|weight| share(weight).to_bits()));
         }
         Ok(first as u32)
     }

@@ -121,8 +121,7 @@ pub(super) fn read(
         let mut kept = deformation::read(document, &place, primitive, weights, &mesh)?;
         let joints = binding.as_ref().map(|found| Joints::new(&skins[found.skin], found, &hierarchy.world));
         let weights: Vec<f64> = kept.weights.iter().copied().map(f64::from).collect();
-        deform(&mut mesh, &kept, &weights, joints.as_ref());
-        world_from_mesh = joints.map(|joints| joints.world_from_mesh());
+        world_from_mesh = deform(&mut mesh, &kept, &weights, joints.as_ref());
         kept.skin = binding;
         deformed = Some(kept);
     }

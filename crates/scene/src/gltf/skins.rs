@@ -77,9 +77,9 @@ pub(super) fn read_binding(
         return Err(document.invalid(format!("skins[{skin}]"), "has no joints"));
     }
     for weights in weights.chunks_exact_mut(per_vertex.max(1)) {
-        let sum: f32 = weights.iter().sum();
-        if sum.is_normal() {
-            weights.iter_mut().for_each(|weight| *weight /= sum);
+        let sum: f64 = weights.iter().copied().map(f64::from).sum();
+        if sum >= f64::from(f32::MIN_POSITIVE) {
+            weights.iter_mut().for_each(|weight| *weight = (f64::from(*weight) / sum) as f32);
         } else {
             // A vertex that no joint moves follows the first.
             weights.fill(0.0);
