@@ -34,6 +34,7 @@ impl Chosen {
             kind: kind.to_owned(),
             fov_y_degrees,
             height_m,
+            aspect_ratio: self.camera.aspect_ratio.map(f64::from),
             eye: frame.translation.to_array(),
             forward: (-frame.matrix3.z_axis).normalize_or_zero().to_array(),
             up: frame.matrix3.y_axis.normalize_or_zero().to_array(),
@@ -47,7 +48,8 @@ impl Chosen {
             Some(index) => format!("{index} '{}'", record.name),
             None => record.name.clone(),
         };
-        format!("{whose}, {}", place(&record))
+        let frame = record.aspect_ratio.map(|ratio| format!(", framing {}:1", short(ratio)));
+        format!("{whose}, {}{}", place(&record), frame.unwrap_or_default())
     }
 }
 

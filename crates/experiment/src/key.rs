@@ -29,7 +29,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         needs: _,
         repetitions: _,
     } = job;
-    let Camera { name: _, world_from_camera, projection } = camera;
+    let Camera { name: _, world_from_camera, projection, aspect_ratio } = camera;
     let options: Vec<_> = system.options.texts().collect();
     // Numbers are written so that each reads back as the same.
     KeyHash::default()
@@ -38,7 +38,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         .with("file", loaded.sha256.as_deref().unwrap_or_default())
         .with("time", format!("{:?}", loaded.pose.as_ref().map(|pose| (pose.time_s, &pose.clips))))
         .with("smaller images", format!("{:?}", loaded.smaller_images))
-        .with("camera", format!("{world_from_camera:?} {projection:?}"))
+        .with("camera", format!("{world_from_camera:?} {projection:?} {aspect_ratio:?}"))
         .with("system", format!("{} {} {options:?}", system.system.name, system.preset.name()))
         .with("frame", format!("{frame:?}"))
         .with("aovs", format!("{aovs:?}"))

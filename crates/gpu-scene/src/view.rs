@@ -69,8 +69,8 @@ impl View {
     pub fn write(&self, frame: &mut Frame, frame_origin: DVec3) {
         let axes = self.camera.world_from_camera.matrix3;
         let unit = |axis: DVec3, otherwise: DVec3| axis.normalize_or(otherwise).as_vec3().to_array();
-        let (width, height) = (f64::from(self.width.max(1)), f64::from(self.height.max(1)));
-        let aspect = width / height;
+        let [half_width, half_height] = self.camera.half_extents(self.width, self.height);
+        let pixel = 2.0 * half_height / f64::from(self.height.max(1));
         frame.camera_position = (self.eye() - frame_origin).as_vec3().to_array();
         frame.camera_right = unit(axes.x_axis, DVec3::X);
         frame.camera_up = unit(axes.y_axis, DVec3::Y);
@@ -78,22 +78,15 @@ impl View {
         frame.width = self.width.max(1);
         frame.height = self.height.max(1);
         frame.seed = self.seed;
+        (frame.half_width, frame.half_height) = (half_width as f32, half_height as f32);
         match self.camera.projection {
-            Projection::Perspective { fov_y } => {
-                let half_height = (0.5 * f64::from(fov_y)).tan();
+            Projection::Perspective { .. } => {
                 frame.projection = PROJECTION_PERSPECTIVE;
-                frame.half_height = half_height as f32;
-                frame.half_width = (half_height * aspect) as f32;
-                frame.cone_spread = (2.0 * half_height / height).atan() as f32;
-                frame.cone_width = 0.0;
+                (frame.cone_spread, frame.cone_width) = (pixel.atan() as f32, 0.0);
             }
-            Projection::Orthographic { half_height } => {
-                let half_height = f64::from(half_height);
+            Projection::Orthographic { .. } => {
                 frame.projection = PROJECTION_ORTHOGRAPHIC;
-                frame.half_height = half_height as f32;
-                frame.half_width = (half_height * aspect) as f32;
-                frame.cone_spread = 0.0;
-                frame.cone_width = (2.0 * half_height / height) as f32;
+                (frame.cone_spread, frame.cone_width) = (0.0, pixel as f32);
             }
         }
     }
@@ -107,7 +100,7 @@ mod tests {
     fn camera(projection: Projection) -> Camera {
         let linear = DMat3::from_rotation_y(std::f64::consts::FRAC_PI_2) * 3.0;
         let world_from_camera = DAffine3::from_mat3_translation(linear, DVec3::new(1e6, 2.0, 3.0));
-        Camera { name: "test".to_owned(), world_from_camera, projection }
+        Camera { name: "test".to_owned(), world_from_camera, projection, aspect_ratio: None }
     }
 
     #[test]

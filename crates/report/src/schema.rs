@@ -131,6 +131,10 @@ pub struct CameraRecord {
     /// Metres of the world from the lower to the upper edge; of a parallel projection.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
+    /// Width over height of what the camera frames, where it says so; an image that is narrower for its height shows more
+    /// above and below than its angle or height says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub aspect_ratio: Option<f64>,
     /// Metres, world.
     pub eye: [f64; 3],
     /// Unit direction in which it looks, world.

@@ -270,6 +270,26 @@ pub struct Camera {
     pub world_from_camera: DAffine3,
     /// Projection.
     pub projection: Projection,
+    /// Width over height of what it frames, above 0, where the file says so; see [`Camera::half_extents`].
+    pub aspect_ratio: Option<f32>,
+}
+
+impl Camera {
+    /// Half of what an image of that many pixels shows, across and upwards: tangents of angles of a perspective, metres of
+    /// a parallel projection. Pixels are square. What the projection says of the height holds for images that are at least
+    /// as wide for their height as the camera's frame, or where it has none: wider ones show more at both sides. A narrower
+    /// one shows the frame in its full width, and more above and below.
+    pub fn half_extents(&self, width: u32, height: u32) -> [f64; 2] {
+        let aspect = f64::from(width.max(1)) / f64::from(height.max(1));
+        let half_height = match self.projection {
+            Projection::Perspective { fov_y } => (0.5 * f64::from(fov_y)).tan(),
+            Projection::Orthographic { half_height } => f64::from(half_height),
+        };
+        // In the precision of files: an image of the frame's own shape is neither.
+        let narrower = self.aspect_ratio.filter(|own| *own > aspect as f32);
+        let half_height = narrower.map_or(half_height, |own| half_height * f64::from(own) / aspect);
+        [half_height * aspect, half_height]
+    }
 }
 
 /// How a camera maps directions to pixels.

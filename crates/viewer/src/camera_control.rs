@@ -46,19 +46,20 @@ pub struct CameraControl {
 }
 
 impl CameraControl {
-    /// Takes over from a camera. It turns around the point in front of it that is `distance` metres away. A roll is lost; a
-    /// parallel projection becomes a perspective that sees as much at that point.
-    pub fn from_camera(camera: &Camera, distance: f64) -> Self {
+    /// Takes over from a camera, whose picture has that many pixels a row and rows. It turns around the point in front of it
+    /// that is `distance` metres away. A roll is lost; a parallel projection becomes a perspective that sees as much at that
+    /// point.
+    pub fn from_camera(camera: &Camera, [width, height]: [u32; 2], distance: f64) -> Self {
         let frame = &camera.world_from_camera;
         let eye = frame.translation;
         let forward = (-frame.matrix3.z_axis).normalize_or(DVec3::NEG_Z);
         let distance = if distance.is_finite() && distance > 0.0 { distance } else { 1.0 };
-        let fov = match camera.projection {
-            Projection::Perspective { fov_y } => f64::from(fov_y).to_degrees(),
-            Projection::Orthographic { half_height } => {
-                2.0 * (f64::from(half_height) / distance).atan().to_degrees()
-            }
+        let [_, half_height] = camera.half_extents(width, height);
+        let tangent = match camera.projection {
+            Projection::Perspective { .. } => half_height,
+            Projection::Orthographic { .. } => half_height / distance,
         };
+        let fov = 2.0 * tangent.atan().to_degrees();
         let mut control = Self { eye, target: eye + forward * distance, fov: fov.clamp(0.01, 175.0) };
         // Not straight up or down.
         control.orbit(0.0, 0.0);
@@ -150,7 +151,7 @@ mod tests {
 
     fn control() -> CameraControl {
         let camera = camera_looking_at("", DVec3::new(0.0, 1.0, 5.0), DVec3::new(0.0, 1.0, 0.0), 0.8);
-        CameraControl::from_camera(&camera, 5.0)
+        CameraControl::from_camera(&camera, [16, 9], 5.0)
     }
 
     fn close(one: DVec3, other: DVec3) -> bool {
@@ -205,7 +206,8 @@ mod tests {
         let rounded = control.rounded();
         assert!(rounded.eye.split(',').all(|number| number.len() <= 9), "{}", rounded.eye);
         assert_eq!(rounded.target, "0,1,0");
-        let again = CameraControl::from_camera(&rounded.camera().expect("a camera"), control.distance());
+        let again =
+            CameraControl::from_camera(&rounded.camera().expect("a camera"), [16, 9], control.distance());
         assert!((again.eye - control.eye).length() < 1.0e-4);
         let far = CameraControl { eye: DVec3::splat(3.0e7), target: DVec3::ZERO, fov: 45.0 };
         assert_eq!(far.rounded().eye, "30000000,30000000,30000000");

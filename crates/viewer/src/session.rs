@@ -129,14 +129,16 @@ impl Session {
     /// Takes the camera from where the last picture was seen.
     fn take_camera(&mut self) -> Option<()> {
         if self.control.is_none() {
-            let camera = &self.picture.as_ref()?.camera;
+            let picture = self.picture.as_ref()?;
+            let camera = &picture.camera;
             let frame = &camera.world_from_camera;
             let (low, high) = self.opening.bounds;
             let forward = (-frame.matrix3.z_axis).normalize_or_zero();
             // Around the middle of the scene, or what is in front of a camera that has passed it.
             let ahead = (0.5 * (low + high) - frame.translation).dot(forward);
             let distance = ahead.max(0.2 * self.radius());
-            self.control = Some(CameraControl::from_camera(camera, distance));
+            self.control =
+                Some(CameraControl::from_camera(camera, [picture.width, picture.height], distance));
         }
         Some(())
     }

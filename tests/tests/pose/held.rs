@@ -52,6 +52,7 @@ pub fn view(eye: DVec3) -> View {
         name: "eye".to_owned(),
         world_from_camera: glam::DAffine3::from_translation(eye),
         projection: Projection::Perspective { fov_y: 1.0 },
+        aspect_ratio: None,
     };
     View { camera, width: 16, height: 8, seed: 4 }
 }

@@ -58,20 +58,14 @@ pub fn camera_ray(view: &View, frame_origin: DVec3, position: Vec2) -> Ray {
     let up = axis(placement.matrix3.y_axis, DVec3::Y);
     let forward = axis(-placement.matrix3.z_axis, DVec3::NEG_Z);
     let eye = (placement.translation - frame_origin).as_vec3();
-    let (width, height) = (f64::from(view.width), f64::from(view.height));
-    let half_height = match view.camera.projection {
-        Projection::Perspective { fov_y } => (0.5 * f64::from(fov_y)).tan(),
-        Projection::Orthographic { half_height } => f64::from(half_height),
-    };
-    let half_width = (half_height * width / height) as f32;
-    let x = (2.0 * position.x / view.width as f32 - 1.0) * half_width;
+    let [half_width, half_height] = view.camera.half_extents(view.width, view.height);
+    let pixel = 2.0 * half_height / f64::from(view.height);
+    let x = (2.0 * position.x / view.width as f32 - 1.0) * half_width as f32;
     let y = (1.0 - 2.0 * position.y / view.height as f32) * half_height as f32;
     let across: Vec3 = right * x + up * y;
     let (origin, direction, cone_width, cone_spread) = match view.camera.projection {
-        Projection::Perspective { .. } => {
-            (eye, (forward + across).normalize(), 0.0, (2.0 * half_height / height).atan() as f32)
-        }
-        Projection::Orthographic { .. } => (eye + across, forward, (2.0 * half_height / height) as f32, 0.0),
+        Projection::Perspective { .. } => (eye, (forward + across).normalize(), 0.0, pixel.atan() as f32),
+        Projection::Orthographic { .. } => (eye + across, forward, pixel as f32, 0.0),
     };
     let scale = 1.0 / (view.samples.max(1) as f32).sqrt();
     Ray {

@@ -9,8 +9,8 @@ use crate::{Camera, Projection};
 use ::gltf::json::camera::{Camera as JsonCamera, Type};
 use ::gltf::json::validation::Checked;
 
-/// The cameras of the nodes in `order`, each with its node. Scale and shear of the nodes are taken off; aspect ratio
-/// and clip planes of the file are not used: the image decides the one, rays need no other.
+/// The cameras of the nodes in `order`, each with its node. Scale and shear of the nodes are taken off. Clip planes are not
+/// used: rays see at any distance.
 pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usize]) -> Vec<(usize, Camera)> {
     let mut cameras = Vec::new();
     for &node in order {
@@ -21,7 +21,9 @@ pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usi
             node_name.or_else(|| source.name.clone()).unwrap_or_else(|| format!("camera{}", cameras.len()));
         match (rigid(hierarchy.world[node]), projection(source)) {
             (Some(world_from_camera), Some(projection)) => {
-                cameras.push((node, Camera { name, world_from_camera, projection }));
+                remark(document, index.value(), source);
+                let aspect_ratio = aspect_ratio(source);
+                cameras.push((node, Camera { name, world_from_camera, projection, aspect_ratio }));
             }
             _ => {
                 document.note("bad-camera", format!("camera {name}"), fault(document, index.value(), source))
@@ -52,5 +54,44 @@ fn projection(source: &JsonCamera) -> Option<Projection> {
             (half_height > 0.0 && half_height.is_finite()).then_some(Projection::Orthographic { half_height })
         }
         Checked::Invalid => None,
+    }
+}
+
+/// Width over height of what a camera frames, if it says so.
+fn aspect_ratio(source: &JsonCamera) -> Option<f32> {
+    let ratio = match source.type_ {
+        Checked::Valid(Type::Perspective) => source.perspective.as_ref()?.aspect_ratio?,
+        Checked::Valid(Type::Orthographic) => {
+            let parallel = source.orthographic.as_ref()?;
+            (f64::from(parallel.xmag) / f64::from(parallel.ymag)).abs() as f32
+        }
+        Checked::Invalid => return None,
+    };
+    Some(ratio).filter(|ratio| *ratio > 0.0 && ratio.is_finite())
+}
+
+/// Says what of a camera was not taken as it is.
+fn remark(document: &Document<'_>, index: usize, source: &JsonCamera) {
+    let note = |text: String| document.note("camera-range", format!("cameras[{index}]"), text);
+    let sides = "the image decides what is seen at its sides";
+    match source.type_ {
+        Checked::Valid(Type::Perspective) => {
+            let ratio = source.perspective.as_ref().and_then(|perspective| perspective.aspect_ratio);
+            if let Some(ratio) = ratio.filter(|_| aspect_ratio(source).is_none()) {
+                note(format!("aspectRatio {ratio} is not above 0; {sides}"));
+            }
+        }
+        Checked::Valid(Type::Orthographic) => {
+            let Some(parallel) = &source.orthographic else { return };
+            for (name, value) in [("xmag", parallel.xmag), ("ymag", parallel.ymag)] {
+                if value < 0.0 {
+                    note(format!("{name} {value} is negative, and taken as {}", -value));
+                }
+            }
+            if aspect_ratio(source).is_none() {
+                note(format!("xmag {} is no width; {sides}", parallel.xmag));
+            }
+        }
+        Checked::Invalid => {}
     }
 }

@@ -65,5 +65,9 @@ fn camera_row(camera: &CameraRecord) -> Vec<String> {
         (Some(angle), _) => format!("{angle:.1} degrees"),
         (_, height) => format!("{:.3} m high", height.unwrap_or_default()),
     };
+    let frame = camera
+        .aspect_ratio
+        .map(|ratio| format!(", framing {ratio:.3}:1; narrower images show more above and below"));
+    let seen = seen + &frame.unwrap_or_default();
     vec![camera.index.unwrap_or_default().to_string(), camera.name.clone(), camera.kind.clone(), seen]
 }
