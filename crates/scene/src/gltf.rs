@@ -38,6 +38,7 @@ mod shape;
 mod skins;
 mod textures;
 mod transforms;
+mod unread;
 mod uri;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -46,7 +47,7 @@ use std::path::Path;
 use crate::decode::panic_message;
 use crate::files::read_file;
 use crate::finish::{Empty, finish, scene_name};
-use crate::{LoadOptions, Scene, SceneError};
+use crate::{Animation, LoadOptions, Scene, SceneError};
 
 /// Loads a `.gltf` or `.glb` file; which of the two it is is decided by its first bytes. Files that
 /// it refers to are read from its folder or below.
@@ -78,7 +79,13 @@ fn build(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Scene, Scen
     let placed = elements::place(&document, &hierarchy, &skins, &order)?;
     let elements::Placed { meshes, instances, placements, deformed } = placed;
     let animation = animations::read(&document, &hierarchy, skins, deformed, placements)?;
+    crate::flattened::remark(&animation.rig, &instances, &[], &mut document.remarks.borrow_mut());
     let mut scene = Scene { name: scene_name(path), meshes, instances, animation, ..Scene::default() };
+    let rig = &scene.animation.rig;
+    if rig.clips.is_empty() && rig.deformed.is_empty() {
+        // Nothing moves along its nodes.
+        scene.animation = Animation::default();
+    }
     materials::convert(&document, &mut scene)?;
     let (light_nodes, lights) = lights::place(&document, &hierarchy, &order).into_iter().unzip();
     let (camera_nodes, cameras) = cameras::place(&document, &hierarchy, &order).into_iter().unzip();

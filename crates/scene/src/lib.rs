@@ -14,6 +14,7 @@ mod error;
 pub mod facing;
 mod files;
 mod finish;
+mod flattened;
 mod formats;
 pub mod gltf;
 mod images;

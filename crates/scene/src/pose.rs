@@ -373,6 +373,7 @@ impl Scene {
             camera.world_from_camera = place;
         }
         scene.lights = pose.lights(rig, &self.lights);
+        scene.warn_while_playing(&moment.clips);
         scene
     }
 }

@@ -1,13 +1,17 @@
 //! Clips and the rig they move.
 
-use ::gltf::json::animation::{Animation as JsonAnimation, Interpolation as JsonInterpolation, Property};
+use std::collections::HashMap;
+
+use ::gltf::json::animation::{
+    Animation as JsonAnimation, Interpolation as JsonInterpolation, Property, Sampler,
+};
 use ::gltf::json::validation::Checked;
 
 use super::accessor::read_floats;
 use super::document::Document;
 use super::hierarchy::Hierarchy;
 use crate::animation::{
-    Channel, ChannelValues, Clip, DeformedMesh, Interpolation, Placement, Rig, RigNode, Skin,
+    Channel, ChannelValues, Clip, DeformedMesh, Interpolation, NodeTransform, Placement, Rig, RigNode, Skin,
 };
 use crate::{Animation, SceneError};
 
@@ -24,9 +28,6 @@ pub(super) fn read(
         clips.push(read_clip(document, i, animation)?);
     }
     let morphed = deformed.iter().filter(|mesh| !mesh.targets.is_empty()).count();
-    if clips.is_empty() && deformed.is_empty() {
-        return Ok(Animation::default());
-    }
     let nodes = document.root.nodes.iter().enumerate().map(|(i, node)| RigNode {
         name: node.name.clone().unwrap_or_else(|| format!("node{i}")),
         parent: hierarchy.parent[i],
@@ -44,64 +45,162 @@ pub(super) fn read(
 
 fn read_clip(document: &Document<'_>, index: usize, animation: &JsonAnimation) -> Result<Clip, SceneError> {
     let name = animation.name.clone().unwrap_or_else(|| format!("animation{index}"));
-    let mut channels = Vec::with_capacity(animation.channels.len());
-    for (i, channel) in animation.channels.iter().enumerate() {
-        let place = format!("animation {name}, channel {i}");
-        let sampler = &animation.samplers[channel.sampler.value()];
-        let times: Vec<f32> =
-            read_floats::<1>(document, sampler.input.value())?.into_iter().flatten().collect();
-        let interpolation = match sampler.interpolation {
-            Checked::Valid(JsonInterpolation::Step) => Interpolation::Step,
-            Checked::Valid(JsonInterpolation::CubicSpline) => Interpolation::CubicSpline,
-            _ => Interpolation::Linear,
-        };
-        let output = sampler.output.value();
-        let (values, elements) = match channel.target.path {
-            Checked::Valid(Property::Translation) => {
-                of_length(read_floats(document, output)?, ChannelValues::Translation)
-            }
-            Checked::Valid(Property::Rotation) => {
-                of_length(read_floats(document, output)?, ChannelValues::Rotation)
-            }
-            Checked::Valid(Property::Scale) => {
-                of_length(read_floats(document, output)?, ChannelValues::Scale)
-            }
-            Checked::Valid(Property::MorphTargetWeights) => {
-                let values: Vec<f32> = read_floats::<1>(document, output)?.into_iter().flatten().collect();
-                let targets = target_count(document, channel.target.node.value());
-                let elements = values.len().checked_div(targets).unwrap_or(0);
-                (ChannelValues::Weights { values, targets }, elements)
+    let place = |number: usize| format!("animation {name}, channel {number}");
+    let mut read: Vec<(usize, Channel)> = Vec::with_capacity(animation.channels.len());
+    // By what they animate, so that of two the later one is found to count.
+    let mut known: HashMap<_, usize> = HashMap::new();
+    for (number, source) in animation.channels.iter().enumerate() {
+        let sampler = &animation.samplers[source.sampler.value()];
+        let place = place(number);
+        let channel = match source.target.path {
+            Checked::Valid(path) => {
+                read_channel(document, &place, source.target.node.value(), path, sampler)?
             }
             Checked::Invalid => {
-                let path = format!("animations[{index}].channels[{i}].target.path");
-                let text = format!("the path of a channel {}; it was dropped", document.unknown(&path));
-                document.note("bad-channel", place, text);
-                continue;
+                let path = format!("animations[{index}].channels[{number}].target.path");
+                Err(format!("the path of a channel {}", document.unknown(&path)))
             }
         };
-        let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
-        let ascending =
-            times.iter().all(|time| time.is_finite()) && times.windows(2).all(|pair| pair[0] <= pair[1]);
-        if times.is_empty() || !ascending || elements != times.len() * per_key {
-            let text = "keys do not ascend or do not match their values; the channel was dropped";
-            document.note("bad-channel", place, text);
-            continue;
+        match channel {
+            Ok(channel) => {
+                known.insert((channel.node, std::mem::discriminant(&channel.values)), number);
+                read.push((number, channel));
+            }
+            Err(fault) => document.note("bad-channel", place, format!("{fault}; the channel was dropped")),
         }
-        channels.push(Channel { node: channel.target.node.value(), interpolation, times, values });
+    }
+    let mut channels = Vec::with_capacity(read.len());
+    for (number, channel) in read {
+        let last = known[&(channel.node, std::mem::discriminant(&channel.values))];
+        if last == number {
+            channels.push(channel);
+        } else {
+            let text = format!("channel {last} animates the same; the channel was dropped");
+            document.note("bad-channel", place(number), text);
+        }
     }
     let duration = channels.iter().filter_map(|channel| channel.times.last()).copied().fold(0.0, f32::max);
     Ok(Clip { name, duration, channels })
 }
 
-fn of_length<T>(values: Vec<T>, wrap: impl FnOnce(Vec<T>) -> ChannelValues) -> (ChannelValues, usize) {
-    let elements = values.len();
-    (wrap(values), elements)
+/// A channel, or what is wrong with it.
+///
+/// # Errors
+/// Accessors that cannot be read.
+fn read_channel(
+    document: &Document<'_>,
+    place: &str,
+    node: usize,
+    path: Property,
+    sampler: &Sampler,
+) -> Result<Result<Channel, String>, SceneError> {
+    if path != Property::MorphTargetWeights && matches!(document.locals[node], NodeTransform::Matrix(_)) {
+        let path = path_name(path);
+        return Ok(Err(format!("it animates the {path} of nodes[{node}], which has a matrix instead")));
+    }
+    // An accessor may be as it should for something else: name who needs it otherwise.
+    let asked = |error: SceneError| match error {
+        SceneError::Invalid { path: file, place: at, reason } => SceneError::Invalid {
+            path: file,
+            place: at,
+            reason: format!("{reason} ({place}, {})", path_name(path)),
+        },
+        other => other,
+    };
+    let scalars = |accessor: usize| -> Result<Vec<f32>, SceneError> {
+        Ok(read_floats::<1>(document, accessor).map_err(asked)?.into_iter().flatten().collect())
+    };
+    let times = scalars(sampler.input.value())?;
+    let interpolation = match sampler.interpolation {
+        Checked::Valid(JsonInterpolation::Step) => Interpolation::Step,
+        Checked::Valid(JsonInterpolation::CubicSpline) => Interpolation::CubicSpline,
+        _ => Interpolation::Linear,
+    };
+    let output = sampler.output.value();
+    let values = match path {
+        Property::Translation => ChannelValues::Translation(read_floats(document, output).map_err(asked)?),
+        Property::Rotation => ChannelValues::Rotation(read_floats(document, output).map_err(asked)?),
+        Property::Scale => ChannelValues::Scale(read_floats(document, output).map_err(asked)?),
+        Property::MorphTargetWeights => {
+            let targets = match target_count(document, node) {
+                Ok(targets) => targets,
+                Err(fault) => return Ok(Err(fault)),
+            };
+            ChannelValues::Weights { values: scalars(output)?, targets }
+        }
+    };
+    let channel = Channel { node, interpolation, times, values };
+    if let Some(fault) = fault(&channel) {
+        return Ok(Err(fault));
+    }
+    if let ChannelValues::Rotation(values) = &channel.values {
+        let is_value = |at: usize| interpolation != Interpolation::CubicSpline || at % 3 == 1;
+        let nowhere = |(at, value): &(usize, &[f32; 4])| is_value(*at) && value.iter().all(|x| *x == 0.0);
+        let count = values.iter().enumerate().filter(nowhere).count();
+        let text = "rotations of its keys have no direction; none is applied at them";
+        document.remarks.borrow_mut().count("bad-rotation", place, count, text);
+    }
+    Ok(Ok(channel))
 }
 
-/// Number of morph targets of the mesh at a node.
-fn target_count(document: &Document<'_>, node: usize) -> usize {
-    let mesh = document.root.nodes[node].mesh.map(|mesh| &document.root.meshes[mesh.value()]);
-    let targets =
-        mesh.and_then(|mesh| mesh.primitives.first()).and_then(|primitive| primitive.targets.as_ref());
-    targets.map_or(0, Vec::len)
+/// What is wrong with the keys of a channel.
+fn fault(channel: &Channel) -> Option<String> {
+    let Channel { interpolation, times, values, .. } = channel;
+    if times.is_empty() {
+        return Some("it has no keys".to_owned());
+    }
+    if let Some(key) = times.iter().position(|time| !time.is_finite()) {
+        return Some(format!("the time of key {key} is {}", times[key]));
+    }
+    if let Some(key) = times.windows(2).position(|pair| pair[0] > pair[1]) {
+        let (before, after) = (times[key], times[key + 1]);
+        return Some(format!(
+            "its keys do not ascend: key {} is at {after} s, the one before at {before} s",
+            key + 1
+        ));
+    }
+    let (numbers, width) = match values {
+        ChannelValues::Translation(list) | ChannelValues::Scale(list) => (list.as_flattened(), 3),
+        ChannelValues::Rotation(list) => (list.as_flattened(), 4),
+        ChannelValues::Weights { values, targets } => (&values[..], *targets),
+    };
+    let per_key = if *interpolation == Interpolation::CubicSpline { 3 } else { 1 };
+    if numbers.len() != times.len() * per_key * width {
+        let (keys, each) = (times.len(), if per_key == 3 { ", three of them a key" } else { "" });
+        return Some(match values {
+            ChannelValues::Weights { values, targets } => {
+                format!("it has {} weights for {keys} keys of {targets} morph targets{each}", values.len())
+            }
+            _ => format!("it has {} values for {keys} keys{each}", numbers.len() / width),
+        });
+    }
+    let bad = numbers.iter().position(|number| !number.is_finite())?;
+    Some(format!("a value of key {} is {}", bad / (width * per_key), numbers[bad]))
+}
+
+fn path_name(path: Property) -> &'static str {
+    match path {
+        Property::Translation => "translation",
+        Property::Rotation => "rotation",
+        Property::Scale => "scale",
+        Property::MorphTargetWeights => "weights",
+    }
+}
+
+/// Number of morph targets of the mesh at a node: of the primitive that has most, since others are not displaced by those
+/// that they lack. Else why there is none.
+fn target_count(document: &Document<'_>, node: usize) -> Result<usize, String> {
+    let Some(mesh) = document.root.nodes[node].mesh.map(|mesh| mesh.value()) else {
+        return Err(format!("it animates the weights of nodes[{node}], which has no mesh"));
+    };
+    let counts = document.root.meshes[mesh]
+        .primitives
+        .iter()
+        .map(|primitive| primitive.targets.as_ref().map_or(0, Vec::len));
+    match counts.max() {
+        None | Some(0) => Err(format!(
+            "it animates the weights of nodes[{node}], and no primitive of meshes[{mesh}] has morph targets"
+        )),
+        Some(targets) => Ok(targets),
+    }
 }

@@ -7,6 +7,7 @@ use std::path::Path;
 use ::gltf::json::Root;
 
 use super::buffers::Buffers;
+use super::unread::Unread;
 use super::{container, indices, json};
 use crate::animation::NodeTransform;
 use crate::remarks::Remarks;
@@ -25,6 +26,8 @@ pub(super) struct Document<'a> {
     pub remarks: RefCell<Remarks>,
     /// Values of enumerations that the format does not know, by their place.
     unknown: HashMap<String, String>,
+    /// What is not read of primitives, by mesh and primitive.
+    pub unread: HashMap<(usize, usize), Unread>,
     /// Elements read so far, against [`Limits::elements`].
     elements: Cell<u64>,
 }
@@ -35,12 +38,12 @@ impl<'a> Document<'a> {
         let limits = &options.limits;
         let mut remarks = Remarks::default();
         let container = container::split(path, bytes, &mut remarks)?;
-        let json::Parsed { root, locals, unknown } = json::parse(path, container.json, &mut remarks)?;
+        let json::Parsed { root, locals, unknown, unread } = json::parse(path, container.json, &mut remarks)?;
         Limits::check(path, "the number of nodes", root.nodes.len() as u64, limits.nodes, "nodes")?;
         indices::check(path, &root)?;
         let buffers = Buffers::new(root.buffers.len(), container.binary, limits.file_bytes);
         let remarks = RefCell::new(remarks);
-        Ok(Self { path, limits, root, locals, buffers, remarks, unknown, elements: Cell::new(0) })
+        Ok(Self { path, limits, root, locals, buffers, remarks, unknown, unread, elements: Cell::new(0) })
     }
 
     /// Counts elements that are about to be read.

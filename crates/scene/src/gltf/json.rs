@@ -11,6 +11,7 @@ use ::gltf::json::deserialize::{from_slice, from_value};
 use ::gltf::json::{Root, Value};
 
 use super::conform::{Found, conform};
+use super::unread::{self, Unread};
 use super::{extensions, transforms};
 use crate::SceneError;
 use crate::animation::NodeTransform;
@@ -28,6 +29,8 @@ pub(super) struct Parsed {
     pub locals: Vec<NodeTransform>,
     /// Values of enumerations that the format does not know, by their place.
     pub unknown: HashMap<String, String>,
+    /// See [`unread::find`].
+    pub unread: HashMap<(usize, usize), Unread>,
 }
 
 /// Parses JSON text.
@@ -43,12 +46,13 @@ pub(super) fn parse(path: &Path, text: &[u8], remarks: &mut Remarks) -> Result<P
     supply_optional_members(&mut tree);
     drop_untargeted_channels(&mut tree, remarks);
     let locals = transforms::read_all(path, &tree, remarks)?;
+    let unread = unread::find(&tree);
     let root: Root = from_value(tree).map_err(|_| {
         // The schema lets nothing through that the typed tree refuses, as far as is known.
         SceneError::syntax(path, "malformed glTF JSON: a member has a value of the wrong kind")
     })?;
     extensions::report(extensions.iter().chain(&root.extensions_used), remarks);
-    Ok(Parsed { root, locals, unknown })
+    Ok(Parsed { root, locals, unknown, unread })
 }
 
 /// The error of text that is no JSON: what it is instead, or where it stops being JSON.

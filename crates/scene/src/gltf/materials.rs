@@ -139,6 +139,10 @@ fn unused_textures(document: &Document<'_>, place: &str, source: &JsonMaterial) 
     for (name, _) in unused.iter().filter(|(_, used)| *used) {
         document.note("unused-texture", place, format!("{name} is not supported; its factor is used alone"));
     }
+    if source.occlusion_texture.is_some() {
+        let text = "occlusionTexture is not used: what surfaces hide from each other is traced";
+        document.note("unused-texture", place, text);
+    }
 }
 
 /// Brings numbers into their ranges and remembers which were outside.

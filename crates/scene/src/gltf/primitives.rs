@@ -91,6 +91,9 @@ pub(super) fn read(
     let Some((mode, positions)) = skipped.triangles_of(document, &place, primitive)? else { return Ok(None) };
     let name = mesh_name(source.name.as_deref(), shown.mesh, shown.primitive, source.primitives.len());
     attributes::remark(document, &place, primitive);
+    if let Some(unread) = document.unread.get(&(shown.mesh, shown.primitive)) {
+        unread.remark(document, &place);
+    }
     let mut mesh = attributes::undeformed(document, primitive, name, positions)?;
     let corners = match primitive.indices {
         Some(indices) => read_integers::<1>(document, indices.value())?.into_iter().flatten().collect(),
@@ -110,7 +113,10 @@ pub(super) fn read(
             document.note("skin-without-joints", format!("mesh {}", mesh.name), text);
             None
         }
-        Some(skin) => Some(skins::read_binding(document, &place, skin.value(), &sets, mesh.positions.len())?),
+        Some(skin) => {
+            skins::remark(document, &place, primitive, sets.len() as u32);
+            Some(skins::read_binding(document, &place, skin.value(), &sets, mesh.positions.len())?)
+        }
         None => None,
     };
     let morphed = primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty());
@@ -119,6 +125,19 @@ pub(super) fn read(
     if morphed || binding.is_some() {
         let weights = node.weights.as_deref().or(source.weights.as_deref()).unwrap_or_default();
         let mut kept = deformation::read(document, &place, primitive, weights, &mesh)?;
+        let (given, targets) = (weights.len(), kept.targets.len());
+        if given > 0 && targets > 0 && given != targets {
+            let whose =
+                if node.weights.is_some() { format!("nodes[{}]", shown.node) } else { "its mesh".to_owned() };
+            let text = format!(
+                "{whose} has {given} weights for {targets} morph targets; {}",
+                match given < targets {
+                    true => "the others are 0",
+                    false => "those beyond were dropped",
+                }
+            );
+            document.note("morph-weights", &place, text);
+        }
         let joints = binding.as_ref().map(|found| Joints::new(&skins[found.skin], found, &hierarchy.world));
         let weights: Vec<f64> = kept.weights.iter().copied().map(f64::from).collect();
         world_from_mesh = deform(&mut mesh, &kept, &weights, joints.as_ref());

@@ -1,5 +1,7 @@
 //! Skins: joints and bindings.
 
+use ::gltf::json::mesh::{Primitive, Semantic};
+use ::gltf::json::validation::Checked;
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::accessor::{read_floats, read_integers};
@@ -37,6 +39,22 @@ fn affine(elements: &[f32; 16]) -> DAffine3 {
     DAffine3 { matrix3: DMat3::from_cols(column(0), column(4), column(8)), translation: column(12) }
 }
 
+/// Remarks on joints without weights and weights without joints: sets from `read` on are not read.
+pub(super) fn remark(document: &Document<'_>, place: &str, primitive: &Primitive, read: u32) {
+    for semantic in primitive.attributes.keys() {
+        let Checked::Valid(semantic @ (Semantic::Joints(set) | Semantic::Weights(set))) = semantic else {
+            continue;
+        };
+        if *set >= read {
+            let text = format!(
+                "{} was dropped: JOINTS_{read} and WEIGHTS_{read} are not both there",
+                semantic.to_string()
+            );
+            document.note("unread-attributes", place, text);
+        }
+    }
+}
+
 /// Reads which joints move the vertices of a primitive. `sets` are the accessors of joints and weights, four joints per
 /// vertex each.
 pub(super) fn read_binding(
@@ -50,6 +68,7 @@ pub(super) fn read_binding(
     let per_vertex = 4 * sets.len();
     let mut joints = vec![0; vertices * per_vertex];
     let mut weights = vec![0.0; vertices * per_vertex];
+    let mut bad = 0;
     for (set, accessors) in sets.iter().enumerate() {
         let joints_of = read_integers::<4>(document, accessors.0)?;
         let weights_of = read_floats::<4>(document, accessors.1)?;
@@ -62,6 +81,7 @@ pub(super) fn read_binding(
             let first = vertex * per_vertex + 4 * set;
             for (place_of, (joint, weight)) in joints_of.into_iter().zip(weights_of).enumerate() {
                 if !(weight.is_finite() && weight > 0.0) {
+                    bad += usize::from(weight != 0.0);
                     continue;
                 }
                 if joint as usize >= available {
@@ -76,15 +96,24 @@ pub(super) fn read_binding(
     if available == 0 && vertices > 0 {
         return Err(document.invalid(format!("skins[{skin}]"), "has no joints"));
     }
+    let mut unmoved = 0;
     for weights in weights.chunks_exact_mut(per_vertex.max(1)) {
         let sum: f64 = weights.iter().copied().map(f64::from).sum();
         if sum >= f64::from(f32::MIN_POSITIVE) {
             weights.iter_mut().for_each(|weight| *weight = (f64::from(*weight) / sum) as f32);
         } else {
-            // A vertex that no joint moves follows the first.
             weights.fill(0.0);
             weights[0] = 1.0;
+            unmoved += 1;
         }
     }
+    let mut remarks = document.remarks.borrow_mut();
+    remarks.count("bad-weights", place, bad, "weights of joints are negative or not finite, and taken as 0");
+    remarks.count(
+        "bad-weights",
+        place,
+        unmoved,
+        "vertices have no joint with weight; they follow the first of the skin",
+    );
     Ok(SkinBinding { skin, per_vertex, joints, weights })
 }

@@ -12,9 +12,6 @@ use crate::remarks::Remarks;
 /// How far the last row of a matrix may be from (0, 0, 0, 1).
 const PROJECTIVE_TOLERANCE: f64 = 1e-6;
 
-/// Share of the volume that its columns could span below which a matrix is singular, but for rounding.
-const SINGULAR: f64 = 1e-12;
-
 /// Reads the transform of every node.
 pub(super) fn read_all(
     path: &Path,
@@ -40,21 +37,10 @@ fn read(path: &Path, index: usize, node: &Value, remarks: &mut Remarks) -> Resul
             remarks.note("matrix-and-parts", &place, text);
         }
         let matrix3 = DMat3::from_cols(column(0), column(1), column(2));
-        let volume = [0, 1, 2].map(|k| matrix3.col(k).length()).into_iter().product::<f64>();
-        if matrix3.determinant().abs() <= SINGULAR * volume {
-            remarks.note(
-                "singular-transform",
-                place,
-                "has a singular matrix; what it places is flat or a point",
-            );
-        }
         return Ok(NodeTransform::Matrix(DAffine3 { matrix3, translation: column(3) }));
     }
     let translation = numbers::<3>(path, index, node, "translation")?.map_or(DVec3::ZERO, DVec3::from);
     let scale = numbers::<3>(path, index, node, "scale")?.map_or(DVec3::ONE, DVec3::from);
-    if scale.to_array().contains(&0.0) {
-        remarks.note("zero-scale", &place, "has a scale of 0; what it places is flat or a point");
-    }
     let rotation = match numbers::<4>(path, index, node, "rotation")? {
         Some(elements) => unit_rotation(elements).unwrap_or_else(|| {
             remarks.note(

@@ -216,9 +216,14 @@ fn numbered_files_are_one_scene_over_time() {
         let scene = sequence(folder.path(), "triangles.##.ply", fps).expect("files");
         let deformer = scene.animation.deformer.expect("files");
         for number in 7..=10 {
-            let file = format!("triangles.{number:02}.ply");
-            assert_eq!(deformer.file(f64::from(number) / fps).and_then(Path::file_name), Some(file.as_ref()));
+            let (file, exact) = (format!("triangles.{number:02}.ply"), f64::from(number) / fps);
+            for seconds in [exact, f64::from(exact as f32)] {
+                assert_eq!(deformer.file(seconds).and_then(Path::file_name), Some(file.as_ref()));
+            }
         }
+        // Its end, which is in single precision, shows the last.
+        let last = deformer.file(f64::from(scene.animation.duration)).and_then(Path::file_name);
+        assert_eq!(last, Some("triangles.10.ply".as_ref()), "{fps}");
     }
 }
 

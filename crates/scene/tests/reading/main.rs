@@ -10,6 +10,7 @@ mod gltf_corpus;
 mod gltf_damaged;
 mod gltf_graph;
 mod gltf_images;
+mod gltf_motion;
 mod gltf_refusals;
 mod gltf_remarks;
 mod gltf_support;
