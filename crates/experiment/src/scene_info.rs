@@ -7,7 +7,7 @@ use crate::jobs::Frame;
 use crate::scene_source::LoadedScene;
 use crate::texels::TexelInfo;
 use glam::DVec3;
-use rasray_report::CameraRecord;
+use rasray_report::{CameraRecord, PoseRecord};
 use rasray_scene::facing::Facing;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Environment, Motion, Scene, default_view};
@@ -22,6 +22,8 @@ pub struct SceneInfo {
     pub counts: [(&'static str, u64); 7],
     /// Its clips: name and seconds.
     pub clips: Vec<(String, f32)>,
+    /// When it is shown; absent at rest.
+    pub pose: Option<PoseRecord>,
     /// How it changes with time.
     pub motion: Motion,
     /// Seconds from which on nothing changes.
@@ -51,8 +53,8 @@ pub struct SceneInfo {
 }
 
 impl SceneInfo {
-    /// Looks a scene over. It is lit as a render would light it: what it needs then is what counts. `capacity` opens the
-    /// device, if there is one; it is called only where something depends on it.
+    /// Looks a scene over, as it is posed. It is lit as a render would light it: what it needs then is what counts. `capacity`
+    /// opens the device, if there is one; it is called only where something depends on it.
     ///
     /// # Errors
     /// The scene names what it does not have, or has more texels than the device can make fit.
@@ -63,7 +65,8 @@ impl SceneInfo {
         capacity: impl FnOnce() -> Option<TexelCapacity>,
     ) -> Result<Self, ExperimentError> {
         let environment = environment(&loaded.scene.environment);
-        let unlit = default_view::ensure_lit(&mut loaded.scene);
+        loaded.relight();
+        let unlit = loaded.has_default_light();
         let needs = Needs::of(&loaded.scene, frame.workload());
         loaded.count_not_uploaded(&view.camera, &needs);
         let scene = &loaded.scene;
@@ -75,6 +78,7 @@ impl SceneInfo {
             name: scene.name.clone(),
             counts: counts(scene, loaded.triangles),
             clips: scene.animation.rig.clips.iter().map(|clip| (clip.name.clone(), clip.duration)).collect(),
+            pose: loaded.pose.clone(),
             motion: scene.motion(),
             duration_s: scene
                 .animation
@@ -110,6 +114,9 @@ impl SceneInfo {
         });
         for (name, count) in self.counts {
             scene[name] = count.into();
+        }
+        if let Some(pose) = &self.pose {
+            scene["pose"] = json!(pose);
         }
         if let Some((low, high)) = self.bounds {
             scene["bounds_m"] = json!([low.to_array(), high.to_array()]);

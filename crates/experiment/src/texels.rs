@@ -159,6 +159,7 @@ mod tests {
             not_uploaded_bytes: None,
             pose: None,
             smaller_images: Vec::new(),
+            lighting: Default::default(),
         }
     }
 

@@ -15,7 +15,7 @@ mod sky;
 
 pub use bounds::bounds;
 pub use emitters::emits;
-pub use light::{default_light, ensure_lit, is_lit};
+pub use light::{add_default_light, default_light, ensure_lit, is_lit, is_lit_at_times};
 pub use looking::camera_looking_at;
 
 /// Full vertical angle of the default camera that stands outside, radians.

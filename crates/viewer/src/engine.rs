@@ -52,6 +52,8 @@ pub struct Engine {
     stage: Option<(Stage, Needs)>,
     /// The time at which the stage is, seconds; absent at rest.
     posed: Option<f64>,
+    /// Whether the stage has the default light.
+    has_default_light: bool,
     traced: Option<Traced>,
     exact: Option<Traced>,
     /// Of the whole picture.
@@ -80,6 +82,7 @@ impl Engine {
             settings,
             stage: None,
             posed: None,
+            has_default_light: false,
             traced: None,
             exact: None,
             film: None,
@@ -171,9 +174,12 @@ impl Engine {
         let eye = camera.world_from_camera.translation;
         let origin = SceneTables::default_frame_origin(&self.scene.loaded().scene, eye);
         let is_posed = self.scene.loaded().moment.is_some();
+        let has_default_light = self.scene.loaded().has_default_light();
         let is_kept = |(stage, _): &(Stage, Needs)| {
             // Positions far from the eye have too few digits left.
-            stage.scene.frame_origin() == origin && (self.posed == seconds || (stage.is_moving() && is_posed))
+            stage.scene.frame_origin() == origin
+                && self.has_default_light == has_default_light
+                && (self.posed == seconds || (stage.is_moving() && is_posed))
         };
         if self.stage.as_ref().is_some_and(|stage| !is_kept(stage)) {
             self.drop_for(Redo::ALL);
@@ -195,6 +201,7 @@ impl Engine {
             let stage = make(&self.device, scene, &camera, [width, height], seed, &needs)?;
             self.stage = Some((stage, needs));
             self.posed = if is_posed { None } else { seconds };
+            self.has_default_light = has_default_light;
         }
         if self.posed != seconds
             && let (Some((stage, _)), Some(moment)) = (&mut self.stage, &self.scene.loaded().moment)

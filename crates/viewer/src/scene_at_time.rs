@@ -44,12 +44,16 @@ impl SceneAtTime {
             (Some(seconds), _) => self.loaded.show(seconds, self.clip.as_deref())?,
             (None, rest) => {
                 if let Some(rest) = rest {
-                    let images = std::mem::take(&mut self.loaded.scene.images);
-                    self.loaded.scene = Scene { images, ..rest.clone() };
+                    let scene = &mut self.loaded.scene;
+                    let (images, environment) =
+                        (std::mem::take(&mut scene.images), std::mem::take(&mut scene.environment));
+                    self.loaded.scene = Scene { images, environment, ..rest.clone() };
                 }
                 (self.loaded.moment, self.loaded.pose) = (None, None);
             }
         }
+        // As a picture of that time is lit.
+        self.loaded.relight();
         (self.seconds, self.chosen) = (seconds, None);
         Ok(())
     }

@@ -4,9 +4,14 @@ use std::ffi::OsStr;
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
+use glam::{DQuat, DVec3};
 use rasray_experiment::{
     AovSelection, Backend, DeviceChoice, Frame, Integrator, LoadedScene, Primary, Refresh, RenderJob,
     Sampler, StructureOptions, SystemConfig, load, open, open_device,
+};
+use rasray_scene::Moment;
+use rasray_scene::animation::{
+    Channel, ChannelValues, Clip, Interpolation, NodeTransform, Placement, Rig, RigNode,
 };
 use rasray_scene::needs::Needs;
 use rasray_systems::{Preset, System};
@@ -47,7 +52,10 @@ fn engine(settings: &Settings) -> Engine {
 }
 
 fn engine_of(scene: &OsStr, settings: &Settings) -> Engine {
-    let mut loaded = load(scene).expect("a scene");
+    engine_with(load(scene).expect("a scene"), settings)
+}
+
+fn engine_with(mut loaded: LoadedScene, settings: &Settings) -> Engine {
     loaded.light(None);
     let source =
         SceneSource { loaded, clip: None, needs_all: false, camera: Box::new(LoadedScene::default_view) };
@@ -97,11 +105,14 @@ fn rendered(backend: &mut dyn Backend, settings: &Settings) -> Vec<[f32; 3]> {
 }
 
 fn rendered_of(scene: &OsStr, backend: &mut dyn Backend, settings: &Settings) -> Vec<[f32; 3]> {
-    let mut loaded = load(scene).expect("a scene");
-    loaded.light(None);
+    rendered_with(load(scene).expect("a scene"), backend, settings)
+}
+
+fn rendered_with(mut loaded: LoadedScene, backend: &mut dyn Backend, settings: &Settings) -> Vec<[f32; 3]> {
     if let Some(seconds) = settings.seconds {
         loaded.show(seconds, None).expect("it moves");
     }
+    loaded.light(None);
     let camera = match &settings.standpoint {
         Standpoint::AsGiven => loaded.default_view().expect("a view").camera,
         Standpoint::Placed(rounded) => rounded.camera().expect("a camera"),
@@ -225,6 +236,52 @@ fn numbered_files_are_those_of_a_render_at_any_time() {
         let expected = rendered_of(scene.as_os_str(), backend.as_mut(), &settings);
         assert!(radiance(&picture) == expected, "at {frame:?}");
     }
+}
+
+/// The Cornell box with its lamp hidden at rest, by a scale of 0, and shown from second 1 to 2.
+fn blinking() -> LoadedScene {
+    let mut loaded = load(OsStr::new("cornell")).expect("a scene");
+    let scene = &mut loaded.scene;
+    let is_lamp = |mesh: usize| scene.materials[scene.meshes[mesh].material].emission != [0.0; 3];
+    let (mut nodes, mut placements, mut channels) = (Vec::new(), Vec::new(), Vec::new());
+    for (node, instance) in scene.instances.iter_mut().enumerate() {
+        let is_lamp = is_lamp(instance.mesh);
+        if is_lamp {
+            let values = ChannelValues::Scale(vec![[0.0; 3], [1.0; 3], [0.0; 3]]);
+            let times = vec![0.0, 1.0, 2.0];
+            channels.push(Channel { node, interpolation: Interpolation::Step, times, values });
+        }
+        let transform = NodeTransform::Parts {
+            translation: DVec3::ZERO,
+            rotation: DQuat::IDENTITY,
+            scale: if is_lamp { DVec3::ZERO } else { DVec3::ONE },
+        };
+        nodes.push(RigNode { name: "node".to_owned(), parent: None, transform });
+        placements.push(Placement { node, node_from_mesh: instance.world_from_mesh });
+    }
+    let clip = Clip { name: "blink".to_owned(), duration: 2.0, channels };
+    scene.animation.clips = vec![clip.name.clone()];
+    scene.animation.rig = Rig { nodes, placements, clips: vec![clip], ..Rig::default() };
+    loaded.scene = loaded.scene.at(&Moment::default()).expect("a rig");
+    loaded
+}
+
+/// Whether a sky stands in for missing light is decided for the time that is shown, as for a render.
+#[test]
+fn the_sky_comes_and_goes_as_in_renders() {
+    let mut backend = open(&VALIDATED).expect("a device");
+    let mut settings = settings();
+    let mut engine = engine_with(blinking(), &settings);
+    let mut means = Vec::new();
+    for seconds in [None, Some(1.0), Some(0.5), Some(1.5), None] {
+        settings.seconds = seconds;
+        engine.apply(settings.clone());
+        let picture = finished(&mut engine);
+        let expected = rendered_with(blinking(), &mut *backend, &settings);
+        assert!(radiance(&picture) == expected, "{seconds:?}");
+        means.push(expected.as_flattened().iter().sum::<f32>());
+    }
+    assert!(means[1] != means[0] && means[0] == means[2] && means[1] == means[3], "{means:?}");
 }
 
 #[test]

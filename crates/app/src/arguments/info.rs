@@ -30,6 +30,13 @@ pub struct InfoArguments {
     /// With numbered files: frames per second [default: 25]
     #[arg(long, value_name = "N", value_parser = values::frames_per_second, requires = "scene")]
     pub fps: Option<f64>,
+    /// With a scene: what it is like at this time of its animation, seconds [default: at rest]
+    #[arg(long, value_name = "SECONDS", value_parser = values::seconds, allow_hyphen_values = true, requires = "scene")]
+    pub time: Option<f64>,
+    /// With --time: the clip that moves the scene, by name or by position from 0 [default: all that do not move the same
+    /// thing]
+    #[arg(long, value_name = "NAME", requires = "time")]
+    pub clip: Option<String>,
     /// With a scene: the integrator whose needs are shown
     #[arg(long, value_enum, default_value_t = IntegratorName::Path)]
     pub integrator: IntegratorName,

@@ -1,7 +1,7 @@
 //! `rasray compare`.
 
 use super::hard;
-use super::steps::{Posing, fit_images, open_device, read_scene, stop_if_requested, with_progress};
+use super::steps::{Posing, Shown, fit_images, open_device, read_scene, stop_if_requested, with_progress};
 use super::targets::Targets;
 use crate::arguments::CompareArguments;
 use crate::error::AppError;
@@ -49,8 +49,10 @@ pub(crate) fn compare(
         given.files.hits_file.iter().map(|file| Ok::<_, AppError>(load_hits(&file.name, &file.path)?));
     let hits_files = hits_files.collect::<Result<Vec<_>, _>>()?;
 
-    let shown = given.work.reading.time.map(|time| (time, Posing::Host));
-    let (mut loaded, chosen) = read_scene(&given.scene, &given.work.reading, shown, &given.work.view)?;
+    let shown =
+        given.work.reading.time.map(|seconds| Shown { seconds, posing: Posing::Host, times: Vec::new() });
+    let (mut loaded, chosen) =
+        read_scene(&given.scene, &given.work.reading, shown.as_ref(), &given.work.view)?;
     let systems: Vec<_> =
         systems.into_iter().map(|system| system.seen_by(&chosen.camera, frame.width, frame.height)).collect();
     let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));

@@ -3,7 +3,7 @@
 use super::frames::{dealt, seconds};
 use super::picture_targets::{Targets, rows, samples_shard};
 use super::pictures::Pictures;
-use super::steps::{Posing, fit_images, open_device, read_scene, stop_if_requested};
+use super::steps::{Posing, Shown, fit_images, open_device, read_scene, stop_if_requested};
 use crate::arguments::RenderArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
@@ -32,8 +32,11 @@ pub(crate) fn render(
     let rows = rows(given)?;
     let fps = given.work.reading.frames_per_second();
     let time = first.map_or(given.work.reading.time, |first| Some(seconds(first, fps)));
-    let shown = time.map(|time| (time, Posing::Device));
-    let (mut loaded, chosen) = read_scene(&given.scene, &given.work.reading, shown, &given.work.view)?;
+    let times: Vec<_> =
+        given.frames.clone().into_iter().flatten().map(|number| seconds(number, fps)).collect();
+    let shown = time.map(|seconds| Shown { seconds, posing: Posing::Device, times });
+    let (mut loaded, chosen) =
+        read_scene(&given.scene, &given.work.reading, shown.as_ref(), &given.work.view)?;
     system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 
     let backend = open_device(open, &given.work.device)?;

@@ -64,11 +64,21 @@ pub(super) enum Posing {
     Host,
 }
 
+/// When a scene is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Shown {
+    /// At first.
+    pub(super) seconds: f64,
+    pub(super) posing: Posing,
+    /// All times at which the command shows it, where it shows frames, in all shares of them.
+    pub(super) times: Vec<f64>,
+}
+
 /// Reads a scene as the command line asks, shown at a time or at rest, and chooses the camera; warns of what was left out of it.
 pub(super) fn read_scene(
     name: &OsStr,
     reading: &SceneArguments,
-    shown: Option<(f64, Posing)>,
+    shown: Option<&Shown>,
     view: &ViewArguments,
 ) -> Result<(LoadedScene, Chosen), AppError> {
     if shown.is_none() && reading.clip.is_some() {
@@ -102,21 +112,24 @@ pub(super) fn load_scene(name: &OsStr, fps: Option<f64>, has_frames: bool) -> Re
 pub(super) fn prepare(
     name: &OsStr,
     reading: &SceneArguments,
-    shown: Option<(f64, Posing)>,
+    shown: Option<&Shown>,
 ) -> Result<LoadedScene, AppError> {
     // Cheap to refuse, so before the scene is read.
     let environment = reading.environment()?;
     // A time that is not that of --time is that of a frame.
     let mut loaded = load_scene(name, reading.fps, shown.is_some() && reading.time.is_none())?;
-    // Whether anything lights the scene is decided at rest, once for all times.
-    loaded.light(environment);
     if reading.alpha == Switch::Off {
         loaded.close_holes();
     }
+    let clip = reading.clip.as_deref();
     match shown {
-        Some((seconds, Posing::Device)) => loaded.show(seconds, reading.clip.as_deref())?,
-        Some((seconds, Posing::Host)) => loaded.pose(seconds, reading.clip.as_deref())?,
+        Some(Shown { seconds, posing: Posing::Device, .. }) => loaded.show(*seconds, clip)?,
+        Some(Shown { seconds, posing: Posing::Host, .. }) => loaded.pose(*seconds, clip)?,
         None => {}
+    }
+    match shown.map(|shown| &shown.times) {
+        Some(times) if !times.is_empty() => loaded.light_frames(environment, clip, times.iter().copied())?,
+        _ => loaded.light(environment),
     }
     Ok(loaded)
 }

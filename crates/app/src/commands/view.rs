@@ -60,7 +60,6 @@ mod with_window {
         keep_inputs("--output", Some(&Destination::check(&output)?), &given.scene)?;
         let mut loaded = during("scene", "reading", || prepare(&given.scene, &given.work.reading, None))?;
         let chosen = check_view(given, &mut loaded)?;
-        terminal::warn_of_scene(&loaded.scene, loaded.triangles);
 
         let seconds = given.work.reading.time;
         let settings = Settings {
@@ -110,15 +109,24 @@ mod with_window {
         }
     }
 
-    /// Refuses a camera, a time or a clip that the scene does not have before a window is opened.
+    /// Refuses a camera, a time or a clip that the scene does not have before a window is opened, and says what there is to
+    /// remark on what is shown first.
     fn check_view(given: &ViewerArguments, loaded: &mut LoadedScene) -> Result<Chosen, ExperimentError> {
         let SceneArguments { time, clip, .. } = &given.work.reading;
         if time.is_none() && clip.is_none() {
-            return given.work.view.choose(loaded);
+            let chosen = given.work.view.choose(loaded)?;
+            terminal::warn_of_scene(&loaded.scene, loaded.triangles);
+            return Ok(chosen);
         }
         let mut shown = loaded.clone();
         shown.show(time.unwrap_or(0.0), clip.as_deref())?;
-        given.work.view.choose(&mut shown)
+        if time.is_some() {
+            shown.relight();
+        }
+        let chosen = given.work.view.choose(&mut shown)?;
+        let seen = if time.is_some() { &shown } else { loaded };
+        terminal::warn_of_scene(&seen.scene, seen.triangles);
+        Ok(chosen)
     }
 
     /// Writes a picture and says how to make it again.

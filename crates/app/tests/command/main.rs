@@ -5,6 +5,7 @@ mod faults_driver;
 mod faults_output;
 mod hard;
 mod html_browser;
+mod moments;
 mod motion;
 mod output;
 mod replay;

@@ -3,7 +3,7 @@
 use super::emission::mean_emission;
 use super::emitters::{emits, shines, shown_materials};
 use super::sky::sky;
-use crate::{Environment, Light, Scene, Warning};
+use crate::{Environment, Light, Motion, Scene, Warning};
 
 /// What the surfaces of a scene emit lights it from this much on: the mean radiance over all of its surfaces,
 /// W/(sr m^2). The lamp of a Cornell box gives the box 0.09; a white surface that saw 0.05 all around would be
@@ -17,11 +17,22 @@ const LEAST_EMISSION: f64 = 0.05;
 ///
 /// So lamps light a room, while eyes, screens and marks that glow on an object leave it to somebody else's light.
 pub fn is_lit(scene: &Scene) -> bool {
+    is_lit_always(scene) || mean_emission(scene) >= LEAST_EMISSION
+}
+
+/// Whether [`is_lit`] depends on the time at which the scene is shown: nothing but surfaces may light it, and how much of
+/// all surfaces those are that emit changes with what moves.
+pub fn is_lit_at_times(scene: &Scene) -> bool {
+    scene.motion() != Motion::Still && scene.materials.iter().any(emits) && !is_lit_always(scene)
+}
+
+/// Whether anything lights it that does not depend on its surfaces.
+fn is_lit_always(scene: &Scene) -> bool {
     let environment = match &scene.environment {
         Environment::Constant(radiance) => shines(radiance),
         Environment::LatLong { radiance, .. } => radiance.iter().any(|texel| shines(texel)),
     };
-    environment || scene.lights.iter().any(light_shines) || mean_emission(scene) >= LEAST_EMISSION
+    environment || scene.lights.iter().any(light_shines)
 }
 
 /// The light of a scene that brings none, as a map of 256 x 128 texels: a neutral sky, grey at the horizon, with a
@@ -37,6 +48,12 @@ pub fn ensure_lit(scene: &mut Scene) -> bool {
     if is_lit(scene) {
         return false;
     }
+    add_default_light(scene);
+    true
+}
+
+/// Gives a scene the [`default_light`], with a warning `default-light` that says why.
+pub fn add_default_light(scene: &mut Scene) {
     let reason = if shown_materials(scene).any(emits) {
         "what glows in the scene is too little to light it"
     } else {
@@ -45,7 +62,6 @@ pub fn ensure_lit(scene: &mut Scene) -> bool {
     scene.environment = default_light();
     let message = format!("{reason}; a neutral sky with a soft key light was added");
     scene.warnings.push(Warning { kind: "default-light", message });
-    true
 }
 
 fn light_shines(light: &Light) -> bool {

@@ -35,6 +35,9 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
     let system = given.system()?;
     if let Some(name) = &given.scene {
         let mut loaded = during("scene", "reading", || load_scene(name, given.fps, false))?;
+        if let Some(seconds) = given.time {
+            during("scene", "posing", || loaded.pose(seconds, given.clip.as_deref()))?;
+        }
         let frame = Frame {
             integrator: given.integrator.by_default(),
             width: 1,

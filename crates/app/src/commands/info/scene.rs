@@ -21,6 +21,11 @@ pub(super) fn scene_text(info: &SceneInfo) -> String {
     if let Some(sha256) = &info.sha256 {
         rows.push(pair("sha256", sha256));
     }
+    if let Some(pose) = &info.pose {
+        let clips =
+            if pose.clips.is_empty() { String::new() } else { format!(", {}", pose.clips.join(", ")) };
+        rows.push(pair("shown at", format!("{} s{clips}", pose.time_s)));
+    }
     if info.motion != Motion::Still {
         rows.push(pair("motion", format!("{}, until {:.3} s", info.motion.described(), info.duration_s)));
     }
