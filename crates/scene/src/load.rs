@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::formats::load_file;
+use crate::origin::Origins;
 use crate::{LoadOptions, Scene, SceneError};
 
 /// Loads a scene from a file; the extension of its name decides the format: `.gltf`, `.glb`,
@@ -27,5 +28,5 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     if crate::sequence::is_pattern(path) {
         return crate::sequence::load(path, options);
     }
-    load_file(path, options)
+    load_file(path, options, Origins::Own)
 }

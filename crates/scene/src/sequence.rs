@@ -2,14 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::DVec3;
+
 use crate::deforming::{Deformation, Deformer, Shape, Topology};
+use crate::origin::Origins;
 use crate::{LoadOptions, Mesh, Scene, SceneError, Warning};
 
 /// Files of one name but for a number, such as `cloth.####.ply`: file n is shown from n / fps seconds on, until the next one
 /// is. Before the first it is the first, after the last the last.
 ///
 /// Vertices and triangles may be others in every file. Materials, textures and instances are those of the first file with
-/// triangles; a later one may have fewer meshes (the others are empty then), not more, and no other materials.
+/// triangles; a later one may have fewer meshes (the others are empty then), not more, and no other materials. Each mesh
+/// stays where the instance of the first places it, and positions are relative to that.
 #[derive(Clone, Debug)]
 pub struct Sequence {
     /// All files, without a gap.
@@ -113,13 +117,13 @@ impl Sequence {
 /// Those of [`Sequence::find`], and of the first files up to one with triangles.
 pub fn load(pattern: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     let sequence = Sequence::find(pattern, options)?;
-    let mut model = crate::formats::load_file(&sequence.files[0], options)?;
+    let mut model = crate::formats::load_file(&sequence.files[0], options, Origins::First)?;
     let warnings = std::mem::take(&mut model.warnings);
     for file in &sequence.files[1..] {
         if !model.meshes.is_empty() {
             break;
         }
-        model = crate::formats::load_file(file, options)?;
+        model = crate::formats::load_file(file, options, Origins::First)?;
         // Nothing of it is shown yet.
         for mesh in &mut model.meshes {
             *mesh = empty(mesh);
@@ -130,6 +134,7 @@ pub fn load(pattern: &Path, options: &LoadOptions) -> Result<Scene, SceneError> 
         meshes: (0..model.meshes.len()).collect(),
         templates: model.meshes.iter().map(empty).collect(),
         materials: model.materials.iter().map(|material| material.name.clone()).collect(),
+        origins: model.instances.iter().map(|instance| instance.world_from_mesh.translation).collect(),
         sequence,
     };
     model.name = crate::finish::scene_name(pattern);
@@ -154,6 +159,8 @@ struct Frames {
     templates: Vec<Mesh>,
     /// Names of its materials.
     materials: Vec<String>,
+    /// Where its meshes are placed, metres, world; instance by instance, of which each mesh has one.
+    origins: Vec<DVec3>,
 }
 
 impl Frames {
@@ -206,7 +213,8 @@ impl Deformer for Frames {
 
     fn at(&self, seconds: f64) -> Result<Deformation, SceneError> {
         let file = &self.sequence.files[self.sequence.index(seconds)];
-        self.adapted(file, crate::formats::load_file(file, &self.sequence.options)?)
+        let origins = Origins::Given(&self.origins);
+        self.adapted(file, crate::formats::load_file(file, &self.sequence.options, origins)?)
     }
 
     fn file(&self, seconds: f64) -> Option<&Path> {

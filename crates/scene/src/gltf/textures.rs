@@ -9,8 +9,9 @@ use ::gltf::json::texture::{Info, MagFilter, MinFilter, Texture as JsonTexture, 
 use ::gltf::json::validation::Checked;
 
 use super::document::Document;
-use super::uri::{Reference, resolve};
+use super::uri::{Reference, decoded, is_data, resolve};
 use crate::images::{Encoded, count_texels, read_image};
+use crate::reference::{self, Place};
 use crate::{Filter, Image, SceneError, Texture, TextureRef, Wrap};
 
 /// What a texture reference says, whichever of the typed structs it came from.
@@ -131,14 +132,18 @@ impl<'a, 'd> TextureReader<'a, 'd> {
         let (data, file);
         let encoded = match (image.buffer_view, &image.uri) {
             (Some(view), _) => Encoded::Bytes(document.view(view.value())?),
-            (None, Some(uri)) => match resolve(path, &place, uri, limits.file_bytes)? {
-                Reference::Data(bytes) => {
+            (None, Some(uri)) => match self.image_reference(&place, uri)? {
+                Some(Reference::Data(bytes)) => {
                     data = bytes;
                     Encoded::Bytes(&data)
                 }
-                Reference::File(found) => {
+                Some(Reference::File(found)) => {
                     file = found;
                     Encoded::File(&file)
+                }
+                None => {
+                    self.known_images.insert(index, None);
+                    return Ok(None);
                 }
             },
             (None, None) => {
@@ -156,6 +161,34 @@ impl<'a, 'd> TextureReader<'a, 'd> {
         };
         self.known_images.insert(index, position);
         Ok(position)
+    }
+}
+
+impl TextureReader<'_, '_> {
+    /// What the reference of an image means. One that cannot be followed is a missing texture, which a scene can do without:
+    /// `None`, with a remark, unless a file of its name stands in.
+    fn image_reference(&self, place: &str, uri: &str) -> Result<Option<Reference>, SceneError> {
+        let Document { path, limits, remarks, .. } = self.document;
+        match resolve(path, place, uri, limits.file_bytes) {
+            Ok(found) => Ok(Some(found)),
+            Err(SceneError::UnsafeReference { reason, .. }) if is_data(uri) => {
+                let text = format!("is not shown: its data: URI {reason}");
+                remarks.borrow_mut().note("unreadable-texture", format!("texture {place}"), text);
+                Ok(None)
+            }
+            Err(SceneError::UnsafeReference { reason, .. }) => {
+                let (folder, name) = (path.parent().unwrap_or(std::path::Path::new("")), decoded(uri));
+                let place = match reference::place(folder, &name) {
+                    // Written with backslashes, or not escaped where a URI has to be.
+                    Place::Below(file) if file.is_file() && !name.contains(':') => {
+                        Place::Outside { reason, beside: Some(file) }
+                    }
+                    _ => reference::outside(folder, &name, reason),
+                };
+                Ok(reference::texture(&place, &name, &mut remarks.borrow_mut()).map(Reference::File))
+            }
+            Err(error) => Err(error),
+        }
     }
 }
 

@@ -61,6 +61,16 @@ pub(super) fn resolve(path: &Path, place: &str, uri: &str, limit: u64) -> Result
     Ok(Reference::File(path.parent().unwrap_or(Path::new("")).join(below)))
 }
 
+/// Whether a reference is one to bytes within itself.
+pub(super) fn is_data(uri: &str) -> bool {
+    strip_scheme(uri, "data:").is_some()
+}
+
+/// A reference with its percent escapes replaced, as far as that can be done.
+pub(super) fn decoded(uri: &str) -> String {
+    percent_decode(uri).map_or_else(|| uri.to_owned(), |bytes| String::from_utf8_lossy(&bytes).into_owned())
+}
+
 /// `text` without its scheme, whatever case that is written in.
 fn strip_scheme<'a>(text: &'a str, scheme: &str) -> Option<&'a str> {
     let (head, rest) = text.split_at_checked(scheme.len())?;

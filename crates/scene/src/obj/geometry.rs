@@ -1,18 +1,23 @@
 //! The OBJ file itself: vertices and faces to meshes.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::reference::resolve;
+use glam::DVec3;
+
 use super::skipped::Skipped;
 use super::statements::{Statement, statements};
+use crate::polygon::{Filling, Polygons};
 use crate::recognise::{BINARY, RENAME};
+use crate::reference::{Place, place};
 use crate::{Limits, Mesh, SceneError};
 
 /// What an OBJ file holds.
 pub(super) struct Geometry {
-    /// `Mesh::material` indexes `material_names`.
+    /// `Mesh::material` indexes `material_names`. Without positions.
     pub meshes: Vec<Mesh>,
+    /// Positions of each mesh as the file has them.
+    pub positions: Vec<Vec<DVec3>>,
     /// In the order of first use by a face; the empty name stands for faces without a material.
     pub material_names: Vec<String>,
     pub libraries: Vec<Library>,
@@ -25,17 +30,19 @@ pub(super) struct Geometry {
 pub(super) struct Library {
     /// All that follows the word.
     pub name: String,
-    place: String,
 }
 
 impl Library {
-    /// The statement may name one file with spaces or several files: one if that exists.
-    pub fn files(&self, path: &Path, folder: &Path) -> Result<Vec<PathBuf>, SceneError> {
-        let whole = resolve(path, &self.place, folder, &self.name)?;
-        if whole.is_file() {
-            return Ok(vec![whole]);
-        }
-        self.name.split_whitespace().map(|name| resolve(path, &self.place, folder, name)).collect()
+    /// Names of files and where they lead. The statement may name one file with spaces or several files: one if that exists,
+    /// or where one leads outside.
+    pub fn files(&self, folder: &Path) -> Vec<(&str, Place)> {
+        let is_one = match place(folder, &self.name) {
+            Place::Below(file) => file.is_file(),
+            Place::Outside { beside, .. } => beside.is_some_and(|file| file.is_file()),
+        };
+        let names: Vec<&str> =
+            if is_one { vec![self.name.as_str()] } else { self.name.split_whitespace().collect() };
+        names.into_iter().map(|name| (name, place(folder, name))).collect()
     }
 }
 
@@ -48,21 +55,29 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
         uvs: Vec::new(),
         normals: Vec::new(),
         group: String::new(),
+        smoothing: 0,
+        smooth: HashMap::new(),
+        smooth_sums: Vec::new(),
         material: String::new(),
         material_names: Vec::new(),
         material_index: HashMap::new(),
         libraries: Vec::new(),
         run: None,
         meshes: Vec::new(),
+        mesh_positions: Vec::new(),
+        made_normals: Vec::new(),
         triangles: 0,
         known: false,
         face: Vec::new(),
+        points: Vec::new(),
+        polygons: Polygons::default(),
         skipped: Skipped::default(),
     };
     for statement in statements(bytes) {
         reader.take(&statement)?;
     }
     reader.end_run();
+    reader.make_normals();
     if !reader.known {
         if let Some((word, place)) = &reader.skipped.first_unknown {
             return Err(SceneError::NotThisFormat {
@@ -78,6 +93,7 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
     }
     Ok(Geometry {
         meshes: reader.meshes,
+        positions: reader.mesh_positions,
         material_names: reader.material_names,
         libraries: reader.libraries,
         skipped: reader.skipped,
@@ -90,37 +106,64 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
 struct Corner {
     position: u32,
     uv: Option<u32>,
+    /// Of the file's normals, or of those that are made.
     normal: Option<u32>,
+}
+
+/// Where the normals of a face come from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Normals {
+    /// The face is flat.
+    Absent,
+    File,
+    /// Made, since it is in a smoothing group.
+    Made,
 }
 
 /// Faces in a row with one material and the same attributes.
 struct Run {
     mesh: Mesh,
+    positions: Vec<DVec3>,
     uvs: Vec<[f32; 2]>,
-    normals: Vec<[f32; 3]>,
+    /// Of the file.
+    file_normals: Vec<[f32; 3]>,
+    /// Places in `Reader::smooth_sums`.
+    made_normals: Vec<u32>,
     has_uvs: bool,
-    has_normals: bool,
+    normals: Normals,
     vertices: HashMap<Corner, u32>,
 }
 
 struct Reader<'a> {
     path: &'a Path,
     limits: &'a Limits,
-    positions: Vec<[f32; 3]>,
+    positions: Vec<DVec3>,
     uvs: Vec<[f32; 2]>,
     normals: Vec<[f32; 3]>,
     group: String,
+    /// The smoothing group, 0 for none.
+    smoothing: u32,
+    /// Place in `smooth_sums` of a vertex in a smoothing group.
+    smooth: HashMap<(u32, u32), u32>,
+    /// Sums of the normals of the faces there, weighted by area.
+    smooth_sums: Vec<DVec3>,
     material: String,
     material_names: Vec<String>,
     material_index: HashMap<String, usize>,
     libraries: Vec<Library>,
     run: Option<Run>,
     meshes: Vec<Mesh>,
+    mesh_positions: Vec<Vec<DVec3>>,
+    /// Meshes whose normals are made, and which.
+    made_normals: Vec<(usize, Vec<u32>)>,
     triangles: u64,
     /// Whether any statement was one of an OBJ file.
     known: bool,
     /// Corners of the current face, kept to save an allocation for each.
     face: Vec<Corner>,
+    /// Their positions.
+    points: Vec<DVec3>,
+    polygons: Polygons,
     skipped: Skipped,
 }
 
@@ -128,9 +171,9 @@ impl Reader<'_> {
     fn take(&mut self, statement: &Statement<'_>) -> Result<(), SceneError> {
         match &*statement.word {
             b"v" => {
-                let (position, count) = statement.numbers::<3>(self.path, 3)?;
+                let (position, count) = statement.wide_numbers::<3>(self.path, 3)?;
                 self.check_count(self.positions.len())?;
-                self.positions.push(position);
+                self.positions.push(DVec3::from_array(position));
                 if count >= 6 {
                     self.skipped.colors += 1;
                 }
@@ -153,10 +196,9 @@ impl Reader<'_> {
                     self.material = name;
                 }
             }
-            b"mtllib" => self.libraries.push(Library { name: statement.name(), place: statement.place() }),
+            b"mtllib" => self.libraries.push(Library { name: statement.name() }),
             b"o" | b"g" => self.group = statement.name(),
-            // Smoothing groups only matter where normals have to be made up.
-            b"s" => {}
+            b"s" => self.smoothing = smoothing_group(statement),
             b"p" | b"l" => self.skipped.points_and_lines += 1,
             _ => {
                 self.skipped.note_unknown(statement);
@@ -179,51 +221,115 @@ impl Reader<'_> {
             self.triangles += face.len() as u64 - 2;
             let limit = self.limits.triangles;
             Limits::check(self.path, "the number of triangles", self.triangles, limit, "triangles")?;
-            let has_uvs = face.iter().all(|corner| corner.uv.is_some());
-            let has_normals = face.iter().all(|corner| corner.normal.is_some());
-            for corner in &mut face {
-                // An attribute that only some corners of a face have cannot be interpolated.
-                corner.uv = corner.uv.filter(|_| has_uvs);
-                corner.normal = corner.normal.filter(|_| has_normals);
-            }
-            self.add_fan(&face, has_uvs, has_normals)?;
+            self.add_face(&mut face)?;
         }
         self.face = face;
         Ok(())
     }
 
-    fn add_fan(&mut self, face: &[Corner], has_uvs: bool, has_normals: bool) -> Result<(), SceneError> {
-        if self.run.as_ref().is_some_and(|run| (run.has_uvs, run.has_normals) != (has_uvs, has_normals)) {
+    /// Adds a face of at least three corners.
+    fn add_face(&mut self, face: &mut [Corner]) -> Result<(), SceneError> {
+        let has_uvs = face.iter().all(|corner| corner.uv.is_some());
+        let has_normals = face.iter().all(|corner| corner.normal.is_some());
+        let some_have = |of: fn(&Corner) -> Option<u32>| face.iter().any(|corner| of(corner).is_some());
+        let is_partial =
+            !has_uvs && some_have(|corner| corner.uv) || !has_normals && some_have(|corner| corner.normal);
+        self.skipped.partial += usize::from(is_partial);
+        let normals = match (has_normals, self.smoothing) {
+            (true, _) => Normals::File,
+            (false, 0) => Normals::Absent,
+            (false, _) => Normals::Made,
+        };
+        let mut points = std::mem::take(&mut self.points);
+        points.clear();
+        points.extend(face.iter().map(|corner| self.positions[corner.position as usize]));
+        for corner in face.iter_mut() {
+            // An attribute that only some corners of a face have cannot be interpolated.
+            corner.uv = corner.uv.filter(|_| has_uvs);
+            corner.normal = corner.normal.filter(|_| has_normals);
+        }
+        if normals == Normals::Made {
+            self.smooth_face(face, &points);
+        }
+        let filling = self.polygons.fill(&points);
+        self.points = points;
+        self.add_filled(face, filling, has_uvs, normals)
+    }
+
+    fn add_filled(
+        &mut self,
+        face: &[Corner],
+        filling: Filling,
+        has_uvs: bool,
+        normals: Normals,
+    ) -> Result<(), SceneError> {
+        if self.run.as_ref().is_some_and(|run| (run.has_uvs, run.normals) != (has_uvs, normals)) {
             self.end_run();
         }
         let mut run = match self.run.take() {
             Some(run) => run,
-            None => self.begin_run(has_uvs, has_normals),
+            None => self.begin_run(has_uvs, normals),
         };
         let first = self.vertex(&mut run, face[0]);
         let mut previous = self.vertex(&mut run, face[1]);
+        let start = run.mesh.indices.len();
         for &corner in &face[2..] {
             let next = self.vertex(&mut run, corner);
             run.mesh.indices.extend([first, previous, next]);
             previous = next;
         }
-        self.check_count(run.mesh.positions.len())?;
+        match filling {
+            Filling::Fan => {}
+            Filling::Crossing => self.skipped.crossing += 1,
+            Filling::Cut(triangles) => {
+                // As many triangles as the fan has.
+                run.mesh.indices.truncate(start);
+                for corner in triangles.into_iter().flatten() {
+                    let vertex = self.vertex(&mut run, face[corner as usize]);
+                    run.mesh.indices.push(vertex);
+                }
+            }
+        }
+        self.check_count(run.positions.len())?;
         self.run = Some(run);
         Ok(())
     }
 
+    /// Adds the normal of a face to those of its corners in the smoothing group.
+    fn smooth_face(&mut self, face: &mut [Corner], points: &[DVec3]) {
+        let sides = points[1..].windows(2);
+        let normal: DVec3 = sides.map(|pair| (pair[0] - points[0]).cross(pair[1] - points[0])).sum();
+        for corner in face {
+            let made = *self.smooth.entry((corner.position, self.smoothing)).or_insert_with(|| {
+                self.smooth_sums.push(DVec3::ZERO);
+                (self.smooth_sums.len() - 1) as u32
+            });
+            // Triangles of a face without a normal are dropped or never hit.
+            if normal.is_finite() {
+                self.smooth_sums[made as usize] += normal;
+            }
+            corner.normal = Some(made);
+        }
+    }
+
     /// Index in the run's mesh of a corner; corners that agree in all three indices are one vertex.
     fn vertex(&self, run: &mut Run, corner: Corner) -> u32 {
-        let Run { mesh, uvs, normals, vertices, .. } = run;
+        let Run { positions, uvs, file_normals, made_normals, vertices, normals, .. } = run;
         *vertices.entry(corner).or_insert_with(|| {
-            mesh.positions.push(self.positions[corner.position as usize]);
+            positions.push(self.positions[corner.position as usize]);
             uvs.extend(corner.uv.map(|index| self.uvs[index as usize]));
-            normals.extend(corner.normal.map(|index| self.normals[index as usize]));
-            (mesh.positions.len() - 1) as u32
+            match normals {
+                Normals::Absent => {}
+                Normals::File => {
+                    file_normals.extend(corner.normal.map(|index| self.normals[index as usize]));
+                }
+                Normals::Made => made_normals.extend(corner.normal),
+            }
+            (positions.len() - 1) as u32
         })
     }
 
-    fn begin_run(&mut self, has_uvs: bool, has_normals: bool) -> Run {
+    fn begin_run(&mut self, has_uvs: bool, normals: Normals) -> Run {
         let material = *self.material_index.entry(self.material.clone()).or_insert_with(|| {
             self.material_names.push(self.material.clone());
             self.material_names.len() - 1
@@ -235,19 +341,34 @@ impl Reader<'_> {
         };
         Run {
             mesh: Mesh { name, material, ..Mesh::default() },
+            positions: Vec::new(),
             uvs: Vec::new(),
-            normals: Vec::new(),
+            file_normals: Vec::new(),
+            made_normals: Vec::new(),
             has_uvs,
-            has_normals,
+            normals,
             vertices: HashMap::new(),
         }
     }
 
     fn end_run(&mut self) {
-        if let Some(Run { mut mesh, uvs, normals, has_uvs, has_normals, .. }) = self.run.take() {
-            mesh.uvs[0] = has_uvs.then_some(uvs);
-            mesh.normals = has_normals.then_some(normals);
-            self.meshes.push(mesh);
+        let Some(run) = self.run.take() else { return };
+        let Run { mut mesh, positions, uvs, file_normals, made_normals, has_uvs, normals, .. } = run;
+        mesh.uvs[0] = has_uvs.then_some(uvs);
+        match normals {
+            Normals::Absent => {}
+            Normals::File => mesh.normals = Some(file_normals),
+            Normals::Made => self.made_normals.push((self.meshes.len(), made_normals)),
+        }
+        self.meshes.push(mesh);
+        self.mesh_positions.push(positions);
+    }
+
+    /// Gives their normals to the meshes of smoothing groups, now that all faces are known.
+    fn make_normals(&mut self) {
+        for (mesh, made) in std::mem::take(&mut self.made_normals) {
+            let normal = |made: u32| self.smooth_sums[made as usize].normalize_or(DVec3::Z).as_vec3();
+            self.meshes[mesh].normals = Some(made.into_iter().map(|made| normal(made).to_array()).collect());
         }
     }
 
@@ -309,5 +430,13 @@ impl Reader<'_> {
         // Indices are u32, whatever the limit says.
         let limit = self.limits.vertices.min(u64::from(u32::MAX) - 1);
         Limits::check(self.path, "the number of vertices", count as u64 + 1, limit, "vertices")
+    }
+}
+
+/// The number of a smoothing group; 0 for `off`. A word that is no number is a group of its own.
+fn smoothing_group(statement: &Statement<'_>) -> u32 {
+    match statement.words().next() {
+        None | Some(b"off") => 0,
+        Some(word) => std::str::from_utf8(word).ok().and_then(|word| word.parse().ok()).unwrap_or(u32::MAX),
     }
 }

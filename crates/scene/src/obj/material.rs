@@ -19,6 +19,7 @@ pub(super) fn translate(
     }
     material.roughness = roughness(found.shininess.unwrap_or(0.0));
     material.ior = found.refraction.filter(|ior| (1.0..=10.0).contains(ior)).unwrap_or(1.5);
+    note_ranges(found, remarks);
 
     let specular = unit(found.specular.unwrap_or([0.0; 3]));
     let strength = specular.into_iter().fold(0.0, f32::max);
@@ -38,7 +39,8 @@ pub(super) fn translate(
 
     let opacity = found.opacity.unwrap_or(1.0).clamp(0.0, 1.0);
     match found.illumination {
-        Some(illumination @ (4 | 6 | 7 | 9)) => {
+        Some(illumination @ (4 | 6 | 7 | 9)) if is_glass(found) => {
+            note_glass(found, remarks);
             material.transmission = 1.0;
             material.base_color[..3].copy_from_slice(&unit(found.filter.unwrap_or([1.0; 3])));
             // Any thickness above 0 says: a solid body. Its extent follows from the surface.
@@ -63,10 +65,27 @@ pub(super) fn translate(
         }
         _ => {}
     }
+    // Black and white are what exporters write of their own accord.
+    let says = |filter: [f32; 3]| ![[0.0; 3], [1.0; 3]].contains(&unit(filter));
+    if material.transmission == 0.0 && found.filter.is_some_and(says) {
+        let text = "is no glass, and its Tf is not shown: that takes illum 4, 6, 7 or 9 and an Ni above 1";
+        remarks.note("transparency", format!("material {}", found.name), text);
+    }
+    // The metallic-roughness numbers that some exporters add are closer to what they mean.
+    if let Some(metallic) = found.metallic {
+        material.metallic = metallic.clamp(0.0, 1.0);
+    }
+    if let Some(roughness) = found.roughness {
+        material.roughness = roughness.clamp(0.0, 1.0);
+    }
 
-    material.base_color_texture = textures.base_color(found, remarks)?;
-    if material.base_color_texture.is_some() {
-        if found.opacity_map.is_some() && textures.has_mask(found) {
+    if let Some((texture, is_cut)) = textures.base_color(found, remarks)? {
+        material.base_color_texture = Some(texture);
+        if is_cut {
+            if opacity < 1.0 {
+                let text = "has a d or Tr beside a map_d, which alone cuts it";
+                remarks.note("transparency", format!("material {}", found.name), text);
+            }
             material.alpha_mode = AlphaMode::Mask { cutoff: 0.5 };
             material.base_color[3] = 1.0;
         }
@@ -78,8 +97,64 @@ pub(super) fn translate(
     }
     if let Some(map) = &found.normal_map {
         material.normal_texture = textures.color(map, remarks)?;
+        material.normal_scale = map.strength;
+    }
+    if found.has_ambient_map && found.diffuse_map.is_none() {
+        let text = "has a map_Ka and no map_Kd; write map_Kd, ambient light is computed";
+        remarks.note("ambient-map", format!("material {}", found.name), text);
     }
     Ok(material)
+}
+
+/// Whether a material with an `illum` of transparency is glass, by the rule at [`crate::obj`].
+fn is_glass(found: &MtlMaterial) -> bool {
+    let has_color = found.diffuse_map.is_some() || found.diffuse.is_some_and(|color| color != [0.0; 3]);
+    let bends = found.refraction.map(|ior| ior > 1.0);
+    let fades = found.opacity.is_some_and(|opacity| opacity > 0.0 && opacity < 1.0);
+    match found.filter {
+        Some(filter) if filter.iter().all(|channel| *channel <= 0.0) => false,
+        Some(_) => !has_color || bends != Some(false),
+        None => !has_color || bends == Some(true) && !fades,
+    }
+}
+
+/// Says what of a glass is not shown.
+fn note_glass(found: &MtlMaterial, remarks: &mut Remarks) {
+    let has_color = found.diffuse.is_some_and(|color| color != [0.0; 3]);
+    let fades = found.opacity.is_some_and(|opacity| opacity > 0.0 && opacity < 1.0);
+    let lost = match (has_color, fades) {
+        (false, false) => return,
+        (true, false) => "Kd is",
+        (false, true) => "d is",
+        (true, true) => "Kd and d are",
+    };
+    let text = format!("is glass, coloured by Tf alone: its {lost} not shown");
+    remarks.note("transparency", format!("material {}", found.name), text);
+}
+
+/// Says which numbers are beyond what a material can have.
+fn note_ranges(found: &MtlMaterial, remarks: &mut Remarks) {
+    let place = format!("material {}", found.name);
+    let mut note = |what: &str, value: f32, range: &str, then: &str| {
+        remarks.note("material-range", &place, format!("{what} is {value}, not {range}; it was {then}"));
+    };
+    let beyond = |low: f32, high: f32| move |value: &f32| !(low..=high).contains(value);
+    for (what, color) in [("Kd", found.diffuse), ("Ks", found.specular), ("Tf", found.filter)] {
+        if let Some(value) = color.and_then(|color| color.into_iter().find(beyond(0.0, 1.0))) {
+            note(what, value, "from 0 to 1", "brought into that range");
+        }
+    }
+    for (what, value) in [("d or 1 - Tr", found.opacity), ("Pm", found.metallic), ("Pr", found.roughness)] {
+        if let Some(value) = value.filter(beyond(0.0, 1.0)) {
+            note(what, value, "from 0 to 1", "brought into that range");
+        }
+    }
+    if let Some(value) = found.emission.and_then(|color| color.into_iter().find(|value| *value < 0.0)) {
+        note("Ke", value, "at least 0", "brought into that range");
+    }
+    if let Some(value) = found.refraction.filter(beyond(1.0, 10.0)) {
+        note("Ni", value, "from 1 to 10", "taken as 1.5");
+    }
 }
 
 /// Perceptual roughness of a Phong exponent, in (0, 1].

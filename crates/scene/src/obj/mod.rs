@@ -1,10 +1,16 @@
 //! Wavefront OBJ with MTL materials.
 //!
-//! Read are `v`, `vt`, `vn`, `f` (all index forms, negative indices too), `o`, `g`, `usemtl` and
-//! `mtllib`. Polygons become fans from their first corner, which is right for convex ones. Triangles
-//! keep the order of the file; a new mesh begins where the material changes, or where faces begin or
-//! cease to have texture coordinates or normals. Each mesh is placed once, where the file has it.
-//! Smoothing groups, lines, points and free-form surfaces are not read.
+//! Read are `v`, `vt`, `vn`, `f` (all index forms, negative indices too), `o`, `g`, `s`, `usemtl` and
+//! `mtllib`. A polygon is a fan from its first corner where that fills it, as for every convex one; others
+//! are cut along their ears, into as many triangles. Triangles keep the order of the file; a new mesh begins where
+//! the material changes, or where faces begin or cease to have texture coordinates or normals. Each mesh is placed
+//! once, where the file has it: coordinates are read in double precision, and those of a file far from the origin
+//! are kept relative to an origin that the instance carries, so that single precision suffices. Files whose
+//! coordinates are single-precision numbers keep every bit.
+//!
+//! Faces without normals are flat, unless they are in a smoothing group: then the normal of a vertex is the sum of
+//! those of the group's faces there, weighted by area. Lines, points, colours of vertices and free-form surfaces are
+//! not read, and named in a warning.
 //!
 //! The v coordinate is turned over: OBJ counts from the bottom of the image, [`crate::Image`] from
 //! the top. Bytes that are not UTF-8 are tolerated in names.
@@ -20,14 +26,24 @@
 //! | `d`, `Tr` | opacity below 1 blends |
 //! | `map_d` | alpha mask at one half, together with `map_Kd` in one image |
 //! | `Ni` | index of refraction, 1.5 unless it is in [1, 10] |
-//! | `illum` 4, 6, 7, 9 | transmits, coloured by `Tf` (white); 6 and 7 refract, the others are thin walls |
+//! | `illum` 4, 6, 7, 9 | glass, unless the rule below says otherwise: transmits, coloured by `Tf` (white); 6 and 7 refract, the others are thin walls |
 //! | `illum` 3, 5, 8 with black `Kd` and a `Ks` | a mirror: metal of colour `Ks` |
-//! | `norm` | normal map |
+//! | `Pr`, `Pm` | perceptual roughness and metallic, in place of what follows from the others |
+//! | `norm` | normal map; `-bm` is its strength |
+//!
+//! **Glass or not.** The four numbers of transparency say that light passes, but exporters write them for surfaces that are
+//! only faded or even opaque. Blender writes `illum 9` (6 for metals) wherever `d` is below 1, with `Kd` for the colour and no
+//! `Tf`; Maya writes `illum 4`, `Tf 1 1 1` and `Ni 1` for what is opaque. So such a material is glass only where
+//! - it has no colour of its own: neither a `Kd` that is not black nor a `map_Kd`, or
+//! - it has a `Tf`, and no `Ni` of at most 1, which would bend no light, or
+//! - it has no `Tf`, an `Ni` above 1, and no `d` between 0 and 1.
+//!
+//! With a black `Tf` it never is. What is no glass is shown by `Kd` and `d`, as with any other `illum`. A glass that has a
+//! `Kd` or a `d` between 0 and 1 all the same has a warning that they are not shown.
 
 mod geometry;
 mod material;
 mod mtl;
-mod reference;
 mod skipped;
 mod statements;
 mod textures;
@@ -35,15 +51,15 @@ mod textures;
 use std::collections::HashMap;
 use std::path::Path;
 
-use glam::DAffine3;
-
 use crate::default_view::plain_material;
 use crate::files::read_file;
 use crate::finish::{Empty, finish, scene_name};
+use crate::origin::{Origins, place, settle};
 use crate::recognise::{binary, recognise};
+use crate::reference::Place;
 use crate::remarks::Remarks;
 use crate::text::{reason, shown};
-use crate::{Instance, LoadOptions, Material, Mesh, Scene, SceneError};
+use crate::{LoadOptions, Material, Scene, SceneError};
 use geometry::{Geometry, Library};
 use mtl::MtlMaterial;
 use textures::Textures;
@@ -51,7 +67,8 @@ use textures::Textures;
 /// Loads an OBJ file, the material libraries it names, and the textures that these name.
 ///
 /// A library, material or texture that is missing is a warning; the triangles are shown in light
-/// grey, or without the texture. A file without faces is a scene without triangles, with a warning.
+/// grey, or without the texture. One that is named by an absolute path or by `..` is never followed; a file of its name
+/// beside the file that names it stands in. A file without faces is a scene without triangles, with a warning.
 ///
 /// # Errors
 /// - [`SceneError::Read`] if the file cannot be read; [`SceneError::TooLarge`] beyond a limit.
@@ -60,17 +77,27 @@ use textures::Textures;
 ///   statement of the format.
 /// - [`SceneError::IndexOutOfRange`] or [`SceneError::Invalid`] for a face that refers to what is not
 ///   defined above it, with the line.
-/// - [`SceneError::UnsafeReference`] for a library or texture with an absolute path or one with `..`.
 /// - [`SceneError::NoTriangles`] if there are faces and none can be shown.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
+    load_placed(path, options, Origins::Own)
+}
+
+/// See [`load`].
+pub(crate) fn load_placed(
+    path: &Path,
+    options: &LoadOptions,
+    origins: Origins<'_>,
+) -> Result<Scene, SceneError> {
     let bytes = read_file(path, options.limits.file_bytes)?;
     if let Some(foreign) = recognise(&bytes).or_else(|| binary(&bytes)) {
         return Err(foreign.refuse(path, "an OBJ file"));
     }
     let mut remarks = Remarks::default();
-    let Geometry { mut meshes, material_names, libraries, skipped, vertices } =
+    let Geometry { mut meshes, positions, material_names, libraries, skipped, vertices } =
         geometry::read(path, &bytes, &options.limits)?;
     drop(bytes);
+    let origins = settle(&mut meshes, &positions, origins);
+    drop(positions);
     skipped.report(&mut remarks);
 
     let known = read_libraries(path, &libraries, options, &mut remarks)?;
@@ -86,7 +113,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     let has_faces = !meshes.is_empty() || skipped.faces > 0;
     let scene = Scene {
         name: scene_name(path),
-        instances: place(&meshes),
+        instances: place(&meshes, &origins),
         meshes,
         materials,
         textures,
@@ -113,15 +140,35 @@ fn read_libraries(
     let folder = path.parent().unwrap_or(Path::new(""));
     for library in libraries {
         let mut read = 0;
-        for file in library.files(path, folder)? {
-            let mut missing = |why: String| {
+        for (name, place) in library.files(folder) {
+            let missing = |remarks: &mut Remarks, file: &str, why: String| {
                 let text = format!("{why}; its materials are shown in light grey");
-                remarks.note("missing-material-library", file.display().to_string(), text);
+                remarks.note("missing-material-library", file, text);
             };
+            let file = match place {
+                Place::Below(file) => file,
+                Place::Outside { reason, beside } => match beside.filter(|file| file.is_file()) {
+                    Some(file) => {
+                        let text = format!("the reference {reason}; {} is read instead", file.display());
+                        remarks.note("library-elsewhere", format!("material library {name}"), text);
+                        file
+                    }
+                    None => {
+                        let text =
+                            format!("is not read: the reference {reason}; put the file beside the scene");
+                        missing(remarks, name, text);
+                        continue;
+                    }
+                },
+            };
+            let shown_file = file.display().to_string();
             match read_file(&file, options.limits.file_bytes) {
                 Ok(bytes) => match recognise(&bytes).filter(|_| !bytes.is_empty()).or_else(|| binary(&bytes))
                 {
-                    Some(foreign) => missing(format!("is {}, not a material library", foreign.what)),
+                    Some(foreign) => {
+                        let text = format!("is {}, not a material library", foreign.what);
+                        missing(remarks, &shown_file, text);
+                    }
                     None => {
                         read += 1;
                         remarks.files.push(file.clone());
@@ -131,7 +178,7 @@ fn read_libraries(
                         }
                     }
                 },
-                Err(SceneError::Read { source, .. }) => missing(reason(&source)),
+                Err(SceneError::Read { source, .. }) => missing(remarks, &shown_file, reason(&source)),
                 Err(error) => return Err(error.of_scene(path)),
             }
         }
@@ -167,17 +214,4 @@ fn translate(
         remarks.count("missing-material", "", missing.len(), text);
     }
     Ok(materials)
-}
-
-/// One instance per mesh; names that occur more than once get a running number.
-fn place(meshes: &[Mesh]) -> Vec<Instance> {
-    let mut seen: HashMap<&str, usize> = HashMap::new();
-    let mut instances = Vec::with_capacity(meshes.len());
-    for (index, mesh) in meshes.iter().enumerate() {
-        let count = seen.entry(&mesh.name).or_default();
-        *count += 1;
-        let name = if *count == 1 { mesh.name.clone() } else { format!("{} {count}", mesh.name) };
-        instances.push(Instance { name, mesh: index, world_from_mesh: DAffine3::IDENTITY });
-    }
-    instances
 }

@@ -1,11 +1,11 @@
 //! The MTL file: materials as written, before they are translated.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::reference::resolve;
 use super::statements::{Statement, number, statements};
 use crate::SceneError;
+use crate::kinds::Kinds;
+use crate::reference::{Place, place};
 use crate::remarks::Remarks;
 
 /// One `newmtl` section. `None` where the file does not say.
@@ -26,8 +26,14 @@ pub(super) struct MtlMaterial {
     pub filter: Option<[f32; 3]>,
     /// `Ni`.
     pub refraction: Option<f32>,
+    /// `Pr`, perceptual roughness.
+    pub roughness: Option<f32>,
+    /// `Pm`.
+    pub metallic: Option<f32>,
     /// `illum`.
     pub illumination: Option<i64>,
+    /// `map_Ka`, which only stands in where there is nothing else to show.
+    pub has_ambient_map: bool,
     pub diffuse_map: Option<Map>,
     pub emission_map: Option<Map>,
     /// `map_d`.
@@ -39,8 +45,8 @@ pub(super) struct MtlMaterial {
 /// A texture reference with the options that are understood.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Map {
-    /// Below the folder of the MTL file.
-    pub file: PathBuf,
+    /// Where the name leads, from the folder of the MTL file.
+    pub place: Place,
     /// As written, for names and messages.
     pub name: String,
     /// `-s`, multiplied into texture coordinates.
@@ -49,6 +55,8 @@ pub(super) struct Map {
     pub offset: [f32; 2],
     /// `-clamp on`.
     pub clamp: bool,
+    /// `-bm`, the strength of a normal map.
+    pub strength: f32,
 }
 
 /// Reads all materials of a library.
@@ -58,7 +66,7 @@ pub(super) fn parse(
     remarks: &mut Remarks,
 ) -> Result<Vec<MtlMaterial>, SceneError> {
     let mut materials: Vec<MtlMaterial> = Vec::new();
-    let mut ignored = Ignored::default();
+    let mut ignored = Kinds::default();
     for statement in statements(bytes) {
         if &*statement.word == b"newmtl" {
             materials.push(MtlMaterial { name: statement.name(), ..MtlMaterial::default() });
@@ -68,7 +76,7 @@ pub(super) fn parse(
             ignored.note(&String::from_utf8_lossy(&statement.word));
         }
     }
-    ignored.note_all(path, remarks);
+    report(&ignored, path, remarks);
     Ok(materials)
 }
 
@@ -76,7 +84,7 @@ fn take(
     path: &Path,
     statement: &Statement<'_>,
     material: &mut MtlMaterial,
-    ignored: &mut Ignored,
+    ignored: &mut Kinds,
 ) -> Result<(), SceneError> {
     let word = String::from_utf8_lossy(&statement.word).to_ascii_lowercase();
     match word.as_str() {
@@ -91,13 +99,16 @@ fn take(
             let transparency = scalar(path, statement)?;
             material.opacity.get_or_insert(1.0 - transparency);
         }
+        "pr" => material.roughness = Some(scalar(path, statement)?),
+        "pm" => material.metallic = Some(scalar(path, statement)?),
         "illum" => material.illumination = Some(scalar(path, statement)? as i64),
         "map_kd" => material.diffuse_map = map(path, statement, ignored)?,
         "map_ke" => material.emission_map = map(path, statement, ignored)?,
         "map_d" => material.opacity_map = map(path, statement, ignored)?,
         "norm" | "map_kn" => material.normal_map = map(path, statement, ignored)?,
-        // Ambient light is what the integrators compute.
-        "ka" | "map_ka" | "sharpness" => {}
+        "map_ka" => material.has_ambient_map = true,
+        // Ambient light is what the integrators compute; reflections are as sharp as the surface is smooth.
+        "ka" | "sharpness" => {}
         _ => ignored.note(&word),
     }
     Ok(())
@@ -113,7 +124,7 @@ fn set<T>(slot: &mut Option<T>, value: Option<T>) {
 fn color(
     path: &Path,
     statement: &Statement<'_>,
-    ignored: &mut Ignored,
+    ignored: &mut Kinds,
 ) -> Result<Option<[f32; 3]>, SceneError> {
     if let Some(form @ (b"spectral" | b"xyz")) = statement.words().next() {
         ignored.note(&format!(
@@ -148,10 +159,17 @@ fn finite(path: &Path, statement: &Statement<'_>, values: &[f32]) -> Result<(), 
 }
 
 /// Options and a file name, which is what is left and may hold spaces.
-fn map(path: &Path, statement: &Statement<'_>, ignored: &mut Ignored) -> Result<Option<Map>, SceneError> {
+fn map(path: &Path, statement: &Statement<'_>, ignored: &mut Kinds) -> Result<Option<Map>, SceneError> {
     let words: Vec<&[u8]> = statement.words().collect();
-    let mut found =
-        Map { file: PathBuf::new(), name: String::new(), scale: [1.0; 2], offset: [0.0; 2], clamp: false };
+    let mut found = Map {
+        place: Place::Outside { reason: "is empty", beside: None },
+        name: String::new(),
+        scale: [1.0; 2],
+        offset: [0.0; 2],
+        clamp: false,
+        strength: 1.0,
+    };
+    let is_normal_map = matches!(&*statement.word.to_ascii_lowercase(), b"norm" | b"map_kn");
     let mut next = 0;
     while let Some(option) = words.get(next).and_then(|word| word.strip_prefix(b"-")) {
         let numbers: Vec<f32> = words[next + 1..].iter().map_while(|word| number(word)).take(3).collect();
@@ -172,7 +190,16 @@ fn map(path: &Path, statement: &Statement<'_>, ignored: &mut Ignored) -> Result<
                 1
             }
             // Both blends are on unless told, which is how textures are filtered here anyway.
-            b"blendu" | b"blendv" => 1,
+            b"blendu" | b"blendv" => {
+                if words.get(next + 1).is_some_and(|word| word.eq_ignore_ascii_case(b"off")) {
+                    ignored.note(&format!("{} -{} off", lossy(&statement.word), lossy(option)));
+                }
+                1
+            }
+            b"bm" if is_normal_map => {
+                found.strength = pair(1.0)[0];
+                1
+            }
             b"t" | b"mm" => {
                 ignored.note(&format!("{} -{}", lossy(&statement.word), lossy(option)));
                 numbers.len()
@@ -192,7 +219,7 @@ fn map(path: &Path, statement: &Statement<'_>, ignored: &mut Ignored) -> Result<
         return Ok(None);
     }
     let folder = path.parent().unwrap_or(Path::new(""));
-    found.file = resolve(path, &statement.place(), folder, &name)?;
+    found.place = place(folder, &name);
     found.name = name;
     Ok(Some(found))
 }
@@ -201,39 +228,19 @@ fn lossy(word: &[u8]) -> String {
     String::from_utf8_lossy(word).into_owned()
 }
 
-/// Statements and options that change nothing here, by kind.
-#[derive(Default)]
-struct Ignored {
-    counts: BTreeMap<String, usize>,
-}
-
-impl Ignored {
-    /// Kinds told apart; more are counted together, so that no file can make a message long.
-    const KINDS: usize = 24;
-
-    fn note(&mut self, what: &str) {
-        let what: String = what.chars().take(40).collect();
-        let known = self.counts.contains_key(&what) || self.counts.len() < Self::KINDS;
-        *self.counts.entry(if known { what } else { "others".to_owned() }).or_default() += 1;
+/// Says which statements and options change nothing here.
+fn report(ignored: &Kinds, path: &Path, remarks: &mut Remarks) {
+    // Height fields have a warning of their own: what they would show is missed most.
+    let is_bump = |what: &str| what.starts_with("map_bump") || what.starts_with("bump");
+    let (bumps, others) = (ignored.list(is_bump), ignored.list(|what| !is_bump(what)));
+    let place = path.display().to_string();
+    if !bumps.is_empty() {
+        let text = format!(
+            "height maps are not supported and were ignored: {bumps}; convert them to normal maps and name them by `norm`"
+        );
+        remarks.note("height-map", &place, text);
     }
-
-    fn note_all(self, path: &Path, remarks: &mut Remarks) {
-        // Height fields have a warning of their own: what they would show is missed most.
-        let is_bump = |what: &str| what.starts_with("map_bump") || what.starts_with("bump");
-        let (bumps, others): (Vec<_>, Vec<_>) = self.counts.into_iter().partition(|(what, _)| is_bump(what));
-        let list = |counts: &[(String, usize)]| {
-            counts.iter().map(|(what, count)| format!("{what} ({count})")).collect::<Vec<_>>().join(", ")
-        };
-        let place = path.display().to_string();
-        if !bumps.is_empty() {
-            let text = format!(
-                "height maps are not supported and were ignored: {}; convert them to normal maps and name them by `norm`",
-                list(&bumps)
-            );
-            remarks.note("height-map", &place, text);
-        }
-        if !others.is_empty() {
-            remarks.note("unsupported-material-statements", place, format!("ignored: {}", list(&others)));
-        }
+    if !others.is_empty() {
+        remarks.note("unsupported-material-statements", place, format!("ignored: {others}"));
     }
 }

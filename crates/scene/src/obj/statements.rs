@@ -82,11 +82,29 @@ impl Statement<'_> {
         path: &Path,
         least: usize,
     ) -> Result<([f32; N], usize), SceneError> {
-        let mut numbers = [0.0; N];
+        self.parsed(path, least, number)
+    }
+
+    /// The same in double precision.
+    pub fn wide_numbers<const N: usize>(
+        &self,
+        path: &Path,
+        least: usize,
+    ) -> Result<([f64; N], usize), SceneError> {
+        self.parsed(path, least, wide_number)
+    }
+
+    fn parsed<T: Copy + Default, const N: usize>(
+        &self,
+        path: &Path,
+        least: usize,
+        parse: fn(&[u8]) -> Option<T>,
+    ) -> Result<([T; N], usize), SceneError> {
+        let mut numbers = [T::default(); N];
         let mut count = 0;
         for word in self.words() {
             if let Some(slot) = numbers.get_mut(count) {
-                *slot = number(word).ok_or_else(|| self.not_a_number(path, word))?;
+                *slot = parse(word).ok_or_else(|| self.not_a_number(path, word))?;
             }
             count += 1;
         }
@@ -113,5 +131,59 @@ pub(super) fn number(word: &[u8]) -> Option<f32> {
         Ok(number) => Some(number),
         Err(_) if text.contains(".#") => Some(f32::NAN),
         Err(_) => None,
+    }
+}
+
+/// The same in double precision: the nearest number to the text that, rounded once more, is that of [`number`].
+fn wide_number(word: &[u8]) -> Option<f64> {
+    let text = std::str::from_utf8(word).ok()?;
+    let wide: f64 = match text.parse() {
+        Ok(wide) => wide,
+        Err(_) if text.contains(".#") => return Some(f64::NAN),
+        Err(_) => return None,
+    };
+    // Only half-way between two single-precision numbers can the text lie on the other side than its double did. The low 29
+    // bits say so, but for the subnormal ones.
+    let is_half_way =
+        wide.to_bits() & 0x1FFF_FFFF == 0x1000_0000 || wide.abs() < f64::from(f32::MIN_POSITIVE);
+    if is_half_way && wide != 0.0 {
+        let narrow: f32 = text.parse().ok()?;
+        if wide as f32 != narrow {
+            return Some(if f64::from(narrow) > wide { wide.next_up() } else { wide.next_down() });
+        }
+    }
+    Some(wide)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{number, wide_number};
+
+    #[test]
+    fn double_precision_rounds_to_single_precision() {
+        // 1 + 2^-24 is half-way; the digit behind it is beyond double precision.
+        let half_way = "1.000000059604644775390625";
+        for text in [
+            half_way,
+            "1.00000005960464477539062500000001",
+            "1.00000005960464477539062499999999",
+            "1.00000017881393432617187499999999",
+            "-1.00000005960464477539062500000001",
+            "0.1",
+            "1e-45",
+            "7.0064923216240853e-46",
+            "7.0064923216240854e-46",
+            "7.00649232162408535461864791644958065640130970938257885878534141944895541342930300743319094181060791015625e-46",
+            "3.4028235677973366e38",
+            "1e39",
+            "4649776.6540",
+            "-0",
+            "0",
+        ] {
+            let (wide, narrow) = (wide_number(text.as_bytes()), number(text.as_bytes()));
+            assert_eq!(wide.map(|wide| (wide as f32).to_bits()), narrow.map(f32::to_bits), "{text}");
+        }
+        assert_eq!(wide_number(b"4649776.6540"), Some(4649776.654));
+        assert!(wide_number(b"-1.#IND").is_some_and(f64::is_nan) && wide_number(b"a").is_none());
     }
 }

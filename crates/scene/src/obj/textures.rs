@@ -8,6 +8,7 @@ use image::{Rgba, RgbaImage};
 
 use super::mtl::{Map, MtlMaterial};
 use crate::images::{Encoded, count_texels, read_image};
+use crate::reference::{Place, texture};
 use crate::remarks::Remarks;
 use crate::text::shown;
 use crate::{Filter, Image, Limits, SceneError, Texture, TextureRef, Wrap};
@@ -18,6 +19,8 @@ pub(super) struct Textures<'a> {
     limits: &'a Limits,
     /// Files as decoded; `None` for those that could not be.
     files: HashMap<PathBuf, Option<Image>>,
+    /// The file of each map that leads outside of the folder, by its name; `None` where nothing stands in.
+    outside: HashMap<String, Option<PathBuf>>,
     images: Vec<Image>,
     textures: Vec<Texture>,
     /// Image by what it was made from.
@@ -39,6 +42,7 @@ impl<'a> Textures<'a> {
             path,
             limits,
             files: HashMap::new(),
+            outside: HashMap::new(),
             images: Vec::new(),
             textures: Vec::new(),
             made: HashMap::new(),
@@ -48,30 +52,30 @@ impl<'a> Textures<'a> {
 
     /// A file as it is. `None`, with a warning, if it is missing or cannot be decoded.
     pub fn color(&mut self, map: &Map, remarks: &mut Remarks) -> Result<Option<TextureRef>, SceneError> {
-        if !self.decode(map, remarks)? {
-            return Ok(None);
+        match self.decode(map, remarks)? {
+            Some(file) => self.texture(Source { color: Some(file), mask: None }, map).map(Some),
+            None => Ok(None),
         }
-        self.texture(Source { color: Some(map.file.clone()), mask: None }, map).map(Some)
     }
 
-    /// The base colour of a material, with its `map_d` as alpha. A mask without a colour cuts white.
+    /// The base colour of a material, with its `map_d` as alpha, and whether it has that. A mask without a colour cuts white.
     pub fn base_color(
         &mut self,
         found: &MtlMaterial,
         remarks: &mut Remarks,
-    ) -> Result<Option<TextureRef>, SceneError> {
+    ) -> Result<Option<(TextureRef, bool)>, SceneError> {
         let mut source = Source { color: None, mask: None };
         let mut placed = None;
         if let Some(map) = &found.opacity_map
-            && self.decode(map, remarks)?
+            && let Some(file) = self.decode(map, remarks)?
         {
-            source.mask = Some(map.file.clone());
+            source.mask = Some(file);
             placed = Some(map);
         }
         if let Some(map) = &found.diffuse_map
-            && self.decode(map, remarks)?
+            && let Some(file) = self.decode(map, remarks)?
         {
-            source.color = Some(map.file.clone());
+            source.color = Some(file);
             if placed.is_some_and(|mask| {
                 (mask.scale, mask.offset, mask.clamp) != (map.scale, map.offset, map.clamp)
             }) {
@@ -81,12 +85,8 @@ impl<'a> Textures<'a> {
             }
             placed = Some(map);
         }
-        placed.map(|map| self.texture(source, map)).transpose()
-    }
-
-    /// Whether the material's `map_d` could be decoded.
-    pub fn has_mask(&self, found: &MtlMaterial) -> bool {
-        found.opacity_map.as_ref().is_some_and(|map| matches!(self.files.get(&map.file), Some(Some(_))))
+        let is_cut = source.mask.is_some();
+        placed.map(|map| Ok((self.texture(source, map)?, is_cut))).transpose()
     }
 
     /// Textures and images of the scene.
@@ -94,15 +94,25 @@ impl<'a> Textures<'a> {
         (self.textures, self.images)
     }
 
-    /// Makes sure that a file is decoded; false if it cannot be.
-    fn decode(&mut self, map: &Map, remarks: &mut Remarks) -> Result<bool, SceneError> {
-        if let Some(known) = self.files.get(&map.file) {
-            return Ok(known.is_some());
+    /// The file of a map, decoded; `None`, with a warning, if there is none or it cannot be.
+    fn decode(&mut self, map: &Map, remarks: &mut Remarks) -> Result<Option<PathBuf>, SceneError> {
+        let file = match &map.place {
+            Place::Below(file) => file.clone(),
+            Place::Outside { .. } => {
+                let known = self.outside.entry(map.name.clone());
+                match known.or_insert_with(|| texture(&map.place, &map.name, remarks)) {
+                    Some(file) => file.clone(),
+                    None => return Ok(None),
+                }
+            }
+        };
+        if let Some(known) = self.files.get(&file) {
+            return Ok(known.is_some().then_some(file));
         }
-        let decoded = read_image(self.path, &map.name, Encoded::File(&map.file), self.limits, remarks)?;
+        let decoded = read_image(self.path, &map.name, Encoded::File(&file), self.limits, remarks)?;
         let is_shown = decoded.is_some();
-        self.files.insert(map.file.clone(), decoded);
-        Ok(is_shown)
+        self.files.insert(file.clone(), decoded);
+        Ok(is_shown.then_some(file))
     }
 
     fn texture(&mut self, source: Source, map: &Map) -> Result<TextureRef, SceneError> {

@@ -79,6 +79,8 @@ pub(super) struct Element {
 pub(super) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
+    /// Names of image files, from comments `TextureFile` as MeshLab and others write them.
+    pub textures: Vec<String>,
     /// Where the body begins, in bytes from the start of the file.
     pub body: usize,
     /// Lines of the header.
@@ -90,7 +92,8 @@ const MAX_HEADER: usize = 1 << 20;
 
 /// Reads the header up to and including the line `end_header`.
 pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Header, SceneError> {
-    let mut header = Header { encoding: Encoding::Ascii, elements: Vec::new(), body: 0, lines: 0 };
+    let mut header =
+        Header { encoding: Encoding::Ascii, elements: Vec::new(), textures: Vec::new(), body: 0, lines: 0 };
     let mut encoding = None;
     loop {
         let line = next_line(&bytes[..bytes.len().min(MAX_HEADER)], header.body);
@@ -115,6 +118,10 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Header, SceneError> {
         let words: Vec<&str> = text.split_whitespace().collect();
         let unknown = |what: &str, word: &str| fail(number, &format!("`{}` is {what}", shown(word)));
         match words[..] {
+            ["comment", "TextureFile", _, ..] => {
+                let name = text.split_once("TextureFile").map(|(_, name)| name.trim());
+                header.textures.extend(name.map(str::to_owned));
+            }
             [] | ["comment" | "obj_info", ..] => {}
             ["format", form, version] => {
                 encoding = Some(match form {

@@ -1,28 +1,39 @@
 //! PLY meshes: ASCII, and binary of either byte order.
 //!
-//! Of the element `vertex` are read `x y z`, `nx ny nz`, `s t` or `u v` or `texture_u texture_v`, and
-//! `red green blue alpha`; of `face` the list `vertex_indices` or `vertex_index`. Any scalar type
-//! will do. Polygons become fans from their first corner. The same lists of `tristrips` are triangle
-//! strips, which a negative index ends. Everything else is skipped.
+//! Of the element `vertex` are read `x y z`, `nx ny nz`, texture coordinates (`s t`, `u v`, `texture_u texture_v` or
+//! `texture_s texture_t`), and `red green blue alpha` (also `r g b a` and `diffuse_red` and so on); of `face` the list
+//! `vertex_indices` or `vertex_index`, and its colour under the same names. Any scalar type will do. Where the header names
+//! images (`comment TextureFile NAME`), the list `texcoord` and the number `texnumber` of faces are read, too. Polygons
+//! become triangles as in OBJ files. The same lists of `tristrips` are triangle strips, which a negative index ends.
+//! Everything else is skipped, with a warning that names it.
+//!
+//! Faces with colours or texture coordinates of their own have vertices of their own: those of the file, once for each
+//! colour and coordinate that faces give them. Colours of faces stand in place of those of vertices, and so do texture
+//! coordinates. Each texture is a mesh with a material of its own, with its triangles in the order of the file.
 //!
 //! The v coordinate is turned over, as for OBJ. Colours in whole numbers are sRGB and become linear,
-//! colours in floating point are taken as linear; alpha is linear either way.
+//! colours in floating point are taken as linear; alpha is linear either way, and not shown.
+//!
+//! Coordinates are read in double precision, and those of a file far from the origin are kept relative to an origin that
+//! the instance carries, as for OBJ.
 
 mod body;
+mod faces;
 mod header;
 mod mesh;
+mod vertices;
 
 use std::path::Path;
-
-use glam::DAffine3;
 
 use crate::default_view::plain_material;
 use crate::files::read_file;
 use crate::finish::{Empty, finish, scene_name};
+use crate::images::{Encoded, count_texels, read_image};
+use crate::origin::{Origins, place, settle};
 use crate::remarks::Remarks;
-use crate::{Instance, LoadOptions, Material, Scene, SceneError};
+use crate::{Filter, LoadOptions, Material, Mesh, Scene, SceneError, Texture, TextureRef, Wrap, reference};
 
-/// Loads a PLY file as one mesh, with a plain material, placed where the file has it.
+/// Loads a PLY file as one mesh, or one for each texture, with plain materials, placed where the file has it.
 ///
 /// A file without faces (a point cloud) is a scene without triangles, with a warning.
 ///
@@ -32,25 +43,42 @@ use crate::{Instance, LoadOptions, Material, Scene, SceneError};
 /// [`SceneError::IndexOutOfRange`] for a face that refers to a vertex that does not exist, and
 /// [`SceneError::NoTriangles`] if there are faces and none can be shown.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
+    load_placed(path, options, Origins::Own)
+}
+
+/// See [`load`].
+pub(crate) fn load_placed(
+    path: &Path,
+    options: &LoadOptions,
+    origins: Origins<'_>,
+) -> Result<Scene, SceneError> {
     let bytes = read_file(path, options.limits.file_bytes)?;
     let mut remarks = Remarks::default();
     let header = header::parse(path, &bytes)?;
-    let mut mesh = mesh::read(path, &bytes, &header, &options.limits, &mut remarks)?;
+    let mesh::Content { mut meshes, positions, texture_of, vertices } =
+        mesh::read(path, &bytes, &header, &options.limits, &mut remarks)?;
     drop(bytes);
-    let name = scene_name(path);
-    mesh.name.clone_from(&name);
-    crate::check::clean(path, &mut mesh, &mut remarks)?;
+    let origins = settle(&mut meshes, &positions, origins);
+    drop(positions);
 
-    let mut material = plain_material("default");
-    if mesh.colors.is_some() {
-        material = Material { base_color: [1.0; 4], ..material };
+    let name = scene_name(path);
+    let mut scene = Scene { name: name.clone(), ..Scene::default() };
+    let mut pixels = 0;
+    for (index, (mesh, texture)) in meshes.iter_mut().zip(&texture_of).enumerate() {
+        mesh.name.clone_from(&name);
+        crate::check::clean(path, mesh, &mut remarks)?;
+        mesh.material = index;
+        let material = match texture {
+            Some(texture) => textured(path, texture, options, &mut scene, &mut pixels, &mut remarks)?,
+            None => plain_material("default"),
+        };
+        scene.materials.push(of_colors(material, mesh));
     }
-    let vertices = mesh.positions.len();
-    let mut scene = Scene { name: name.clone(), materials: vec![material], ..Scene::default() };
-    if !mesh.indices.is_empty() {
-        scene.meshes.push(mesh);
-        scene.instances.push(Instance { name, mesh: 0, world_from_mesh: DAffine3::IDENTITY });
+    if scene.materials.is_empty() {
+        scene.materials.push(plain_material("default"));
     }
+    scene.instances = place(&meshes, &origins);
+    scene.meshes = meshes;
     finish(path, scene, remarks, |remarks| {
         let dropped = remarks.sentence(&["short-faces", "dropped-triangles"]);
         Some(if dropped.is_empty() {
@@ -59,4 +87,43 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
             Empty::Dropped(dropped)
         })
     })
+}
+
+/// The material of a mesh with colours: white, so that they are not dimmed.
+fn of_colors(material: Material, mesh: &Mesh) -> Material {
+    if mesh.colors.is_some() { Material { base_color: [1.0; 4], ..material } } else { material }
+}
+
+/// A material that shows an image file; without it, with a remark, if it cannot be read.
+fn textured(
+    path: &Path,
+    name: &str,
+    options: &LoadOptions,
+    scene: &mut Scene,
+    pixels: &mut u64,
+    remarks: &mut Remarks,
+) -> Result<Material, SceneError> {
+    let material = plain_material(name);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let Some(file) = reference::texture(&reference::place(folder, name), name, remarks) else {
+        return Ok(material);
+    };
+    let Some(image) = read_image(path, name, Encoded::File(&file), &options.limits, remarks)? else {
+        return Ok(material);
+    };
+    count_texels(path, &image, pixels, &options.limits)?;
+    scene.images.push(image);
+    scene.textures.push(Texture {
+        image: scene.images.len() - 1,
+        wrap_u: Wrap::Repeat,
+        wrap_v: Wrap::Repeat,
+        filter: Filter::Linear,
+        mipmapped: true,
+    });
+    let texture = TextureRef {
+        texture: scene.textures.len() - 1,
+        uv_set: 0,
+        uv_transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+    };
+    Ok(Material { base_color: [1.0; 4], base_color_texture: Some(texture), ..material })
 }

@@ -94,3 +94,54 @@ fn warnings_of_many_places_are_one() {
     let message = &scene.warnings[0].message;
     assert!(message.starts_with("texture nowhere/gone0.png and 97 more: is not shown"), "{message}");
 }
+
+/// A reference that cannot be followed is a missing image; a file of its name beside the scene stands in.
+#[test]
+fn references_of_images_that_lead_outside_are_never_followed() {
+    let above = tempfile::tempdir().expect("a folder");
+    let folder = above.path().join("scene");
+    std::fs::create_dir_all(folder.join("textures")).expect("a folder");
+    std::fs::write(above.path().join("wood.png"), png()).expect("written");
+    let read = |uri: &str| {
+        let material = format!(
+            r#","images":[{{"uri":"{uri}"}}],"textures":[{{"source":0}}],
+            "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}]"#
+        );
+        let path = folder.join("scene.gltf");
+        std::fs::write(&path, triangle_gltf(NODE, r#","material":0"#, &material)).expect("written");
+        let options = rasray_scene::LoadOptions::default();
+        rasray_scene::load(&path, &options).unwrap_or_else(|error| panic!("{uri}: {error}"))
+    };
+    let outside = [
+        r"C:\\textures\\wood.png",
+        "C:/textures/wood.png",
+        "../wood.png",
+        "/wood.png",
+        "%2e%2e/wood.png",
+        "file:///C:/textures/wood.png",
+        "http://host/a/wood.png",
+        r"\\\\host\\wood.png",
+    ];
+    for uri in outside.into_iter().chain(["", "wood.png%", "%ff/wood.png", r"textures\\wood.png"]) {
+        let scene = read(uri);
+        assert_eq!(kinds(&scene), ["missing-texture"], "{uri}");
+        assert!(scene.images.is_empty() && scene.files.is_empty(), "{uri}");
+    }
+    std::fs::write(folder.join("wood.png"), png()).expect("written");
+    for uri in outside.into_iter().chain(["%ff/wood.png"]) {
+        let scene = read(uri);
+        assert_eq!(kinds(&scene), ["texture-elsewhere", BARE], "{uri}");
+        assert_eq!((scene.images.len(), &scene.files[..]), (1, &[folder.join("wood.png")][..]), "{uri}");
+    }
+    // Written for another system, or not escaped: the file itself is there.
+    for (name, uri) in [("textures/wood.png", r"textures\\wood.png"), ("100%.png", "100%.png")] {
+        std::fs::write(folder.join(name), png()).expect("written");
+        let scene = read(uri);
+        assert_eq!((kinds(&scene), scene.files.len()), (vec!["texture-elsewhere", BARE], 1), "{uri}");
+        assert_eq!(scene.files[0], folder.join(name));
+    }
+    for uri in ["data:image/png;base64,*", "data:image/png", "DATA:,%f"] {
+        let scene = read(uri);
+        assert_eq!((kinds(&scene), scene.images.len()), (vec!["unreadable-texture"], 0), "{uri}");
+    }
+}
