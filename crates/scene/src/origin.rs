@@ -19,7 +19,7 @@ use std::collections::HashMap;
 use glam::{DAffine3, DVec3};
 
 use crate::check::MAX_COORDINATE;
-use crate::{Instance, Mesh};
+use crate::{Instance, Material, Mesh, Texture, Wrap};
 
 /// See the module's documentation.
 const FAR: f64 = 8.0;
@@ -59,6 +59,50 @@ pub(crate) fn settle(meshes: &mut [Mesh], wide: &[Vec<DVec3>], origins: Origins<
         mesh.positions = wide.iter().map(|point| relative(*point, *origin)).collect();
     }
     found
+}
+
+/// Rounds texture coordinates of a mesh, v turned over. `wide` has them as the file does: v counts from the bottom of the
+/// image. Where textures repeat, whole numbers change nothing but take precision: they are taken off an axis that is far, by
+/// the same rule.
+pub(crate) fn texture_coordinates(
+    wide: &[[f64; 2]],
+    material: &Material,
+    textures: &[Texture],
+) -> Vec<[f32; 2]> {
+    let whole = if repeats(material, textures) { [0, 1].map(|axis| whole(wide, axis)) } else { [0.0; 2] };
+    let on_axis = |axis: usize, x: f64| (x - whole[axis]) as f32;
+    wide.iter().map(|[u, v]| [on_axis(0, *u), 1.0 - on_axis(1, *v)]).collect()
+}
+
+/// Whether a material has textures, and all of them look the same a whole number of coordinates further.
+fn repeats(material: &Material, textures: &[Texture]) -> bool {
+    let used = [
+        material.base_color_texture,
+        material.metallic_roughness_texture,
+        material.normal_texture,
+        material.emission_texture,
+        material.transmission_texture,
+    ];
+    let mut used = used.into_iter().flatten().peekable();
+    let is_whole = |row: [f32; 3]| row[..2].iter().all(|scale| scale.fract() == 0.0);
+    used.peek().is_some()
+        && used.all(|texture| {
+            let Texture { wrap_u, wrap_v, .. } = textures[texture.texture];
+            [wrap_u, wrap_v] == [Wrap::Repeat; 2] && texture.uv_transform.into_iter().all(is_whole)
+        })
+}
+
+/// The whole number that is taken off an axis of texture coordinates.
+fn whole(wide: &[[f64; 2]], axis: usize) -> f64 {
+    let values = || wide.iter().map(|point| point[axis]).filter(|x| x.abs() <= f64::from(MAX_COORDINATE));
+    if values().all(|x| f64::from(x as f32) == x) {
+        return 0.0;
+    }
+    let (low, high) =
+        values().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    // A texture has the size 1, however little of it a mesh shows.
+    let is_far = low.abs().max(high.abs()) > FAR * (high - low).max(1.0);
+    if is_far { ((low + high) / 2.0).round() } else { 0.0 }
 }
 
 /// One instance for each mesh, at its origin; names that occur more than once get a running number.

@@ -18,6 +18,8 @@ pub(super) struct Geometry {
     pub meshes: Vec<Mesh>,
     /// Positions of each mesh as the file has them.
     pub positions: Vec<Vec<DVec3>>,
+    /// Its texture coordinates as the file has them, if there are any.
+    pub uvs: Vec<Option<Vec<[f64; 2]>>>,
     /// In the order of first use by a face; the empty name stands for faces without a material.
     pub material_names: Vec<String>,
     pub libraries: Vec<Library>,
@@ -65,6 +67,7 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
         run: None,
         meshes: Vec::new(),
         mesh_positions: Vec::new(),
+        mesh_uvs: Vec::new(),
         made_normals: Vec::new(),
         triangles: 0,
         known: false,
@@ -94,6 +97,7 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
     Ok(Geometry {
         meshes: reader.meshes,
         positions: reader.mesh_positions,
+        uvs: reader.mesh_uvs,
         material_names: reader.material_names,
         libraries: reader.libraries,
         skipped: reader.skipped,
@@ -124,7 +128,7 @@ enum Normals {
 struct Run {
     mesh: Mesh,
     positions: Vec<DVec3>,
-    uvs: Vec<[f32; 2]>,
+    uvs: Vec<[f64; 2]>,
     /// Of the file.
     file_normals: Vec<[f32; 3]>,
     /// Places in `Reader::smooth_sums`.
@@ -138,7 +142,7 @@ struct Reader<'a> {
     path: &'a Path,
     limits: &'a Limits,
     positions: Vec<DVec3>,
-    uvs: Vec<[f32; 2]>,
+    uvs: Vec<[f64; 2]>,
     normals: Vec<[f32; 3]>,
     group: String,
     /// The smoothing group, 0 for none.
@@ -154,6 +158,7 @@ struct Reader<'a> {
     run: Option<Run>,
     meshes: Vec<Mesh>,
     mesh_positions: Vec<Vec<DVec3>>,
+    mesh_uvs: Vec<Option<Vec<[f64; 2]>>>,
     /// Meshes whose normals are made, and which.
     made_normals: Vec<(usize, Vec<u32>)>,
     triangles: u64,
@@ -179,9 +184,9 @@ impl Reader<'_> {
                 }
             }
             b"vt" => {
-                let ([u, v], _) = statement.numbers::<2>(self.path, 1)?;
+                let (uv, _) = statement.wide_numbers::<2>(self.path, 1)?;
                 self.check_count(self.uvs.len())?;
-                self.uvs.push([u, 1.0 - v]);
+                self.uvs.push(uv);
             }
             b"vn" => {
                 let (normal, _) = statement.numbers::<3>(self.path, 3)?;
@@ -354,7 +359,7 @@ impl Reader<'_> {
     fn end_run(&mut self) {
         let Some(run) = self.run.take() else { return };
         let Run { mut mesh, positions, uvs, file_normals, made_normals, has_uvs, normals, .. } = run;
-        mesh.uvs[0] = has_uvs.then_some(uvs);
+        self.mesh_uvs.push(has_uvs.then_some(uvs));
         match normals {
             Normals::Absent => {}
             Normals::File => mesh.normals = Some(file_normals),

@@ -54,7 +54,7 @@ use std::path::Path;
 use crate::default_view::plain_material;
 use crate::files::read_file;
 use crate::finish::{Empty, finish, scene_name};
-use crate::origin::{Origins, place, settle};
+use crate::origin::{Origins, place, settle, texture_coordinates};
 use crate::recognise::{binary, recognise};
 use crate::reference::Place;
 use crate::remarks::Remarks;
@@ -93,7 +93,7 @@ pub(crate) fn load_placed(
         return Err(foreign.refuse(path, "an OBJ file"));
     }
     let mut remarks = Remarks::default();
-    let Geometry { mut meshes, positions, material_names, libraries, skipped, vertices } =
+    let Geometry { mut meshes, positions, uvs, material_names, libraries, skipped, vertices } =
         geometry::read(path, &bytes, &options.limits)?;
     drop(bytes);
     let origins = settle(&mut meshes, &positions, origins);
@@ -107,7 +107,9 @@ pub(crate) fn load_placed(
     if materials.is_empty() {
         materials.push(plain_material("default"));
     }
-    for mesh in &mut meshes {
+    for (mesh, uvs) in meshes.iter_mut().zip(uvs) {
+        let material = &materials[mesh.material];
+        mesh.uvs[0] = uvs.map(|uvs| texture_coordinates(&uvs, material, &textures));
         crate::check::clean(path, mesh, &mut remarks)?;
     }
     let has_faces = !meshes.is_empty() || skipped.faces > 0;

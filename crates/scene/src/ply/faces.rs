@@ -32,7 +32,7 @@ pub(super) enum Shape {
 pub(super) struct Wedge {
     pub vertex: u32,
     pub color: Option<[u32; 4]>,
-    pub uv: Option<[u32; 2]>,
+    pub uv: Option<[u64; 2]>,
 }
 
 /// Triangles with one texture.
@@ -154,7 +154,7 @@ impl Faces {
                     }
                 } else if columns.texcoord == Some(place) {
                     for _ in 0..body.length(length.unwrap_or(Scalar::U8))? {
-                        uvs.push(body.number(property.scalar)? as f32);
+                        uvs.push(body.number(property.scalar)?);
                     }
                 } else if columns.texnumber == Some(place) {
                     let number = body.number(property.scalar)?;
@@ -173,8 +173,9 @@ impl Faces {
             self.bare += usize::from(is_bare);
             let uv = |place: usize| match (has_uvs, is_bare) {
                 (false, _) => None,
-                (true, true) => Some([0.0, 0.0]),
-                (true, false) => Some([uvs[2 * place], 1.0 - uvs[2 * place + 1]]),
+                // From the bottom of the image.
+                (true, true) => Some([0.0, 1.0]),
+                (true, false) => Some([uvs[2 * place], uvs[2 * place + 1]]),
             };
             let group = self.group(texture);
             if self.splits {
@@ -182,7 +183,7 @@ impl Faces {
                     *vertex = self.groups[group].wedge(Wedge {
                         vertex: *vertex,
                         color: color.map(|color| color.map(f32::to_bits)),
-                        uv: uv(place).map(|uv| uv.map(f32::to_bits)),
+                        uv: uv(place).map(|uv| uv.map(f64::to_bits)),
                     });
                 }
             }

@@ -15,11 +15,15 @@ use crate::text::shown;
 use crate::{Limits, Mesh, SceneError};
 
 /// What a file holds.
+#[derive(Default)]
 pub(super) struct Content {
-    /// One for each texture that faces use, without positions, names and materials. None if there are no triangles.
+    /// One for each texture that faces use, without positions, texture coordinates, names and materials. None if there are
+    /// no triangles.
     pub meshes: Vec<Mesh>,
     /// Positions of each mesh as the file has them.
     pub positions: Vec<Vec<DVec3>>,
+    /// Its texture coordinates as the file has them, if there are any.
+    pub uvs: Vec<Option<Vec<[f64; 2]>>>,
     /// The name of the texture of each mesh.
     pub texture_of: Vec<Option<String>>,
     /// Vertices of the file.
@@ -66,27 +70,33 @@ pub(super) fn read(
     faces.cut(&vertices.positions);
     report(&faces, &vertices, &unread, &elements, remarks);
     let count = vertices.positions.len();
-    let mut content =
-        Content { meshes: Vec::new(), positions: Vec::new(), texture_of: Vec::new(), vertices: count };
+    let mut content = Content { vertices: count, ..Content::default() };
     let splits = faces.splits;
     for group in faces.groups.into_iter().filter(|group| !group.indices.is_empty()) {
         content.texture_of.push(group.texture.map(|texture| header.textures[texture].clone()));
-        let (mesh, positions) =
+        let (mesh, Points { positions, uvs }) =
             if splits { split(path, &vertices, group)? } else { whole(&mut vertices, group) };
         content.meshes.push(mesh);
         content.positions.push(positions);
+        content.uvs.push(uvs);
     }
     Ok(content)
 }
 
+/// What of a mesh is rounded later.
+struct Points {
+    positions: Vec<DVec3>,
+    uvs: Option<Vec<[f64; 2]>>,
+}
+
 /// The mesh of a group that refers to the vertices of the file, which is the only one.
-fn whole(vertices: &mut Vertices, group: Group) -> (Mesh, Vec<DVec3>) {
+fn whole(vertices: &mut Vertices, group: Group) -> (Mesh, Points) {
     let Vertices { positions, normals, uvs, colors } = std::mem::take(vertices);
-    (Mesh { normals, uvs: [uvs, None], colors, indices: group.indices, ..Mesh::default() }, positions)
+    (Mesh { normals, colors, indices: group.indices, ..Mesh::default() }, Points { positions, uvs })
 }
 
 /// The mesh of a group with vertices of its own.
-fn split(path: &Path, vertices: &Vertices, group: Group) -> Result<(Mesh, Vec<DVec3>), SceneError> {
+fn split(path: &Path, vertices: &Vertices, group: Group) -> Result<(Mesh, Points), SceneError> {
     let Group { indices, wedges, .. } = group;
     let count = vertices.positions.len();
     if let Some(wedge) = wedges.iter().find(|wedge| wedge.vertex as usize >= count) {
@@ -103,9 +113,10 @@ fn split(path: &Path, vertices: &Vertices, group: Group) -> Result<(Mesh, Vec<DV
     let normals = normals.map(|normals| wedges.iter().map(|wedge| normals[place(wedge)]).collect());
     let has_uvs = vertices.uvs.is_some() || wedges.iter().any(|wedge| wedge.uv.is_some());
     let uv = |wedge: &Wedge| match (wedge.uv, &vertices.uvs) {
-        (Some(uv), _) => uv.map(f32::from_bits),
+        (Some(uv), _) => uv.map(f64::from_bits),
         (None, Some(uvs)) => uvs[place(wedge)],
-        (None, None) => [0.0; 2],
+        // From the bottom of the image.
+        (None, None) => [0.0, 1.0],
     };
     let uvs = has_uvs.then(|| wedges.iter().map(uv).collect());
     let has_colors = vertices.colors.is_some() || wedges.iter().any(|wedge| wedge.color.is_some());
@@ -115,7 +126,7 @@ fn split(path: &Path, vertices: &Vertices, group: Group) -> Result<(Mesh, Vec<DV
         (None, None) => [1.0; 4],
     };
     let colors = has_colors.then(|| wedges.iter().map(color).collect());
-    Ok((Mesh { normals, uvs: [uvs, None], colors, indices, ..Mesh::default() }, positions))
+    Ok((Mesh { normals, colors, indices, ..Mesh::default() }, Points { positions, uvs }))
 }
 
 /// Says what of a file is not shown, or otherwise than it says.

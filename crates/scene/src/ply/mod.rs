@@ -29,7 +29,7 @@ use crate::default_view::plain_material;
 use crate::files::read_file;
 use crate::finish::{Empty, finish, scene_name};
 use crate::images::{Encoded, count_texels, read_image};
-use crate::origin::{Origins, place, settle};
+use crate::origin::{Origins, place, settle, texture_coordinates};
 use crate::remarks::Remarks;
 use crate::{Filter, LoadOptions, Material, Mesh, Scene, SceneError, Texture, TextureRef, Wrap, reference};
 
@@ -55,7 +55,7 @@ pub(crate) fn load_placed(
     let bytes = read_file(path, options.limits.file_bytes)?;
     let mut remarks = Remarks::default();
     let header = header::parse(path, &bytes)?;
-    let mesh::Content { mut meshes, positions, texture_of, vertices } =
+    let mesh::Content { mut meshes, positions, uvs, texture_of, vertices } =
         mesh::read(path, &bytes, &header, &options.limits, &mut remarks)?;
     drop(bytes);
     let origins = settle(&mut meshes, &positions, origins);
@@ -64,14 +64,15 @@ pub(crate) fn load_placed(
     let name = scene_name(path);
     let mut scene = Scene { name: name.clone(), ..Scene::default() };
     let mut pixels = 0;
-    for (index, (mesh, texture)) in meshes.iter_mut().zip(&texture_of).enumerate() {
+    for (index, ((mesh, uvs), texture)) in meshes.iter_mut().zip(uvs).zip(&texture_of).enumerate() {
         mesh.name.clone_from(&name);
-        crate::check::clean(path, mesh, &mut remarks)?;
         mesh.material = index;
         let material = match texture {
             Some(texture) => textured(path, texture, options, &mut scene, &mut pixels, &mut remarks)?,
             None => plain_material("default"),
         };
+        mesh.uvs[0] = uvs.map(|uvs| texture_coordinates(&uvs, &material, &scene.textures));
+        crate::check::clean(path, mesh, &mut remarks)?;
         scene.materials.push(of_colors(material, mesh));
     }
     if scene.materials.is_empty() {

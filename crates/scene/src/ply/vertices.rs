@@ -16,7 +16,8 @@ pub(super) struct Vertices {
     /// As the file has them.
     pub positions: Vec<DVec3>,
     pub normals: Option<Vec<[f32; 3]>>,
-    pub uvs: Option<Vec<[f32; 2]>>,
+    /// As the file has them: v counts from the bottom of the image.
+    pub uvs: Option<Vec<[f64; 2]>>,
     /// Linear.
     pub colors: Option<Vec<[f32; 4]>>,
 }
@@ -104,12 +105,11 @@ pub(super) fn read(
         }
         let [x, y, z, ..] = row;
         positions.push(DVec3::new(x, y, z));
-        let [nx, ny, nz, u, v] = std::array::from_fn(|column| row[3 + column] as f32);
         if has_normals {
-            normals.push([nx, ny, nz]);
+            normals.push(std::array::from_fn(|axis| row[3 + axis] as f32));
         }
         if has_uvs {
-            uvs.push([u, 1.0 - v]);
+            uvs.push([row[6], row[7]]);
         }
         if has_colors {
             colors.push(color(std::array::from_fn(|channel| row[COLOR + channel]), color_scalars));

@@ -260,3 +260,42 @@ fn numbered_files_share_an_origin() {
         }
     }
 }
+
+/// Texture coordinates that follow from such positions, as planar projections make them: whole repeats of a texture say
+/// nothing, and cost precision.
+#[test]
+fn texture_coordinates_far_from_zero_are_what_they_say() {
+    let folder = tempfile::tempdir().expect("a folder");
+    image::RgbImage::new(2, 2).save(folder.path().join("color.png")).expect("written");
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 500123.456 4649776.654\nvt 500124.456 4649776.654\nvt 500123.456 -0.25\n\
+                   vt 500123.456 4649777.654\nusemtl m\nf 1/1 2/2 3/4\n";
+    let ply = format!(
+        "ply\nformat ascii 1.0\ncomment TextureFile color.png\nelement vertex 3\nproperty float x\nproperty float y\n\
+         property float z\nproperty double s\nproperty double t\nelement face 1\n\
+         property list uchar int vertex_indices\nend_header\n{}3 0 1 2\n",
+        "0 0 0 500123.456 4649776.654\n1 0 0 500124.456 4649776.654\n0 1 0 500123.456 4649777.654\n"
+    );
+    let obj = |material: &str| {
+        fs::write(folder.path().join("m.mtl"), format!("newmtl m\n{material}\n")).expect("written");
+        read(folder.path(), "uvs.obj", format!("mtllib m.mtl\n{corners}"))
+    };
+    let wanted = [[0.456, 1.0 - 0.654], [0.456, 1.0 - 0.654], [0.456, 1.0 - 0.654]];
+    for scene in [
+        obj("map_Kd color.png"),
+        obj("map_Kd -s 3 2 -o 0.1 0.2 color.png\nmap_Ke color.png"),
+        read(folder.path(), "uvs.ply", ply),
+    ] {
+        for (found, wanted) in scene.meshes[0].uvs[0].as_ref().expect("coordinates").iter().zip(wanted) {
+            for axis in 0..2 {
+                let off = f64::from(found[axis]) - wanted[axis];
+                assert!((off - off.round()).abs() < 2.0e-7 && off.abs() < 3.0, "{found:?} for {wanted:?}");
+            }
+        }
+    }
+    // Where a texture ends, or is scaled by a fraction, the number itself counts.
+    for material in ["map_Kd -clamp on color.png", "map_Kd -s 0.5 1 color.png", "Kd 1 1 1"] {
+        let scene = obj(material);
+        let found = scene.meshes[0].uvs[0].as_ref().expect("coordinates")[0];
+        assert_eq!(found, [500_123.456_f32, 1.0 - 4_649_776.654_f32], "{material}");
+    }
+}
