@@ -1,6 +1,7 @@
 //! The command as a user starts it: what it takes, writes, says and survives.
 
 mod compare;
+mod far;
 mod faults_driver;
 mod faults_output;
 mod hard;
