@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::skipped::Skipped;
-use super::statements::{Statement, statements};
+use super::statements::{Statement, number, statements};
 use crate::polygon::{Filling, Polygons};
 use crate::recognise::{BINARY, RENAME};
 use crate::reference::{Place, place};
@@ -179,9 +179,10 @@ impl Reader<'_> {
                 let (position, count) = statement.wide_numbers::<3>(self.path, 3)?;
                 self.check_count(self.positions.len())?;
                 self.positions.push(DVec3::from_array(position));
-                if count >= 6 {
-                    self.skipped.colors += 1;
-                }
+                self.skipped.colors += usize::from(count >= 6);
+                // A weight stands behind the coordinates, before a colour.
+                let weight = statement.words().nth(3).filter(|_| matches!(count, 4 | 7));
+                self.skipped.weights += usize::from(weight.is_some_and(|word| number(word) != Some(1.0)));
             }
             b"vt" => {
                 let (uv, _) = statement.wide_numbers::<2>(self.path, 1)?;

@@ -59,11 +59,11 @@ pub(super) fn translate(
                 material.roughness = 0.0;
             }
         }
-        _ if opacity < 1.0 => {
-            material.alpha_mode = AlphaMode::Blend;
-            material.base_color[3] = opacity;
-        }
         _ => {}
+    }
+    if material.transmission == 0.0 && opacity < 1.0 {
+        material.alpha_mode = AlphaMode::Blend;
+        material.base_color[3] = opacity;
     }
     // Black and white are what exporters write of their own accord.
     let says = |filter: [f32; 3]| ![[0.0; 3], [1.0; 3]].contains(&unit(filter));

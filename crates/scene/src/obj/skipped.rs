@@ -17,6 +17,8 @@ pub(super) struct Skipped {
     pub partial: usize,
     /// Vertices with colours.
     pub colors: usize,
+    /// Vertices with a weight that is not 1.
+    pub weights: usize,
     unknown: Kinds,
     /// The first unknown word and where it is.
     pub first_unknown: Option<(String, String)>,
@@ -40,6 +42,8 @@ impl Skipped {
         remarks.count("partial-attributes", "", self.partial, text);
         let text = "vertices have colours, which are ignored in OBJ files";
         remarks.count("vertex-colors", "", self.colors, text);
+        let text = "vertices have a weight, which only free-form surfaces use";
+        remarks.count("vertex-weights", "", self.weights, text);
         if let Some((word, place)) = &self.first_unknown {
             let text = format!(
                 "statements of unknown or unsupported kinds were skipped, the first is `{word}` in {place}: {}",

@@ -53,6 +53,9 @@ fn faded_surfaces_of_blender_are_no_glass() {
         assert_abs_diff_eq!(material.base_color[3], 0.3, epsilon = 1.0e-6);
         assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
     }
+    let mirror = with_material(folder.path(), "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3\nd 0.25");
+    assert_eq!((mirror.materials[0].metallic, mirror.materials[0].base_color), (1.0, [0.9, 0.9, 0.9, 0.25]));
+    assert_eq!(mirror.materials[0].alpha_mode, AlphaMode::Blend);
     // The colour may be a texture.
     image(folder.path(), "color.png");
     let textured = with_material(folder.path(), "Kd 0 0 0\nmap_Kd color.png\nNi 1.45\nd 0.5\nillum 9");
@@ -285,7 +288,7 @@ fn smoothing_reaches_across_materials() {
 #[test]
 fn statements_that_are_not_read_are_named() {
     let folder = tempfile::tempdir().expect("a folder");
-    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvp 0 0\nvp 1 1\ncstype bezier\ncurv 0 1 1 2\nbevel on\nlod 3\n\
+    let text = "v 0 0 0 1\nv 1 0 0 1.0\nv 0 1 0 0.5\nvn 0 0 1\nvp 0 0\nvp 1 1\ncstype bezier\ncurv 0 1 1 2\nbevel on\nlod 3\n\
                 mg 1 2\nf 1//1 2//1 3\n";
     let scene = read(folder.path(), text);
     let message = |kind: &str| {
@@ -295,6 +298,7 @@ fn statements_that_are_not_read_are_named() {
     let unknown = message("unknown-statements");
     assert!(unknown.starts_with("7 statements") && unknown.contains("`vp` in line 5"), "{unknown}");
     assert!(unknown.ends_with("bevel (1), cstype (1), curv (1), lod (1), mg (1), vp (2)"), "{unknown}");
+    assert!(message("vertex-weights").starts_with("1 vertices"));
     assert!(message("partial-attributes").starts_with("1 faces"));
     assert!(scene.meshes[0].normals.is_none());
 }
