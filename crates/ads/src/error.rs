@@ -9,8 +9,12 @@ pub enum AdsError {
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// A build was recorded for a slot that does not exist.
-    #[error("{structure}: slot {slot} of {slots} was requested; `set_slots` sets how many there are")]
+    /// A build was recorded for a slot that does not exist; or of frames, one was recorded for a slot whose last one was not
+    /// finished, or finished in another order than they were recorded in, or without having been recorded.
+    #[error(
+        "{structure}: slot {slot} of {slots} cannot be used now: slots count from 0, `set_slots` sets how many there are, \
+         and frames are finished once each, in the order in which they were recorded, before their slot is recorded again"
+    )]
     Slot {
         /// The structure.
         structure: &'static str,
@@ -62,6 +66,12 @@ pub enum AdsError {
     #[error("the geometry cannot be used: {reason}")]
     Geometry {
         /// What is wrong, and with which numbers.
+        reason: String,
+    },
+    /// Buffers that a queue of rays cannot be made of.
+    #[error("the queue cannot be made: {reason}")]
+    Queue {
+        /// Which buffer, and what it lacks.
         reason: String,
     },
     /// A structure that cannot be built apart for some of the triangles, or that was not given what its parts need.

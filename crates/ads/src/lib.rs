@@ -72,7 +72,7 @@ pub use pool_name::PoolName;
 pub use pooled::{Pooled, VARYING_SHARE};
 pub use pools::Pools;
 pub use pyramid::Pyramid;
-pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
+pub use queue::{Domain, QueueBuffers, QueueCounters, QueueParts, RayQueue};
 pub use rasray_shaders_glsl::records::{
     Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
 };

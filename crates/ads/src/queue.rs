@@ -2,16 +2,23 @@
 
 use std::mem::offset_of;
 
+use bytemuck::{Zeroable, bytes_of};
 use rasray_gpu::{
-    Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
-    GpuError, MemoryLocation, Recorder, SetLayout,
+    Access, BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, ComputePipelineDesc,
+    Device, GpuError, MemoryLocation, Recorder, SetLayout,
 };
 use rasray_shaders_glsl::constants::contract::{DOMAIN_SELECTED, QUEUE_GROUP_SIZE};
 
 use crate::{AdsError, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 
-/// Number of bindings of the queue set.
-const BINDINGS: u32 = 8;
+/// Buffers of a queue, each at the binding of its place.
+const BUFFERS: usize = 8;
+
+/// Place of the header among the buffers.
+const HEADER: usize = 0;
+
+/// Place of the steps.
+const STEPS: usize = 7;
 
 /// Bytes before the first step: the logged slot and the number of steps.
 const STEP_HEADER: u64 = 8;
@@ -47,7 +54,41 @@ pub struct QueueParts {
     pub steps: u32,
 }
 
+/// Buffers of a host that a queue is made of ([`RayQueue::from_buffers`]). Each is used from its start, for all slots of
+/// the queue, and may be larger; all of them have the usage [`BufferUsage::STORAGE`]. No two are the same buffer.
+#[derive(Clone, Debug)]
+pub struct QueueBuffers {
+    /// A [`Ray`] per slot, 48 bytes. What the host has written there is traced.
+    pub rays: Buffer,
+    /// A [`Hit`] per slot, 16 bytes, which traces write. Where camera rays are answered by drawing, also with the usage
+    /// [`BufferUsage::TRANSFER_DST`].
+    pub hits: Buffer,
+    /// A [`QueueHeader`], with all usages ([`BufferUsage::ALL`]): [`RayQueue::record_reset`] is recorded before anything
+    /// else of the queue, whatever it holds. Absent: one is made, which is reset.
+    pub header: Option<Buffer>,
+    /// A [`TraceState`] per slot, 64 bytes, of rays that pause; what it holds at first is not read. Absent: one is made.
+    pub states: Option<Buffer>,
+    /// Four u32 per slot, lists of slots; what it holds at first is not read. Absent: one is made.
+    pub list: Option<Buffer>,
+    /// A [`Surface`] per slot, 128 bytes, which lookups of surfaces write. Absent: there are none, as without
+    /// [`QueueParts::surfaces`].
+    pub surfaces: Option<Buffer>,
+    /// A [`RayWork`] per slot, 16 bytes. Absent: work is not kept per ray, as without [`QueueParts::work`].
+    pub work: Option<Buffer>,
+}
+
+impl QueueBuffers {
+    /// These rays and hits, and of everything else what a queue makes.
+    pub fn new(rays: Buffer, hits: Buffer) -> Self {
+        Self { rays, hits, header: None, states: None, list: None, surfaces: None, work: None }
+    }
+}
+
 /// Rays, hits, surfaces and traversal states of `capacity` slots, and lists of slots. Cheap to clone.
+///
+/// A queue that is made here is as [`RayQueue::record_reset`] leaves it, and no slot is selected. Its other buffers are
+/// zero, rays included, which miss; on a device without a queue to clear them through they are undefined until something
+/// is written there.
 #[derive(Clone, Debug)]
 pub struct RayQueue {
     capacity: u32,
@@ -103,31 +144,85 @@ impl RayQueue {
         parts: QueueParts,
     ) -> Result<Self, AdsError> {
         let capacity = capacity.max(1);
-        let buffer = |part: &str, element: usize, count: u64| {
-            device.create_buffer(&BufferDesc {
+        Self::made(device, name, capacity, parts, [const { None }; BUFFERS])
+    }
+
+    /// A queue of `capacity` slots, at least 1, whose rays and hits, and whatever else is given, are buffers of the host.
+    /// What the host has written there stays.
+    ///
+    /// # Errors
+    /// [`AdsError::Queue`] where a buffer is too small, was not made for what it is used for, or is given twice; out of
+    /// memory, or a buffer exceeds what one binding can hold.
+    pub fn from_buffers(
+        device: &Device,
+        name: &str,
+        capacity: u32,
+        buffers: QueueBuffers,
+    ) -> Result<Self, AdsError> {
+        let capacity = capacity.max(1);
+        let QueueBuffers { rays, hits, header, states, list, surfaces, work } = buffers;
+        let parts = QueueParts { surfaces: surfaces.is_some(), work: work.is_some(), steps: 0 };
+        let given = [header, Some(rays), Some(hits), states, list, surfaces, work, None];
+        let wrong = |reason: String| Err(AdsError::Queue { reason });
+        let wanted = sizes(capacity, parts);
+        for (place, ((part, bytes), buffer)) in wanted.iter().zip(&given).enumerate() {
+            let Some(buffer) = buffer else { continue };
+            if buffer.size() < *bytes {
+                return wrong(format!(
+                    "{part} of {capacity} slots take {bytes} bytes, and buffer `{}` has {}",
+                    buffer.name(),
+                    buffer.size()
+                ));
+            }
+            let usage = if place == 0 { BufferUsage::ALL } else { BufferUsage::STORAGE };
+            if !buffer.usage().contains(usage) {
+                let what = if place == 0 { "with all usages" } else { "as a storage buffer" };
+                return wrong(format!("buffer `{}` of {part} was not made {what}", buffer.name()));
+            }
+            let is_same =
+                |other: &Option<Buffer>| other.as_ref().is_some_and(|other| other.raw() == buffer.raw());
+            if given[..place].iter().any(is_same) {
+                return wrong(format!("buffer `{}` is given twice, also for {part}", buffer.name()));
+            }
+        }
+        Self::made(device, name, capacity, parts, given)
+    }
+
+    fn made(
+        device: &Device,
+        name: &str,
+        capacity: u32,
+        parts: QueueParts,
+        given: [Option<Buffer>; BUFFERS],
+    ) -> Result<Self, AdsError> {
+        let has_queue = device.has_queue();
+        let is_given = given.each_ref().map(Option::is_some);
+        let mut buffers = Vec::with_capacity(BUFFERS);
+        for (place, ((part, size), given)) in sizes(capacity, parts).into_iter().zip(given).enumerate() {
+            if let Some(buffer) = given {
+                buffers.push(buffer);
+                continue;
+            }
+            // The host writes what has to be known at once, where commands cannot.
+            let by_host = !has_queue && (place == HEADER || place == STEPS);
+            buffers.push(device.create_buffer(&BufferDesc {
                 name: &format!("{name} {part}"),
-                size: element as u64 * count,
+                size,
                 usage: BufferUsage::ALL,
-                location: MemoryLocation::Device,
-            })
-        };
-        let slots = u64::from(capacity);
-        let header = buffer("header", size_of::<QueueHeader>(), 1)?;
-        let rays = buffer("rays", size_of::<Ray>(), slots)?;
-        let hits = buffer("hits", size_of::<Hit>(), slots)?;
-        let states = buffer("states", size_of::<TraceState>(), slots)?;
-        let list = buffer("list", size_of::<u32>(), 4 * slots)?;
-        let surfaces = buffer("surfaces", size_of::<Surface>(), if parts.surfaces { slots } else { 0 })?;
-        let work = buffer("work", size_of::<RayWork>(), if parts.work { slots } else { 0 })?;
-        // The placeholder's 16 bytes hold no step.
-        let step_bytes = u64::from(parts.steps) * size_of::<TraceStep>() as u64;
-        let steps = buffer("steps", 1, if parts.steps > 0 { STEP_HEADER + step_bytes } else { 0 })?;
+                location: if by_host { MemoryLocation::Upload } else { MemoryLocation::Device },
+            })?);
+        }
         let layout = Self::layout(device)?;
-        let set = device.create_binding_set(
-            &layout,
-            name,
-            &[&header, &rays, &hits, &states, &list, &surfaces, &work, &steps],
-        )?;
+        let ranges: Vec<_> = buffers
+            .iter()
+            .zip(sizes(capacity, parts))
+            .map(|(buffer, (_, size))| BufferRange {
+                buffer,
+                offset: 0,
+                size: if size == 0 { buffer.size() } else { size },
+            })
+            .collect();
+        let set = device.create_binding_set_of_ranges(&layout, name, &ranges)?;
         let shader = &rasray_shaders_glsl::ADS_QUEUE_TAKE;
         let take = device.create_compute_pipeline(&ComputePipelineDesc {
             name: shader.name,
@@ -136,7 +231,13 @@ impl RayQueue {
             push_constant_bytes: 0,
             constants: &[],
         })?;
-        Ok(Self {
+        let Ok([header, rays, hits, states, list, surfaces, work, steps]) =
+            <[Buffer; BUFFERS]>::try_from(buffers)
+        else {
+            unreachable!("there is a buffer for each binding")
+        };
+        let step_capacity = parts.steps;
+        let queue = Self {
             capacity,
             take,
             header,
@@ -147,10 +248,38 @@ impl RayQueue {
             surfaces,
             work,
             steps,
-            step_capacity: parts.steps,
+            step_capacity,
             layout,
             set,
-        })
+        };
+        if has_queue {
+            device.submit(|recorder| {
+                for (buffer, _) in queue.buffers().into_iter().zip(is_given).filter(|(_, is_given)| !is_given)
+                {
+                    recorder.fill(buffer, 0, buffer.size(), 0);
+                }
+                if !is_given[HEADER] {
+                    queue.record_reset(recorder);
+                }
+            })?;
+        } else {
+            if !is_given[HEADER] {
+                queue.header.write(0, bytes_of(&QueueHeader { capacity, ..QueueHeader::zeroed() }))?;
+            }
+            queue.steps.write(0, bytes_of(&queue.first_step_words()))?;
+        }
+        Ok(queue)
+    }
+
+    /// In the order of bindings.
+    fn buffers(&self) -> [&Buffer; BUFFERS] {
+        let Self { header, rays, hits, states, list, surfaces, work, steps, .. } = self;
+        [header, rays, hits, states, list, surfaces, work, steps]
+    }
+
+    /// What precedes the steps: slot 0 is logged, or no slot where there is no capacity; and there is no step yet.
+    fn first_step_words(&self) -> [u32; 2] {
+        [if self.step_capacity > 0 { 0 } else { u32::MAX }, 0]
     }
 
     /// The layout that all queues share.
@@ -158,21 +287,20 @@ impl RayQueue {
     /// # Errors
     /// Out of memory.
     pub fn layout(device: &Device) -> Result<SetLayout, AdsError> {
-        Ok(device.create_set_layout("ray queue", BINDINGS)?)
+        Ok(device.create_set_layout("ray queue", BUFFERS as u32)?)
     }
 
-    /// Clears counters and book-keeping; to be recorded once before a queue is first used, and again
-    /// whenever counters are to start anew.
+    /// Clears counters and book-keeping, whenever counters are to start anew, and once before first use where the header is a
+    /// buffer of the host. No slot is selected then.
     pub fn record_reset(&self, recorder: &mut Recorder<'_>) {
         let size = size_of::<QueueHeader>() as u64;
         recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
         recorder.fill(&self.header, 0, size, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::TRANSFER_WRITE);
         recorder.fill(&self.header, offset_of!(QueueHeader, capacity) as u64, 4, self.capacity);
-        // Slot 0 is logged; no slot where the capacity is 0.
-        let logged = if self.step_capacity > 0 { 0 } else { u32::MAX };
-        recorder.fill(&self.steps, 0, 4, logged);
-        recorder.fill(&self.steps, 4, 4, 0);
+        for (word, value) in (0..).zip(self.first_step_words()) {
+            recorder.fill(&self.steps, 4 * word, 4, value);
+        }
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
     }
 
@@ -269,19 +397,7 @@ impl RayQueue {
 
     /// Bytes of all buffers.
     pub fn bytes(&self) -> u64 {
-        [
-            &self.header,
-            &self.rays,
-            &self.hits,
-            &self.states,
-            &self.list,
-            &self.surfaces,
-            &self.work,
-            &self.steps,
-        ]
-        .iter()
-        .map(|buffer| buffer.size())
-        .sum()
+        self.buffers().iter().map(|buffer| buffer.size()).sum()
     }
 
     /// Sums over all traces since the reset. Submits and waits: for use after a trace, in tests and tools.
@@ -305,4 +421,24 @@ impl RayQueue {
             tests: wide(header.tests_low, header.tests_high),
         }
     }
+}
+
+/// Names and bytes of the buffers, in the order of bindings; 0 where there is a placeholder.
+fn sizes(capacity: u32, parts: QueueParts) -> [(&'static str, u64); BUFFERS] {
+    let of = |element: usize, count: u64| element as u64 * count;
+    let slots = u64::from(capacity);
+    let where_asked = |is_asked: bool| if is_asked { slots } else { 0 };
+    // A placeholder holds no step.
+    let steps =
+        if parts.steps > 0 { STEP_HEADER + of(size_of::<TraceStep>(), parts.steps.into()) } else { 0 };
+    [
+        ("header", of(size_of::<QueueHeader>(), 1)),
+        ("rays", of(size_of::<Ray>(), slots)),
+        ("hits", of(size_of::<Hit>(), slots)),
+        ("states", of(size_of::<TraceState>(), slots)),
+        ("list", of(size_of::<u32>(), 4 * slots)),
+        ("surfaces", of(size_of::<Surface>(), where_asked(parts.surfaces))),
+        ("work", of(size_of::<RayWork>(), where_asked(parts.work))),
+        ("steps", steps),
+    ]
 }

@@ -15,12 +15,16 @@ pub struct Requirements {
 }
 
 impl Requirements {
-    /// The device floor: scalar block layout, synchronization2 and dynamic rendering.
+    /// What everything needs that draws nothing: scalar block layout and synchronization2. A queue that computes will do.
+    pub fn compute() -> Self {
+        Self { required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2], ..Self::default() }
+    }
+
+    /// The device floor: [`Requirements::compute`] and dynamic rendering.
     pub fn floor() -> Self {
-        Self {
-            required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2, Feature::DynamicRendering],
-            ..Self::default()
-        }
+        let mut requirements = Self::compute();
+        requirements.required.push(Feature::DynamicRendering);
+        requirements
     }
 
     /// These requirements and the other ones. What either requires is required, and no longer optional.

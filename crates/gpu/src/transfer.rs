@@ -135,8 +135,20 @@ impl Device {
         }
         let buffer =
             self.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Device })?;
-        self.submit(|recorder| recorder.fill(&buffer, 0, size, 0))?;
+        self.submit(|recorder| recorder.fill(&buffer, 0, buffer.size(), 0))?;
         Ok(buffer)
+    }
+
+    /// Makes a device-local buffer, cleared where this device has a queue to clear it through. Without one its content is
+    /// undefined until it is recorded: for what is large, and read only where something was written.
+    ///
+    /// # Errors
+    /// As [`Device::create_buffer`] and [`Device::submit`].
+    pub fn create_cleared_buffer(&self, name: &str, usage: BufferUsage, size: u64) -> Result<Buffer> {
+        if self.has_queue() {
+            return self.create_buffer_of_zeros(name, usage, size);
+        }
+        self.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Device })
     }
 }
 

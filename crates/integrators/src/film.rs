@@ -1,9 +1,10 @@
 //! Radiance summed over samples, pixel by pixel.
 
-use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder};
+use rasray_gpu::{Access, Buffer, Device, Recorder};
 use rasray_shaders_glsl::records::{FilmFaults, FilmPixel};
 
 use crate::IntegratorError;
+use crate::kernels::device_buffer;
 
 /// Maximum number of pixels of an image: indices of pixels, and of their three channels, fit in 32 bits.
 pub const PIXEL_LIMIT: u32 = 1 << 30;
@@ -21,22 +22,18 @@ pub struct Film {
 }
 
 impl Film {
-    /// Allocates an image of `width` by `height` pixels. Its content is undefined until
-    /// [`Film::record_clear`].
+    /// Allocates an image of `width` by `height` pixels. It has no samples, except on a device without a queue, where its
+    /// content is undefined until [`Film::record_clear`].
     ///
     /// # Errors
     /// `ImageSize` for an image without pixels or with too many; out of memory.
     pub fn new(device: &Device, width: u32, height: u32) -> Result<Self, IntegratorError> {
         let count = pixel_count(width, height)?;
-        let buffer = |name, size| {
-            let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST;
-            device.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Device })
-        };
         Ok(Self {
             width,
             height,
-            pixels: buffer("film", u64::from(count) * size_of::<FilmPixel>() as u64)?,
-            faults: buffer("film faults", size_of::<FilmFaults>() as u64)?,
+            pixels: device_buffer(device, "film", u64::from(count) * size_of::<FilmPixel>() as u64)?,
+            faults: device_buffer(device, "film faults", size_of::<FilmFaults>() as u64)?,
         })
     }
 

@@ -3,8 +3,8 @@
 use bytemuck::bytes_of;
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{
-    Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
-    MemoryLocation, Recorder, SetLayout,
+    Access, BindingSet, Buffer, BufferUsage, ComputePipeline, ComputePipelineDesc, Device, Recorder,
+    SetLayout,
 };
 use rasray_gpu_scene::GpuScene;
 pub(crate) use rasray_shaders_glsl::records::WaveConstants;
@@ -133,8 +133,8 @@ impl Bindings {
     }
 }
 
-/// A device-local storage buffer.
+/// A device-local storage buffer, cleared where the device has a queue.
 pub(crate) fn device_buffer(device: &Device, name: &str, size: u64) -> Result<Buffer, IntegratorError> {
     let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST;
-    Ok(device.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Device })?)
+    Ok(device.create_cleared_buffer(name, usage, size)?)
 }
