@@ -1,4 +1,4 @@
-// What: the status word of a build that has ended.
+// What: the status word of a build that has ended, with the stamp of the triangles that it was made of.
 // Reads: the geometry's header. Writes: nothing.
 #ifndef ADS_BUILD_STATUS_GLSL
 #define ADS_BUILD_STATUS_GLSL
@@ -8,7 +8,7 @@
 
 // Traces answer only where everything fitted and every triangle is where the geometry says.
 uint build_status(bool fits) {
-    return fits && geometry_is_sound() ? STATUS_COMPLETE : STATUS_OVERFLOW;
+    return geometry_header.stamp | (fits && geometry_is_sound() ? STATUS_COMPLETE : STATUS_OVERFLOW);
 }
 
 #endif

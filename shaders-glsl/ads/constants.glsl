@@ -5,6 +5,9 @@
 // Maximum number of views onto which one draw of all triangles goes: the faces of a cube.
 #define GEOMETRY_DRAW_VIEWS 6u
 
+// Stamps of a geometry whose triangles the device counts: another one after each change of their number, in turns.
+#define GEOMETRY_COUNT_STAMPS 1024u
+
 // Numbers that one workgroup of a scan adds up, and its threads.
 #define SCAN_BLOCK 1024u
 #define SCAN_THREADS 256u

@@ -12,7 +12,7 @@
 #define GEOMETRY_SET 0
 #endif
 
-// Counts and bounds of the geometry, and where positions and indices lie. 108 bytes.
+// Counts and bounds of the geometry, and where positions and indices lie. 112 bytes.
 struct GeometryHeader {
     uint vertex_count;   // vertices
     uint triangle_count; // triangles
@@ -30,6 +30,9 @@ struct GeometryHeader {
     uint run_count;      // of a part in several runs: how many; 0 elsewhere
     vec3 around_lower;   // of a part: lower corner of the whole, from all of which rays may start; its own elsewhere
     vec3 around_upper;   // upper corner of the same
+    // tells these triangles from all others, in the bits of a status above STATUS_FLAGS; 0 until what is counted or
+    // gathered can be read
+    uint stamp;
 };
 
 #ifdef GEOMETRY_WRITTEN
@@ -64,6 +67,11 @@ uint geometry_triangle_count() {
 // Whether the build may be complete: only then does what it stored represent the triangles.
 bool geometry_is_sound() {
     return geometry_header.outside == 0u;
+}
+
+// Whether a status is that of a complete build of these triangles.
+bool geometry_is_built(uint status) {
+    return (status & STATUS_COMPLETE) != 0u && (status & ~STATUS_FLAGS) == geometry_header.stamp;
 }
 
 // Posed position of a vertex; the origin where the index is out of range.

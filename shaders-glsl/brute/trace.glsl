@@ -28,9 +28,9 @@ uint brute_trace(BruteRef s, Ray ray, inout TraceState state, bool any_hit) {
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
-// There is nothing to build.
+// There is nothing to build, but indices may have to be gathered and triangles to be counted.
 uint brute_status(BruteRef s) {
-    return STATUS_COMPLETE;
+    return geometry_header.stamp == 0u ? 0u : geometry_header.stamp | STATUS_COMPLETE;
 }
 
 Hit brute_hit(BruteRef s, Hit best) {

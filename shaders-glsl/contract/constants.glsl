@@ -115,9 +115,10 @@
 // Software drivers end all loops of a group of eight invocations after 65,535 iterations in all.
 #define TRACE_WORK_BUDGET 4096u
 
-// Bits of a structure's status word.
+// Bits of a structure's status word. Those above STATUS_FLAGS are the stamp of the triangles that it was built for.
 #define STATUS_COMPLETE 1u
 #define STATUS_OVERFLOW 2u
 #define STATUS_UNSORTED 4u
+#define STATUS_FLAGS 15u
 
 #endif

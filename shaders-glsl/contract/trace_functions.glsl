@@ -1,14 +1,16 @@
 // What: the contract's trace functions of a structure, made from its own functions: an invalid ray is a miss, and a
-// structure that is not complete gives no answer, in queues and in shaders of a host alike. A trace may start with a best
-// hit of other triangles; where any hit suffices, that is the answer.
-// Reads, writes: see the structure.
+// structure that is not complete, or was built for other triangles than those that are bound, gives no answer, in queues
+// and in shaders of a host alike. A trace may start with a best hit of other triangles; where any hit suffices, that is the
+// answer.
+// Reads: the stamp of the triangles in the header of GEOMETRY_SET; otherwise, and writes: see the structure.
 #ifndef CONTRACT_TRACE_FUNCTIONS_GLSL
 #define CONTRACT_TRACE_FUNCTIONS_GLSL
 
 #include "contract/trace_state.glsl"
+#include "ads/geometry.glsl"
 
 // Defines <prefix>_trace_closest and <prefix>_trace_occluded from
-//     uint <prefix>_status(Ref s)                                                       bits STATUS_* of the last build
+//     uint <prefix>_status(Ref s)                                                       the status of the last build
 //     uint <prefix>_trace(Ref s, Ray ray, inout TraceState state, bool any_hit)         TRACE_*
 // Hit  <prefix>_hit(Ref s, Hit best)                                                the hit that the best one
 // represents
@@ -17,7 +19,7 @@
         if (!ray_is_valid(ray)) { \
             return TRACE_MISS; \
         } \
-        if ((prefix##_status(s) & STATUS_COMPLETE) == 0u) { \
+        if (!geometry_is_built(prefix##_status(s))) { \
             return TRACE_NOT_READY; \
         } \
         if (any_hit && state.best.primitive != PRIMITIVE_NONE) { \

@@ -10,6 +10,9 @@ use crate::{
 };
 
 /// Tests every triangle: O(rays x triangles), no memory of its own.
+///
+/// Triangles that are read in place need no build. A build gathers the indices of all others, and counts triangles whose
+/// number only the device knows; until then traces answer *not ready*.
 #[derive(Debug)]
 pub struct BruteForce {
     geometry: Geometry,
@@ -17,9 +20,18 @@ pub struct BruteForce {
     sizes: Sizes,
     work_budget: u32,
     slots: u32,
+    /// Whether a build of these triangles was recorded, or none is needed.
+    is_readable: bool,
 }
 
 impl BruteForce {
+    /// What a device must offer.
+    pub fn requirements_of() -> Requirements {
+        let mut requirements = Requirements::compute();
+        MODULES.add_to(&mut requirements);
+        requirements
+    }
+
     /// Makes the kernels. Surfaces and alpha masks need `scene`; without it geometry is opaque.
     ///
     /// # Errors
@@ -44,7 +56,14 @@ impl BruteForce {
                 scene,
             },
         )?;
-        Ok(Self { geometry: geometry.clone(), kernels, sizes: Sizes::default(), work_budget, slots: 1 })
+        Ok(Self {
+            geometry: geometry.clone(),
+            kernels,
+            sizes: Sizes::default(),
+            work_budget,
+            slots: 1,
+            is_readable: !geometry.is_gathered(),
+        })
     }
 }
 
@@ -62,7 +81,7 @@ impl Structure for BruteForce {
     }
 
     fn requirements(&self) -> Requirements {
-        Requirements::floor()
+        Self::requirements_of()
     }
 
     fn counters(&self) -> Counters {
@@ -79,6 +98,7 @@ impl Structure for BruteForce {
 
     fn set_geometry(&mut self, _device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
         self.geometry = geometry.clone();
+        self.is_readable = !geometry.is_gathered();
         Ok(())
     }
 
@@ -107,12 +127,14 @@ impl Structure for BruteForce {
     ) -> Result<(), AdsError> {
         check_recorded(self.name(), slot, self.slots)?;
         self.geometry.record_gather(recorder);
+        self.is_readable = true;
         Ok(())
     }
 
     fn status(&self, slot: u32) -> Result<BuildStatus, GpuError> {
         check_read(self.name(), slot, self.slots)?;
-        Ok(BuildStatus { complete: true, was_complete: true, ..BuildStatus::default() })
+        let complete = self.is_readable;
+        Ok(BuildStatus { complete, was_complete: complete, ..BuildStatus::default() })
     }
 
     fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {

@@ -1,12 +1,16 @@
 //! Posed triangles, the one input of every structure.
 
 use std::mem::offset_of;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice, pod_read_unaligned};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, Device, GpuError,
     MemoryLocation, Recorder, SetLayout,
 };
+
+use rasray_shaders_glsl::constants::ads::GEOMETRY_COUNT_STAMPS;
+use rasray_shaders_glsl::constants::contract::STATUS_FLAGS;
 
 use crate::geometry_gather::{Count, DRAW_ARGUMENT_BYTES, Gather, TRIANGLE_INDEX_BYTES, pipeline, whole};
 use crate::groups::folded;
@@ -33,12 +37,39 @@ pub struct Geometry {
     check: ComputePipeline,
     layout: SetLayout,
     set: BindingSet,
+    /// What a structure's status says that was built for these triangles; the first of several where only the device
+    /// knows their number.
+    stamp: u32,
     /// Where only the device knows the number of triangles.
     count: Option<Count>,
     /// Where indices are not read in place.
     gather: Option<Gather>,
     /// What it is a part of.
     whole: Option<Box<Self>>,
+}
+
+/// From one stamp to the next: flags of a status lie below.
+const STAMP_STEP: u32 = STATUS_FLAGS + 1;
+
+/// Stamps that no geometry of this process has yet, in steps; 0 is none.
+static NEXT_STAMP: AtomicU32 = AtomicU32::new(1);
+
+/// Where that many stamps lie if `next` is the next one that is free: all in one word. Begins anew after 2^28.
+fn stamps_from(next: u32, count: u32) -> u32 {
+    if next > u32::MAX / STAMP_STEP - count { 1 } else { next }
+}
+
+/// The first of that many stamps in a row which no other geometry has.
+fn new_stamps(count: u32) -> u32 {
+    let after = |next| Some(stamps_from(next, count) + count);
+    let next =
+        NEXT_STAMP.fetch_update(Ordering::Relaxed, Ordering::Relaxed, after).unwrap_or_else(|next| next);
+    stamps_from(next, count) * STAMP_STEP
+}
+
+/// Whether shaders read indices that a pass gathers, those of the whole included.
+fn gathers(gather: Option<&Gather>, whole: Option<&Geometry>) -> bool {
+    gather.is_some() || whole.is_some_and(|whole| whole.gather.is_some())
 }
 
 /// Consecutive triangles of a part.
@@ -52,7 +83,7 @@ pub(crate) struct Run {
 }
 
 impl Geometry {
-    /// Makes the header buffer ([`GeometryHeader`], 108 bytes, and 8 for each run of a part, at least one), where they are needed one for gathered indices (12 bytes
+    /// Makes the header buffer ([`GeometryHeader`], 112 bytes, and 8 for each run of a part, at least one), where they are needed one for gathered indices (12 bytes
     /// per triangle) and one for draws (96 bytes), and the binding set.
     ///
     /// # Errors
@@ -108,10 +139,12 @@ impl Geometry {
             }
             _ => None,
         };
+        let stamp = new_stamps(if desc.count.is_some() { GEOMETRY_COUNT_STAMPS } else { 1 });
         let count = match bindings.get(3) {
-            Some((range, before)) => Some(Count::new(device, &layout, &desc, *range, *before)?),
+            Some((range, before)) => Some(Count::new(device, &layout, &desc, (*range, *before), stamp)?),
             None => None,
         };
+        let is_in_place = count.is_none() && !gathers(gather.as_ref(), part.map(|(whole, _)| whole));
         let around = part.map_or(desc.bounds, |(whole, _)| whole.desc.bounds);
         header.write(
             0,
@@ -132,6 +165,7 @@ impl Geometry {
                 run_count: if runs.len() > 1 { runs.len() as u32 } else { 0 },
                 around_lower: around[0],
                 around_upper: around[1],
+                stamp: if is_in_place { stamp } else { 0 },
             }),
         )?;
         if runs.len() > 1 {
@@ -142,7 +176,7 @@ impl Geometry {
         let set = device.create_binding_set_of_ranges(&layout, "geometry", &ranges)?;
         let check = pipeline(device, &rasray_shaders_glsl::ADS_GEOMETRY_CHECK, &[&layout], 0)?;
         let whole = part.map(|(whole, _)| Box::new(whole.clone()));
-        Ok(Self { desc, header, check, layout, set, count, gather, whole })
+        Ok(Self { desc, header, check, layout, set, stamp, count, gather, whole })
     }
 
     /// Records what shaders do not read in place: the number of triangles where only the device knows it, and
@@ -155,6 +189,23 @@ impl Geometry {
             self.record(recorder, pipeline, Some(set), bytes_of(constants), groups);
             recorder.barrier(Access::COMPUTE, READERS);
         }
+        // Where the device counts, that gives a stamp.
+        if self.count.is_none() && gathers(self.gather.as_ref(), self.whole.as_deref()) {
+            recorder.barrier(READERS, Access::TRANSFER_WRITE);
+            recorder.fill(&self.header, offset_of!(GeometryHeader, stamp) as u64, 4, self.stamp);
+            recorder.barrier(Access::TRANSFER_WRITE, READERS);
+        }
+    }
+
+    /// Whether a structure with this status was built for these triangles, as far as the host knows their number.
+    pub(crate) fn is_of(&self, status: u32) -> bool {
+        let stamps = if self.count.is_some() { GEOMETRY_COUNT_STAMPS } else { 1 };
+        (status & !STATUS_FLAGS).wrapping_sub(self.stamp) < stamps * STAMP_STEP
+    }
+
+    /// Whether triangles cannot be read before [`Geometry::record_gather`].
+    pub(crate) fn is_gathered(&self) -> bool {
+        self.count.is_some() || gathers(self.gather.as_ref(), self.whole.as_deref())
     }
 
     /// Records the number of triangles where only the device knows it, and for a part the indices of the whole, from which

@@ -45,22 +45,25 @@ impl Count {
         device: &Device,
         geometry: &SetLayout,
         desc: &GeometryDesc,
-        range: BufferRange<'_>,
-        before: u64,
+        (range, before): (BufferRange<'_>, u64),
+        first_stamp: u32,
     ) -> Result<Self, AdsError> {
-        let draw_arguments = device.create_buffer(&BufferDesc {
-            name: "geometry draw arguments",
-            size: DRAW_ARGUMENT_BYTES * u64::from(GEOMETRY_DRAW_VIEWS),
-            usage: BufferUsage::STORAGE | BufferUsage::INDIRECT,
-            location: MemoryLocation::Device,
-        })?;
+        // Until triangles are counted there is none to draw.
+        let draw_arguments = device.create_buffer_of_zeros(
+            "geometry draw arguments",
+            BufferUsage::STORAGE | BufferUsage::INDIRECT,
+            DRAW_ARGUMENT_BYTES * u64::from(GEOMETRY_DRAW_VIEWS),
+        )?;
         let layout = device.create_set_layout("geometry count", 2)?;
         let ranges = [range, whole(&draw_arguments)];
         let set = device.create_binding_set_of_ranges(&layout, "geometry count", &ranges)?;
         let shader = &rasray_shaders_glsl::ADS_GEOMETRY_COUNT;
         let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<GeometryCountConstants>())?;
-        let constants =
-            GeometryCountConstants { count_word: (before / 4) as u32, most_triangles: desc.triangle_count };
+        let constants = GeometryCountConstants {
+            count_word: (before / 4) as u32,
+            most_triangles: desc.triangle_count,
+            first_stamp,
+        };
         Ok(Self { pipeline, set, constants, draw_arguments })
     }
 }

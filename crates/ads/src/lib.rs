@@ -7,8 +7,8 @@
 //!
 //! Building is resumed by its caller, because the exact demand for memory is known only after the GPU
 //! ran: record a build, submit and wait as you like, read the [`BuildStatus`], and on [`Check::Grow`]
-//! resize and record again. Until a build is complete, traces answer "not ready" and count it; they
-//! never give a partial answer.
+//! resize and record again. Until a build of the triangles that a structure has is complete, traces answer "not ready" and
+//! count it; they never give a partial answer, nor one for triangles that it had before.
 //!
 //! This crate records commands. It never submits, never waits, and allocates only in constructors and
 //! in [`Structure::resize`]. Only a structure that is built on the host submits, in
@@ -41,6 +41,7 @@ mod pooled;
 mod pools;
 mod pyramid;
 mod queue;
+mod queue_buffers;
 mod scan;
 mod scene_binding;
 mod scratch;
@@ -72,7 +73,8 @@ pub use pool_name::PoolName;
 pub use pooled::{Pooled, VARYING_SHARE};
 pub use pools::Pools;
 pub use pyramid::Pyramid;
-pub use queue::{Domain, QueueBuffers, QueueCounters, QueueParts, RayQueue};
+pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
+pub use queue_buffers::QueueBuffers;
 pub use rasray_shaders_glsl::records::{
     Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
 };

@@ -25,6 +25,8 @@ pub struct Pooled<D: Design> {
     kernels: TraceKernels,
     /// The scene's set, where passes of the build read it.
     scene: Option<BindingSet>,
+    /// Whether that is another one than the last build recorded read.
+    is_scene_new: bool,
     /// The header as [`Structure::status`] last read it; zeros until then. Reports and rounds are of this build, also where
     /// triangles or pools have changed since: consecutive frames have much the same demand.
     known: Mutex<D::Header>,
@@ -82,6 +84,7 @@ impl<D: Design> Pooled<D> {
             parts: Parts { config, geometry: geometry.clone(), pools, work_budget, header_pass },
             kernels,
             scene,
+            is_scene_new: false,
             known: Mutex::new(bytemuck::Zeroable::zeroed()),
         })
     }
@@ -161,6 +164,9 @@ impl<D: Design> Pooled<D> {
     ) {
         let (Parts { pools, geometry, .. }, kernels) = (&self.parts, &self.kernels);
         let corrupted = D::CORRUPTED;
+        if self.is_scene_new {
+            pools.record_forget(recorder);
+        }
         pools.record_trace(recorder, kernels, geometry, queue, domain, mode, rounds, continues, corrupted);
     }
 }
@@ -210,6 +216,7 @@ impl<D: Design> Structure for Pooled<D> {
         self.kernels.set_scene(D::NAME, scene)?;
         if let Some(read) = &mut self.scene {
             *read = scene.set.clone();
+            self.is_scene_new = true;
         }
         Ok(())
     }
@@ -246,6 +253,7 @@ impl<D: Design> Structure for Pooled<D> {
     ) -> Result<(), AdsError> {
         let header = self.design.first_header(&self.parts, viewpoint)?;
         self.parts.pools.begin(slot, &header)?;
+        self.is_scene_new = false;
         self.design.record_passes(recorder, &self.parts, self.scene.as_ref());
         Ok(())
     }
@@ -267,8 +275,9 @@ impl<D: Design> Structure for Pooled<D> {
         if was_complete && is_current {
             self.design.completed(&header);
         }
+        let answers = is_current && self.parts.geometry.is_of(word(0)) && !self.is_scene_new;
         Ok(BuildStatus {
-            complete: was_complete && is_current,
+            complete: was_complete && answers,
             was_complete,
             pools,
             unsorted: D::UNSORTED.map_or(0, word).into(),

@@ -195,6 +195,13 @@ impl Pools {
         self.keep(recorder);
     }
 
+    /// Records that nothing is built.
+    pub(crate) fn record_forget(&self, recorder: &mut Recorder<'_>) {
+        recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::TRANSFER_WRITE);
+        recorder.fill(&self.pools[0], 0, size_of::<u32>() as u64, 0);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
+    }
+
     /// Keeps what is reached by address alive until the device is done; a set does so for what it binds.
     fn keep(&self, recorder: &mut Recorder<'_>) {
         if self.set.is_none() {

@@ -9,16 +9,8 @@ use rasray_gpu::{
 };
 use rasray_shaders_glsl::constants::contract::{DOMAIN_SELECTED, QUEUE_GROUP_SIZE};
 
-use crate::{AdsError, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
-
-/// Buffers of a queue, each at the binding of its place.
-const BUFFERS: usize = 8;
-
-/// Place of the header among the buffers.
-const HEADER: usize = 0;
-
-/// Place of the steps.
-const STEPS: usize = 7;
+use crate::queue_buffers::{BUFFERS, HEADER, STEPS};
+use crate::{AdsError, Hit, QueueBuffers, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 
 /// Bytes before the first step: the logged slot and the number of steps.
 const STEP_HEADER: u64 = 8;
@@ -52,36 +44,6 @@ pub struct QueueParts {
     pub work: bool,
     /// Capacity for [`TraceStep`]s of slot 0, written by structures that log steps.
     pub steps: u32,
-}
-
-/// Buffers of a host that a queue is made of ([`RayQueue::from_buffers`]). Each is used from its start, for all slots of
-/// the queue, and may be larger; all of them have the usage [`BufferUsage::STORAGE`]. No two are the same buffer.
-#[derive(Clone, Debug)]
-pub struct QueueBuffers {
-    /// A [`Ray`] per slot, 48 bytes. What the host has written there is traced.
-    pub rays: Buffer,
-    /// A [`Hit`] per slot, 16 bytes, which traces write. Where camera rays are answered by drawing, also with the usage
-    /// [`BufferUsage::TRANSFER_DST`].
-    pub hits: Buffer,
-    /// A [`QueueHeader`], with all usages ([`BufferUsage::ALL`]): [`RayQueue::record_reset`] is recorded before anything
-    /// else of the queue, whatever it holds. Absent: one is made, which is reset.
-    pub header: Option<Buffer>,
-    /// A [`TraceState`] per slot, 64 bytes, of rays that pause; what it holds at first is not read. Absent: one is made.
-    pub states: Option<Buffer>,
-    /// Four u32 per slot, lists of slots; what it holds at first is not read. Absent: one is made.
-    pub list: Option<Buffer>,
-    /// A [`Surface`] per slot, 128 bytes, which lookups of surfaces write. Absent: there are none, as without
-    /// [`QueueParts::surfaces`].
-    pub surfaces: Option<Buffer>,
-    /// A [`RayWork`] per slot, 16 bytes. Absent: work is not kept per ray, as without [`QueueParts::work`].
-    pub work: Option<Buffer>,
-}
-
-impl QueueBuffers {
-    /// These rays and hits, and of everything else what a queue makes.
-    pub fn new(rays: Buffer, hits: Buffer) -> Self {
-        Self { rays, hits, header: None, states: None, list: None, surfaces: None, work: None }
-    }
 }
 
 /// Rays, hits, surfaces and traversal states of `capacity` slots, and lists of slots. Cheap to clone.
@@ -160,31 +122,7 @@ impl RayQueue {
         buffers: QueueBuffers,
     ) -> Result<Self, AdsError> {
         let capacity = capacity.max(1);
-        let QueueBuffers { rays, hits, header, states, list, surfaces, work } = buffers;
-        let parts = QueueParts { surfaces: surfaces.is_some(), work: work.is_some(), steps: 0 };
-        let given = [header, Some(rays), Some(hits), states, list, surfaces, work, None];
-        let wrong = |reason: String| Err(AdsError::Queue { reason });
-        let wanted = sizes(capacity, parts);
-        for (place, ((part, bytes), buffer)) in wanted.iter().zip(&given).enumerate() {
-            let Some(buffer) = buffer else { continue };
-            if buffer.size() < *bytes {
-                return wrong(format!(
-                    "{part} of {capacity} slots take {bytes} bytes, and buffer `{}` has {}",
-                    buffer.name(),
-                    buffer.size()
-                ));
-            }
-            let usage = if place == 0 { BufferUsage::ALL } else { BufferUsage::STORAGE };
-            if !buffer.usage().contains(usage) {
-                let what = if place == 0 { "with all usages" } else { "as a storage buffer" };
-                return wrong(format!("buffer `{}` of {part} was not made {what}", buffer.name()));
-            }
-            let is_same =
-                |other: &Option<Buffer>| other.as_ref().is_some_and(|other| other.raw() == buffer.raw());
-            if given[..place].iter().any(is_same) {
-                return wrong(format!("buffer `{}` is given twice, also for {part}", buffer.name()));
-            }
-        }
+        let (parts, given) = buffers.checked(capacity)?;
         Self::made(device, name, capacity, parts, given)
     }
 
@@ -424,7 +362,7 @@ impl RayQueue {
 }
 
 /// Names and bytes of the buffers, in the order of bindings; 0 where there is a placeholder.
-fn sizes(capacity: u32, parts: QueueParts) -> [(&'static str, u64); BUFFERS] {
+pub(crate) fn sizes(capacity: u32, parts: QueueParts) -> [(&'static str, u64); BUFFERS] {
     let of = |element: usize, count: u64| element as u64 * count;
     let slots = u64::from(capacity);
     let where_asked = |is_asked: bool| if is_asked { slots } else { 0 };

@@ -19,8 +19,8 @@ pub struct PoolStatus {
 pub struct BuildStatus {
     /// Whether traces will answer.
     pub complete: bool,
-    /// Whether traces that were recorded after the build have answers. Differs from `complete` where the pools were
-    /// replaced since.
+    /// Whether traces that were recorded after the build have answers. Differs from `complete` where pools, triangles or a
+    /// scene that builds read were replaced since.
     pub was_complete: bool,
     /// Pools whose demand the build counted.
     pub pools: Vec<PoolStatus>,
@@ -65,7 +65,7 @@ impl BuildStatus {
         if self.outside > 0 {
             return Err(AdsError::OutsideBounds { triangles: self.outside });
         }
-        if self.complete {
+        if self.was_complete {
             return Ok(Check::Complete);
         }
         // Without headroom is better than not at all.

@@ -66,7 +66,7 @@ impl StructureReport {
     }
 }
 
-/// What a shader of one's own needs to call the structure's GLSL functions (`x_trace_closest`, `x_trace_occluded`,
+/// What a shader of one's own needs, beside the set of the geometry that the structure has, to call the structure's GLSL functions (`x_trace_closest`, `x_trace_occluded`,
 /// `x_surface_at` of the structure's folder).
 #[derive(Clone, Debug)]
 pub struct InlineTrace<'a> {
@@ -126,7 +126,8 @@ pub trait Structure {
     /// Out of memory, or a pool exceeds what one binding can hold.
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError>;
 
-    /// Takes other triangles; the next build reads them.
+    /// Takes other triangles; the next build reads them. Until it is complete traces answer *not ready*: what was built is
+    /// of others, unless these are the triangles that it was built for.
     ///
     /// # Errors
     /// Out of memory.
@@ -134,7 +135,8 @@ pub trait Structure {
 
     /// Takes the scene that other triangles belong to, whose surfaces and alpha masks are read from the next recording on; the
     /// triangles are handed over by [`Structure::set_geometry`]. Pipelines stay, so the binding has what those of the first
-    /// scene are compiled for: alpha masks or none, and the same specialisation constants. Nothing changes after an error.
+    /// scene are compiled for: alpha masks or none, and the same specialisation constants. Where a build reads the scene, traces
+    /// answer *not ready* until the next build is complete; other structures go on. Nothing changes after an error.
     ///
     /// # Errors
     /// [`AdsError::OtherScene`], or [`AdsError::NoScene`] where the structure was made without one.

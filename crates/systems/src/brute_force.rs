@@ -1,7 +1,6 @@
 //! Every triangle for every ray: the reference for hits, always present.
 
 use rasray_ads::{BruteForce, StructureKind};
-use rasray_gpu::Requirements;
 
 use crate::{Preset, System};
 
@@ -17,7 +16,7 @@ pub(crate) const SYSTEM: System = System {
     camera_views: None,
     without_scene: &[],
     options: Vec::new,
-    requirements: |_| Ok(Requirements::floor()),
+    requirements: |_| Ok(BruteForce::requirements_of()),
     kind: |_| Ok(StructureKind::Primitive),
     create: |spec, device, geometry, scene| {
         Ok(Box::new(BruteForce::new(device, geometry, scene, spec.counters())?))

@@ -1,5 +1,7 @@
 //! A structure over frames in flight.
 
+use std::collections::VecDeque;
+
 use rasray_ads::{AdsError, Check, Geometry, GeometryParts, SceneBinding, Structure, Viewpoint};
 use rasray_gpu::{Device, Recorder};
 
@@ -80,7 +82,7 @@ struct Used {
 /// builds ([`FrameStructure::prepare`]), so that a host's own frames can be recorded with it.
 ///
 /// The order of calls: per frame [`FrameStructure::record`] with a slot, in the order of submission; after the fence
-/// of a slot [`FrameStructure::finish`], in the same order, before the slot is recorded again. Other triangles
+/// of a slot [`FrameStructure::finish`], in the same order, before the slot is recorded again; anything else is an error. Other triangles
 /// are handed over between frames.
 pub struct FrameStructure {
     structure: Refresh,
@@ -88,6 +90,8 @@ pub struct FrameStructure {
     slots: u32,
     /// As the structure has them; the last one moves.
     parts: Vec<Part>,
+    /// Slots of frames that were recorded and not finished, the oldest first.
+    pending: VecDeque<u32>,
     counts: StructureCounts,
 }
 
@@ -102,7 +106,8 @@ impl FrameStructure {
         structure.structure_mut().set_slots(device, slots)?;
         let part = |_| Part { used: vec![None; slots as usize], ..Part::default() };
         let parts = (0..structure.count()).map(part).collect();
-        Ok(Self { structure, headroom: keeping.headroom, slots, parts, counts: StructureCounts::default() })
+        let (pending, counts) = (VecDeque::new(), StructureCounts::default());
+        Ok(Self { structure, headroom: keeping.headroom, slots, parts, pending, counts })
     }
 
     /// The structure.
@@ -199,16 +204,16 @@ impl FrameStructure {
     /// [`FrameStructure::structure`]. True where a build was recorded.
     ///
     /// # Errors
-    /// There is no such slot, the structure was not prepared, or it has a view of the camera and the viewpoint has none.
+    /// There is no such slot, or the last frame of it was not finished ([`AdsError::Slot`]); the structure was not prepared,
+    /// or it has a view of the camera and the viewpoint has none.
     pub fn record(
         &mut self,
         recorder: &mut Recorder<'_>,
         slot: u32,
         viewpoint: Viewpoint,
     ) -> Result<bool, AdsError> {
-        let slots = self.slots;
-        if slot >= slots {
-            return Err(AdsError::Slot { structure: self.structure().name(), slot, slots });
+        if slot >= self.slots || self.pending.contains(&slot) {
+            return Err(self.wrong_slot(slot));
         }
         let (mut any_made, mut static_made) = (false, false);
         for index in 0..self.parts.len() {
@@ -231,6 +236,7 @@ impl FrameStructure {
             static_made |= made && index == 0;
             any_made |= made;
         }
+        self.pending.push_back(slot);
         self.counts.frames += 1;
         self.counts.builds += u64::from(any_made);
         self.counts.static_builds += u64::from(static_made);
@@ -238,11 +244,16 @@ impl FrameStructure {
     }
 
     /// Says what became of the build that a slot's frame was traced through; the caller has waited for the frame. Grows
-    /// where pools were too small. A slot that was not recorded since is complete.
+    /// where pools were too small.
     ///
     /// # Errors
+    /// The slot is not that of the oldest frame that was recorded and not finished ([`AdsError::Slot`]): then nothing changed.
     /// No sizes suffice, triangles reach out of their bounds ([`AdsError::OutsideBounds`]), or out of memory.
     pub fn finish(&mut self, device: &Device, slot: u32) -> Result<FrameOutcome, AdsError> {
+        if self.pending.front() != Some(&slot) {
+            return Err(self.wrong_slot(slot));
+        }
+        self.pending.pop_front();
         let mut is_complete = true;
         let mut failed = None;
         for part in 0..self.parts.len() {
@@ -280,8 +291,14 @@ impl FrameStructure {
         Ok(self.parts[index].ended == Some((used.build, true)))
     }
 
-    /// The frame that was recorded last was not submitted: what it built does not exist.
+    fn wrong_slot(&self, slot: u32) -> AdsError {
+        AdsError::Slot { structure: self.structure().name(), slot, slots: self.slots }
+    }
+
+    /// The frame that was recorded last, for this slot, was not submitted: what it built does not exist. Nothing where no frame
+    /// was recorded for it.
     pub fn take_back(&mut self, slot: u32) {
+        self.pending.retain(|pending| *pending != slot);
         for part in &mut self.parts {
             if let Some(used) = part.used.get_mut(slot as usize).and_then(Option::take)
                 && used.made

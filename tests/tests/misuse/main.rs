@@ -2,6 +2,8 @@
 
 mod frames;
 mod geometry;
+mod queues;
+mod unbuilt;
 
 use rasray_ads::{Addressing, Check, Domain, Hit, Pools, Ray, RayQueue, Sizes, TraceMode};
 use rasray_gpu::{BufferDesc, BufferUsage, GpuError, MemoryLocation, Timing};
