@@ -307,7 +307,7 @@ impl LoadedScene {
     fn record_of(&self, seconds: f64, clips: &[usize], file: Option<&Path>) -> PoseRecord {
         let clips = clips.iter().map(|clip| self.scene.animation.clips[*clip].clone()).collect();
         let file = file.and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
-        PoseRecord { time_s: seconds, clips, frame: None, file }
+        PoseRecord { time_s: seconds, clips, frame: None, frames: None, file }
     }
 
     /// Shows the scene at a time of its animation, seconds: moved by the clip of that name, or else at that position from 0,

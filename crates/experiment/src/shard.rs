@@ -31,6 +31,11 @@ impl Shard {
         Self::new(number.trim().parse().ok()?, of.trim().parse().ok()?)
     }
 
+    /// Shares in all.
+    pub fn count(self) -> u32 {
+        self.of
+    }
+
     /// Whether the thing at this place, from 0, is part of the share.
     pub fn holds(self, place: u32) -> bool {
         place % self.of == self.number - 1

@@ -18,7 +18,8 @@ mod words;
 pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
 pub use cost::{Counters, Memory, Pass, Spread, Timer, Times};
 pub use schema::{
-    CameraRecord, Device, PoseRecord, Report, Run, SCHEMA, SceneRecord, SmallerImageRecord, Statistics,
+    CameraRecord, Device, FramesRecord, PoseRecord, Report, Run, SCHEMA, SceneRecord, SmallerImageRecord,
+    Statistics,
 };
 
 pub use markdown::markdown;

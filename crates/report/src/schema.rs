@@ -97,9 +97,27 @@ pub struct PoseRecord {
     /// Number of the frame of an animation; absent where one time was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<u32>,
+    /// The frames that the command makes, of which this is one; absent where one time was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frames: Option<FramesRecord>,
     /// Of a sequence of files, the name of the one that was shown; absent otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+}
+
+/// Frames of one animation, by which reports of its shares are known to go together.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FramesRecord {
+    /// Number of the first frame.
+    pub first: u32,
+    /// Number of the last frame, not below the first.
+    pub last: u32,
+    /// Which share of them the command makes, such as `2/8`; absent where it makes all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shard: Option<String>,
+    /// The same for all shares, 64 hexadecimal digits: a hash of the first frame's key and of frames per second.
+    pub key: String,
 }
 
 /// An image that was made smaller.

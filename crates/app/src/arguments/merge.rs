@@ -15,7 +15,8 @@ Examples:
 Shares of the samples (--shard of render) add up to the picture that render makes without it, up to the
 rounding of its sums, and to the same bytes in whatever order they are named; render --resume takes it for its
 own. All parts are to be of the same picture and to hold each sample once. Reports (.jsonl, a row per frame)
-are sorted by frame; rows with the same key are kept once.";
+are sorted by frame; rows with the same key are kept once. All frames that their commands were to make are to be
+there, of all shares.";
 
 /// Options of `rasray merge`.
 #[derive(Debug, Args)]

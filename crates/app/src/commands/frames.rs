@@ -30,8 +30,8 @@ impl Pictures<'_> {
             let found = self.render_frame(number).map_err(about)?;
             tally.0[found as usize] += 1;
         }
-        if let Some(rows) = &self.rows {
-            if numbers.is_empty() {
+        if let Some(rows) = &mut self.rows {
+            if numbers.is_empty() || rows.is_changed() {
                 // A share without frames has a report without rows, so that reports of all shares can be merged.
                 rows.write(self.interrupt)?;
             }
@@ -57,6 +57,7 @@ impl Pictures<'_> {
         terminal::warn_of_frame(&self.loaded.scene, &said);
         if let Some(pose) = &mut self.loaded.pose {
             pose.frame = Some(number);
+            pose.frames.clone_from(&self.frames);
         }
         if let Some(camera) = self.chosen.index.and_then(|index| self.loaded.camera(index)) {
             self.chosen.camera = camera;
@@ -67,7 +68,10 @@ impl Pictures<'_> {
             found = targets.standing(self.given, &key)?;
             let has_row = self.rows.as_ref().is_none_or(|rows| rows.has(number, &key));
             match found {
-                Standing::Same if has_row => return Ok(found),
+                Standing::Same if has_row => {
+                    self.rows.iter_mut().for_each(|rows| rows.keep(number, self.frames.as_ref()));
+                    return Ok(found);
+                }
                 Standing::Same => found = Standing::Unreported,
                 _ => {}
             }

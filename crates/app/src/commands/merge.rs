@@ -9,8 +9,8 @@ use crate::output::{
     Destination, ImageFormat, Metadata, PartFile, Row, Rows, decode_part, image_key, lines, read_rows,
 };
 use crate::terminal;
-use rasray_experiment::RenderOutput;
-use std::collections::BTreeMap;
+use rasray_experiment::{RenderOutput, Shard};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Puts shares of a picture's samples, or reports of frames, together.
@@ -151,14 +151,118 @@ fn merge_rows(given: &MergeArguments, place: &Destination, interrupt: &Interrupt
                     return Err(AppError::input(
                         path,
                         format!("has another picture of frame {} than {}", known.frame, other.display()),
-                        "merge reports of the same scene, options and program",
+                        SAME,
                     ));
                 }
                 None => _ = rows.insert(row.frame, (row, path)),
             }
         }
     }
+    check_rows(&rows)?;
     place.write(lines(rows.values().map(|(row, _)| row)).as_bytes(), interrupt)?;
     terminal::note(&format!("{} frames of {} reports", rows.len(), given.parts.len()));
     Ok(())
+}
+
+/// What to do about rows that do not go together.
+const SAME: &str = "merge reports of the same scene, options and program";
+
+/// Frames that commands make, from the first to the last.
+struct Asked<'a> {
+    /// The row that says so first, and its file.
+    by: (&'a Row, &'a Path),
+    key: &'a str,
+    /// Numbers of shares, where all rows are of shares of as many.
+    of: Option<u32>,
+}
+
+/// Refuses rows of different commands, and rows that are not all that one of these commands and its other shares make.
+fn check_rows(rows: &BTreeMap<u32, (Row, &Path)>) -> Result<(), AppError> {
+    let Some((first, from)) = rows.values().next() else { return Ok(()) };
+    let mut asked: BTreeMap<(u32, u32), Asked<'_>> = BTreeMap::new();
+    for (row, path) in rows.values() {
+        let differs = |other: &Row, file: &Path| {
+            let of = format!("of frame {} in {}", other.frame, file.display());
+            AppError::input(path, format!("has frame {} of another command than that {of}", row.frame), SAME)
+        };
+        if row.common != first.common || row.frames.is_some() != first.frames.is_some() {
+            return Err(differs(first, from));
+        }
+        let Some(frames) = &row.frames else { continue };
+        let of = frames.shard.as_deref().and_then(Shard::parse).map(Shard::count);
+        let known = asked.entry((frames.first, frames.last)).or_insert(Asked {
+            by: (row, path),
+            key: &frames.key,
+            of,
+        });
+        if known.key != frames.key {
+            return Err(differs(known.by.0, known.by.1));
+        }
+        known.of = known.of.filter(|known| of == Some(*known));
+    }
+    asked.into_iter().try_for_each(|(range, asked)| check_complete(rows, range, &asked))
+}
+
+/// Refuses rows in which one of the frames from `first` to `last` is missing.
+fn check_complete(
+    rows: &BTreeMap<u32, (Row, &Path)>,
+    (first, last): (u32, u32),
+    asked: &Asked<'_>,
+) -> Result<(), AppError> {
+    let mut missing: Vec<(u32, u32)> = Vec::new();
+    let mut next = u64::from(first);
+    for held in rows.range(first..=last).map(|(frame, _)| *frame).map(u64::from).chain([u64::from(last) + 1])
+    {
+        if held > next {
+            missing.push((next as u32, (held - 1) as u32));
+        }
+        next = held + 1;
+    }
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let count: u64 = missing.iter().map(|(from, to)| u64::from(to - from) + 1).sum();
+    let all = u64::from(last - first) + 1;
+    let mut message = format!(
+        "is of frames {first}-{last}, of which {count} of {all} are in no report: {}",
+        listed(&missing)
+    );
+    if let Some(of) = asked.of {
+        let held: BTreeSet<u32> =
+            rows.range(first..=last).map(|(frame, _)| (frame - first) % of + 1).collect();
+        // A share of which nothing is there, if it has frames at all.
+        let shares = (1..=of.min(all.min(u32::MAX.into()) as u32)).filter(|number| !held.contains(number));
+        let shares: Vec<_> = shares.take(LISTED + 1).map(|number| (number, number)).collect();
+        if !shares.is_empty() {
+            let which = if shares.len() == 1 { "share" } else { "shares" };
+            message += &format!("; nothing of {which} {} of {of} is there", listed(&shares));
+        }
+    }
+    let help = "nothing was written; name the reports of all shares, or make the frames with the same command and --resume";
+    Err(AppError::input(asked.by.1, message, help))
+}
+
+/// Most ranges that a message lists.
+const LISTED: usize = 8;
+
+/// Ranges in words: `4, 6, 9-12`.
+fn listed(ranges: &[(u32, u32)]) -> String {
+    let range = |(from, to): &(u32, u32)| if from == to { from.to_string() } else { format!("{from}-{to}") };
+    let mut words: Vec<_> = ranges.iter().take(LISTED).map(range).collect();
+    if ranges.len() > LISTED {
+        words.push("and more".to_owned());
+    }
+    words.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lists_of_frames_are_cut() {
+        assert_eq!(listed(&[(4, 4), (6, 6), (9, 12)]), "4, 6, 9-12");
+        let many: Vec<_> = (0..20).map(|number| (2 * number, 2 * number)).collect();
+        assert_eq!(listed(&many), "0, 2, 4, 6, 8, 10, 12, 14, and more");
+    }
 }

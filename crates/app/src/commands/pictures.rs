@@ -13,7 +13,7 @@ use rasray_experiment::{
     AovSelection, Backend, Chosen, Frame, LoadedScene, Progress, RenderJob, RenderOutput, Shard,
     SystemConfig, check_run, picture_key,
 };
-use rasray_report::{Report, json_shown, table};
+use rasray_report::{FramesRecord, Report, json_shown, table};
 
 /// What the pictures of a command have in common.
 pub(super) struct Pictures<'a> {
@@ -25,6 +25,8 @@ pub(super) struct Pictures<'a> {
     pub(super) shard: Option<Shard>,
     pub(super) aovs: AovSelection,
     pub(super) system: SystemConfig,
+    /// The frames that the command makes; absent for one picture.
+    pub(super) frames: Option<FramesRecord>,
     /// The report that takes a row per frame.
     pub(super) rows: Option<Rows>,
     pub(super) loaded: LoadedScene,

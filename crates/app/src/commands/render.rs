@@ -8,7 +8,8 @@ use crate::arguments::RenderArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::terminal;
-use rasray_experiment::OpenBackend;
+use rasray_experiment::{KeyHash, OpenBackend};
+use rasray_report::FramesRecord;
 
 /// Renders a scene, or frames of it, and writes what was asked for; `line` is the command as it was typed.
 ///
@@ -52,6 +53,7 @@ pub(crate) fn render(
         shard,
         aovs,
         system,
+        frames: None,
         rows,
         loaded,
         chosen,
@@ -60,11 +62,23 @@ pub(crate) fn render(
     };
     match numbers {
         None => pictures.render_one(&targets),
-        Some(numbers) => pictures.render_frames(&numbers),
+        Some(numbers) => {
+            pictures.frames = pictures.frames_record();
+            pictures.render_frames(&numbers)
+        }
     }
 }
 
 impl Pictures<'_> {
+    /// The frames that are made. The scene is shown at the time of the first of all, in every share.
+    fn frames_record(&self) -> Option<FramesRecord> {
+        let range = self.given.frames.as_ref()?;
+        let fps = self.given.work.reading.frames_per_second();
+        let key = KeyHash::default().with("first", self.key()).with("fps", format!("{fps:?}")).finish();
+        let shard = self.given.shard.map(|shard| shard.to_string());
+        Some(FramesRecord { first: *range.start(), last: *range.end(), shard, key })
+    }
+
     /// Renders the scene at its only time, unless the image is there.
     fn render_one(&mut self, targets: &Targets) -> Result<(), AppError> {
         let key = self.key();

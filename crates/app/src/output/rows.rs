@@ -3,7 +3,7 @@
 use super::destination::Destination;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use rasray_report::{Report, SCHEMA, json_shown};
+use rasray_report::{FramesRecord, Report, SCHEMA, json_shown};
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -15,6 +15,10 @@ pub(crate) struct Row {
     pub(crate) frame: u32,
     /// The picture's key.
     pub(crate) key: String,
+    /// The frames that its command makes; reports of older programs do not say.
+    pub(crate) frames: Option<FramesRecord>,
+    /// What all frames of a command have in common, as far as a row says it.
+    pub(crate) common: String,
     /// The report in one line, without its end.
     pub(crate) line: String,
 }
@@ -22,9 +26,17 @@ pub(crate) struct Row {
 impl Row {
     /// The row that a report makes; `None` unless it is of a frame and has a key.
     pub(crate) fn of(report: &Report) -> Option<Self> {
+        let (pose, run) = (report.scene.pose.as_ref()?, report.runs.first()?);
+        let program = (&report.version, &report.commit);
+        let system = (&run.system, &run.preset, &run.integrator);
+        let picture = (run.width, run.height, run.spp, run.bounces, run.seed);
+        // A sequence of files may name each of them.
+        let scene = Some(&report.scene.name).filter(|_| pose.file.is_none());
         Some(Self {
-            frame: report.scene.pose.as_ref()?.frame?,
-            key: report.runs.first()?.key.clone()?,
+            frame: pose.frame?,
+            key: run.key.clone()?,
+            frames: pose.frames.clone(),
+            common: format!("{program:?} {scene:?} {system:?} {picture:?}"),
             line: report.to_json_line(),
         })
     }
@@ -66,6 +78,8 @@ pub(crate) fn key_of_report(path: &Path) -> Option<String> {
 pub(crate) struct Rows {
     place: Destination,
     rows: BTreeMap<u32, Row>,
+    /// Whether the file holds something else.
+    is_changed: bool,
 }
 
 impl Rows {
@@ -81,7 +95,8 @@ impl Rows {
     pub(crate) fn open(path: &Path, resume: bool) -> Result<Self, AppError> {
         let place = Destination::check(path)?;
         let there = if resume { read_rows(path)? } else { Vec::new() };
-        Ok(Self { place, rows: there.into_iter().map(|row| (row.frame, row)).collect() })
+        let rows = there.into_iter().map(|row| (row.frame, row)).collect();
+        Ok(Self { place, rows, is_changed: false })
     }
 
     /// Where they are written.
@@ -92,6 +107,22 @@ impl Rows {
     /// Whether there is a row of this picture.
     pub(crate) fn has(&self, frame: u32, key: &str) -> bool {
         self.rows.get(&frame).is_some_and(|row| row.key == key)
+    }
+
+    /// The row of a frame that is there already is one of the frames that this command makes.
+    pub(crate) fn keep(&mut self, frame: u32, frames: Option<&FramesRecord>) {
+        let Some(row) = self.rows.get_mut(&frame).filter(|row| row.frames.as_ref() != frames) else { return };
+        let Ok(mut report) = serde_json::from_str::<Report>(&row.line) else { return };
+        let Some(pose) = &mut report.scene.pose else { return };
+        pose.frames = frames.cloned();
+        row.frames = frames.cloned();
+        row.line = report.to_json_line();
+        self.is_changed = true;
+    }
+
+    /// Whether [`Rows::write`] would write something else than the file holds.
+    pub(crate) fn is_changed(&self) -> bool {
+        self.is_changed
     }
 
     /// Puts a row in the place of the one of its frame, if there is one, and writes the file.
@@ -107,8 +138,10 @@ impl Rows {
     ///
     /// # Errors
     /// As [`Destination::put`].
-    pub(crate) fn write(&self, interrupt: &Interrupt) -> Result<(), AppError> {
-        self.place.put(lines(self.rows.values()).as_bytes(), interrupt)
+    pub(crate) fn write(&mut self, interrupt: &Interrupt) -> Result<(), AppError> {
+        self.place.put(lines(self.rows.values()).as_bytes(), interrupt)?;
+        self.is_changed = false;
+        Ok(())
     }
 }
 
@@ -123,7 +156,7 @@ mod tests {
     use rasray_report::{Device, Origin, PoseRecord, Run, SceneRecord};
 
     fn row(frame: u32, key: &str) -> Row {
-        let pose = PoseRecord { time_s: f64::from(frame), clips: Vec::new(), frame: Some(frame), file: None };
+        let pose = PoseRecord { time_s: f64::from(frame), frame: Some(frame), ..PoseRecord::default() };
         let scene = SceneRecord { name: "\u{1b}[2J".to_owned(), pose: Some(pose), ..SceneRecord::default() };
         let run = Run { key: Some(key.to_owned()), ..Run::default() };
         Row::of(&Report::new(Origin::default(), Device::default(), scene, vec![run])).expect("a row")

@@ -194,3 +194,73 @@ fn shares_of_frames_are_the_frames_and_their_reports_go_together() {
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(stderr(&output).contains("seed.jsonl: has another picture of frame 4"), "{}", stderr(&output));
 }
+
+#[test]
+fn reports_that_are_not_of_all_frames_of_a_command_are_refused_by_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("rising.gltf"), RISING).expect("a scene");
+    let run = |line: &str| {
+        let output = scripted(folder.path(), line);
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
+        stderr(&output)
+    };
+    let line = "render rising.gltf --size 2x2 --spp 1 --output f.#.png --frames";
+    for share in 1..=3 {
+        run(&format!("{line} 3-9 --shard {share}/3 --report {share}.jsonl"));
+    }
+    run(&format!("{line} 3-9 --shard 4/4 --report quarter.jsonl"));
+    run(&format!("{line} 3-9 --shard 2/3 --seed 2 --report seed.jsonl"));
+    run(&format!("{line} 3-9 --shard 2/3 --fps 12 --report fps.jsonl"));
+    run(&format!("{line} 10-11 --report more.jsonl"));
+    run(&format!("{line} 10-11 --report spp.jsonl").replace("--spp 1", "--spp 2"));
+    let text = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect("a report");
+    let rows = text("1.jsonl").lines().count();
+    assert_eq!(rows, 3);
+    let cut: String = text("1.jsonl").lines().take(2).flat_map(|line| [line, "\n"]).collect();
+    std::fs::write(folder.path().join("cut.jsonl"), cut).expect("a file");
+    let before = entries(folder.path());
+    for (parts, says) in [
+        // A share, two shares, and what a process that was killed left of one.
+        (
+            "1.jsonl 3.jsonl",
+            "1.jsonl: is of frames 3-9, of which 2 of 7 are in no report: 4, 7; nothing of share 2 of 3 is there",
+        ),
+        (
+            "2.jsonl",
+            "2.jsonl: is of frames 3-9, of which 5 of 7 are in no report: 3, 5-6, 8-9; nothing of shares 1, 3 of 3",
+        ),
+        ("cut.jsonl 2.jsonl 3.jsonl", "cut.jsonl: is of frames 3-9, of which 1 of 7 are in no report: 9"),
+        // Shares of different divisions.
+        ("1.jsonl quarter.jsonl", "of which 4 of 7 are in no report: 4-5, 7-8"),
+        ("more.jsonl 1.jsonl", "1.jsonl: is of frames 3-9"),
+        // Of other commands, though no frame is there twice.
+        (
+            "1.jsonl seed.jsonl 3.jsonl",
+            "seed.jsonl: has frame 4 of another command than that of frame 3 in 1.jsonl",
+        ),
+        (
+            "1.jsonl fps.jsonl 3.jsonl",
+            "fps.jsonl: has frame 4 of another command than that of frame 3 in 1.jsonl",
+        ),
+        ("1.jsonl 2.jsonl 3.jsonl spp.jsonl", "spp.jsonl: has frame 10 of another command"),
+    ] {
+        let output = scripted(folder.path(), &format!("merge out.jsonl {parts}"));
+        assert_eq!(output.status.code(), Some(2), "{parts}: {}", stderr(&output));
+        assert!(stderr(&output).contains(says), "{parts}: {}", stderr(&output));
+    }
+    assert_eq!(entries(folder.path()), before, "nothing was written");
+    // All shares, and frames of another command with the same options.
+    run("merge all.jsonl 3.jsonl 1.jsonl 2.jsonl");
+    run("merge both.jsonl more.jsonl all.jsonl");
+    assert_eq!(text("both.jsonl").lines().count(), 9);
+    // A report that is kept is of the frames of the command that kept it.
+    let line = format!("{line} 3-4 --report kept.jsonl");
+    run(&format!("{line} --shard 1/2"));
+    run(&format!("{line} --shard 2/2 --resume"));
+    run(&line.replace("3-4", "3-5 --resume"));
+    let output = scripted(folder.path(), "merge out.jsonl kept.jsonl");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(text("out.jsonl").lines().count(), 3);
+    run(&line.replace("3-4", "3-3 --resume"));
+    assert_eq!(text("kept.jsonl").matches("\"last\":3").count(), 1);
+}

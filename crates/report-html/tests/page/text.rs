@@ -124,7 +124,7 @@ fn numbers_that_change_change_the_page() {
         ("bytes that are not uploaded", |report, _| report.scene.not_uploaded_bytes = Some(9_216)),
         ("a time", |report, _| {
             let clips = vec!["walk".to_owned()];
-            report.scene.pose = Some(PoseRecord { time_s: 0.75, clips, frame: None, file: None });
+            report.scene.pose = Some(PoseRecord { time_s: 0.75, clips, ..PoseRecord::default() });
         }),
         ("an option", |report, _| {
             report.runs[0].options.insert("resolution".to_owned(), 1024.into());
