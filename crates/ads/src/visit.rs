@@ -26,13 +26,16 @@ impl Builder {
         }
     }
 
-    /// What it needs of a device: the floor, and to draw also stores of fragment shaders.
+    /// What it needs of a device: to compute, or to draw with stores of fragment shaders.
     pub fn requirements(self) -> Requirements {
-        let mut requirements = Requirements::floor();
-        if self == Self::Raster {
-            requirements.required.push(Feature::FragmentStoresAndAtomics);
+        match self {
+            Self::Raster => {
+                let mut requirements = Requirements::floor();
+                requirements.required.push(Feature::FragmentStoresAndAtomics);
+                requirements
+            }
+            Self::Binning => Requirements::compute(),
         }
-        requirements
     }
 }
 

@@ -7,7 +7,7 @@ use rasray_ads::{
     AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, PoolBytes, Pooled, RecordLayout,
     SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
-use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
 
 use crate::build::Build;
@@ -148,11 +148,7 @@ impl Design for Tree {
     }
 
     fn requirements(_config: &Config) -> Requirements {
-        // Nothing is rasterized: of the device floor, dynamic rendering is not needed.
-        Requirements {
-            required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2],
-            ..Requirements::default()
-        }
+        Requirements::compute()
     }
 
     fn constants(_config: &Config) -> Vec<(u32, u32)> {

@@ -93,7 +93,7 @@ impl Design for Passes {
     }
 
     fn requirements(_config: &Config) -> Requirements {
-        Requirements::floor()
+        Requirements::compute()
     }
 
     fn constants(_config: &Config) -> Vec<(u32, u32)> {

@@ -1,12 +1,13 @@
-//! Pages follow the registry: `docs/options.md` is what the rows of options say, and the page of each system names every
-//! option that it has.
+//! Pages follow the registry: `docs/options.md` is what the rows of options say, the page of each system names every
+//! option that it has, and the table of features in `docs/embedding.md` is what structures require.
 //!
-//! `RASRAY_WRITE_PAGES=1` writes the page of options instead of comparing it.
+//! `RASRAY_WRITE_PAGES=1` writes the page of options and the table instead of comparing them.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use rasray_systems::{Group, OPTIONS, OptionRow, SYSTEMS, Values};
+use rasray_gpu::{Feature, Requirements};
+use rasray_systems::{Group, OPTIONS, OptionRow, SYSTEMS, Spec, Values};
 
 fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
@@ -84,6 +85,94 @@ fn the_page_of_a_system_names_its_options() {
             let named =
                 page.contains(&format!("`{}`", row.name)) || page.contains(&format!("`{}=", row.name));
             assert!(named, "the page of {} does not name the option {}", system.name, row.name);
+        }
+    }
+}
+
+/// What a structure with these options requires; absent where it does not have them.
+fn requirements(system: &str, options: &[(&str, &str)]) -> Option<Requirements> {
+    let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+    Spec::new(system, "robust", given).ok()?.requirements().ok()
+}
+
+/// The table of features: each structure with each of its builders, the one of its preset first.
+fn features() -> String {
+    let mut table = String::from(
+        "| structure | built by | features | queue | storage buffers of a stage |\n|---|---|---|---|---|\n",
+    );
+    let mut known = Vec::new();
+    for system in SYSTEMS {
+        if known.contains(&system.structure) {
+            continue;
+        }
+        known.push(system.structure);
+        let usual = requirements(system.name, &[]).expect("the preset is valid");
+        let mut builders: Vec<_> = ["raster", "binning"]
+            .into_iter()
+            .filter_map(|builder| Some((builder, requirements(system.name, &[("builder", builder)])?)))
+            .collect();
+        builders.sort_by_key(|(_, requirements)| *requirements != usual);
+        if builders.is_empty() {
+            builders.push(("", usual));
+        }
+        for (builder, requirements) in builders {
+            let draws = requirements.required.contains(&Feature::DynamicRendering);
+            let names: Vec<_> =
+                requirements.required.iter().map(|feature| format!("`{}`", feature.name())).collect();
+            let _ = writeln!(
+                table,
+                "| `{}` | {} | {} | {} | {} |",
+                system.structure,
+                match builder {
+                    "raster" => "drawing: `Builder::Raster`",
+                    "binning" => "computing: `Builder::Binning`",
+                    _ => "computing",
+                },
+                names.join(", "),
+                if draws { "graphics and compute" } else { "compute" },
+                requirements.storage_buffers,
+            );
+        }
+    }
+    table
+}
+
+#[test]
+fn the_table_of_features_is_what_structures_require() {
+    let (path, table) = (docs().join("embedding.md"), features());
+    let page = std::fs::read_to_string(&path).expect("there is a page about embedding");
+    let begin = page.find("| structure | built by |").expect("it has the table");
+    let end = page[begin..].find("\n\n").map_or(page.len(), |length| begin + length + 1);
+    if std::env::var_os("RASRAY_WRITE_PAGES").is_some() {
+        let page = format!("{}{table}{}", &page[..begin], &page[end..]);
+        std::fs::write(&path, page).expect("the page can be written");
+        return;
+    }
+    let written = &page[begin..end];
+    assert!(
+        written == table,
+        "the table of docs/embedding.md is not this: write it with RASRAY_WRITE_PAGES=1\n{table}"
+    );
+    // What the page says of addresses.
+    let addressed = SYSTEMS.iter().filter(|system| system.has("addressing"));
+    for system in addressed {
+        let with = |addressing| requirements(system.name, &[("addressing", addressing)]).expect("an option");
+        let (sets, addresses) = (with("descriptor"), with("address"));
+        assert!(!sets.required.contains(&Feature::BufferDeviceAddress), "{}", system.name);
+        assert!(addresses.required.contains(&Feature::BufferDeviceAddress), "{}", system.name);
+    }
+}
+
+/// Names that the page leaves to shaders of a host.
+#[test]
+fn no_glsl_has_a_name_of_a_host() {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    for file in rasray_shaders_glsl::files() {
+        for line in file.text.lines() {
+            let code = line.split("//").next().unwrap_or_default();
+            let names = code.split(|c| !is_part(c));
+            let taken: Vec<_> = names.filter(|name| name.to_ascii_lowercase().starts_with("host")).collect();
+            assert!(taken.is_empty(), "{}: {taken:?}", file.name);
         }
     }
 }

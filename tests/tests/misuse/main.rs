@@ -1,5 +1,6 @@
 //! Safe functions called as they should not be: each is impossible, an error with a name, or a status that says so.
 
+mod devices;
 mod frames;
 mod geometry;
 mod queues;

@@ -3,7 +3,7 @@
 use rasray_ads::{
     AdsError, BruteForce, Domain, Hit, QueueBuffers, QueueParts, Ray, RayQueue, Structure, TraceMode,
 };
-use rasray_gpu::{Buffer, BufferDesc, BufferUsage, MemoryLocation};
+use rasray_gpu::{Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, RawDevice, vk};
 use rasray_integrators::Film;
 use rasray_tests::harness::{Bench, bits_of_any_build};
 use rasray_tests::shapes::closed_box;
@@ -123,4 +123,32 @@ fn a_queue_of_buffers_of_the_host_traces_what_is_in_them() {
         let error = RayQueue::from_buffers(device, "wrong", 64, buffers).map(drop).expect_err(says);
         assert!(matches!(error, AdsError::Queue { .. }) && error.to_string().contains(says), "{error}");
     }
+}
+
+/// A host may hand in a device without a queue, through which nothing can be cleared.
+#[test]
+fn a_queue_on_a_device_that_cannot_submit_selects_nothing() {
+    let bench = Bench::new();
+    let of_bench = bench.device();
+    let raw = RawDevice {
+        instance: of_bench.raw_instance().clone(),
+        physical: of_bench.raw_physical(),
+        device: of_bench.raw().clone(),
+        queue: vk::Queue::null(),
+        queue_family: of_bench.queue_family(),
+        api_version: of_bench.api_version(),
+        enabled: of_bench.enabled(),
+        debug_utils: false,
+        pipeline_cache: vk::PipelineCache::null(),
+        memory: None,
+        memory_limit: None,
+    };
+    // SAFETY: all of it is the bench's, which goes last, with the features that it enabled; nothing is submitted.
+    let device = unsafe { Device::from_raw(raw) }.expect("it is a device");
+    let parts = QueueParts { steps: 4, ..QueueParts::default() };
+    let queue = RayQueue::with_parts(&device, "of a host", 9, parts).expect("it fits");
+    let header: Vec<u32> = device.download_as(queue.header(), 0, 23).expect("the host reads it");
+    assert!(header.iter().enumerate().all(|(at, word)| *word == if at == 3 { 9 } else { 0 }), "{header:?}");
+    assert_eq!(queue.download_steps(&device).expect("the host reads it"), (Vec::new(), 0));
+    drop(Film::new(&device, 4, 4).expect("it fits"));
 }
