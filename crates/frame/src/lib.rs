@@ -20,3 +20,8 @@ pub use in_order::{InOrder, render_in_order};
 pub use readback::FilmCopy;
 pub use renderer::{FrameInput, FrameRenderer, Picture, Shown};
 pub use scene::FrameScene;
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
