@@ -8,8 +8,10 @@
 #include "scene/light.glsl"
 #include "scene/random.glsl"
 
+#define PATH_INFINITY uintBitsToFloat(0x7F800000u)
+
 PathState path_begin(uint pixel, uint sample_index) {
-    return PathState(vec3(1.0), pixel, vec3(0.0), sample_index, 0.0, MATERIAL_NONE, 0u, 0u, 0u);
+    return PathState(vec3(1.0), pixel, vec3(0.0), sample_index, 0.0, MATERIAL_NONE, 0u, 0u, 0u, 0.0);
 }
 
 // Multiple-importance-sampling weight of a technique with density `used`, combined with one of density `other`.
@@ -32,6 +34,11 @@ float path_emission_weight(PathState state, float light_pdf) {
     return state.bsdf_pdf > 0.0 ? path_power_heuristic(state.bsdf_pdf, light_pdf) : 1.0;
 }
 
+// Whether a surface may be a smooth thin pane.
+bool path_is_pane(Surface s) {
+    return s.transmission > 0.0 && s.thickness <= 0.0 && s.roughness < BSDF_SMOOTH_ROUGHNESS;
+}
+
 // Light sampling at the surface.
 void path_sample_light(PathState state, Surface s, vec3 o, inout PathStep asked) {
     vec4 random = random_vec4(state.pixel, state.sample_index, random_dimension(state.bounce, RANDOM_LIGHT_KIND));
@@ -43,16 +50,81 @@ void path_sample_light(PathState state, Surface s, vec3 o, inout PathStep asked)
     if (!(largest_component(pending) > 0.0)) return;
     asked.pending = pending;
     asked.shadow_ray = light_shadow_ray(s, light);
+    asked.target = light.target;
 }
 
-// Continues in the same direction behind a blended surface.
-void path_pass(inout PathState state, Ray ray, Surface s, vec3 direction, float footprint, inout PathStep asked) {
-    state.layers += 1u;
-    // Shadow rays end here, so light sampling cannot have found the emitter hit next.
-    state.bsdf_pdf = 0.0;
-    asked.next_ray = spawn_ray(s, direction, uintBitsToFloat(0x7F800000u));
+// Whether a path goes straight on through a surface, with this probability.
+bool path_chooses(inout PathState state, float probability) {
+    uint dimension = RANDOM_OPACITY_FIRST + state.choices;
+    state.choices += 1u;
+    return random_float(state.pixel, state.sample_index, dimension) < probability;
+}
+
+// Continues in the same direction behind a surface. That is no scattering: shadow rays go straight through surfaces, too,
+// so the density of the last scattering still says how an emitter is found.
+void path_pass(inout PathState state, Ray ray, Surface s, vec3 direction, float distance, float footprint,
+               inout PathStep asked) {
+    if (state.passed >= PATH_LAYER_LIMIT) {
+        asked.cut = 1u;
+        return;
+    }
+    state.passed += 1u;
+    state.travelled += distance;
+    asked.next_ray = spawn_ray(s, direction, PATH_INFINITY);
+    asked.next_ray.flags = ray.flags;
     asked.next_ray.cone_width = footprint;
     asked.next_ray.cone_spread = ray.cone_spread;
+}
+
+// Goes straight through a smooth thin pane with the probability of the light that it lets through, or else makes up for
+// what does. True where the path went through.
+bool path_pass_pane(inout PathState state, Ray ray, Surface s, vec3 direction, float distance, float footprint,
+                    inout PathStep asked) {
+    BsdfTerms terms = bsdf_terms(s, -direction);
+    vec3 straight = bsdf_straight(terms);
+    float probability = bsdf_straight_probability(terms, straight);
+    if (!(probability > 0.0)) return false;
+    if (path_chooses(state, probability)) {
+        state.throughput *= straight / probability;
+        path_pass(state, ray, s, direction, distance, footprint, asked);
+        return true;
+    }
+    state.throughput /= 1.0 - probability;
+    return false;
+}
+
+// Share of the light that goes straight through a surface towards the unit `o`.
+vec3 path_straight_share(Surface s, vec3 o) {
+    vec3 share = vec3(0.0);
+    if (SHADING_PANES && path_is_pane(s)) share = s.opacity * bsdf_straight(bsdf_terms(s, o));
+    return SHADING_BLEND ? share + (1.0 - s.opacity) : share;
+}
+
+// One step of a shadow ray where surfaces let light pass: `ray` was traced for its closest hit, `s` is the surface that
+// it hit (valid 0: none), `target` where it ends if its length is finite. Takes from `pending` what the surface stops,
+// and answers the ray from there on; inactive where it has ended: light that arrives was added to the state then. `cut` as
+// in PathStep. state.passed counts for this ray: it is 0 when the ray starts, and the caller's to clear when it has ended.
+Ray path_shadow_step(inout PathState state, Ray ray, Surface s, vec3 target, inout vec3 pending, out uint cut) {
+    cut = 0u;
+    if (s.valid == 0u) {
+        state.radiance += pending;
+        return ray_inactive();
+    }
+    vec3 direction = normalize(ray.direction);
+    pending *= path_straight_share(s, -direction);
+    if (!(largest_component(pending) > 0.0)) return ray_inactive();
+    if (state.passed >= PATH_LAYER_LIMIT) {
+        cut = 1u;
+        return ray_inactive();
+    }
+    state.passed += 1u;
+    bool ends = ray.t_max < PATH_INFINITY;
+    Ray next = spawn_ray(s, direction, PATH_INFINITY);
+    if (ends) next = spawn_segment(s, target);
+    next.flags = ray.flags;
+    // Nothing lies between the surface and a light that touches it.
+    if (next.t_max < 0.0) state.radiance += pending;
+    return next;
 }
 
 // Scatters; next_ray stays inactive where the path ends.
@@ -73,16 +145,18 @@ void path_scatter(inout PathState state, Ray ray, Surface s, vec3 o, float footp
         state.throughput /= survival;
     }
     state.bounce += 1u;
-    asked.next_ray = spawn_ray(s, chosen.direction, uintBitsToFloat(0x7F800000u));
+    state.passed = 0u;
+    state.travelled = 0.0;
+    asked.next_ray = spawn_ray(s, chosen.direction, PATH_INFINITY);
     asked.next_ray.cone_width = footprint;
     asked.next_ray.cone_spread = delta ? ray.cone_spread
                                        : max(ray.cone_spread, 0.5 * s.roughness * s.roughness);
 }
 
-// One step: `ray` was traced, `s` is the surface it hit (valid 0: none). Adds emission to the state and
+// One step of a path: `ray` was traced, `s` is the surface it hit (valid 0: none). Adds emission to the state and
 // asks for a shadow ray and a next ray; the path has ended where next_ray.t_max < 0.
 PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) {
-    PathStep asked = PathStep(ray_inactive(), ray_inactive(), vec3(0.0));
+    PathStep asked = PathStep(ray_inactive(), ray_inactive(), vec3(0.0), vec3(0.0), 0u);
     float speed = length(ray.direction);
     vec3 direction = ray.direction / speed;
     if (s.valid == 0u) {
@@ -95,20 +169,22 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
     if (SHADING_TRANSMISSION && state.medium != MATERIAL_NONE) {
         state.throughput *= path_transmittance(state.medium, distance);
     }
-    if (SHADING_BLEND && s.opacity < 1.0 && state.layers < PATH_LAYER_LIMIT) {
-        uint dimension = RANDOM_OPACITY_FIRST + state.layers;
-        if (!(random_float(state.pixel, state.sample_index, dimension) < s.opacity)) {
-            path_pass(state, ray, s, direction, footprint, asked);
-            return asked;
-        }
-        state.layers += 1u;
+    if (SHADING_BLEND && s.opacity < 1.0 && path_chooses(state, 1.0 - s.opacity)) {
+        path_pass(state, ray, s, direction, distance, footprint, asked);
+        return asked;
     }
     if (largest_component(s.emission) > 0.0) {
         float weight = 1.0;
         if (state.bsdf_pdf > 0.0) {
-            weight = path_emission_weight(state, light_pdf_emitter(s.primitive, ray.origin, s.position));
+            // Where the last scattering was.
+            vec3 origin = SHADING_PASSES ? ray.origin - state.travelled * direction : ray.origin;
+            weight = path_emission_weight(state, light_pdf_emitter(s.primitive, origin, s.position));
         }
         state.radiance += state.throughput * s.emission * weight;
+    }
+    if (SHADING_PANES && path_is_pane(s)
+        && path_pass_pane(state, ray, s, direction, distance, footprint, asked)) {
+        return asked;
     }
     if (state.bounce >= max_bounces) return asked;
     path_sample_light(state, s, -direction, asked);

@@ -18,9 +18,18 @@ struct FilmPixel {
     uint samples;             // samples in the sum
 };
 
-// Samples that were not added to the film. 4 bytes.
+// What the film lacks. 12 bytes.
 struct FilmFaults {
     uint non_finite;      // samples with a channel that is not finite, which are not added to their pixel
+    uint unended;         // paths with surfaces left to pass after the last round recorded, not added to their pixel yet
+    uint cut;             // rays that would have passed more than PATH_LAYER_LIMIT surfaces: what lies beyond is not seen
+};
+
+// What a path keeps while its shadow ray is traced. 72 bytes.
+struct PathWaiting {
+    Ray next_ray;         // of the path, to be traced when the shadow ray has ended
+    vec3 target;          // where a shadow ray of finite length ends
+    vec3 pending;         // light that arrives unless something stops it, W/(sr m^2); 0: the path's own ray is traced
 };
 
 // What the ray through a pixel's centre hits. 20 bytes.
@@ -40,8 +49,9 @@ layout(set = INTEGRATOR_SET, binding = 4, scalar) buffer ShadowRayBuffer { Ray s
 layout(set = INTEGRATOR_SET, binding = 5, scalar) buffer ShadowHeaderBuffer { QueueHeader shadow_header; };
 layout(set = INTEGRATOR_SET, binding = 6, scalar) buffer ShadowListBuffer { uint shadow_list[]; };
 layout(set = INTEGRATOR_SET, binding = 7, scalar) buffer AovBuffer { AovPixel aov_pixels[]; };
+layout(set = INTEGRATOR_SET, binding = 8, scalar) buffer PathWaitingBuffer { PathWaiting path_waiting[]; };
 
-// Which slots a kernel works on, and what it is told. 28 bytes.
+// Which slots a kernel works on, and what it is told. 32 bytes.
 layout(push_constant, scalar) uniform WaveConstants {
     uint first_pixel;     // of the wave
     uint pixel_count;     // of the wave
@@ -50,6 +60,7 @@ layout(push_constant, scalar) uniform WaveConstants {
     uint bounces;         // maximum number of scatterings of a path
     float range;          // metres, of ambient occlusion
     uint domain;          // of the queue that is bound: pixel_count, or DOMAIN_SELECTED
+    uint marks;           // WAVE_ROUND_* of the round
 } wave;
 
 // The slot of this invocation; false where there is none.

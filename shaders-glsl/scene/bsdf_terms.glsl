@@ -11,8 +11,6 @@
 #include "scene/glass_albedo.glsl"
 #include "scene/microfacet.glsl"
 
-// Below this perceptual roughness the microfacet lobes are perfect mirrors.
-#define BSDF_SMOOTH_ROUGHNESS 0.03
 // Bounds of the probability of the cosine family where both families exist. It may exceed its share of the light by
 // this factor: near the horizon it sends more than cosines tell.
 #define BSDF_COSINE_LEAST 0.05
@@ -34,6 +32,7 @@ struct BsdfTerms {
     float alpha;         // 0 for perfect mirrors
     float eta;           // index on the side of o over the index on the other side; 1: straight on
     bool mirror;
+    bool pane;           // a smooth thin wall: what it lets through is followed apart, and is in no lobe
     mat3 frame;          // world from local; z is the normal of the facets
     vec3 base;           // shading normal, local: the cosine family lies around it
     vec3 o;              // local
@@ -75,9 +74,18 @@ float bsdf_volume_share(BsdfTerms terms) {
     return (1.0 - terms.metallic) * terms.transmission;
 }
 
-vec3 bsdf_transmitted(BsdfTerms terms, float cosine) {
+vec3 bsdf_facet_transmitted(BsdfTerms terms, float cosine) {
     float through = 1.0 - largest_component(bsdf_fresnel(terms, cosine));
     return terms.base_color * (bsdf_volume_share(terms) * through);
+}
+
+vec3 bsdf_transmitted(BsdfTerms terms, float cosine) {
+    return SHADING_PANES && terms.pane ? vec3(0.0) : bsdf_facet_transmitted(terms, cosine);
+}
+
+// Share of the light that a pane lets through in a straight line; 0 of everything else.
+vec3 bsdf_straight(BsdfTerms terms) {
+    return SHADING_PANES && terms.pane && terms.o.z > 0.0 ? bsdf_facet_transmitted(terms, terms.o.z) : vec3(0.0);
 }
 
 // Mean reflectance of the dielectric's facets on the side of the smaller index.
@@ -189,6 +197,7 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
     terms.metallic = s.metallic;
     terms.transmission = SHADING_TRANSMISSION ? s.transmission : 0.0;
     terms.mirror = s.roughness < BSDF_SMOOTH_ROUGHNESS;
+    terms.pane = SHADING_PANES && terms.mirror && s.thickness <= 0.0 && terms.transmission > 0.0;
     terms.alpha = terms.mirror ? 0.0 : s.roughness * s.roughness;
     bool straight = s.thickness <= 0.0 || terms.transmission <= 0.0 || abs(ior - 1.0) < BSDF_STRAIGHT_INDEX;
     terms.eta = straight ? 1.0 : (s.side == 1u ? 1.0 / ior : ior);
@@ -203,6 +212,15 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
 // Share of the diffuse base.
 float bsdf_diffuse_share(BsdfTerms terms) {
     return (1.0 - terms.metallic) * (1.0 - terms.transmission);
+}
+
+// Probability with which a path goes straight through a pane that lets `straight` of the light through.
+float bsdf_straight_probability(BsdfTerms terms, vec3 straight) {
+    float through = luminance(straight);
+    if (!(through > 0.0)) return 0.0;
+    float rest = luminance(bsdf_reflected(terms, terms.o.z))
+               + luminance(terms.base_color) * (bsdf_diffuse_share(terms) * terms.entering_o);
+    return through / (through + rest);
 }
 
 // What left the boundary of a rough volume after several scatterings, 1/sr; as bsdf_cosine_family.

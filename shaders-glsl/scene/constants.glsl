@@ -33,6 +33,8 @@
 #define GLASS_ROW_WORDS 17u
 // Indices closer to 1 than this do not bend: the half vector of refraction would be rounding noise.
 #define BSDF_STRAIGHT_INDEX 1.0e-3
+// Below this perceptual roughness the microfacet lobes are perfect mirrors.
+#define BSDF_SMOOTH_ROUGHNESS 0.03
 // Below this alpha, at most 0.002 of the light is lost under cosines above 0.1: it is left out.
 #define ALBEDO_LOSSLESS_ALPHA 0.01
 
@@ -88,8 +90,14 @@
 
 // A path may be ended at random from this scattering on.
 #define PATH_ROULETTE_BOUNCE 3u
-// Blended surfaces a path passes before the next one counts as opaque.
-#define PATH_LAYER_LIMIT 16u
+// Surfaces that one ray passes in a straight line; what lies beyond the next one is not seen, which is counted.
+#define PATH_LAYER_LIMIT 4096u
+
+// WaveConstants.marks.
+// Paths that have not ended after this round are counted.
+#define WAVE_ROUND_LAST 1u
+// The paths of this round were counted by the last one before it.
+#define WAVE_ROUND_RESUMES 2u
 
 // What a round of drawing keeps of the triangles that a pixel's ray hits: the smallest t, then, of those with this t, the
 // lowest primitive, as hits are ranked in traces.

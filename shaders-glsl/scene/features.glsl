@@ -19,6 +19,13 @@ layout(constant_id = 91) const bool SCENE_HAS_TRANSMISSION = true;
 layout(constant_id = 92) const bool SCENE_HAS_BLEND = true;
 #define SHADING_BLEND SCENE_HAS_BLEND
 #endif
+// Paths go straight through smooth thin panes, as through blended surfaces: what a pane lets through is no scattering then.
+// An entry that wants it says so.
+#ifndef SHADING_PANES
+#define SHADING_PANES false
+#endif
+// Anything lets light through in a straight line.
+#define SHADING_PASSES (SHADING_BLEND || SHADING_PANES)
 // Texels lie in several buffers.
 #ifndef SHADING_TEXEL_RUNS
 layout(constant_id = 94) const bool SCENE_HAS_TEXEL_RUNS = true;

@@ -24,8 +24,8 @@
 #define RANDOM_BSDF_V 7u
 #define RANDOM_ROULETTE 8u
 
-// Blended surface number n that a path hits, counted over the whole path, draws
-// RANDOM_OPACITY_FIRST + n. Far above every bounce block.
+// Choice number n of a path whether it goes straight on through a surface, counted over the whole path, draws
+// RANDOM_OPACITY_FIRST + n. Above every bounce block, and without an end of its own.
 #define RANDOM_OPACITY_FIRST 65536u
 
 #endif

@@ -114,7 +114,7 @@ struct EmissiveTriangle {
     float cumulative;           // share of all power up to and including this entry; the last is 1
 };
 
-// What a path carries from one dispatch to the next. 52 bytes.
+// What a path carries from one dispatch to the next. 56 bytes.
 struct PathState {
     vec3 throughput;            // share of the light hit next that reaches the camera
     uint pixel;                 // number of the pixel in the whole image: `row * width + column`
@@ -123,8 +123,9 @@ struct PathState {
     float bsdf_pdf;             // 1/sr, of the last scattering; 0: emission hit next counts fully
     uint medium;                // material whose inside the path is in, or MATERIAL_NONE
     uint bounce;                // scatterings so far
-    uint layers;                // blended surfaces hit so far
-    uint flags;                 // zero
+    uint choices;               // so far, of going straight on through a surface or not
+    uint passed;                // surfaces that the ray has passed in a straight line
+    float travelled;            // metres from the last scattering to the ray's origin, in a straight line
 };
 
 // A direction chosen by the surface.
@@ -147,9 +148,11 @@ struct LightSample {
 
 // What one step of a path asks to be traced. A ray with t_max < 0 is not to be traced.
 struct PathStep {
-    Ray shadow_ray;             // occlusion; `pending` counts if nothing is hit
+    Ray shadow_ray;             // occlusion; `pending` counts if nothing is hit. Where surfaces let light pass: closest hit
     Ray next_ray;               // closest hit
     vec3 pending;               // radiance times throughput, W/(sr m^2)
+    vec3 target;                // where a shadow ray of finite length ends
+    uint cut;                   // 1 where the ray would have passed more than PATH_LAYER_LIMIT surfaces, else 0
 };
 
 #endif

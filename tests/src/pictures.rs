@@ -1,6 +1,7 @@
 //! Small pictures of built-in scenes, through whatever structure.
 
 use rasray_ads::{Ray, Structure};
+use rasray_gpu::Timing;
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_integrators::{Film, Integrator, waves};
 use rasray_scene::builtin::builtin;
@@ -47,10 +48,8 @@ pub fn rendered(
     let device = bench.device();
     device.submit(|recorder| integrator.record_reset(recorder)).expect("the device works");
     for wave in waves(film.pixel_count(), samples, integrator.wave_capacity()) {
-        let submitted = device
-            .submit(|recorder| integrator.record_wave(recorder, (&*structure).into(), wave))
-            .expect("the device works");
-        submitted.value.expect("the wave fits");
+        let traced = (&*structure).into();
+        integrator.render_wave(device, Timing::None, traced, wave).expect("the wave fits");
     }
     for queue in integrator.queues() {
         let counters = queue.download_counters(device).expect("the device works");

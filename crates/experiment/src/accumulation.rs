@@ -5,7 +5,8 @@ use std::time::Instant;
 use rasray_ads::RayQueue;
 use rasray_gpu::Device;
 use rasray_integrators::{
-    AmbientOcclusion, Film, IntegratorDesc, IntegratorError, Path, Raycast, Traced, Visibility, Wave,
+    AmbientOcclusion, Film, IntegratorDesc, IntegratorError, Path, PathOptions, Raycast, Traced, Visibility,
+    Wave,
 };
 use rasray_scene::needs::Needs;
 use rasray_tracer::TracerError;
@@ -24,7 +25,9 @@ pub(super) fn integrator(
     desc: &IntegratorDesc<'_>,
 ) -> Result<Box<dyn rasray_integrators::Integrator>, ExperimentError> {
     let made: Result<Box<dyn rasray_integrators::Integrator>, _> = match frame.integrator {
-        Integrator::Path { bounces } => Path::new(desc, bounces).map(|i| Box::new(i) as _),
+        Integrator::Path { bounces, glass_shadows } => {
+            Path::new(desc, PathOptions { bounces, glass_shadows }).map(|i| Box::new(i) as _)
+        }
         Integrator::AmbientOcclusion { distance } => {
             AmbientOcclusion::new(desc, distance.unwrap_or(f32::INFINITY)).map(|i| Box::new(i) as _)
         }
@@ -167,12 +170,8 @@ impl Accumulation {
             pixel_count: self.integrator.wave_capacity().min(pixels - self.next_pixel),
             sample: self.shard.sample(self.samples_done),
         };
-        let submitted = device
-            .submit_passes(device.best_timing(), |recorder| {
-                self.integrator.record_wave(recorder, self.traced(built), wave)
-            })
-            .map_err(device_error)?;
-        submitted.value.map_err(device_error)?;
+        let (timing, traced) = (device.best_timing(), self.traced(built));
+        let timings = self.integrator.render_wave(device, timing, traced, wave).map_err(device_error)?;
         // What is on the film lacks light where a ray had no answer, so it is found now and not after the last wave.
         // Queues count on from wave to wave.
         self.unfinished = count_unfinished(device, built, &self.integrator.queues())?;
@@ -180,7 +179,7 @@ impl Accumulation {
             self.clear(device)?;
             return Ok(false);
         }
-        self.passes.add(&submitted.passes);
+        self.passes.add(&timings);
         self.next_pixel += wave.pixel_count;
         if self.next_pixel == pixels {
             self.next_pixel = 0;

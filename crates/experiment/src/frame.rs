@@ -1,5 +1,6 @@
 //! An image to make, as plain data.
 
+pub use rasray_integrators::GlassShadows;
 use rasray_scene::needs::{self, Workload};
 
 /// What light does.
@@ -9,6 +10,8 @@ pub enum Integrator {
     Path {
         /// At most this many scatterings; 0 is emission alone, 1 is direct light.
         bounces: u32,
+        /// What smooth thin panes do to light.
+        glass_shadows: GlassShadows,
     },
     /// Cosine-weighted visibility of a white environment.
     AmbientOcclusion {
@@ -20,6 +23,11 @@ pub enum Integrator {
 }
 
 impl Integrator {
+    /// Paths of at most this many scatterings, with everything else at its default.
+    pub const fn path(bounces: u32) -> Self {
+        Self::Path { bounces, glass_shadows: GlassShadows::Tint }
+    }
+
     /// Its name in reports and images.
     pub fn name(&self) -> &'static str {
         match self {
@@ -32,7 +40,15 @@ impl Integrator {
     /// Bounces, where it has them.
     pub fn bounces(&self) -> Option<u32> {
         match self {
-            Self::Path { bounces } => Some(*bounces),
+            Self::Path { bounces, .. } => Some(*bounces),
+            _ => None,
+        }
+    }
+
+    /// What smooth thin panes do to light, where the integrator asks.
+    pub fn glass_shadows(&self) -> Option<GlassShadows> {
+        match self {
+            Self::Path { glass_shadows, .. } => Some(*glass_shadows),
             _ => None,
         }
     }
@@ -162,7 +178,7 @@ impl Frame {
     /// What an image like this one looks at in a scene.
     pub fn workload(&self) -> Workload {
         match self.integrator {
-            Integrator::Path { bounces } => Workload { integrator: needs::Integrator::Path, bounces },
+            Integrator::Path { bounces, .. } => Workload { integrator: needs::Integrator::Path, bounces },
             Integrator::AmbientOcclusion { .. } => {
                 Workload { integrator: needs::Integrator::AmbientOcclusion, bounces: 1 }
             }

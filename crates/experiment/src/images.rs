@@ -2,14 +2,14 @@
 
 use rasray_gpu::Device;
 use rasray_metrics as metrics;
-use rasray_reference::integrators::Image;
+use rasray_reference::integrators::{Image, PathOptions};
 use rasray_reference::shading::{PosedScene, View};
 
 use crate::backend::OnProgress;
 use crate::built::Built;
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
-use crate::jobs::{CompareJob, Comparison, Frame, Integrator};
+use crate::jobs::{CompareJob, Comparison, Frame, GlassShadows, Integrator};
 use crate::render::{Wanted, render_pixels, trace_ms, visible_ms};
 use crate::stage::{Stage, device_error};
 use rasray_report::figures::{Images, SystemImage};
@@ -32,7 +32,10 @@ fn reference_image(
     frame: &Frame,
 ) -> Result<Option<Image>, ExperimentError> {
     let image = match frame.integrator {
-        Integrator::Path { bounces } => scene.render_path(view, bounces),
+        Integrator::Path { bounces, glass_shadows } => {
+            let passes_panes = glass_shadows == GlassShadows::Tint;
+            scene.render_path(view, PathOptions { bounces, passes_panes })
+        }
         Integrator::AmbientOcclusion { distance } => {
             scene.render_ambient_occlusion(view, distance.unwrap_or(f32::INFINITY))
         }

@@ -48,7 +48,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::jobs::{AovSelection, Frame, Integrator, Primary, Refresh, Sampler};
+    use crate::jobs::{AovSelection, Frame, GlassShadows, Integrator, Primary, Refresh, Sampler};
     use crate::{Shard, StructureOptions, default_view, load, one_system};
     use rasray_scene::Environment;
     use rasray_scene::needs::Needs;
@@ -58,7 +58,7 @@ mod tests {
     use std::path::Path;
 
     const FRAME: Frame = Frame {
-        integrator: Integrator::Path { bounces: 2 },
+        integrator: Integrator::path(2),
         width: 4,
         height: 3,
         spp: 8,
@@ -93,12 +93,15 @@ mod tests {
             picture_key("1", &loaded, &job)
         };
         let first = key(&|_| ());
-        let changes: [&dyn Fn(&mut RenderJob<'_>); 9] = [
+        let changes: [&dyn Fn(&mut RenderJob<'_>); 10] = [
             &|job| job.frame.spp = 4,
             &|job| job.frame.seed = 2,
             &|job| job.frame.width = 5,
             &|job| job.frame.sampler = Sampler::Pcg,
-            &|job| job.frame.integrator = Integrator::Path { bounces: 3 },
+            &|job| job.frame.integrator = Integrator::path(3),
+            &|job| {
+                job.frame.integrator = Integrator::Path { bounces: 2, glass_shadows: GlassShadows::Opaque };
+            },
             &|job| job.frame.integrator = Integrator::AmbientOcclusion { distance: Some(1.0e-30) },
             &|job| job.aovs.depth = true,
             &|job| job.camera.world_from_camera.translation.x = 1.0e-300,

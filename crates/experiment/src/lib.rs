@@ -65,8 +65,8 @@ pub use error::ExperimentError;
 pub use evaluate::device_hits;
 pub use hard_file::compare_file;
 pub use jobs::{
-    Answers, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, HardJob, Integrator, Kept,
-    KeptSet, Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler,
+    Answers, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, GlassShadows, HardJob,
+    Integrator, Kept, KeptSet, Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler,
 };
 pub use kept_files::NamedBytes;
 pub use key::picture_key;

@@ -6,14 +6,14 @@ use std::time::Instant;
 
 use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{SceneTables, View};
-use rasray_integrators::{AovPass, Traced, Wave, waves};
+use rasray_integrators::{AovPass, PATH_LAYER_LIMIT, Traced, Wave, waves};
 use rasray_scene::needs::Needs;
 
 use crate::accumulation::{Accumulation, count_unfinished, visibility};
 use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
 use crate::error::ExperimentError;
-use crate::jobs::{AovSelection, FilmSums, Frame, Primary, Refresh, RenderJob, RenderOutput};
+use crate::jobs::{AovSelection, FilmSums, Frame, GlassShadows, Primary, Refresh, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::shard::Shard;
 use crate::stage::{Stage, device_error};
@@ -60,8 +60,15 @@ pub(super) fn render_pixels(
     if faults.non_finite > 0 {
         tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
     }
+    if faults.cut > 0 {
+        tracing::warn!(
+            "{} rays would have passed more than {PATH_LAYER_LIMIT} transparent surfaces: what lies behind those is left out",
+            faults.cut
+        );
+    }
     let mut counters = built.counters()?;
     counters.unfinished = Some(accumulation.unfinished());
+    counters.cut = (faults.cut > 0).then(|| faults.cut.into());
     let film = accumulation.film.read_pixels(device).map_err(device_error)?;
     let beauty = film.iter().map(|pixel| pixel.mean()).collect();
     let sums = shard.map(|_| FilmSums {
@@ -173,6 +180,11 @@ pub(super) fn render(
     let (options, mut paths) = built.resolved()?;
     if job.refresh != Refresh::All {
         paths.insert("refresh".to_owned(), job.refresh.name().to_owned());
+    }
+    if let Some(shadows) =
+        frame.integrator.glass_shadows().filter(|chosen| *chosen != GlassShadows::default())
+    {
+        paths.insert("glass-shadows".to_owned(), shadows.name().to_owned());
     }
     let mut memory = built.memory(device)?;
     for (name, bytes) in stage.scene.bytes_by_part() {

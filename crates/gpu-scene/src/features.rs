@@ -1,7 +1,11 @@
 //! What of the shading code a scene can reach.
 
 use rasray_shaders_glsl::constant_ids::scene as ids;
-use rasray_shaders_glsl::constants::{contract::DRAW_ALPHA_MASKED, scene::MATERIAL_ALPHA_BLEND};
+use rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
+use rasray_shaders_glsl::constants::scene::{
+    BSDF_SMOOTH_ROUGHNESS, MATERIAL_ALPHA_BLEND, MATERIAL_UNLIT, TEXTURE_NONE,
+};
+use rasray_shaders_glsl::records::Material;
 
 use crate::{SceneTables, TexelRuns};
 
@@ -14,6 +18,8 @@ pub struct ShadingFeatures {
     pub transmission: bool,
     /// Any material blends.
     pub blend: bool,
+    /// Any material may be a smooth thin pane: it transmits, has no thickness and may be smooth.
+    pub panes: bool,
     /// Texels lie in several buffers.
     pub texel_runs: bool,
     /// Any draw is alpha-masked.
@@ -22,8 +28,14 @@ pub struct ShadingFeatures {
 
 impl ShadingFeatures {
     /// Everything: proves that leaving code out does not change a picture.
-    pub const ALL: Self =
-        Self { textures: true, transmission: true, blend: true, texel_runs: true, alpha_masks: true };
+    pub const ALL: Self = Self {
+        textures: true,
+        transmission: true,
+        blend: true,
+        panes: true,
+        texel_runs: true,
+        alpha_masks: true,
+    };
 
     /// Those of a scene whose texels are in runs of that length.
     pub(crate) fn of(tables: &SceneTables, runs: TexelRuns) -> Self {
@@ -31,17 +43,19 @@ impl ShadingFeatures {
             textures: !tables.textures.is_empty(),
             transmission: tables.materials.iter().any(|material| material.transmission > 0.0),
             blend: tables.materials.iter().any(|material| material.flags & MATERIAL_ALPHA_BLEND != 0),
+            panes: tables.materials.iter().any(may_be_pane),
             texel_runs: tables.texels.len() as u64 > runs.length(),
             alpha_masks: tables.posed.draws.iter().any(|draw| draw.flags & DRAW_ALPHA_MASKED != 0),
         }
     }
 
     /// Each with its name.
-    fn named(self) -> [(&'static str, bool); 5] {
+    fn named(self) -> [(&'static str, bool); 6] {
         [
             ("textures", self.textures),
             ("transmission", self.transmission),
             ("blended materials", self.blend),
+            ("smooth thin panes", self.panes),
             ("textures beyond one binding", self.texel_runs),
             ("alpha masks", self.alpha_masks),
         ]
@@ -60,6 +74,7 @@ impl ShadingFeatures {
             textures: self.textures || other.textures,
             transmission: self.transmission || other.transmission,
             blend: self.blend || other.blend,
+            panes: self.panes || other.panes,
             texel_runs: self.texel_runs || other.texel_runs,
             alpha_masks: self.alpha_masks || other.alpha_masks,
         }
@@ -75,4 +90,12 @@ impl ShadingFeatures {
             (ids::SCENE_HAS_TEXEL_RUNS, self.texel_runs.into()),
         ]
     }
+}
+
+/// Whether a surface of the material may be a smooth thin pane somewhere.
+fn may_be_pane(material: &Material) -> bool {
+    let may_be_smooth = material.roughness < BSDF_SMOOTH_ROUGHNESS
+        || material.metallic_roughness_texture.texture != TEXTURE_NONE;
+    let is_thin = material.transmission > 0.0 && material.thickness <= 0.0;
+    is_thin && may_be_smooth && material.flags & MATERIAL_UNLIT == 0
 }

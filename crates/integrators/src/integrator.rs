@@ -1,7 +1,7 @@
 //! What all integrators have in common.
 
 use rasray_ads::RayQueue;
-use rasray_gpu::{Device, Recorder};
+use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 use rasray_gpu_scene::{GpuScene, ShadingFeatures};
 
 use crate::{Film, IntegratorError, Traced, WAVE_LIMIT, Wave, wave_capacity};
@@ -65,7 +65,9 @@ pub trait Integrator {
     /// Name, as the command and reports use it.
     fn name(&self) -> &'static str;
 
-    /// Records one sample of every pixel of a wave.
+    /// Records one sample of every pixel of a wave. Where surfaces let rays pass ([`Path`](crate::Path)), a ray may pass
+    /// more of them than rounds are recorded: its sample is added by [`Integrator::record_rest`], and counted in
+    /// [`FilmFaults::unended`](crate::FilmFaults) until then. [`Integrator::render_wave`] does all of it.
     ///
     /// # Errors
     /// The wave does not fit the queues or the image, or the structure was made without a scene.
@@ -75,6 +77,57 @@ pub trait Integrator {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError>;
+
+    /// Records further rounds of the wave recorded last, which goes on where it stopped; for as long as
+    /// [`Integrator::has_rest`] says so. What is traced must be the same.
+    ///
+    /// # Errors
+    /// As [`Integrator::record_wave`].
+    fn record_rest(
+        &self,
+        _recorder: &mut Recorder<'_>,
+        _traced: Traced<'_>,
+        _wave: Wave,
+    ) -> Result<(), IntegratorError> {
+        Ok(())
+    }
+
+    /// Whether paths of a wave have surfaces left to pass: submits and waits where any can.
+    ///
+    /// # Errors
+    /// The device is lost or out of memory.
+    fn has_rest(&self, _device: &Device) -> Result<bool, IntegratorError> {
+        Ok(false)
+    }
+
+    /// Renders a wave with all of its rest; returns the times of its passes. Submits and waits, once unless rays pass many
+    /// surfaces.
+    ///
+    /// # Errors
+    /// As [`Integrator::record_wave`], or the device fails.
+    fn render_wave(
+        &self,
+        device: &Device,
+        timing: Timing,
+        traced: Traced<'_>,
+        wave: Wave,
+    ) -> Result<Vec<PassTiming>, IntegratorError> {
+        let begun = device.submit_passes(timing, |recorder| self.record_wave(recorder, traced, wave))?;
+        begun.value?;
+        let mut timings = begun.passes;
+        while self.has_rest(device)? {
+            let rest = device.submit_passes(timing, |recorder| self.record_rest(recorder, traced, wave))?;
+            rest.value?;
+            timings.extend(rest.passes);
+        }
+        Ok(timings)
+    }
+
+    /// Records more rounds from the next wave on, for those who record frames as a whole and repeat one with paths left; false
+    /// where there cannot be more.
+    fn allow_more_rounds(&self) -> bool {
+        false
+    }
 
     /// Shades another scene from the next recording on, into the same film. Kernels stay. Nothing changes after an error.
     ///
@@ -94,7 +147,7 @@ pub trait Integrator {
         self.queues().iter().map(|queue| queue.capacity()).min().unwrap_or(0)
     }
 
-    /// Maximum number of traces that a wave records.
+    /// Maximum number of traces that a wave records, without its rest.
     fn traces_per_wave(&self) -> u32;
 
     /// Bytes per slot in addition to the queues.

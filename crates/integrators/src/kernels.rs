@@ -13,7 +13,7 @@ use rasray_shaders_glsl::{Shader, constant_ids::integrators::PIXEL_CENTRES};
 use crate::{IntegratorError, Wave};
 
 /// Buffers in the integrators' set.
-const BINDINGS: u32 = 8;
+const BINDINGS: u32 = 9;
 
 /// Constants of the camera rays: through random points of their pixels, or through the centres.
 pub(crate) fn camera_constants(pixel_centres: bool) -> [(u32, u32); 1] {
@@ -36,7 +36,7 @@ pub(crate) struct Kernel {
 
 /// The buffers of the integrators' set, in the order of its bindings; absent ones are not used by
 /// the kernels that the set is bound for.
-#[derive(Debug, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Storage<'a> {
     pub film: Option<&'a Buffer>,
     pub film_faults: Option<&'a Buffer>,
@@ -44,6 +44,7 @@ pub(crate) struct Storage<'a> {
     pub pending: Option<&'a Buffer>,
     pub shadow: Option<&'a RayQueue>,
     pub aov: Option<&'a Buffer>,
+    pub waiting: Option<&'a Buffer>,
 }
 
 /// The sets that the kernels of one integrator are bound to.
@@ -70,6 +71,7 @@ impl Bindings {
             storage.shadow.map(RayQueue::header),
             storage.shadow.map(RayQueue::list),
             storage.aov,
+            storage.waiting,
         ];
         let buffers = slots.map(|buffer| buffer.unwrap_or(&placeholder));
         let layout = device.create_set_layout("integrator", BINDINGS)?;

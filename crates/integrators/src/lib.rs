@@ -14,7 +14,7 @@
 //!
 //! ```no_run
 //! use rasray_ads::BruteForce;
-//! use rasray_gpu::{Device, DeviceDesc};
+//! use rasray_gpu::{Device, DeviceDesc, Timing};
 //! use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 //! use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, waves};
 //!
@@ -30,7 +30,7 @@
 //! let occlusion = AmbientOcclusion::new(&IntegratorDesc::new(&device, &gpu_scene, &film), 0.5)?;
 //! device.submit(|recorder| occlusion.record_reset(recorder))?;
 //! for wave in waves(film.pixel_count(), 16, occlusion.wave_capacity()) {
-//!     device.submit(|recorder| occlusion.record_wave(recorder, (&structure).into(), wave))?.value?;
+//!     occlusion.render_wave(&device, Timing::None, (&structure).into(), wave)?;
 //! }
 //! let image = film.read(&device)?;
 //! # Ok(()) }
@@ -53,7 +53,8 @@ pub use aov::AovPass;
 pub use error::IntegratorError;
 pub use film::{Film, PIXEL_LIMIT};
 pub use integrator::{Integrator, IntegratorDesc, check_features};
-pub use path::{BOUNCE_LIMIT, Path};
+pub use path::{BOUNCE_LIMIT, GlassShadows, Path, PathOptions};
+pub use rasray_shaders_glsl::constants::scene::PATH_LAYER_LIMIT;
 pub use rasray_shaders_glsl::records::{AovPixel, FilmFaults, FilmPixel, PathState, VisibilityCounts};
 pub use raycast::Raycast;
 pub use traced::Traced;

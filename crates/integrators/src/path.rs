@@ -1,11 +1,16 @@
 //! Path tracing with light sampling.
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use rasray_ads::{Domain, RayQueue};
-use rasray_gpu::{Buffer, Recorder};
+use rasray_gpu::{Buffer, Device, Recorder};
 use rasray_gpu_scene::{GpuScene, ShadingFeatures};
 use rasray_shaders_glsl::{
-    INTEGRATORS_FILM_ACCUMULATE, INTEGRATORS_PATH_RESOLVE, INTEGRATORS_PATH_SHADE, INTEGRATORS_PRIMARY,
-    constants::scene::PATH_LAYER_LIMIT, records::PathState,
+    INTEGRATORS_FILM_ACCUMULATE, INTEGRATORS_PATH_RESOLVE, INTEGRATORS_PATH_SHADE,
+    INTEGRATORS_PATH_SHADE_PASSING, INTEGRATORS_PRIMARY,
+    constant_ids::integrators::PATHS_PASS_PANES,
+    constants::scene::{PATH_LAYER_LIMIT, WAVE_ROUND_LAST, WAVE_ROUND_RESUMES},
+    records::{PathState, PathWaiting},
 };
 
 use crate::{
@@ -17,34 +22,100 @@ use crate::{
 /// Maximum number of scatterings of a path. A wave records up to this number of rounds.
 pub const BOUNCE_LIMIT: u32 = 1024;
 
-/// Paths of at most `bounces` scatterings. In every round each path that goes on traces one
+/// Surfaces passed in a straight line that the rounds of a wave allow for at first.
+const USUAL_LAYERS: u32 = 8;
+
+/// Most rounds that one recording of a wave has; more are recorded as its rest.
+const ROUND_LIMIT: u32 = 2 * BOUNCE_LIMIT + 1 + 2 * PATH_LAYER_LIMIT;
+
+/// What smooth thin panes of glass do to light from lamps, the sun and the sky. Thin walls whose transmission is rough,
+/// and glass with a thickness, scatter light either way, and stop shadow rays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GlassShadows {
+    /// Light goes straight through them and takes their tint. Going through is no scattering, and so no bounce.
+    #[default]
+    Tint,
+    /// They stop shadow rays, and going through is a scattering: what is behind them is lit by what scattered rays find,
+    /// which are never lights without extent.
+    Opaque,
+}
+
+impl GlassShadows {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Tint, Self::Opaque];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tint => "tint",
+            Self::Opaque => "opaque",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Tint => "Light goes straight through smooth thin panes and takes their tint",
+            Self::Opaque => "Panes stop it; what scattered rays meet behind them counts alone",
+        }
+    }
+}
+
+/// What paths do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PathOptions {
+    /// At most this many scatterings, up to [`BOUNCE_LIMIT`]: 1 is direct light only, 0 emission only.
+    pub bounces: u32,
+    /// What smooth thin panes do to light; without bounces they are opaque.
+    pub glass_shadows: GlassShadows,
+}
+
+impl From<u32> for PathOptions {
+    /// This many bounces, and the default of everything else.
+    fn from(bounces: u32) -> Self {
+        Self { bounces, ..Self::default() }
+    }
+}
+
+/// Paths of at most so many scatterings. In every round each path that goes on traces one
 /// closest-hit ray and at most one shadow ray; paths that have ended take part in no pass.
+///
+/// Where surfaces let light pass in a straight line, blended ones and smooth thin panes, shadow rays go through them as
+/// paths do: a round traces either for each path, and there are as many as it takes
+/// ([`Integrator::record_rest`], [`Integrator::allow_more_rounds`]).
 #[derive(Debug)]
 pub struct Path {
     bounces: u32,
     /// Closest-hit rounds of a wave.
-    rounds: u32,
+    rounds: AtomicU32,
     /// What the kernels were made for.
     features: ShadingFeatures,
     film: Film,
     queue: RayQueue,
-    shadow_queue: RayQueue,
     states: Buffer,
-    pending: Buffer,
+    shadows: Shadows,
     bindings: Bindings,
     primary: Kernel,
     shade: Kernel,
-    resolve: Kernel,
-    accumulate: Kernel,
+}
+
+/// How light samples are tested.
+#[derive(Debug)]
+enum Shadows {
+    /// Whatever a ray hits stops it: a queue of their own, traced for occlusion.
+    Occluded { queue: RayQueue, pending: Buffer, resolve: Kernel, accumulate: Kernel },
+    /// Surfaces may let a ray pass: shadow rays are in the queue of the paths, which wait.
+    Passing { waiting: Buffer },
 }
 
 impl Path {
-    /// Makes queues, states and kernels. `bounces` 1 is direct light only, 0 emission only.
+    /// Makes queues, states and kernels. A number of bounces will do for the options.
     ///
     /// # Errors
     /// More than [`BOUNCE_LIMIT`] bounces, sizes that do not fit, out of memory, or the device
     /// refuses a pipeline.
-    pub fn new(desc: &IntegratorDesc<'_>, bounces: u32) -> Result<Self, IntegratorError> {
+    pub fn new(desc: &IntegratorDesc<'_>, options: impl Into<PathOptions>) -> Result<Self, IntegratorError> {
+        let PathOptions { bounces, glass_shadows } = options.into();
         if bounces > BOUNCE_LIMIT {
             return Err(IntegratorError::Option {
                 option: "bounces",
@@ -52,44 +123,125 @@ impl Path {
                 expected: "at most 1024",
             });
         }
+        let panes = desc.features.panes && bounces > 0 && glass_shadows == GlassShadows::Tint;
+        let passing = desc.features.blend || panes;
         let capacity = desc.check()?;
         let device = desc.device;
         let queue = RayQueue::new(device, "path rays", capacity, true)?;
-        let shadow_queue = RayQueue::new(device, "shadow rays", capacity, false)?;
         let slots = u64::from(capacity);
-        let states = device_buffer(device, "path states", slots * size_of::<PathState>() as u64)?;
-        let pending = device_buffer(device, "pending radiance", slots * size_of::<[f32; 3]>() as u64)?;
+        let buffer = |name, bytes: usize| device_buffer(device, name, slots * bytes as u64);
+        let states = buffer("path states", size_of::<PathState>())?;
         let storage = Storage {
             film: Some(desc.film.pixels()),
             film_faults: Some(desc.film.faults()),
             path_states: Some(&states),
-            pending: Some(&pending),
-            shadow: Some(&shadow_queue),
             ..Storage::default()
         };
-        let bindings = Bindings::new(device, desc.scene, &storage)?;
+        let bind = |storage| Bindings::new(device, desc.scene, &storage);
+        let (shadows, bindings) = if passing {
+            let waiting = buffer("waiting paths", size_of::<PathWaiting>())?;
+            let bindings = bind(Storage { waiting: Some(&waiting), ..storage })?;
+            (Shadows::Passing { waiting }, bindings)
+        } else {
+            let queue = RayQueue::new(device, "shadow rays", capacity, false)?;
+            let pending = buffer("pending radiance", size_of::<[f32; 3]>())?;
+            let bindings = bind(Storage { pending: Some(&pending), shadow: Some(&queue), ..storage })?;
+            let resolve = bindings.kernel(device, &INTEGRATORS_PATH_RESOLVE, &[])?;
+            let accumulate = bindings.kernel(device, &INTEGRATORS_FILM_ACCUMULATE, &[])?;
+            (Shadows::Occluded { queue, pending, resolve, accumulate }, bindings)
+        };
+        let shader = if passing { &INTEGRATORS_PATH_SHADE_PASSING } else { &INTEGRATORS_PATH_SHADE };
+        let mut constants = Vec::from(desc.features.constants());
+        constants.push((PATHS_PASS_PANES, panes.into()));
         Ok(Self {
             bounces,
-            rounds: rounds(bounces, desc.features.blend),
+            rounds: rounds(bounces, passing).into(),
             features: desc.features,
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
-            shade: bindings.kernel(device, &INTEGRATORS_PATH_SHADE, &desc.features.constants())?,
-            resolve: bindings.kernel(device, &INTEGRATORS_PATH_RESOLVE, &[])?,
-            accumulate: bindings.kernel(device, &INTEGRATORS_FILM_ACCUMULATE, &[])?,
+            shade: bindings.kernel(device, shader, &constants)?,
             film: desc.film.clone(),
             queue,
-            shadow_queue,
             states,
-            pending,
+            shadows,
             bindings,
         })
     }
 }
 
-/// Closest-hit rounds that a path can need: one per scattering, one for what the last scattered ray hits, and one for
-/// every blended surface that it passes.
-fn rounds(bounces: u32, blend: bool) -> u32 {
-    bounces + 1 + if blend { PATH_LAYER_LIMIT } else { 0 }
+/// Rounds that a wave has at first. A path needs one closest-hit round per scattering and one for what the last scattered
+/// ray hits. Where its shadow rays take part, they need one per scattering as well, and so does every surface that a ray
+/// passes, of which there may be more: the rest of the wave.
+fn rounds(bounces: u32, passing: bool) -> u32 {
+    if passing { 2 * bounces + 1 + USUAL_LAYERS } else { bounces + 1 }
+}
+
+impl Path {
+    /// The rounds of paths whose shadow rays end at whatever they hit, and all of the film.
+    fn record_occluded(
+        &self,
+        recorder: &mut Recorder<'_>,
+        (traced, wave): (Traced<'_>, Wave),
+        (shadows, resolve, accumulate): (&RayQueue, &Kernel, &Kernel),
+    ) -> Result<(), IntegratorError> {
+        let (paths, all) = (&self.queue, Domain::First(wave.pixel_count));
+        let mut constants = WaveConstants { bounces: self.bounces, ..WaveConstants::from(wave) };
+        shadows.record_select_none(recorder);
+        // In the first round these are all slots, later those whose paths continue.
+        let mut live = all;
+        let rounds = self.traces_of_paths();
+        for round in 0..rounds {
+            constants.round = round;
+            if round == 0 {
+                traced.record_primary(recorder, paths, wave)?;
+            } else {
+                traced.record_closest(recorder, paths, live)?;
+            }
+            self.bindings.record(recorder, &self.shade, paths, live, &constants);
+            // In the last round every path has reached the maximum number of scatterings and samples no light.
+            if round + 1 < rounds {
+                paths.record_take(recorder);
+                shadows.record_take(recorder);
+                live = Domain::Selected;
+                traced.record_occluded(recorder, shadows, Domain::Selected);
+                self.bindings.record(recorder, resolve, shadows, Domain::Selected, &constants);
+            }
+        }
+        self.bindings.record(recorder, accumulate, paths, all, &constants);
+        Ok(())
+    }
+
+    /// Rounds in which rays may pass surfaces, of a new wave or of the rest of one. Paths that end add to the film.
+    fn record_passing(
+        &self,
+        recorder: &mut Recorder<'_>,
+        traced: Traced<'_>,
+        wave: Wave,
+        is_rest: bool,
+    ) -> Result<(), IntegratorError> {
+        let paths = &self.queue;
+        let mut constants = WaveConstants { bounces: self.bounces, ..WaveConstants::from(wave) };
+        let mut live = if is_rest { Domain::Selected } else { Domain::First(wave.pixel_count) };
+        let first = u32::from(is_rest);
+        let end = first + self.traces_of_paths();
+        for round in first..end {
+            constants.round = round;
+            constants.marks = if is_rest && round == first { WAVE_ROUND_RESUMES } else { 0 };
+            constants.marks |= if round + 1 == end { WAVE_ROUND_LAST } else { 0 };
+            if round == 0 {
+                traced.record_primary(recorder, paths, wave)?;
+            } else {
+                traced.record_closest(recorder, paths, live)?;
+            }
+            self.bindings.record(recorder, &self.shade, paths, live, &constants);
+            paths.record_take(recorder);
+            live = Domain::Selected;
+        }
+        Ok(())
+    }
+
+    fn traces_of_paths(&self) -> u32 {
+        self.rounds.load(Ordering::Relaxed)
+    }
 }
 
 impl Integrator for Path {
@@ -104,33 +256,47 @@ impl Integrator for Path {
         wave: Wave,
     ) -> Result<(), IntegratorError> {
         check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
-        let (paths, shadows) = (&self.queue, &self.shadow_queue);
         let all = Domain::First(wave.pixel_count);
-        // In the first round these are all slots, later those whose paths continue.
-        let mut live = all;
-        let mut constants = WaveConstants { bounces: self.bounces, ..WaveConstants::from(wave) };
-        self.bindings.record(recorder, &self.primary, paths, all, &constants);
-        paths.record_select_none(recorder);
-        shadows.record_select_none(recorder);
-        for round in 0..self.rounds {
-            constants.round = round;
-            if round == 0 {
-                traced.record_primary(recorder, paths, wave)?;
-            } else {
-                traced.record_closest(recorder, paths, live)?;
+        let constants = WaveConstants { bounces: self.bounces, ..WaveConstants::from(wave) };
+        self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
+        self.queue.record_select_none(recorder);
+        match &self.shadows {
+            Shadows::Occluded { queue, resolve, accumulate, .. } => {
+                self.record_occluded(recorder, (traced, wave), (queue, resolve, accumulate))
             }
-            self.bindings.record(recorder, &self.shade, paths, live, &constants);
-            // In the last round every path has reached the maximum number of scatterings and samples no light.
-            if round + 1 < self.rounds {
-                paths.record_take(recorder);
-                shadows.record_take(recorder);
-                live = Domain::Selected;
-                traced.record_occluded(recorder, shadows, Domain::Selected);
-                self.bindings.record(recorder, &self.resolve, shadows, Domain::Selected, &constants);
+            Shadows::Passing { .. } => self.record_passing(recorder, traced, wave, false),
+        }
+    }
+
+    fn record_rest(
+        &self,
+        recorder: &mut Recorder<'_>,
+        traced: Traced<'_>,
+        wave: Wave,
+    ) -> Result<(), IntegratorError> {
+        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        match &self.shadows {
+            Shadows::Occluded { .. } => Ok(()),
+            Shadows::Passing { .. } => self.record_passing(recorder, traced, wave, true),
+        }
+    }
+
+    fn has_rest(&self, device: &Device) -> Result<bool, IntegratorError> {
+        match &self.shadows {
+            Shadows::Occluded { .. } => Ok(false),
+            Shadows::Passing { .. } => Ok(self.film.read_faults(device)?.unended > 0),
+        }
+    }
+
+    fn allow_more_rounds(&self) -> bool {
+        let now = self.traces_of_paths();
+        match &self.shadows {
+            Shadows::Occluded { .. } => false,
+            Shadows::Passing { .. } => {
+                self.rounds.store(now.saturating_mul(2).min(ROUND_LIMIT), Ordering::Relaxed);
+                now < ROUND_LIMIT
             }
         }
-        self.bindings.record(recorder, &self.accumulate, paths, all, &constants);
-        Ok(())
     }
 
     fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
@@ -144,15 +310,23 @@ impl Integrator for Path {
     }
 
     fn queues(&self) -> Vec<&RayQueue> {
-        vec![&self.queue, &self.shadow_queue]
+        match &self.shadows {
+            Shadows::Occluded { queue, .. } => vec![&self.queue, queue],
+            Shadows::Passing { .. } => vec![&self.queue],
+        }
     }
 
     fn traces_per_wave(&self) -> u32 {
-        2 * self.rounds - 1
+        match &self.shadows {
+            Shadows::Occluded { .. } => 2 * self.traces_of_paths() - 1,
+            Shadows::Passing { .. } => self.traces_of_paths(),
+        }
     }
 
     fn state_bytes(&self) -> u64 {
-        self.states.size() + self.pending.size()
+        let (Shadows::Occluded { pending: shadows, .. } | Shadows::Passing { waiting: shadows }) =
+            &self.shadows;
+        self.states.size() + shadows.size()
     }
 }
 
@@ -164,6 +338,7 @@ mod tests {
     fn one_round_a_scattering_and_one_for_what_is_met_last() {
         assert_eq!(rounds(0, false), 1);
         assert_eq!(rounds(4, false), 5);
-        assert_eq!(rounds(4, true), 5 + PATH_LAYER_LIMIT);
+        assert_eq!(rounds(4, true), 9 + USUAL_LAYERS);
+        assert!(rounds(BOUNCE_LIMIT, true) < ROUND_LIMIT);
     }
 }

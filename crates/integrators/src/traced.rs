@@ -10,7 +10,7 @@ use crate::{Visibility, Wave};
 pub struct Traced<'a> {
     /// Finds the nearest hit and its surface.
     pub closest: &'a dyn Structure,
-    /// Tests for occlusion.
+    /// Tests for occlusion. Not used where surfaces let shadow rays pass, which need nearest hits.
     pub occluded: &'a dyn Structure,
     /// Finds what camera rays hit by drawing; where absent, they are traced as all others.
     pub primary: Option<&'a Visibility>,

@@ -153,4 +153,7 @@ pub struct Counters {
     /// Rays without an answer after the last round.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unfinished: Option<u64>,
+    /// Rays that would have passed more transparent surfaces than a ray may; absent where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cut: Option<u64>,
 }

@@ -106,6 +106,7 @@ pub(super) fn run_text(run: &Run) -> String {
                 row("overflow", counters.overflow.map(grouped)),
                 row("regrows", counters.regrows.map(grouped)),
                 row("unfinished", counters.unfinished.map(grouped)),
+                row("cut rays", counters.cut.map(grouped)),
             ]
             .into_iter()
             .flatten(),

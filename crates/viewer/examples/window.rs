@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut loaded = load(&name)?;
     loaded.light(None);
     let frame = Frame {
-        integrator: Integrator::Path { bounces: 3 },
+        integrator: Integrator::path(3),
         width: 320,
         height: 180,
         spp: 16,

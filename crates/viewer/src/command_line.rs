@@ -1,6 +1,6 @@
 //! The command line that makes a picture again.
 
-use rasray_experiment::{Frame, Integrator, Primary, SystemConfig};
+use rasray_experiment::{Frame, GlassShadows, Integrator, Primary, SystemConfig};
 
 /// A word as a shell reads it back.
 pub fn quoted(word: &str) -> String {
@@ -24,7 +24,12 @@ pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
         integrator.name().to_owned(),
     ];
     match integrator {
-        Integrator::Path { bounces } => words.extend(["--bounces".to_owned(), bounces.to_string()]),
+        Integrator::Path { bounces, glass_shadows } => {
+            words.extend(["--bounces".to_owned(), bounces.to_string()]);
+            if *glass_shadows != GlassShadows::default() {
+                words.extend(["--glass-shadows".to_owned(), glass_shadows.name().to_owned()]);
+            }
+        }
         Integrator::AmbientOcclusion { distance: Some(metres) } => {
             words.extend(["--ao-distance".to_owned(), metres.to_string()]);
         }
@@ -69,6 +74,9 @@ mod tests {
         settings.frame.integrator = Integrator::AmbientOcclusion { distance: Some(0.5) };
         let words = frame_words(&settings.frame).join(" ");
         assert_eq!(words, "--size 40x30 --spp 4 --integrator ao --ao-distance 0.5 --seed 1 --sampler sobol");
+        settings.frame.integrator = Integrator::Path { bounces: 2, glass_shadows: GlassShadows::Opaque };
+        let words = frame_words(&settings.frame).join(" ");
+        assert!(words.contains("--integrator path --bounces 2 --glass-shadows opaque "), "{words}");
         settings.system.options = settings.system.options.with("grid", 8);
         assert_eq!(system_words(&settings.system).join(" "), "--system bricks --preset robust --grid=8");
     }

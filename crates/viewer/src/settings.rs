@@ -120,7 +120,7 @@ pub(crate) mod tests {
     /// Settings that tests start from.
     pub(crate) fn some() -> Settings {
         let frame = Frame {
-            integrator: Integrator::Path { bounces: 3 },
+            integrator: Integrator::path(3),
             width: 40,
             height: 30,
             spp: 4,

@@ -3,8 +3,9 @@
 use std::ops::Range;
 
 use rasray_experiment::{Built, Stage};
+use rasray_gpu::Timing;
 use rasray_gpu_scene::{GpuScene, Sampler, Sampling, View};
-use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, Path, Wave};
+use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, Path, PathOptions, Wave};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
 use rasray_systems::Spec;
@@ -106,12 +107,12 @@ impl<'a> Studio<'a> {
         &self.stage.scene
     }
 
-    /// Paths of at most `bounces` scatterings.
+    /// Paths; a number of bounces will do for the options.
     ///
     /// # Panics
     /// If the device fails.
-    pub fn path(&self, bounces: u32) -> Path {
-        Path::new(&self.desc(), bounces).expect("the integrator is made")
+    pub fn path(&self, options: impl Into<PathOptions>) -> Path {
+        Path::new(&self.desc(), options).expect("the integrator is made")
     }
 
     /// Ambient occlusion within `range` metres.
@@ -149,20 +150,18 @@ impl<'a> Studio<'a> {
         device.submit(|recorder| integrator.record_reset(recorder)).expect("the device works");
         for sample in samples {
             let wave = Wave { first_pixel: 0, pixel_count, sample };
-            let submitted = device
-                .submit(|recorder| integrator.record_wave(recorder, self.built.structure().into(), wave))
-                .expect("the device works");
-            submitted.value.expect("the wave fits");
+            let traced = self.built.structure().into();
+            integrator.render_wave(device, Timing::None, traced, wave).expect("the wave fits");
         }
         for queue in integrator.queues() {
             let counters = queue.download_counters(device).expect("the device works");
             let faults = (counters.unfinished, counters.not_ready, counters.corrupted);
             assert_eq!(faults, (0, 0, 0), "rays are left over");
         }
-        Picture {
-            pixels: self.film.read(device).expect("the film is readable"),
-            non_finite: self.film.read_faults(device).expect("the film is readable").non_finite,
-        }
+        let faults = self.film.read_faults(device).expect("the film is readable");
+        assert_eq!((faults.unended, faults.cut), (0, 0), "surfaces are left to pass");
+        let pixels = self.film.read(device).expect("the film is readable");
+        Picture { pixels, non_finite: faults.non_finite }
     }
 
     /// The image's mean over `samples` samples per pixel, an even number.

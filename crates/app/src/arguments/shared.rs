@@ -1,11 +1,12 @@
 //! Groups of options that several commands take.
 
-use super::structure::{StructureArguments, primary_parser, sampler_parser};
+use super::structure::{StructureArguments, glass_shadows_parser, primary_parser, sampler_parser};
 use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
 use rasray_experiment::{
-    Chosen, DeviceChoice, ExperimentError, Frame, Integrator, LoadedScene, Primary, Sampler, placed_view,
+    Chosen, DeviceChoice, ExperimentError, Frame, GlassShadows, Integrator, LoadedScene, Primary, Sampler,
+    placed_view,
 };
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Environment, LoadOptions, Scene, SceneError, load_environment};
@@ -26,7 +27,7 @@ impl IntegratorName {
     /// The integrator where its options are left out.
     pub fn by_default(self) -> Integrator {
         match self {
-            Self::Path => Integrator::Path { bounces: DEFAULT_BOUNCES },
+            Self::Path => Integrator::path(DEFAULT_BOUNCES),
             Self::Ao => Integrator::AmbientOcclusion { distance: None },
             Self::Raycast => Integrator::Raycast,
         }
@@ -68,9 +69,12 @@ pub struct FrameArguments {
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = values::whole(1, 1_048_576))]
     pub spp: u32,
     /// With --integrator path: at most this many scatterings (0: emission alone, 1: direct light; through
-    /// glass each surface is one), 0 to 64 [default: 8]
+    /// thick or rough glass each surface is one), 0 to 64 [default: 8]
     #[arg(long, value_name = "N", value_parser = values::whole(0, 64))]
     pub bounces: Option<u32>,
+    /// With --integrator path: what smooth thin panes of glass do to light [default: tint]
+    #[arg(long, value_name = "HOW", value_parser = glass_shadows_parser())]
+    pub glass_shadows: Option<GlassShadows>,
     /// With --integrator ao: metres within which something occludes [default: any distance]
     #[arg(long, value_name = "METRES", value_parser = values::positive)]
     pub ao_distance: Option<f32>,
@@ -100,11 +104,17 @@ impl FrameArguments {
         if self.bounces.is_some() && self.integrator != IntegratorName::Path {
             return Err(belongs("--bounces", "path"));
         }
+        if self.glass_shadows.is_some() && self.integrator != IntegratorName::Path {
+            return Err(belongs("--glass-shadows", "path"));
+        }
         if self.ao_distance.is_some() && self.integrator != IntegratorName::Ao {
             return Err(belongs("--ao-distance", "ao"));
         }
         let integrator = match self.integrator.by_default() {
-            Integrator::Path { bounces } => Integrator::Path { bounces: self.bounces.unwrap_or(bounces) },
+            Integrator::Path { bounces, glass_shadows } => Integrator::Path {
+                bounces: self.bounces.unwrap_or(bounces),
+                glass_shadows: self.glass_shadows.unwrap_or(glass_shadows),
+            },
             Integrator::AmbientOcclusion { .. } => {
                 Integrator::AmbientOcclusion { distance: self.ao_distance }
             }

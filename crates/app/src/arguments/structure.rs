@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
-use rasray_experiment::{ExperimentError, Primary, RaySet, Refresh, Sampler, StructureOptions};
+use rasray_experiment::{ExperimentError, GlassShadows, Primary, RaySet, Refresh, Sampler, StructureOptions};
 use rasray_systems::{Group, OPTIONS, OptionRow, Preset, SYSTEMS, System, Values};
 use serde_json::Value;
 
@@ -54,6 +54,11 @@ pub fn refresh_parser() -> impl TypedValueParser<Value = Refresh> {
 /// Reads how the camera's first hits are found.
 pub fn primary_parser() -> impl TypedValueParser<Value = Primary> {
     choice(Primary::ALL, |primary| (primary.name(), primary.doc()))
+}
+
+/// Reads what smooth thin panes do to light.
+pub fn glass_shadows_parser() -> impl TypedValueParser<Value = GlassShadows> {
+    choice(GlassShadows::ALL, |shadows| (shadows.name(), shadows.doc()))
 }
 
 /// The options of a structure on the command line.

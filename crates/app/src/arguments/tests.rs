@@ -44,7 +44,7 @@ fn defaults_are_the_documented_ones() {
     assert_eq!((system.system.name, system.preset), ("bricks", Preset::Robust));
     assert_eq!(system.spec().expect("known").structure(), "bricks");
     assert_eq!((frame.width, frame.height, frame.spp, frame.seed), (640, 360, 16, 1));
-    assert_eq!(frame.integrator, Integrator::Path { bounces: 8 });
+    assert_eq!(frame.integrator, Integrator::path(8));
     assert_eq!(given.work.structure, StructureArguments::default());
 }
 

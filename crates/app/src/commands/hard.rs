@@ -131,7 +131,7 @@ fn ids(id: &str) -> Result<Vec<&'static str>, AppError> {
 
 /// Refuses what is about scenes, images and generated rays.
 fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
-    const UNFIT: [&str; 15] = [
+    const UNFIT: [&str; 16] = [
         "image",
         "ray-set",
         "rays-file",
@@ -146,6 +146,7 @@ fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
         "size",
         "spp",
         "bounces",
+        "glass-shadows",
         "ao-distance",
     ];
     match given.typed.iter().find(|typed| UNFIT.contains(&typed.as_str())) {

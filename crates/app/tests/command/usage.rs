@@ -29,6 +29,8 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         ("render cornell -o a.png --system brute-force --buckets 4", "--buckets", "mmrt"),
         ("render cornell -o a.png --system brute-force --preset published", "published", "robust"),
         ("render cornell -o a.png --integrator ao --bounces 1", "--bounces", "path"),
+        ("render cornell -o a.png --integrator ao --glass-shadows opaque", "--glass-shadows", "path"),
+        ("render cornell -o a.png --glass-shadows blue", "blue", "--help"),
         ("render cornell -o a.png --eye 0,0,0 --target 0,0,0", "--eye", "--target"),
         ("render broken.glb --report broken.glb", "scene file", "report.json"),
         ("compare broken.glb --systems mmrt --report ./broken.glb", "scene file", "report.json"),

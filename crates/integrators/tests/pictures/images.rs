@@ -238,6 +238,7 @@ fn code_that_is_left_out_does_not_change_the_picture() {
         textures: false,
         transmission: false,
         blend: false,
+        panes: false,
         texel_runs: false,
         alpha_masks: false,
     };

@@ -4,5 +4,6 @@ mod common;
 mod corpus;
 mod images;
 mod needs;
+mod passing;
 mod reference;
 mod texel_runs;

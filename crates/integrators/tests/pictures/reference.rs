@@ -59,3 +59,10 @@ fn glass_mirrors_and_blended_surfaces() {
     let eye = forward_camera(DVec3::new(0.0, 0.0, 0.9));
     compare(&glass_room(), &eye, 4, &Kind::Path(5), 0.01);
 }
+
+#[test]
+fn light_through_veils_and_panes() {
+    let eye = forward_camera(DVec3::new(0.0, 0.0, 0.9));
+    compare(&veiled_room(), &eye, 4, &Kind::Path(3), 0.01);
+    compare(&veiled_room(), &eye, 4, &Kind::OpaquePanes(3), 0.01);
+}

@@ -22,13 +22,32 @@ use rasray_scene::{Camera, Scene};
 
 use crate::{
     oracle::{Oracle, Outcome},
-    shading::{PosedScene, Ray, ReferenceError, Sampler, Surface, View},
+    shading::{PosedScene, Ray, ReferenceError, Sampler, Surface, View, bsdf::SMOOTH_ROUGHNESS},
 };
+
+/// What paths do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathOptions {
+    /// At most this many scatterings.
+    pub bounces: u32,
+    /// Whether light goes straight through smooth thin panes and takes their tint, unless there are no bounces; else panes
+    /// stop shadow rays, and going through is a scattering.
+    pub passes_panes: bool,
+}
+
+impl From<u32> for PathOptions {
+    /// This many bounces; light passes panes.
+    fn from(bounces: u32) -> Self {
+        Self { bounces, passes_panes: true }
+    }
+}
 
 /// Scene and oracle, ready to be rendered.
 struct Tracer<'a> {
     posed: &'a PosedScene<'a>,
     oracle: Oracle<'a>,
+    /// Whether light goes straight through smooth thin panes.
+    passes_panes: bool,
 }
 
 impl Tracer<'_> {
@@ -36,7 +55,12 @@ impl Tracer<'_> {
         match self.oracle.closest(&ray.to_oracle()).outcome {
             Outcome::Hit { primitive, t, barycentrics } => {
                 let barycentrics = Vec2::from(barycentrics.map(|weight| weight as f32));
-                Some(self.posed.surface(ray, t as f32, primitive, barycentrics))
+                let mut surface = self.posed.surface(ray, t as f32, primitive, barycentrics);
+                surface.is_pane = self.passes_panes
+                    && surface.transmission > 0.0
+                    && surface.thickness <= 0.0
+                    && surface.roughness < SMOOTH_ROUGHNESS;
+                Some(surface)
             }
             Outcome::Miss => None,
         }
@@ -53,20 +77,22 @@ impl PosedScene<'_> {
     /// # Errors
     /// If the image is empty or the scene has more triangles than ids.
     pub fn render_ambient_occlusion(&self, view: &View, distance: f32) -> Result<Image, ReferenceError> {
-        self.render(view, |tracer, random| tracer.ambient_occlusion(view, distance, random))
+        self.render(view, false, |tracer, random| tracer.ambient_occlusion(view, distance, random))
     }
 
-    /// Path tracing with at most `bounces` scatterings; W/(sr m^2).
+    /// Path tracing; W/(sr m^2). A number of bounces will do for the options.
     ///
     /// # Errors
     /// If the image is empty or the scene has more triangles than ids.
-    pub fn render_path(&self, view: &View, bounces: u32) -> Result<Image, ReferenceError> {
-        self.render(view, |tracer, random| tracer.path(view, bounces, random))
+    pub fn render_path(&self, view: &View, options: impl Into<PathOptions>) -> Result<Image, ReferenceError> {
+        let PathOptions { bounces, passes_panes } = options.into();
+        self.render(view, passes_panes && bounces > 0, |tracer, random| tracer.path(view, bounces, random))
     }
 
     fn render(
         &self,
         view: &View,
+        passes_panes: bool,
         sample: impl Fn(&Tracer<'_>, crate::shading::random::Numbers) -> glam::Vec3 + Sync,
     ) -> Result<Image, ReferenceError> {
         view.check()?;
@@ -74,7 +100,7 @@ impl PosedScene<'_> {
         let accept: Option<crate::oracle::Accept<'_>> =
             if self.has_alpha_masks() { Some(&accept) } else { None };
         let oracle = Oracle::new(self.positions(), self.indices(), accept)?;
-        let tracer = Tracer { posed: self, oracle };
+        let tracer = Tracer { posed: self, oracle, passes_panes };
         Ok(Image::render(view, |random| sample(&tracer, random)))
     }
 }
@@ -107,10 +133,10 @@ pub fn render_path(
     height: u32,
     samples: u32,
     seed: u32,
-    bounces: u32,
+    options: impl Into<PathOptions>,
 ) -> Result<Image, ReferenceError> {
     let view = View { camera: camera.clone(), width, height, samples, seed, sampler: Sampler::default() };
-    PosedScene::new(scene, eye(camera))?.render_path(&view, bounces)
+    PosedScene::new(scene, eye(camera))?.render_path(&view, options)
 }
 
 fn eye(camera: &Camera) -> DVec3 {

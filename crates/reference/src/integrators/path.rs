@@ -4,17 +4,18 @@ use glam::Vec3;
 
 use super::Tracer;
 use crate::shading::{
-    LightSample, Ray, Surface, View, bsdf_pdf, bsdf_sample, bsdf_times_cosine, camera_ray, pixel_position,
+    LightSample, Ray, Surface, View, bsdf_pdf, bsdf_sample, bsdf_straight, bsdf_times_cosine, camera_ray,
+    pixel_position,
     random::{
         Numbers, RANDOM_BSDF_LOBE, RANDOM_LIGHT_KIND, RANDOM_OPACITY_FIRST, RANDOM_ROULETTE, random_dimension,
     },
-    spawn_ray,
+    spawn_ray, spawn_segment,
 };
 
 /// A path may be ended at random from this scattering on.
 const ROULETTE_BOUNCE: u32 = 3;
-/// Blended surfaces a path passes before the next one counts as opaque.
-const LAYER_LIMIT: u32 = 16;
+/// Surfaces that one ray passes in a straight line.
+const LAYER_LIMIT: u32 = 4096;
 
 struct PathState {
     random: Numbers,
@@ -26,8 +27,12 @@ struct PathState {
     medium: Option<usize>,
     /// Scatterings so far.
     bounce: u32,
-    /// Blended surfaces hit so far.
-    layers: u32,
+    /// So far, of going straight on through a surface or not.
+    choices: u32,
+    /// Surfaces that the ray has passed in a straight line.
+    passed: u32,
+    /// Where the last scattering was.
+    origin: Vec3,
 }
 
 /// Weight of the technique with density `used` against one with density `other`.
@@ -40,6 +45,23 @@ fn power_heuristic(used: f32, other: f32) -> f32 {
 }
 
 impl PathState {
+    /// Whether the path goes straight on through a surface, with this probability.
+    fn chooses(&mut self, probability: f32) -> bool {
+        let dimension = RANDOM_OPACITY_FIRST + self.choices;
+        self.choices += 1;
+        self.random.float(dimension) < probability
+    }
+
+    /// Straight on behind the surface: no scattering, since shadow rays go through as well.
+    fn pass(&mut self, ray: &Ray, surface: &Surface, footprint: f32) -> Option<Ray> {
+        if self.passed >= LAYER_LIMIT {
+            return None;
+        }
+        self.passed += 1;
+        let ahead = spawn_ray(surface, ray.direction, f32::INFINITY);
+        Some(Ray { cone_width: footprint, cone_spread: ray.cone_spread, ..ahead })
+    }
+
     fn emission_weight(&self, light_pdf: impl FnOnce() -> f32) -> f32 {
         self.bsdf_pdf.map_or(1.0, |used| power_heuristic(used, light_pdf()))
     }
@@ -55,7 +77,9 @@ impl Tracer<'_> {
             bsdf_pdf: None,
             medium: None,
             bounce: 0,
-            layers: 0,
+            choices: 0,
+            passed: 0,
+            origin: Vec3::ZERO,
         };
         let mut next = Some(camera_ray(view, self.posed.frame_origin(), pixel_position(view.width, random)));
         while let Some(ray) = next {
@@ -77,22 +101,23 @@ impl Tracer<'_> {
         if let Some(medium) = state.medium {
             state.throughput *= self.posed.transmittance(medium, surface.t);
         }
-        if surface.opacity < 1.0 && state.layers < LAYER_LIMIT {
-            let passes = state.random.float(RANDOM_OPACITY_FIRST + state.layers) >= surface.opacity;
-            state.layers += 1;
-            if passes {
-                // Shadow rays end here, so light sampling cannot have found what is hit next.
-                state.bsdf_pdf = None;
-                let ahead = spawn_ray(surface, ray.direction, f32::INFINITY);
-                return Some(Ray { cone_width: footprint, cone_spread: ray.cone_spread, ..ahead });
-            }
+        if surface.opacity < 1.0 && state.chooses(1.0 - surface.opacity) {
+            return state.pass(ray, surface, footprint);
         }
         if surface.emission.max_element() > 0.0 {
             let pdf = || match surface.primitive {
-                Some(primitive) => self.posed.light_pdf_emitter(primitive, ray.origin, surface.position),
+                Some(primitive) => self.posed.light_pdf_emitter(primitive, state.origin, surface.position),
                 None => 0.0,
             };
             state.radiance += state.throughput * surface.emission * state.emission_weight(pdf);
+        }
+        let (straight, probability) = bsdf_straight(surface, -ray.direction);
+        if probability > 0.0 {
+            if state.chooses(probability) {
+                state.throughput *= straight / probability;
+                return state.pass(ray, surface, footprint);
+            }
+            state.throughput /= 1.0 - probability;
         }
         if state.bounce >= max_bounces {
             return None;
@@ -109,10 +134,28 @@ impl Tracer<'_> {
         if !(pending.max_element() > 0.0) {
             return Vec3::ZERO;
         }
-        match light.shadow_ray(surface) {
-            Some(ray) if !self.occluded(&ray) => pending,
-            _ => Vec3::ZERO,
+        light.shadow_ray(surface).map_or(Vec3::ZERO, |ray| pending * self.arriving(ray, light.target))
+    }
+
+    /// Share of the light that arrives along a shadow ray, which ends at `target` where there is one.
+    fn arriving(&self, mut ray: Ray, target: Option<Vec3>) -> Vec3 {
+        let mut share = Vec3::ONE;
+        for _ in 0..=LAYER_LIMIT {
+            let Some(surface) = self.closest(&ray) else { return share };
+            let (straight, _) = bsdf_straight(&surface, -ray.direction);
+            share *= surface.opacity * straight + (1.0 - surface.opacity);
+            if !(share.max_element() > 0.0) {
+                break;
+            }
+            let ahead = match target {
+                Some(target) => spawn_segment(&surface, target),
+                None => Some(spawn_ray(&surface, ray.direction, f32::INFINITY)),
+            };
+            // Nothing lies between the surface and a light that touches it.
+            let Some(ahead) = ahead else { return share };
+            ray = ahead;
         }
+        Vec3::ZERO
     }
 }
 
@@ -140,8 +183,10 @@ fn scatter(state: &mut PathState, ray: &Ray, surface: &Surface, footprint: f32) 
         state.throughput /= survival;
     }
     state.bounce += 1;
+    state.passed = 0;
     let rough = 0.5 * surface.roughness * surface.roughness;
     let cone_spread = if chosen.delta { ray.cone_spread } else { ray.cone_spread.max(rough) };
     let ahead = spawn_ray(surface, chosen.direction, f32::INFINITY);
+    state.origin = ahead.origin;
     Some(Ray { cone_width: footprint, cone_spread, ..ahead })
 }

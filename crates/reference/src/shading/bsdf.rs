@@ -144,6 +144,12 @@ pub fn bsdf_pdf(surface: &Surface, o: Vec3, i: Vec3) -> f32 {
     towards(&Terms::new(surface, o), surface, i).1
 }
 
+/// Share of the light that goes straight through a pane ([`Surface::is_pane`]) towards `o`, and the probability with which
+/// paths take it; 0 for every other surface.
+pub fn bsdf_straight(surface: &Surface, o: Vec3) -> (Vec3, f32) {
+    if surface.is_pane { Terms::new(surface, o).straight() } else { (Vec3::ZERO, 0.0) }
+}
+
 /// Random numbers: lobe, side, and two for the direction. `None`: absorbed.
 pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> Option<BsdfSample> {
     let terms = Terms::new(surface, o);

@@ -39,6 +39,8 @@ pub struct Terms {
     /// Index on the side of o over the index on the other side; 1: straight on.
     pub eta: f32,
     pub mirror: bool,
+    /// What goes straight through is followed apart, and is in no lobe.
+    pane: bool,
     /// World from local; z is the normal of the facets.
     pub frame: Mat3,
     /// The shading normal, local: the cosine family lies around it.
@@ -108,6 +110,7 @@ impl Terms {
                 (false, false) => ior,
             },
             mirror,
+            pane: surface.is_pane,
             frame,
             base: frame.transpose() * surface.normal,
             o: frame.transpose() * o,
@@ -232,8 +235,24 @@ impl Terms {
     }
 
     pub fn transmitted(&self, cosine: f32) -> Vec3 {
+        if self.pane { Vec3::ZERO } else { self.facet_transmitted(cosine) }
+    }
+
+    fn facet_transmitted(&self, cosine: f32) -> Vec3 {
         let through = 1.0 - self.fresnel(cosine).max_element();
         self.base_color * (self.volume_share() * through)
+    }
+
+    /// Share of the light that a pane lets through in a straight line, and the probability with which paths take it.
+    pub fn straight(&self) -> (Vec3, f32) {
+        let share = if self.pane && self.o.z > 0.0 { self.facet_transmitted(self.o.z) } else { Vec3::ZERO };
+        let through = luminance(share);
+        if !(through > 0.0) {
+            return (share, 0.0);
+        }
+        let rest = luminance(self.reflected(self.o.z))
+            + luminance(self.base_color) * (self.diffuse_share() * self.energy.entering);
+        (share, through / (through + rest))
     }
 
     fn diffuse_share(&self) -> f32 {

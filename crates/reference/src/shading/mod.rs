@@ -37,7 +37,7 @@ mod triangle;
 #[cfg(test)]
 mod tests;
 
-pub use bsdf::{BsdfSample, bsdf_evaluate, bsdf_pdf, bsdf_sample, bsdf_times_cosine};
+pub use bsdf::{BsdfSample, bsdf_evaluate, bsdf_pdf, bsdf_sample, bsdf_straight, bsdf_times_cosine};
 pub use camera::{View, camera_ray, pixel_position};
 pub use environment::EnvironmentTable;
 pub use error::ReferenceError;

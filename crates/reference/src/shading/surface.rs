@@ -39,6 +39,8 @@ pub struct Surface {
     pub opacity: f32,
     /// Metres; 0 is a thin wall.
     pub thickness: f32,
+    /// What the surface lets through in a straight line, as a smooth thin wall, is followed apart: scattering leaves it out.
+    pub is_pane: bool,
     /// Strength of the dielectric reflection.
     pub specular: f32,
     /// Colour of the dielectric reflection.
@@ -68,6 +70,7 @@ impl Default for Surface {
             ior: 1.5,
             opacity: 1.0,
             thickness: 0.0,
+            is_pane: false,
             specular: 0.0,
             specular_color: Vec3::ONE,
             front: true,

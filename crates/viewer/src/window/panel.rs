@@ -303,11 +303,7 @@ fn show_colours(ui: &mut egui::Ui, scale: &Scale) {
 
 fn show_integrator(ui: &mut egui::Ui, session: &mut Session) {
     let integrator = &mut session.frame.integrator;
-    let kinds = [
-        Integrator::Path { bounces: 8 },
-        Integrator::AmbientOcclusion { distance: None },
-        Integrator::Raycast,
-    ];
+    let kinds = [Integrator::path(8), Integrator::AmbientOcclusion { distance: None }, Integrator::Raycast];
     ui.horizontal(|ui| {
         egui::ComboBox::from_id_salt("integrator").width(70.0).selected_text(integrator.name()).show_ui(
             ui,
@@ -321,7 +317,7 @@ fn show_integrator(ui: &mut egui::Ui, session: &mut Session) {
             },
         );
         match integrator {
-            Integrator::Path { bounces } => {
+            Integrator::Path { bounces, .. } => {
                 ui.add(DragValue::new(bounces).range(0..=64).speed(0.1).suffix(" bounces"));
             }
             Integrator::AmbientOcclusion { distance } => {

@@ -6,6 +6,7 @@ mod form_factors;
 mod furnace;
 mod glass;
 mod gltf;
+mod layers;
 mod leaks;
 mod polygon_light;
 

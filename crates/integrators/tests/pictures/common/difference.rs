@@ -1,7 +1,8 @@
 //! A device image held against the one of the CPU.
 
 use rasray_gpu_scene::Sampling;
-use rasray_integrators::{AmbientOcclusion, Path};
+use rasray_integrators::{AmbientOcclusion, GlassShadows, Path, PathOptions};
+use rasray_reference::integrators as reference;
 use rasray_reference::shading::{PosedScene, Sampler, View};
 use rasray_scene::{Camera, Scene};
 
@@ -15,6 +16,8 @@ const SEED: u32 = 11;
 pub enum Kind {
     /// With this number of bounces.
     Path(u32),
+    /// With this number of bounces, and panes that stop shadow rays.
+    OpaquePanes(u32),
     /// Within this number of metres.
     Occlusion(f32),
 }
@@ -51,7 +54,15 @@ pub fn sampled_difference(
     stage.scene.set_sampling(Sampling { sampler: of_device, samples }).expect("the frame can be written");
     let view = View { camera: camera.clone(), width: WIDTH, height: HEIGHT, samples, seed: SEED, sampler };
     let posed = PosedScene::new(scene, stage.scene.frame_origin()).expect("the scene is well formed");
+    let opaque = |bounces| PathOptions { bounces, glass_shadows: GlassShadows::Opaque };
     let (image, reference) = match *kind {
+        Kind::OpaquePanes(bounces) => (
+            stage.render(&Path::new(&stage.desc(), opaque(bounces)).expect("valid"), samples),
+            posed
+                .render_path(&view, reference::PathOptions { bounces, passes_panes: false })
+                .expect("valid")
+                .pixels,
+        ),
         Kind::Path(bounces) => (
             stage.render(&Path::new(&stage.desc(), bounces).expect("valid"), samples),
             posed.render_path(&view, bounces).expect("valid").pixels,
@@ -61,7 +72,8 @@ pub fn sampled_difference(
             posed.render_ambient_occlusion(&view, range).expect("valid").pixels,
         ),
     };
-    assert_eq!(stage.film.read_faults(&device).expect("readable").non_finite, 0);
+    let faults = stage.film.read_faults(&device).expect("readable");
+    assert_eq!((faults.non_finite, faults.unended, faults.cut), (0, 0, 0));
     let differs = |(a, b): (&[f32; 3], &[f32; 3])| {
         (0..3).any(|channel| (a[channel] - b[channel]).abs() > 1e-3 * (b[channel].abs() + 1e-2))
     };

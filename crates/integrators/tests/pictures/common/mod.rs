@@ -6,7 +6,7 @@ pub mod scenes;
 
 use glam::{DAffine3, DMat3, DVec3};
 use rasray_ads::BruteForce;
-use rasray_gpu::{Device, DeviceDesc};
+use rasray_gpu::{Device, DeviceDesc, Timing};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, ShadingFeatures, View};
 use rasray_integrators::{Film, Integrator, IntegratorDesc, waves};
 use rasray_scene::{Camera, Environment, Instance, Material, Mesh, Projection, Scene};
@@ -122,11 +122,8 @@ impl Stage {
     pub fn render(&self, integrator: &dyn Integrator, samples: u32) -> Vec<[f32; 3]> {
         self.device.submit(|recorder| integrator.record_reset(recorder)).expect("the reset runs");
         for wave in waves(self.film.pixel_count(), samples, integrator.wave_capacity()) {
-            let submitted = self
-                .device
-                .submit(|recorder| integrator.record_wave(recorder, (&self.structure).into(), wave))
-                .expect("the wave runs");
-            submitted.value.expect("the wave can be recorded");
+            let traced = (&self.structure).into();
+            integrator.render_wave(&self.device, Timing::None, traced, wave).expect("the wave runs");
         }
         for queue in integrator.queues() {
             let counters = queue.download_counters(&self.device).expect("the header can be read");

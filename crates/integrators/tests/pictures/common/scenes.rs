@@ -139,3 +139,41 @@ pub fn glass_room() -> Scene {
     scene.name = "glass, mirrors and a veil".to_owned();
     scene
 }
+
+/// The same with smooth panes, tinted, milky and with holes, more veils, and lights of all kinds in front of them and behind.
+pub fn veiled_room() -> Scene {
+    let mut scene = glass_room();
+    let pane = Material {
+        transmission: 1.0,
+        roughness: 0.0,
+        specular: 1.0,
+        thickness: 0.0,
+        base_color: [0.9, 0.6, 0.3, 1.0],
+        ..lambert(1.0, 0.0)
+    };
+    let milky = Material { transmission: 0.6, metallic: 0.2, emission: [0.1, 0.0, 0.2], ..pane.clone() };
+    let mut holed = pane.clone();
+    holed.base_color[3] = 0.6;
+    holed.alpha_mode = AlphaMode::Blend;
+    let first = scene.materials.len();
+    scene.materials.extend([pane, milky, holed]);
+    let under_lamp = |y: f64| DVec3::new(0.1, y, 0.0);
+    for (place, u, v, material) in [
+        (under_lamp(0.8), DVec3::X * 0.5, DVec3::Z * 0.5, first),
+        (under_lamp(0.7), DVec3::X * 0.3, DVec3::new(0.0, 0.1, 0.4), first + 1),
+        (under_lamp(0.6), DVec3::X * 0.4, DVec3::Z * 0.4, first + 2),
+        (under_lamp(0.5), DVec3::X * 0.6, DVec3::Z * 0.3, 5),
+        (DVec3::new(0.0, 0.2, 0.5), DVec3::X * 0.2, DVec3::Y * 0.2, first),
+    ] {
+        let mesh = scene.meshes.len();
+        scene.meshes.push(square(place, u, v, material));
+        scene.instances.push(rasray_scene::Instance { mesh, ..scene.instances[0].clone() });
+    }
+    scene.lights.push(Light::Point {
+        position: DVec3::new(0.2, 0.9, 0.1),
+        intensity: [0.5, 0.4, 0.6],
+        range: f32::INFINITY,
+    });
+    scene.name = "veils and panes".to_owned();
+    scene
+}

@@ -1,0 +1,83 @@
+// What: one step of every path that continues, where surfaces let light pass in a straight line. Paths and their shadow
+// rays take turns in one queue: a path that asks for a shadow ray waits until that has ended, however many surfaces it
+// passes. Where a path ends, its radiance is added to its pixel.
+// Reads: rays and surfaces of the queue, path states, waiting paths, scene, geometry. Writes: path states, waiting paths,
+// film, rays of the queue (the next closest-hit round); selects the slots that have a ray to trace.
+// Source: docs/shading.md, "Paths" and "Straight through".
+#version 460
+#include "contract/extensions.glsl"
+// Smooth thin panes are passed as well.
+layout(constant_id = 95) const bool PATHS_PASS_PANES = true;
+#define SHADING_PANES PATHS_PASS_PANES
+#include "ads/queue.glsl"
+#include "integrators/storage.glsl"
+#include "integrators/path.glsl"
+#include "scene/surface.glsl"
+
+layout(local_size_x = QUEUE_GROUP_SIZE) in;
+
+// The next ray of a path that has shaded what its own ray hit: its shadow ray where it has one.
+Ray shade_path(uint slot, inout PathState state, Ray ray, Surface surface, out uint cut) {
+    PathStep asked = path_step(state, ray, surface, wave.bounces);
+    cut = asked.cut;
+    if (asked.shadow_ray.t_max < 0.0) {
+        path_waiting[slot].pending = vec3(0.0);
+        return asked.next_ray;
+    }
+    state.passed = 0u;
+    path_waiting[slot] = PathWaiting(asked.next_ray, asked.target, asked.pending);
+    return asked.shadow_ray;
+}
+
+// The next ray of a path whose shadow ray was traced: the shadow ray behind what it hit, or the path's own.
+Ray shade_shadow(uint slot, inout PathState state, Ray ray, Surface surface, vec3 pending, out uint cut) {
+    Ray next = path_shadow_step(state, ray, surface, path_waiting[slot].target, pending, cut);
+    if (next.t_max < 0.0) {
+        state.passed = 0u;
+        next = path_waiting[slot].next_ray;
+        pending = vec3(0.0);
+    }
+    path_waiting[slot].pending = pending;
+    return next;
+}
+
+void main() {
+    uint slot;
+    if (!wave_slot(slot)) {
+        return;
+    }
+    Ray ray = queue_ray(slot);
+    PathState state = path_states[slot];
+    vec3 pending = path_waiting[slot].pending;
+    if (wave.round == 0u) {
+        state = path_begin(wave_pixel(slot), wave.sample_index);
+        pending = vec3(0.0);
+    }
+    if ((wave.marks & WAVE_ROUND_RESUMES) != 0u) {
+        atomicAdd(film_faults.unended, 0xFFFFFFFFu);
+    }
+    Surface surface = surface_miss(ray);
+    if (queue_surfaces[slot].valid != 0u) {
+        surface = queue_surface(slot);
+    }
+    uint cut;
+    Ray next;
+    if (largest_component(pending) > 0.0) {
+        next = shade_shadow(slot, state, ray, surface, pending, cut);
+    } else {
+        next = shade_path(slot, state, ray, surface, cut);
+    }
+    if (cut != 0u) {
+        atomicAdd(film_faults.cut, 1u);
+    }
+    path_states[slot] = state;
+    queue_set_ray(slot, next);
+    if (next.t_max < 0.0) {
+        film_add(wave_pixel(slot), state.radiance);
+        return;
+    }
+    queue_select(slot);
+    if ((wave.marks & WAVE_ROUND_LAST) != 0u) {
+        atomicAdd(film_faults.unended, 1u);
+    }
+}
