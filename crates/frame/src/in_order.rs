@@ -7,8 +7,9 @@ use rasray_gpu_scene::FramePose;
 
 use crate::{FrameError, FrameInput, FrameRenderer, FrameScene, Picture, Shown};
 
-/// Repeats after which a frame counts as unstable: as many as a build may grow, and one for rounds.
-const REPEATS: u32 = 5;
+/// Repeats after which a frame counts as unstable: as many as a build may grow, one for rounds of traces, and as often as
+/// the rounds of paths that pass surfaces can double.
+const REPEATS: u32 = 16;
 
 /// What a sequence of frames cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -35,8 +35,8 @@ pub struct FrameInput {
 pub enum Shown {
     /// A picture.
     Picture(Picture),
-    /// Its build was not complete or its rays needed more rounds, both of which the next frames have: nothing of it is
-    /// shown. A frame that continues it has no picture either.
+    /// Its build was not complete, or its rays needed more rounds or passed more surfaces than were recorded, all of which the
+    /// next frames have: nothing of it is shown. A frame that continues it has no picture either.
     Nothing,
 }
 
@@ -62,6 +62,8 @@ struct Pending {
     continues: bool,
     /// Rounds that its traces were recorded with, of all parts.
     rounds: u32,
+    /// Traces that its waves were recorded with.
+    traces: u32,
 }
 
 /// Frames of a scene through one structure and one integrator.
@@ -242,8 +244,8 @@ impl FrameRenderer {
         let viewpoint = scene.gpu().viewpoint_of(&input.view);
         match frames.submit::<FrameError>(viewpoint, before, after) {
             Ok(number) => {
-                let rounds = frames.structure().rounds();
-                self.pending.push_back(Pending { continues: input.continues, rounds });
+                let (rounds, traces) = (frames.structure().rounds(), integrator.traces_per_wave());
+                self.pending.push_back(Pending { continues: input.continues, rounds, traces });
                 scene.gpu().end_staging();
                 if let Some(moved) = moved {
                     self.posed = Some(moved.clone());
@@ -280,7 +282,7 @@ impl FrameRenderer {
 
     fn shown(&mut self, ended: rasray_tracer::Ended) -> Result<Shown, FrameError> {
         // A new image does not depend on the film before it.
-        let pending = self.pending.pop_front().unwrap_or(Pending { continues: false, rounds: 0 });
+        let pending = self.pending.pop_front().unwrap_or(Pending { continues: false, rounds: 0, traces: 0 });
         self.film_is_right |= !pending.continues;
         let (film, counters) = self.readbacks[ended.slot as usize].read()?;
         let structure = self.frames.structure().structure();
@@ -297,7 +299,15 @@ impl FrameRenderer {
         if ended.outcome == FrameOutcome::Complete && unanswered > 0 && !has_more_rounds() {
             return Err(FrameError::Unfinished { frame: ended.number, rays: unanswered });
         }
-        self.film_is_right &= ended.outcome == FrameOutcome::Complete && unanswered == 0;
+        // The same of surfaces that paths pass.
+        let unended = u64::from(film.faults.unended);
+        let integrator = self.integrator.as_ref();
+        let has_more_traces =
+            || integrator.traces_per_wave() > pending.traces || integrator.allow_more_rounds();
+        if ended.outcome == FrameOutcome::Complete && unended > 0 && !has_more_traces() {
+            return Err(FrameError::Unfinished { frame: ended.number, rays: unended });
+        }
+        self.film_is_right &= ended.outcome == FrameOutcome::Complete && unanswered + unended == 0;
         if !self.film_is_right {
             return Ok(Shown::Nothing);
         }

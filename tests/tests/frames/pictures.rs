@@ -124,8 +124,7 @@ pub fn still(
     let viewpoint = gpu.viewpoint_of(&input.view);
     build_until_complete(device, structure.as_mut(), viewpoint, Timing::None).expect("it is built");
     for wave in waves(SIZE[0] * SIZE[1], input.samples.end, path.wave_capacity()) {
-        let submitted = device.submit(|recorder| path.record_wave(recorder, (&*structure).into(), wave));
-        submitted.expect("the device works").value.expect("the wave fits");
+        path.render_wave(device, Timing::None, (&*structure).into(), wave).expect("the wave fits");
     }
     path.film().read(device).expect("the device works")
 }
@@ -307,5 +306,37 @@ fn a_repeated_frame_without_a_pose_stays_where_it_was() {
             assert!(picture.film.means() == expected, "frame {number}, first is posed: {first_is_posed}");
         }
         assert_ne!(found[1].film.means(), found[2].film.means(), "nothing could go wrong");
+    }
+}
+
+/// A frame whose rays pass more surfaces than rounds were recorded for is not shown; those after it have enough.
+#[test]
+fn frames_show_what_is_behind_many_clear_layers() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let mut scene = builtin::builtin("cornell").expect("it is built in").expect("it needs no parameter");
+    let clear = scene.materials.len();
+    scene.materials.push(rasray_scene::Material {
+        base_color: [0.0; 4],
+        alpha_mode: rasray_scene::AlphaMode::Blend,
+        ..rasray_scene::Material::default()
+    });
+    let first = scene.meshes.len();
+    let world_from_mesh = scene.cameras[0].world_from_camera;
+    for layer in 0..40 {
+        let place = DVec3::NEG_Z * (0.01 + 0.001 * f64::from(layer));
+        scene.meshes.push(rasray_tests::image_truth::square(place, DVec3::X * 0.1, DVec3::Y * 0.1, clear));
+        let name = "clear".to_owned();
+        scene.instances.push(rasray_scene::Instance { name, mesh: first + layer as usize, world_from_mesh });
+    }
+    let (tables, spec) = (tables(&scene), spec("brute-force", &[]));
+    let wanted = input(view(&scene, 0.0), None, 0..2, false);
+    let expected = still(device, &scene, &tables, &spec, &wanted);
+    let mut renderer = renderer(device, &scene, &spec, 2);
+    let (shown, repeated) = pictures(&mut renderer, vec![wanted; 3]);
+    assert!(shown.len() == 3 && repeated > 0, "{repeated}");
+    for picture in &shown {
+        assert_eq!((picture.film.faults.unended, picture.film.faults.cut), (0, 0));
+        assert_eq!(picture.film.means(), expected);
     }
 }
