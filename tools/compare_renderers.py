@@ -131,6 +131,8 @@ class Rasray:
         command += ["--spp", samples, "--seed", seed, "--sampler", sampler, "--bounces", scene.bounces]
         command += ["--eye", "{},{},{}".format(*scene.eye), "--target", "{},{},{}".format(*scene.target)]
         command += ["--fov", scene.fov, "--environment", f"{scene.sky},{scene.sky},{scene.sky}"]
+        # The others have both sides of every surface.
+        command += ["--back-faces", "none"]
         subprocess.run([str(part) for part in command], check=True, stderr=subprocess.DEVNULL)
         return read_picture(output)
 

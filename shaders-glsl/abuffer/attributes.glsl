@@ -11,7 +11,7 @@
 uvec4 abuffer_pack_attributes(uint primitive, vec2 barycentrics) {
     Surface s = stored_source(primitive, barycentrics);
     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL) {
-        return uvec4(stored_pack_normal(s.normal), 0u, 0u, 0u);
+        return uvec4(stored_pack_front(s), 0u, 0u, 0u);
     }
     // However thin a volume is, its boundary is distinguished from a thin wall.
     float thickness = s.thickness > 0.0 ? max(s.thickness, 1.0 / 65535.0) : 0.0;

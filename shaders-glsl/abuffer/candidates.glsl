@@ -6,6 +6,7 @@
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "ads/evaluate_plane.glsl"
+#include "ads/stored_words.glsl"
 #include "abuffer/nodes.glsl"
 #include "abuffer/stored_plane.glsl"
 
@@ -14,6 +15,23 @@
 bool abuffer_is_better(AbufferRef s, Hit best, float t, uint link) {
     bool tie = t == best.t && best.primitive == PRIMITIVE_UNKNOWN;
     return t < best.t || (tie && abuffer_payload_is_lower(s, link, floatBitsToUint(best.a)));
+}
+
+// Whether a ray passes a fragment because it meets the back of what it stands for.
+bool abuffer_is_passed(AbufferRef s, Ray ray, uint primitive, uint link) {
+    if (!ray_culls_back_faces(ray)) {
+        return false;
+    }
+    if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
+        return back_face_is_passed_by_plane(ray, primitive);
+    }
+    if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_PLANE) {
+        return abuffer_plane_is_passed(abuffer_payload(s, link), ray);
+    }
+    if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL) {
+        return stored_normal_is_passed(ray, abuffer_data(s, link, 0u));
+    }
+    return stored_is_passed(ray, uvec2(abuffer_data(s, link, 0u), abuffer_data(s, link, 1u)));
 }
 
 // Tests a fragment that a ray hits at t, where its depth is z, logs it, and lets it replace the best hit if it may.
@@ -27,6 +45,9 @@ void abuffer_accept_depth(AbufferRef s, Ray ray, uint primitive, uint link, floa
     bool excluded = primitive != PRIMITIVE_UNKNOWN && primitive == ray.exclude_primitive;
     uint verdict = excluded ? TEST_EXCLUDED : (!(t > ray.t_min) ? TEST_BEFORE
         : (!(t < ray.t_max) ? TEST_BEYOND : (better ? TEST_ACCEPTED : TEST_NOT_BETTER)));
+    if (verdict == TEST_ACCEPTED && abuffer_is_passed(s, ray, primitive, link)) {
+        verdict = TEST_BACK_FACE;
+    }
     trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, z);
     if (verdict == TEST_ACCEPTED) {
         trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
@@ -55,6 +76,8 @@ void abuffer_test_stored_plane(AbufferRef s, Ray ray, uint link, float t_low, fl
         verdict = TEST_BEYOND;
     } else if (!abuffer_is_better(s, best, t, link)) {
         verdict = TEST_NOT_BETTER;
+    } else if (abuffer_is_passed(s, ray, PRIMITIVE_UNKNOWN, link)) {
+        verdict = TEST_BACK_FACE;
     }
     trace_log(STEP_TEST, PRIMITIVE_UNKNOWN, verdict, 0u, t, 0.0);
     if (verdict == TEST_ACCEPTED) {

@@ -2,11 +2,12 @@
 // triangle is read.
 // Reads: geometry, when packing. Writes: nothing.
 // Source: not in the paper; what plane acceptance needs of a triangle, stored next to the fragment.
-// Words 0 to 2: unit normal. Word 3: distance of the plane from the eye along it, metres. Both as floats.
+// Words 0 to 2: unit normal. Word 3: distance of the plane from the eye along it, metres. Both as floats. Of single-sided
+// surfaces the normal is that of the front, and both are doubled, which changes no bit of where rays meet the plane.
 #ifndef ABUFFER_STORED_PLANE_GLSL
 #define ABUFFER_STORED_PLANE_GLSL
 
-#include "ads/geometry.glsl"
+#include "ads/back_face.glsl"
 
 // Of a triangle around a point of it. The distance is that of this point, so that errors of the normal count
 // over the cell alone, not over the triangle.
@@ -26,7 +27,26 @@ uvec4 abuffer_pack_plane(uint primitive, vec2 barycentrics, vec3 eye) {
     precise vec3 unit = scaled * inverse;
     precise vec3 point = (a - eye) + barycentrics.x * ab + barycentrics.y * ac;
     precise float offset = unit.x * point.x + unit.y * point.y + unit.z * point.z;
-    return uvec4(floatBitsToUint(unit), floatBitsToUint(offset));
+    uint flags = back_face_draw_flags(primitive);
+    float scale = (flags & DRAW_SINGLE_SIDED) == 0u ? 1.0 : ((flags & DRAW_MIRRORED) == 0u ? 2.0 : -2.0);
+    return uvec4(floatBitsToUint(unit * scale), floatBitsToUint(offset * scale));
+}
+
+// Whether a stored normal is that of a single-sided surface.
+bool abuffer_plane_is_single_sided(vec3 normal) {
+    return dot(normal, normal) > 2.0;
+}
+
+// The unit normal of a stored plane.
+vec3 abuffer_plane_normal(uvec4 words) {
+    vec3 normal = uintBitsToFloat(words.xyz);
+    return abuffer_plane_is_single_sided(normal) ? 0.5 * normal : normal;
+}
+
+// Whether a ray passes a stored plane because it meets its back.
+bool abuffer_plane_is_passed(uvec4 words, Ray ray) {
+    vec3 normal = uintBitsToFloat(words.xyz);
+    return ray_culls_back_faces(ray) && abuffer_plane_is_single_sided(normal) && dot(normal, ray.direction) > 0.0;
 }
 
 // Where a ray intersects a plane; `origin` relative to the eye. False where it runs along the plane.

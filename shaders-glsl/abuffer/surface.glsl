@@ -36,7 +36,7 @@ Surface abuffer_surface_at(AbufferRef s, Ray ray, Hit hit) {
         return stored_shape(stored_unpack_normal(words.x), ray, hit.t, footprint);
     }
     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_PLANE) {
-        return stored_shape(uintBitsToFloat(words.xyz), ray, hit.t, footprint);
+        return stored_shape(abuffer_plane_normal(words), ray, hit.t, footprint);
     }
     return abuffer_attributes_surface(words, ray, hit.t, footprint);
 }

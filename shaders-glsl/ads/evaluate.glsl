@@ -1,11 +1,12 @@
 // What: whether a triangle becomes a ray's best hit, and if not, why.
-// Reads: geometry; the scene where alpha is tested. Writes: nothing.
+// Reads: geometry, of rays that pass backs also draws; the scene where alpha is tested. Writes: nothing.
 #ifndef ADS_EVALUATE_GLSL
 #define ADS_EVALUATE_GLSL
 
 #include "contract/alpha.glsl"
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
+#include "ads/back_face.glsl"
 #include "ads/geometry.glsl"
 #include "ads/triangle.glsl"
 
@@ -19,7 +20,8 @@ uint evaluate_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c,
     if (ray.exclude_primitive != PRIMITIVE_NONE && geometry_id(primitive) == ray.exclude_primitive) {
         return TEST_EXCLUDED;
     }
-    if (!triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error)) {
+    bool counter_clockwise;
+    if (!triangle_intersect_side(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error, counter_clockwise)) {
         return TEST_OUTSIDE;
     }
     if (!(t > max(ray.t_min, t_error))) {
@@ -33,6 +35,9 @@ uint evaluate_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c,
     }
     if (!hit_is_better(best, t, geometry_id(primitive))) {
         return TEST_NOT_BETTER;
+    }
+    if (back_face_is_passed(ray, primitive, counter_clockwise)) {
+        return TEST_BACK_FACE;
     }
     return alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
 }

@@ -65,7 +65,9 @@ uint evaluate_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_l
         return TEST_EXCLUDED;
     }
     geometry_vertices(primitive, a, b, c);
-    bool inside = triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error);
+    bool counter_clockwise;
+    bool inside = triangle_intersect_side(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error,
+        counter_clockwise);
     if (!inside && !triangle_plane(ray.origin, ray.direction, a, b, c, t, barycentrics)) {
         return TEST_PARALLEL;
     }
@@ -75,6 +77,10 @@ uint evaluate_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_l
     bool proper = inside && cell.anywhere;
     if (!proper && !(t >= t_low && t <= t_high)) {
         return TEST_OUTSIDE_CELL;
+    }
+    if (inside ? back_face_is_passed(ray, primitive, counter_clockwise)
+        : back_face_is_passed_by_plane(ray, primitive)) {
+        return TEST_BACK_FACE;
     }
     if (!inside) {
         vec3 from_eye = abs(ray.origin + t * ray.direction - cell.eye);

@@ -93,9 +93,11 @@ float triangle_mixing_error(vec3 x, vec3 y, vec3 dx, vec3 dy, vec3 first, vec3 s
 
 // Tests a closed, two-sided triangle against a ray. On acceptance t is in units of |direction|,
 // barycentrics are the weights of b and c, and t_error bounds the error of t. A ray in the plane of
-// the triangle, or a triangle without area, is not hit.
-bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics,
-    out float t_error) {
+// the triangle, or a triangle without area, is not hit. counter_clockwise is the side that the ray meets, by the same
+// rounded edges that decide whether it does: so a ray that enters a closed mesh meets as many fronts as backs.
+bool triangle_intersect_side(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics,
+    out float t_error, out bool counter_clockwise) {
+    counter_clockwise = true;
     t = 0.0;
     barycentrics = vec2(0.0);
     t_error = 0.0;
@@ -133,6 +135,7 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
     if (det == 0.0) {
         return false;
     }
+    counter_clockwise = (det > 0.0) == (d.z > 0.0);
     // By rounding, a triangle without area may appear to have one.
     vec3 along;
     vec3 against;
@@ -170,6 +173,13 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
     precise float range = farthest - nearest + gamma12 * max_depth;
     t_error = min(by_plane ? plane_error : mixed_error, range);
     return true;
+}
+
+// The same where the side does not matter.
+bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics,
+    out float t_error) {
+    bool counter_clockwise;
+    return triangle_intersect_side(origin, direction, a, b, c, t, barycentrics, t_error, counter_clockwise);
 }
 
 // Barycentrics of b and c of the point of the triangle's plane below `p`; they may lie outside [0, 1].

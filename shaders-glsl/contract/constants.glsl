@@ -25,7 +25,16 @@
 #define HIT_NOT_READY 0x7F7FFFFEu
 
 // Draw flags.
+// Candidates are refused where alpha cuts holes.
 #define DRAW_ALPHA_MASKED 1u
+// Triangles have a back that rays with RAY_CULL_BACK_FACES pass.
+#define DRAW_SINGLE_SIDED 2u
+// The front is the clockwise side, not the counter-clockwise one: of instances that mirror their mesh.
+#define DRAW_MIRRORED 256u
+
+// Ray flags.
+// Backs of draws with DRAW_SINGLE_SIDED are no hits.
+#define RAY_CULL_BACK_FACES 1u
 
 // Which fields of a Surface the structure fills; the others hold documented defaults.
 #define SURFACE_POSITION 1u
@@ -92,6 +101,8 @@
 #define TEST_NOT_BETTER 9u
 // Refused by the alpha test.
 #define TEST_TRANSPARENT 10u
+// The ray passes backs of single-sided triangles, and meets one.
+#define TEST_BACK_FACE 11u
 
 // Why something is skipped.
 // The cell or list is empty.

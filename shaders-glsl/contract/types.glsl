@@ -13,7 +13,7 @@ struct Ray {
     vec3 direction;           // need not be unit; finite and not zero
     float t_max;              // may be infinite; negative: the ray is inactive
     uint exclude_primitive;   // never hit; PRIMITIVE_NONE excludes nothing
-    uint flags;               // 0: reserved
+    uint flags;               // RAY_* bits
     float cone_width;         // width of the ray cone at the origin, metres
     float cone_spread;        // growth of the width per metre, radians
 };

@@ -71,6 +71,7 @@ void path_pass(inout PathState state, Ray ray, Surface s, vec3 direction, float 
     state.passed += 1u;
     state.travelled += distance;
     asked.next_ray = spawn_ray(s, direction, PATH_INFINITY);
+    // The ray goes on as the one that it is: a camera ray passes the backs that camera rays pass.
     asked.next_ray.flags = ray.flags;
     asked.next_ray.cone_width = footprint;
     asked.next_ray.cone_spread = ray.cone_spread;

@@ -7,6 +7,7 @@
 
 #include "ads/evaluate.glsl"
 #include "ads/evaluate_plane.glsl"
+#include "ads/stored_words.glsl"
 #include "ldc/conservative.glsl"
 
 // Lists at least this long are entered by bisection.
@@ -132,6 +133,10 @@ void ldc_evaluate_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint p
         verdict = plane_is_better(state.best, t, primitive, found) ? TEST_ACCEPTED : TEST_NOT_BETTER;
     } else if (verdict == TEST_ACCEPTED && t == state.best.t) {
         verdict = ldc_replaces_as_near(s, state.best, place) ? TEST_ACCEPTED : TEST_NOT_BETTER;
+    }
+    if (verdict == TEST_ACCEPTED && (known ? back_face_is_passed_by_plane(ray, primitive)
+        : ray_culls_back_faces(ray) && stored_is_passed(ray, ldc_attributes(s, place)))) {
+        verdict = TEST_BACK_FACE;
     }
     trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, z);
     if (verdict == TEST_ACCEPTED) {

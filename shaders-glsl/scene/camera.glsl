@@ -15,7 +15,7 @@ Ray camera_ray(vec2 pixel_position) {
     bool perspective = frame.projection == PROJECTION_PERSPECTIVE;
     vec3 origin = perspective ? frame.camera_position : frame.camera_position + across;
     vec3 direction = perspective ? normalize(frame.camera_forward + across) : frame.camera_forward;
-    return Ray(origin, 0.0, direction, uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE, 0u,
+    return Ray(origin, 0.0, direction, uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE, frame.camera_ray_flags,
                frame.cone_width * frame.footprint_scale, frame.cone_spread * frame.footprint_scale);
 }
 

@@ -48,10 +48,6 @@
 // Largest magnitude of a posed coordinate, metres: its square is still finite in f32.
 #define LARGEST_COORDINATE 1.8e18
 
-// DrawShading.flags. DRAW_ALPHA_MASKED of the contract may be set as well.
-// The instance mirrors its mesh: the counter-clockwise side of the mesh is clockwise when posed.
-#define DRAW_MIRRORED 256u
-
 // Material.flags.
 #define MATERIAL_ALPHA_MASK 1u
 #define MATERIAL_ALPHA_BLEND 2u

@@ -1,6 +1,6 @@
 // What: poses the vertices of draws that move: morph targets, then joints or the draw's place; one invocation per vertex.
 // Reads: pose draws, their groups, placements, joint matrices and shown targets of the frame, shapes at rest.
-// Writes: positions of the geometry, posed attributes, DRAW_MIRRORED of draw shadings.
+// Writes: positions of the geometry, posed attributes, DRAW_MIRRORED of draws and draw shadings.
 // Source: docs/motion.md, "On the device".
 #version 460
 #include "contract/extensions.glsl"
@@ -22,6 +22,7 @@ layout(set = 0, binding = 8, scalar) readonly buffer PoseDisplacementBuffer { fl
 layout(set = 0, binding = 9, scalar) writeonly buffer PosePositionBuffer { float pose_positions[]; };
 layout(set = 0, binding = 10, scalar) writeonly buffer PoseAttributeBuffer { float pose_attributes[]; };
 layout(set = 0, binding = 11, scalar) buffer PoseDrawShadingBuffer { DrawShading pose_draw_shadings[]; };
+layout(set = 0, binding = 12, scalar) buffer PoseGeometryDrawBuffer { Draw pose_geometry_draws[]; };
 
 vec3 pose_rest_position(uint word) {
     return vec3(pose_rest_positions[word], pose_rest_positions[word + 1u], pose_rest_positions[word + 2u]);
@@ -158,6 +159,8 @@ void main() {
     if (vertex == 0u) {
         uint others = pose_draw_shadings[draw.draw].flags & ~DRAW_MIRRORED;
         pose_draw_shadings[draw.draw].flags = others | placement.flags;
+        uint others_of_geometry = pose_geometry_draws[draw.draw].flags & ~DRAW_MIRRORED;
+        pose_geometry_draws[draw.draw].flags = others_of_geometry | placement.flags;
     }
     bool has_joints = draw.skin != ATTRIBUTE_NONE;
     PoseMatrix place = placement.place;

@@ -1,10 +1,10 @@
 // What: rays that start on a surface and do not hit it again through rounding.
-// Reads: nothing. Writes: nothing. Source: docs/shading.md, "Surfaces"; pbrt, error bounds of
+// Reads: frame. Writes: nothing. Source: docs/shading.md, "Surfaces"; pbrt, error bounds of
 // intersection points, with the largest bound of the three axes for each axis.
 #ifndef SCENE_SPAWN_GLSL
 #define SCENE_SPAWN_GLSL
 
-#include "contract/types.glsl"
+#include "scene/accessors.glsl"
 
 Ray ray_inactive() {
     return Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0, PRIMITIVE_NONE, 0u, 0.0, 0.0);
@@ -29,7 +29,7 @@ vec3 spawn_position(vec3 position, float position_error, vec3 normal, vec3 direc
 // Unit `direction`, `t_max` in metres. The cone is zero: path.glsl sets it where textures need one.
 Ray spawn_ray(Surface s, vec3 direction, float t_max) {
     vec3 origin = spawn_position(s.position, s.position_error, s.geometric_normal, direction);
-    return Ray(origin, 0.0, direction, t_max, s.primitive, 0u, 0.0, 0.0);
+    return Ray(origin, 0.0, direction, t_max, s.primitive, scene_frame().spawned_ray_flags, 0.0, 0.0);
 }
 
 // The open segment to `target`, for occlusion. `target` has been moved off its own surface.
@@ -38,8 +38,8 @@ Ray spawn_segment(Surface s, vec3 target) {
     vec3 towards = target - origin;
     float distance = length(towards);
     if (!(distance > 0.0)) return ray_inactive();
-    return Ray(origin, 0.0, towards / distance, distance * (1.0 - 1.0 / 1048576.0), s.primitive, 0u,
-               0.0, 0.0);
+    return Ray(origin, 0.0, towards / distance, distance * (1.0 - 1.0 / 1048576.0), s.primitive,
+               scene_frame().spawned_ray_flags, 0.0, 0.0);
 }
 
 #endif

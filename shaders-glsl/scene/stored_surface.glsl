@@ -2,28 +2,15 @@
 // published fragments have.
 // Reads: the scene, when storing, and of what emits when shading. Writes: nothing.
 // Source: MMRT section 3.3, albedo 8:8:8:8 and normal 16:16; Bürger et al. section 1.2.1, Hu et al. section 3.1.
-// Word 0: base colour and opacity, 8 bits each. Word 1: octahedral shading normal of the front, 16 bits per coordinate: rays
-// that come against it hit the front, others the back. Of what emits the opacity is 0 and word 1 is the triangle: how bright
+// Word 0: base colour and opacity, 8 bits each. Word 1: octahedral shading normal of the front and whether the surface is
+// single-sided (ads/stored_words.glsl): rays that come against it hit the front, others the back. Of what emits the opacity is 0 and word 1 is the triangle: how bright
 // it is, and how likely light sampling would have chosen it, is known of triangles alone.
 #ifndef SCENE_STORED_SURFACE_GLSL
 #define SCENE_STORED_SURFACE_GLSL
 
+#include "ads/stored_words.glsl"
 #include "ads/triangle.glsl"
 #include "scene/plane_surface.glsl"
-
-uint stored_pack_normal(vec3 n) {
-    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
-    vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
-    return packSnorm2x16(n.z < 0.0 ? folded : p);
-}
-
-vec3 stored_unpack_normal(uint word) {
-    vec2 p = unpackSnorm2x16(word);
-    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    float fold = max(-n.z, 0.0);
-    n.xy += vec2(n.x >= 0.0 ? -fold : fold, n.y >= 0.0 ? -fold : fold);
-    return normalize(n);
-}
 
 // What is shaded at a point of a triangle, as seen from straight ahead of its front; textures at their finest level.
 Surface stored_source(uint primitive, vec2 barycentrics) {
@@ -41,11 +28,16 @@ Surface stored_source(uint primitive, vec2 barycentrics) {
 // The least opacity that is stored of what does not emit.
 #define STORED_OPACITY (1.0 / 255.0)
 
+// The normal of a surface of a triangle, with what its draw says of its back.
+uint stored_pack_front(Surface s) {
+    return stored_pack_normal(s.normal, (back_face_draw_flags(s.primitive) & DRAW_SINGLE_SIDED) != 0u);
+}
+
 uvec2 stored_pack(Surface s) {
     if (any(greaterThan(s.emission, vec3(0.0)))) {
         return uvec2(packUnorm4x8(vec4(s.base_color, 0.0)), s.primitive);
     }
-    return uvec2(packUnorm4x8(vec4(s.base_color, max(s.opacity, STORED_OPACITY))), stored_pack_normal(s.normal));
+    return uvec2(packUnorm4x8(vec4(s.base_color, max(s.opacity, STORED_OPACITY))), stored_pack_front(s));
 }
 
 // How the material reflects and transmits, in a further word: metallic, roughness, transmission, specular, 8 bits each.
@@ -109,11 +101,6 @@ Surface stored_triangle_surface(Ray ray, Hit hit, bool fragment, float position_
 bool stored_triangle_emits(uint primitive) {
     DrawShading draw = scene_draw_shading(scene_draw_of(primitive));
     return draw.first_emissive != EMISSIVE_NONE || (scene_material(draw.material).flags & MATERIAL_UNLIT) != 0u;
-}
-
-// Whether these words are of a fragment that emits: its surface is that of triangle words.y.
-bool stored_emits(uvec2 words) {
-    return words.x >> 24 == 0u;
 }
 
 // The surface of a fragment that does not emit, with its colour and opacity. Terms that these words lack take their

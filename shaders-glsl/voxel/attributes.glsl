@@ -21,7 +21,7 @@
 uvec3 voxel_pack_attributes(uint primitive, vec2 barycentrics) {
     Surface s = stored_source(primitive, barycentrics);
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR) {
-        return uvec3(primitive, packUnorm4x8(vec4(s.base_color, s.metallic)), stored_pack_normal(s.normal));
+        return uvec3(primitive, packUnorm4x8(vec4(s.base_color, s.metallic)), stored_pack_front(s));
     }
     if (s.transmission > 0.0) {
         float index = clamp(1.0 + round((s.ior - 1.0) * VOXEL_INDEX_STEPS), 1.0, VOXEL_INDEX_LAST);

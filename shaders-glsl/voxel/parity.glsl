@@ -8,6 +8,7 @@
 #ifndef VOXEL_PARITY_GLSL
 #define VOXEL_PARITY_GLSL
 
+#include "ads/stored_words.glsl"
 #include "voxel/inside.glsl"
 
 // The stage of the search; a paused ray keeps it in two bits.
@@ -76,6 +77,17 @@ VoxelPoint voxel_stage_point(VoxelRef s, VoxelTraversal traversal, vec2 interval
     return voxel_point(s, traversal, span.t_after, span.cell_after);
 }
 
+// Whether a ray passes a fragment because it meets the back of its triangle.
+bool voxel_is_passed(VoxelRef s, Ray ray, uint primitive, uint place) {
+    if (!ray_culls_back_faces(ray)) {
+        return false;
+    }
+    if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_MATERIAL) {
+        return stored_is_passed(ray, uvec2(voxel_word(s, place, 2u), voxel_word(s, place, 3u)));
+    }
+    return back_face_is_passed_by_plane(ray, primitive);
+}
+
 // Lets the triangle of the traversal's nearest fragment become the best hit, in the middle of a span; true if it does.
 bool voxel_take(VoxelRef s, Ray ray, VoxelTraversal traversal, VoxelSpan span, float depth, inout TraceState state) {
     uint place = traversal.held;
@@ -86,6 +98,9 @@ bool voxel_take(VoxelRef s, Ray ray, VoxelTraversal traversal, VoxelSpan span, f
     uint verdict = primitive == PRIMITIVE_NONE ? TEST_OUTSIDE : (excluded ? TEST_EXCLUDED
         : (!(t > ray.t_min) ? TEST_BEFORE : (!(t < ray.t_max) ? TEST_BEYOND
         : (hit_is_better(state.best, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER))));
+    if (verdict == TEST_ACCEPTED && voxel_is_passed(s, ray, primitive, place)) {
+        verdict = TEST_BACK_FACE;
+    }
     trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, depth);
     if (verdict != TEST_ACCEPTED) {
         return false;
@@ -126,8 +141,8 @@ bool voxel_next_stage(VoxelRef s, Ray ray, vec2 interval, float depth, bool any_
             return voxel_next_step(s, interval, traversal, span);
         }
         // An occlusion ray has its hit: the crossing lies between the points, and these between the ray's ends.
-        // Where fragments have a triangle, it may be the one that the ray excludes.
-        if (any_hit && VOXEL_PAYLOAD == VOXEL_PAYLOAD_MATERIAL) {
+        // Where fragments have a triangle, it may be the one that the ray excludes. The ray may pass backs.
+        if (any_hit && VOXEL_PAYLOAD == VOXEL_PAYLOAD_MATERIAL && !ray_culls_back_faces(ray)) {
             state.best = Hit(0.5 * (span.t_before + span.t_after), PRIMITIVE_UNKNOWN, 0.0, 0.0);
             return false;
         }

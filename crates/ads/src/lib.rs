@@ -94,6 +94,12 @@ pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMIT
 pub const PRIMITIVE_UNKNOWN: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_UNKNOWN;
 /// A draw whose triangles are alpha-masked.
 pub const DRAW_ALPHA_MASKED: u32 = rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
+/// A draw whose triangles have a back that rays with [`RAY_CULL_BACK_FACES`] pass.
+pub const DRAW_SINGLE_SIDED: u32 = rasray_shaders_glsl::constants::contract::DRAW_SINGLE_SIDED;
+/// A draw whose front is the clockwise side.
+pub const DRAW_MIRRORED: u32 = rasray_shaders_glsl::constants::contract::DRAW_MIRRORED;
+/// In [`Ray::flags`]: backs of draws with [`DRAW_SINGLE_SIDED`] are no hits.
+pub const RAY_CULL_BACK_FACES: u32 = rasray_shaders_glsl::constants::contract::RAY_CULL_BACK_FACES;
 
 /// What the readme shows compiles.
 #[cfg(doctest)]

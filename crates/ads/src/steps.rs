@@ -72,6 +72,8 @@ pub enum TestVerdict {
     NotBetter,
     /// Refused by the alpha test.
     Transparent,
+    /// The ray passes backs of single-sided triangles, and meets one.
+    BackFace,
     /// A number that has no meaning here.
     Unknown,
 }
@@ -144,6 +146,7 @@ impl TraceStep {
             numbers::TEST_LEAVING => TestVerdict::Leaving,
             numbers::TEST_NOT_BETTER => TestVerdict::NotBetter,
             numbers::TEST_TRANSPARENT => TestVerdict::Transparent,
+            numbers::TEST_BACK_FACE => TestVerdict::BackFace,
             _ => TestVerdict::Unknown,
         })
     }
@@ -247,6 +250,7 @@ impl fmt::Display for Words<'_> {
             TestVerdict::Leaving => write!(f, "refused, the ray starts on the plane"),
             TestVerdict::NotBetter => write!(f, "t {t} is no better than the best hit"),
             TestVerdict::Transparent => write!(f, "transparent at t {t}"),
+            TestVerdict::BackFace => write!(f, "the ray passes its back, t {t}"),
             TestVerdict::Unknown => write!(f, "verdict {}", self.0.b),
         }
     }

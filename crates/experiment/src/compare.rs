@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use rasray_gpu::Device;
-use rasray_reference::oracle::{Accept, Oracle};
+use rasray_reference::oracle::{Accept, Oracle, Side};
 use rasray_reference::shading::{PosedScene, View};
 
 use crate::backend::{OnProgress, Progress};
@@ -11,7 +11,7 @@ use crate::contestant::Contestant;
 use crate::error::ExperimentError;
 use crate::images::{Setting, compare_images};
 use crate::jobs::{CompareJob, Comparison, FILE_SET, Sampler};
-use crate::rays::{RaySource, oracle_ray, triangles};
+use crate::rays::{RayFlags, RaySource, oracle_ray, triangles};
 use crate::replay::{ReplaySetting, replay_sets};
 use crate::stage::{Stage, device_error};
 use crate::traced_set::{RaysWithTruth, Wanted, compare_set};
@@ -32,12 +32,14 @@ pub(super) fn compare(
     let (positions, indices) = stage.triangles(device)?;
     let origin = stage.scene.frame_origin();
     let posed = PosedScene::with_positions(job.scene, origin, positions.clone())
-        .map_err(|error| ExperimentError::usage(error.to_string(), ""))?;
+        .map_err(|error| ExperimentError::usage(error.to_string(), ""))?
+        .with_back_faces(frame.back_faces);
     let accept = |primitive: u32, barycentrics: [f64; 2]| posed.alpha_accepts(primitive, barycentrics);
     says("oracle", "building");
     let masked = posed.has_alpha_masks() && stage.dropped_triangles == 0;
     let accept: Option<Accept<'_>> = if masked { Some(&accept) } else { None };
     let oracle = Oracle::new(&positions, &indices, accept).map_err(device_error)?;
+    let oracle = oracle.with_backs(|primitive| posed.back_of(primitive));
     let view = View {
         camera: job.camera.clone(),
         width: frame.width,
@@ -59,6 +61,7 @@ pub(super) fn compare(
         oracle: &oracle,
         positions: &positions,
         indices: &indices,
+        flags: RayFlags::of(&stage.scene),
     };
 
     let generated = job.ray_sets.iter().map(|set| (set.name().to_owned(), source.rays(*set, job.rays)));
@@ -78,6 +81,12 @@ pub(super) fn compare(
     if job.keep {
         comparison.kept.frame_origin = origin.to_array();
         comparison.kept.triangles = triangles(&positions, &indices);
+        let back = |primitive| match posed.back_of(primitive) {
+            None => 0,
+            Some(Side::Clockwise) => 1,
+            Some(Side::CounterClockwise) => 2,
+        };
+        comparison.kept.backs = (0..posed.triangle_count()).map(back).collect();
     }
     let wanted = Wanted {
         repetitions: job.repetitions,

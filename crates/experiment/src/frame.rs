@@ -1,6 +1,7 @@
 //! An image to make, as plain data.
 
 pub use rasray_integrators::GlassShadows;
+use rasray_scene::BackFaces;
 use rasray_scene::needs::{self, Workload};
 
 /// What light does.
@@ -71,6 +72,8 @@ pub struct Frame {
     pub sampler: Sampler,
     /// How what the camera sees first is found.
     pub primary: Primary,
+    /// Which rays pass the backs of single-sided surfaces.
+    pub back_faces: BackFaces,
 }
 
 /// How what camera rays hit is found.

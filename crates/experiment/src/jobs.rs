@@ -187,6 +187,9 @@ pub struct Kept {
     pub frame_origin: [f64; 3],
     /// Corners by global triangle id, metres.
     pub triangles: Vec<[[f32; 3]; 3]>,
+    /// By global triangle id: 0 without a back, 1 where the clockwise side is one that rays may pass, 2 where the
+    /// counter-clockwise one is. Empty for a hard case.
+    pub backs: Vec<u32>,
     /// One entry a ray set.
     pub sets: Vec<KeptSet>,
 }

@@ -2,15 +2,15 @@
 
 use crate::jobs::Kept;
 use rasray_ads::PRIMITIVE_NONE;
-use rasray_ray_files::{hits_to_npy, ids_to_npy, rays_to_npy, triangles_to_npy, truth_to_npy, write_rays};
+use rasray_ray_files::{hits_to_npy, rays_to_npy, triangles_to_npy, truth_to_npy, words_to_npy, write_rays};
 
 /// A name within a folder, and the bytes of the file.
 pub type NamedBytes = (String, Vec<u8>);
 
 impl Kept {
     /// Rays and triangles as files: `<set>.rays` and `<set>.npy`, `<set>.exclude.npy` where a ray excludes a triangle,
-    /// and `triangles.npy`, which the hard case that this is about precedes. They are encoded one by one as they are
-    /// asked for.
+    /// `<set>.flags.npy` where a ray passes backs, and `triangles.npy`, which the hard case that this is about precedes;
+    /// `triangles.backs.npy` where a triangle has a back. They are encoded one by one as they are asked for.
     pub fn ray_files(&self) -> impl Iterator<Item = NamedBytes> {
         let origin = self.frame_origin;
         let name =
@@ -25,9 +25,16 @@ impl Kept {
         let excluding = self.sets.iter().filter_map(|set| {
             let excluded: Vec<u32> = set.rays.iter().map(|ray| ray.exclude_primitive).collect();
             let excludes = excluded.iter().any(|id| *id != PRIMITIVE_NONE);
-            excludes.then(|| (format!("{}.exclude.npy", set.name), ids_to_npy(&excluded)))
+            excludes.then(|| (format!("{}.exclude.npy", set.name), words_to_npy(&excluded)))
         });
-        triangles.chain(rays).chain(excluding)
+        let flagged = self.sets.iter().filter_map(|set| {
+            let flags: Vec<u32> = set.rays.iter().map(|ray| ray.flags).collect();
+            let is_flagged = flags.iter().any(|flags| *flags != 0);
+            is_flagged.then(|| (format!("{}.flags.npy", set.name), words_to_npy(&flags)))
+        });
+        let backs = self.backs.iter().any(|back| *back != 0);
+        let backs = backs.then(|| ("triangles.backs.npy".to_owned(), words_to_npy(&self.backs)));
+        triangles.chain(backs).chain(rays).chain(excluding).chain(flagged)
     }
 
     /// The oracle's answers to each set (`<set>.oracle.npy`) and those of each system (`<set>.<system>-<preset>.npy`).

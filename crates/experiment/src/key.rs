@@ -50,8 +50,8 @@ mod tests {
     use super::*;
     use crate::jobs::{AovSelection, Frame, GlassShadows, Integrator, Primary, Refresh, Sampler};
     use crate::{Shard, StructureOptions, default_view, load, one_system};
-    use rasray_scene::Environment;
     use rasray_scene::needs::Needs;
+    use rasray_scene::{BackFaces, Environment};
     use rasray_systems::{Preset, SYSTEMS};
     use std::collections::BTreeSet;
     use std::ffi::OsStr;
@@ -65,6 +65,7 @@ mod tests {
         seed: 1,
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
+        back_faces: BackFaces::Camera,
     };
 
     fn job(loaded: &LoadedScene) -> RenderJob<'_> {
@@ -98,6 +99,7 @@ mod tests {
             &|job| job.frame.seed = 2,
             &|job| job.frame.width = 5,
             &|job| job.frame.sampler = Sampler::Pcg,
+            &|job| job.frame.back_faces = BackFaces::None,
             &|job| job.frame.integrator = Integrator::path(3),
             &|job| {
                 job.frame.integrator = Integrator::Path { bounces: 2, glass_shadows: GlassShadows::Opaque };

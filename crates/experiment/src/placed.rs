@@ -1,7 +1,7 @@
 //! A hard case on a device: which of its triangles are there, and how both count them.
 
 use glam::{DAffine3, DVec3};
-use rasray_ads::{Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Ray};
+use rasray_ads::{Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, RAY_CULL_BACK_FACES, Ray};
 use rasray_hard_cases::{CAMERA_TOWARDS, HardCase, Triangle};
 use rasray_reference::oracle::{self, COORDINATE_LIMIT};
 use rasray_scene::default_view::camera_looking_at;
@@ -59,6 +59,7 @@ impl Placed {
         Ray {
             t_min: ray.t_min,
             t_max: ray.t_max,
+            flags: if ray.culls_back_faces { RAY_CULL_BACK_FACES } else { 0 },
             exclude_primitive: exclude.map_or(PRIMITIVE_NONE, |index| index as u32),
             ..Ray::new(ray.origin, ray.direction)
         }

@@ -1,7 +1,8 @@
 //! The ray sets of a comparison: the same numbers on every device.
 
 use glam::{DVec3, Vec2, Vec3};
-use rasray_ads::{PRIMITIVE_NONE, Ray};
+use rasray_ads::{PRIMITIVE_NONE, RAY_CULL_BACK_FACES, Ray};
+use rasray_gpu_scene::GpuScene;
 use rasray_reference::oracle::{Oracle, Outcome};
 use rasray_reference::shading::random::RandomStream;
 use rasray_reference::shading::{self, View, camera_ray, cosine_hemisphere, spawn_ray};
@@ -24,18 +25,38 @@ pub struct RaySource<'a> {
     pub positions: &'a [[f32; 3]],
     /// Three vertices a triangle.
     pub indices: &'a [u32],
+    /// What rays pass.
+    pub flags: RayFlags,
+}
+
+/// `RAY_*` bits of the rays of a picture.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RayFlags {
+    /// Of camera rays.
+    pub camera: u32,
+    /// Of all others.
+    pub others: u32,
+}
+
+impl RayFlags {
+    /// Those that a scene on the device gives its own rays.
+    pub fn of(scene: &GpuScene) -> Self {
+        let frame = scene.frame();
+        Self { camera: frame.camera_ray_flags, others: frame.spawned_ray_flags }
+    }
 }
 
 impl RaySource<'_> {
     /// `count` rays of a set; fewer only where the camera sees too little to bounce off.
     pub fn rays(&self, set: RaySet, count: u32) -> Vec<Ray> {
-        match set {
+        let rays = match set {
             RaySet::Incoherent => incoherent_rays(self.bounds, self.view.seed, count),
             RaySet::Eye => (0..count).map(|i| Ray::new(self.center, direction(self.stream(i)))).collect(),
-            RaySet::Camera => (0..count).map(|i| from_shading(&self.camera(i))).collect(),
+            RaySet::Camera => return (0..count).map(|i| from_shading(&self.camera(i))).collect(),
             RaySet::Bounce => self.bounce(count),
             RaySet::Surface => self.surface(count),
-        }
+        };
+        rays.into_iter().map(|ray| Ray { flags: self.flags.others, ..ray }).collect()
     }
 
     /// Rays that start on triangles and exclude nothing, as tools make them that know no ids: origins uniform over the
@@ -79,7 +100,8 @@ impl RaySource<'_> {
         let stream = self.stream(index);
         let place =
             Vec2::new(stream.float(20) * self.view.width as f32, stream.float(21) * self.view.height as f32);
-        camera_ray(self.view, self.frame_origin, place)
+        let culls_back_faces = self.flags.camera & RAY_CULL_BACK_FACES != 0;
+        shading::Ray { culls_back_faces, ..camera_ray(self.view, self.frame_origin, place) }
     }
 
     /// Cosine-weighted directions from what camera rays hit exactly.
@@ -150,7 +172,7 @@ pub(super) fn from_shading(ray: &shading::Ray) -> Ray {
         direction: ray.direction.to_array(),
         t_max: ray.t_max,
         exclude_primitive: ray.exclude_primitive.unwrap_or(PRIMITIVE_NONE),
-        flags: 0,
+        flags: if ray.culls_back_faces { RAY_CULL_BACK_FACES } else { 0 },
         cone_width: 0.0,
         cone_spread: 0.0,
     }
@@ -164,6 +186,7 @@ pub fn oracle_ray(ray: &Ray) -> rasray_reference::oracle::Ray {
         direction: ray.direction,
         t_max: ray.t_max,
         exclude_primitive: (ray.exclude_primitive != PRIMITIVE_NONE).then_some(ray.exclude_primitive),
+        culls_back_faces: ray.flags & RAY_CULL_BACK_FACES != 0,
     }
 }
 

@@ -140,7 +140,7 @@ impl Stage {
         self.scene.update_camera(view).map_err(device_error)
     }
 
-    /// Sets how the pixels of an image are sampled.
+    /// Sets how the pixels of an image are sampled, and what their rays pass.
     ///
     /// # Errors
     /// The device fails.
@@ -149,6 +149,7 @@ impl Stage {
             Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
             Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
         };
-        self.scene.set_sampling(Sampling { sampler, samples: frame.spp }).map_err(device_error)
+        let sampling = Sampling { sampler, samples: frame.spp, back_faces: frame.back_faces };
+        self.scene.set_sampling(sampling).map_err(device_error)
     }
 }

@@ -11,7 +11,7 @@ use rasray_tracer::BatchTracer;
 use crate::built::Built;
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
-use crate::rays::{RaySource, from_shading};
+use crate::rays::{RayFlags, RaySource, from_shading};
 use crate::stage::{Stage, tracer_error};
 use rasray_report::Run;
 use rasray_report::figures::WorkMap;
@@ -56,7 +56,7 @@ pub fn work_per_pixel(
 ) -> Result<Option<WorkMap>, ExperimentError> {
     let view =
         View { camera: camera.clone(), width, height, samples: 1, seed: 0, sampler: Sampler::default() };
-    let rays = centres(&view, stage.scene.frame_origin());
+    let rays = centres(&view, stage.scene.frame_origin(), RayFlags::of(&stage.scene));
     let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
     let built = Built::new(device, &spec.clone().with_counters(Counters::PerRay), &stage.scene, eye)?;
     let outcome = tracer
@@ -74,9 +74,9 @@ pub fn work_per_pixel(
 }
 
 /// Rays through the centres of all pixels, rows from the top.
-fn centres(view: &View, frame_origin: DVec3) -> Vec<Ray> {
+fn centres(view: &View, frame_origin: DVec3, flags: RayFlags) -> Vec<Ray> {
     let pixels = (0..view.height).flat_map(|y| (0..view.width).map(move |x| (x, y)));
-    let through = |place| from_shading(&camera_ray(view, frame_origin, place));
+    let through = |place| Ray { flags: flags.camera, ..from_shading(&camera_ray(view, frame_origin, place)) };
     pixels.map(|(x, y)| through(Vec2::new(x as f32 + 0.5, y as f32 + 0.5))).collect()
 }
 

@@ -36,6 +36,7 @@ fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> Comp
         seed: SEED,
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
+        back_faces: rasray_scene::BackFaces::Camera,
     };
     CompareJob {
         scene: &loaded.scene,

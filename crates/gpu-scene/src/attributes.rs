@@ -6,8 +6,8 @@ use std::collections::HashMap;
 use glam::{DMat3, DVec3};
 use rasray_scene::{AlphaMode, Mesh, Scene};
 use rasray_shaders_glsl::constants::{
-    contract::DRAW_ALPHA_MASKED,
-    scene::{ATTRIBUTE_NONE, DRAW_MIRRORED, EMISSIVE_NONE},
+    contract::{DRAW_ALPHA_MASKED, DRAW_MIRRORED},
+    scene::{ATTRIBUTE_NONE, EMISSIVE_NONE},
 };
 
 use crate::{GpuSceneError, Parts, Posed, layout::DrawShading, words::Words};
@@ -55,12 +55,12 @@ pub fn pack_attributes(
             }
         };
         let linear = instance.world_from_mesh.matrix3;
-        let mirrored = linear.determinant() < 0.0;
+        let mirrored = draw.flags & DRAW_MIRRORED != 0;
         packed.draw_shadings.push(DrawShading {
             first_triangle: draw.first_triangle,
             first_vertex: posed.first_vertex[draw.instance as usize],
             material: mesh.material as u32,
-            flags: draw.flags & DRAW_ALPHA_MASKED | if mirrored { DRAW_MIRRORED } else { 0 },
+            flags: draw.flags & (DRAW_ALPHA_MASKED | DRAW_MIRRORED),
             normals: append_normals(&mut packed.posed, mesh, linear, parts)?,
             tangents: append_tangents(&mut packed.posed, mesh, linear, mirrored, parts)?,
             uv0: offsets.uv0,

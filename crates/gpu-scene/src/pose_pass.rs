@@ -140,6 +140,7 @@ impl PosePass {
             geometry.desc().positions.buffer.clone(),
             posed.attributes.clone(),
             posed.draw_shadings.clone(),
+            geometry.desc().draws.buffer.clone(),
         ];
         let layout = device.create_set_layout("pose", buffers.len() as u32)?;
         let set = device.create_binding_set(&layout, "pose", &buffers.each_ref())?;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rasray_scene::{AlphaMode, Scene};
-use rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
+use rasray_shaders_glsl::constants::contract::{DRAW_ALPHA_MASKED, DRAW_MIRRORED, DRAW_SINGLE_SIDED};
 
 use crate::{
     GpuSceneError, Parts, Posed, Sampling, TexelRuns, View,
@@ -130,16 +130,27 @@ impl SceneTables {
             ..Frame::default()
         };
         view.write(&mut frame, self.frame_origin);
-        Sampling::default().write(&mut frame);
+        Sampling::default().write(&mut frame, self.has_single_sided());
         frame
+    }
+
+    /// Whether any draw has a back that rays may pass.
+    pub fn has_single_sided(&self) -> bool {
+        self.posed.draws.iter().any(|draw| draw.flags & DRAW_SINGLE_SIDED != 0)
     }
 }
 
 fn draw_flags(scene: &Scene, instance: usize, parts: &Parts) -> u32 {
-    let mesh = scene.instances.get(instance).and_then(|instance| scene.meshes.get(instance.mesh));
+    let instance = scene.instances.get(instance);
+    let mesh = instance.and_then(|instance| scene.meshes.get(instance.mesh));
     let material = mesh.and_then(|mesh| scene.materials.get(mesh.material));
     let masked = material.is_some_and(|material| matches!(material.alpha_mode, AlphaMode::Mask { .. }));
-    if masked && parts.alpha { DRAW_ALPHA_MASKED } else { 0 }
+    let single_sided = material.is_some_and(|material| material.culls_back);
+    let mirrored = instance.is_some_and(|instance| instance.world_from_mesh.matrix3.determinant() < 0.0);
+    let flag = |bit: u32, is_set: bool| if is_set { bit } else { 0 };
+    flag(DRAW_ALPHA_MASKED, masked && parts.alpha)
+        | flag(DRAW_SINGLE_SIDED, single_sided)
+        | flag(DRAW_MIRRORED, mirrored)
 }
 
 /// Diagonal of the box around all placed meshes, metres; 0 for an empty scene. Vertices that are

@@ -53,6 +53,7 @@ pub struct GpuScene {
     frame: Frame,
     frame_origin: glam::DVec3,
     features: ShadingFeatures,
+    has_single_sided: bool,
     bytes_by_part: Vec<(&'static str, u64)>,
     staging: Staging,
 }
@@ -165,6 +166,7 @@ impl GpuScene {
             frame,
             frame_origin: tables.frame_origin,
             features,
+            has_single_sided: tables.has_single_sided(),
             bytes_by_part,
             staging,
         })
@@ -208,12 +210,12 @@ impl GpuScene {
         self.write_frame(VIEW_BYTES)
     }
 
-    /// Changes how pixels are sampled; otherwise as [`GpuScene::update_camera`], which leaves this as it is.
+    /// Changes how pixels are sampled and what their rays pass; otherwise as [`GpuScene::update_camera`], which leaves this as it is.
     ///
     /// # Errors
     /// The buffer cannot be written.
     pub fn set_sampling(&mut self, sampling: Sampling) -> Result<(), GpuSceneError> {
-        sampling.write(&mut self.frame);
+        sampling.write(&mut self.frame, self.has_single_sided);
         self.write_frame(SAMPLING_BYTES)
     }
 
@@ -229,7 +231,7 @@ impl GpuScene {
     pub fn record_frame(&self, recorder: &mut Recorder<'_>, view: &View, sampling: Sampling) -> Frame {
         let mut frame = self.frame;
         view.write(&mut frame, self.frame_origin);
-        sampling.write(&mut frame);
+        sampling.write(&mut frame, self.has_single_sided);
         recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
         for bytes in [VIEW_BYTES, SAMPLING_BYTES] {
             let written = &bytemuck::bytes_of(&frame)[bytes.clone()];

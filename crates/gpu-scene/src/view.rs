@@ -1,7 +1,8 @@
 //! The camera as shaders read it.
 
 use glam::DVec3;
-use rasray_scene::{Camera, Projection};
+use rasray_scene::{BackFaces, Camera, Projection};
+use rasray_shaders_glsl::constants::contract::RAY_CULL_BACK_FACES;
 use rasray_shaders_glsl::constants::scene::{
     PROJECTION_ORTHOGRAPHIC, PROJECTION_PERSPECTIVE, SAMPLER_PCG, SAMPLER_SOBOL,
 };
@@ -32,24 +33,29 @@ pub enum Sampler {
     Pcg,
 }
 
-/// How pixels are sampled, except for the seed of the view.
+/// How pixels are sampled, except for the seed of the view, and which surfaces their rays pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampling {
     /// Where random numbers come from.
     pub sampler: Sampler,
     /// Samples per pixel that share a pixel's footprint on textures, at least 1.
     pub samples: u32,
+    /// Which rays pass the backs of single-sided surfaces.
+    pub back_faces: BackFaces,
 }
 
 impl Default for Sampling {
     fn default() -> Self {
-        Self { sampler: Sampler::default(), samples: 1 }
+        Self { sampler: Sampler::default(), samples: 1, back_faces: BackFaces::default() }
     }
 }
 
 impl Sampling {
-    /// Writes the fields of `frame` that depend on the sampling.
-    pub fn write(self, frame: &mut Frame) {
+    /// Writes the fields of `frame` that depend on the sampling. Without a single-sided surface no ray has to look for one.
+    pub fn write(self, frame: &mut Frame, has_single_sided: bool) {
+        let flags = |passes: bool| if passes && has_single_sided { RAY_CULL_BACK_FACES } else { 0 };
+        frame.camera_ray_flags = flags(self.back_faces.lets_camera_rays());
+        frame.spawned_ray_flags = flags(self.back_faces.lets_other_rays());
         frame.sampling = match self.sampler {
             Sampler::Sobol => SAMPLER_SOBOL,
             Sampler::Pcg => SAMPLER_PCG,
@@ -129,10 +135,23 @@ mod tests {
     #[test]
     fn a_sample_has_its_share_of_the_pixel() {
         let mut frame = Frame::default();
-        Sampling { sampler: Sampler::Pcg, samples: 16 }.write(&mut frame);
+        Sampling { sampler: Sampler::Pcg, samples: 16, ..Sampling::default() }.write(&mut frame, false);
         assert_eq!((frame.sampling, frame.footprint_scale), (SAMPLER_PCG, 0.25));
-        Sampling::default().write(&mut frame);
+        Sampling::default().write(&mut frame, false);
         assert_eq!((frame.sampling, frame.footprint_scale), (SAMPLER_SOBOL, 1.0));
+    }
+
+    #[test]
+    fn rays_look_for_backs_where_they_pass_them_and_there_are_any() {
+        let flags = |back_faces, has_single_sided| {
+            let mut frame = Frame::default();
+            Sampling { back_faces, ..Sampling::default() }.write(&mut frame, has_single_sided);
+            [frame.camera_ray_flags, frame.spawned_ray_flags]
+        };
+        assert_eq!(flags(BackFaces::Camera, true), [RAY_CULL_BACK_FACES, 0]);
+        assert_eq!(flags(BackFaces::All, true), [RAY_CULL_BACK_FACES; 2]);
+        assert_eq!(flags(BackFaces::None, true), [0; 2]);
+        assert!(BackFaces::ALL.iter().all(|back_faces| flags(*back_faces, false) == [0; 2]));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::LIMIT;
 use super::error::FormatError;
 use super::rays::{Place, RaysFile, check};
-use rasray_ads::Ray;
+use rasray_ads::{RAY_CULL_BACK_FACES, Ray};
 
 const MAGIC: &[u8; 8] = b"RASRAYS\0";
 const VERSION: u32 = 1;
@@ -58,8 +58,11 @@ pub fn read_rays(bytes: &[u8]) -> Result<RaysFile, FormatError> {
             cone_spread: number(11),
         };
         check(index, &ray)?;
-        if ray.flags != 0 {
-            return Err(FormatError::Entry { index, what: "its flags are not 0, and version 1 knows none" });
+        if ray.flags & !RAY_CULL_BACK_FACES != 0 {
+            return Err(FormatError::Entry {
+                index,
+                what: "its flags have bits that version 1 does not know",
+            });
         }
         if ray.cone_width.is_nan() || ray.cone_spread.is_nan() {
             return Err(FormatError::Entry { index, what: "its cone is NaN" });

@@ -16,7 +16,7 @@ pub use binary::{read_rays, write_rays};
 pub use error::{FileError, FormatError};
 pub use hits::{HitsFile, TrueHit, hits_from_npy, hits_to_npy, truth_to_npy};
 pub use limit::LIMIT;
-pub use rays::{Place, RaysFile, ids_to_npy, rays_from_npy, rays_to_npy, triangles_to_npy};
+pub use rays::{Place, RaysFile, rays_from_npy, rays_to_npy, triangles_to_npy, words_to_npy};
 
 use std::path::Path;
 

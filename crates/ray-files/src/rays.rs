@@ -100,7 +100,7 @@ pub fn rays_from_npy(bytes: &[u8]) -> Result<RaysFile, FormatError> {
 }
 
 /// Rays as an array of N x 8 numbers in the world: float32 where the frame origin is the world's, which
-/// keeps every bit, else float64. What a ray excludes is not in it.
+/// keeps every bit, else float64. What a ray excludes and whether it passes backs is not in it.
 pub fn rays_to_npy(rays: &[Ray], frame_origin: [f64; 3]) -> Vec<u8> {
     let rows = rays.iter().flat_map(|ray| {
         let world: [f64; 3] = std::array::from_fn(|axis| frame_origin[axis] + f64::from(ray.origin[axis]));
@@ -143,8 +143,8 @@ fn numbers_to_npy(
     }
 }
 
-/// One id a ray as an array of uint32.
-pub fn ids_to_npy(ids: &[u32]) -> Vec<u8> {
-    let bytes = ids.iter().flat_map(|id| id.to_le_bytes()).collect();
-    Array::plain(Kind::U4, &[ids.len()], bytes).to_bytes()
+/// One word for each ray or triangle, such as an id or flags, as an array of uint32.
+pub fn words_to_npy(words: &[u32]) -> Vec<u8> {
+    let bytes = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    Array::plain(Kind::U4, &[words.len()], bytes).to_bytes()
 }

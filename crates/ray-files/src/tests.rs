@@ -3,7 +3,7 @@
 use super::error::FormatError;
 use super::*;
 use proptest::prelude::*;
-use rasray_ads::{Hit, PRIMITIVE_NONE, Ray, StructureKind};
+use rasray_ads::{Hit, PRIMITIVE_NONE, RAY_CULL_BACK_FACES, Ray, StructureKind};
 
 /// Rays with awkward bits: subnormal, negative zero, an infinite and a negative end, an exclusion.
 fn rays() -> Vec<Ray> {
@@ -12,6 +12,7 @@ fn rays() -> Vec<Ray> {
         plain,
         Ray { t_min: 1.0e-3, t_max: 17.5, exclude_primitive: 7, ..plain },
         Ray { t_max: -1.0, cone_width: 0.5, cone_spread: 1.0e-4, ..plain },
+        Ray { flags: RAY_CULL_BACK_FACES, ..plain },
     ]
 }
 
@@ -47,7 +48,7 @@ fn rays_survive_the_binary_format_bit_for_bit_about_any_origin() {
 #[test]
 fn rays_survive_npy_bit_for_bit_where_the_origin_is_the_worlds() {
     let read = rays_from_npy(&rays_to_npy(&rays(), [0.0; 3])).expect("what was written");
-    // An array has neither exclusions nor cones.
+    // An array has neither exclusions nor flags nor cones.
     let expected: Vec<_> = rays()
         .iter()
         .map(|ray| Ray { t_min: ray.t_min, t_max: ray.t_max, ..Ray::new(ray.origin, ray.direction) })
@@ -147,7 +148,7 @@ fn rays_that_cannot_be_traced_are_named_by_their_index() {
         (Ray { direction: [nan, 0.0, 1.0], ..rays()[0] }, "direction is not finite"),
         (Ray { origin: [0.0, f32::INFINITY, 1.0], ..rays()[0] }, "origin"),
         (Ray { t_max: nan, ..rays()[0] }, "NaN"),
-        (Ray { flags: 1, ..rays()[0] }, "flags"),
+        (Ray { flags: 2, ..rays()[0] }, "flags"),
         (Ray { cone_width: nan, ..rays()[0] }, "cone"),
     ] {
         let error = read_rays(&write_rays(&[rays()[0], broken], [0.0; 3])).expect_err(what);

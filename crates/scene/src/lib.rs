@@ -4,6 +4,7 @@
 //! angles radians, times seconds, radiance W/(sr m^2).
 
 pub mod animation;
+mod back_faces;
 pub mod builtin;
 pub mod check;
 mod decode;
@@ -38,6 +39,7 @@ mod text;
 mod time;
 mod warning;
 
+pub use back_faces::BackFaces;
 pub use decode::decode_image;
 pub use deforming::Motion;
 pub use environment_map::load_environment;

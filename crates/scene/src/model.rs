@@ -107,8 +107,11 @@ pub struct Material {
     pub specular_color: [f32; 3],
     /// How alpha is read.
     pub alpha_mode: AlphaMode,
-    /// Kept from the file; hits are two-sided all the same.
+    /// Emission leaves both sides, not the front alone.
     pub double_sided: bool,
+    /// The back is not drawn: rays that pass backs ([`BackFaces`](crate::BackFaces)) go on behind it. The front is the
+    /// counter-clockwise side of the mesh.
+    pub culls_back: bool,
     /// Shows its base colour as emission and scatters nothing.
     pub unlit: bool,
 }
@@ -136,6 +139,7 @@ impl Default for Material {
             specular_color: [1.0; 3],
             alpha_mode: AlphaMode::Opaque,
             double_sided: false,
+            culls_back: false,
             unlit: false,
         }
     }

@@ -24,6 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         seed: 1,
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
+        back_faces: rasray_scene::BackFaces::Camera,
     };
     let options = StructureOptions::default();
     let system = SystemConfig { system: &SYSTEMS[0], preset: Preset::Robust, options, variant: None };

@@ -1,6 +1,7 @@
 //! The command line that makes a picture again.
 
 use rasray_experiment::{Frame, GlassShadows, Integrator, Primary, SystemConfig};
+use rasray_scene::BackFaces;
 
 /// A word as a shell reads it back.
 pub fn quoted(word: &str) -> String {
@@ -14,7 +15,7 @@ pub fn quoted(word: &str) -> String {
 
 /// The words that make a frame.
 pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
-    let Frame { integrator, width, height, spp, seed, sampler, primary } = frame;
+    let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces } = frame;
     let mut words = vec![
         "--size".to_owned(),
         format!("{width}x{height}"),
@@ -38,6 +39,9 @@ pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
     words.extend(["--seed".to_owned(), seed.to_string(), "--sampler".to_owned(), sampler.name().to_owned()]);
     if *primary != Primary::default() {
         words.extend(["--primary".to_owned(), primary.name().to_owned()]);
+    }
+    if *back_faces != BackFaces::default() {
+        words.extend(["--back-faces".to_owned(), back_faces.name().to_owned()]);
     }
     words
 }
@@ -77,6 +81,9 @@ mod tests {
         settings.frame.integrator = Integrator::Path { bounces: 2, glass_shadows: GlassShadows::Opaque };
         let words = frame_words(&settings.frame).join(" ");
         assert!(words.contains("--integrator path --bounces 2 --glass-shadows opaque "), "{words}");
+        settings.frame.back_faces = BackFaces::None;
+        let words = frame_words(&settings.frame).join(" ");
+        assert!(words.ends_with("--sampler sobol --back-faces none"), "{words}");
         settings.system.options = settings.system.options.with("grid", 8);
         assert_eq!(system_words(&settings.system).join(" "), "--system bricks --preset robust --grid=8");
     }

@@ -127,6 +127,7 @@ pub(crate) mod tests {
             seed: 1,
             sampler: Sampler::Sobol,
             primary: Primary::Trace,
+            back_faces: rasray_scene::BackFaces::Camera,
         };
         let system = SystemConfig {
             system: &SYSTEMS[0],

@@ -35,6 +35,7 @@ fn settings() -> Settings {
         seed: 7,
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
+        back_faces: rasray_scene::BackFaces::Camera,
     };
     let system = system("bricks");
     Settings {

@@ -269,6 +269,7 @@ mod tests {
                 direction: direction.normalize(),
                 t_max: f32::INFINITY,
                 exclude_primitive: None,
+                culls_back_faces: false,
                 cone_width: 0.0,
                 cone_spread: 0.0,
             };
@@ -319,6 +320,7 @@ mod tests {
                 direction,
                 t_max: f32::INFINITY,
                 exclude_primitive: None,
+                culls_back_faces: false,
                 cone_width: 0.0,
                 cone_spread: 0.0,
             };

@@ -6,7 +6,7 @@ use rasray_gpu::Timing;
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_integrators::{AovPass, AovPixel, Wave};
 use rasray_scene::{Camera, Projection};
-use rasray_shaders_glsl::constants::scene::DRAW_MIRRORED;
+use rasray_shaders_glsl::constants::contract::DRAW_MIRRORED;
 use rasray_tests::hard_cases::{self, Scale, Transformed};
 use rasray_tests::harness::Bench;
 use rasray_tracer::build_until_complete;

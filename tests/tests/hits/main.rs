@@ -1,4 +1,4 @@
-//! Hits of all systems where something is unusual: surfaces as origins, masks, long lists, motion, huge pools, buffers of an
+//! Hits of all systems where something is unusual: surfaces as origins, masks, backs that rays pass, long lists, motion, huge pools, buffers of an
 //! engine, replayed rays.
 
 mod engine_buffers;
@@ -10,3 +10,4 @@ mod motion;
 mod on_surface;
 mod ray_work;
 mod replay;
+mod single_sided;

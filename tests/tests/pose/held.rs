@@ -1,7 +1,7 @@
 //! A scene on the device, with the pass that poses it, and what the host makes of the same moment.
 
 use glam::DVec3;
-use rasray_ads::GeometryHeader;
+use rasray_ads::{Draw, GeometryHeader};
 use rasray_gpu_scene::layout::{DrawShading, EmissiveTriangle, Frame, Light};
 use rasray_gpu_scene::{GpuScene, Parts, PosePass, SceneTables, View};
 use rasray_scene::{Camera, Moment, Projection, Scene};
@@ -104,6 +104,9 @@ impl<'a> Stage<'a> {
         let buffers = self.gpu.posed_buffers();
         let shadings: Vec<DrawShading> =
             device.download_as(&buffers.draw_shadings, 0, draws).expect("readable");
+        let in_geometry: Vec<Draw> =
+            device.download_as(&self.gpu.geometry().desc().draws.buffer, 0, draws).expect("readable");
+        assert_eq!(in_geometry, fresh.posed.draws, "which side of a draw is its front");
         let words = (buffers.attributes.size() / 4) as usize;
         let attributes: Vec<f32> = device.download_as(&buffers.attributes, 0, words).expect("readable");
         let mut figures = Figures::default();

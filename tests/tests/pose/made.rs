@@ -3,7 +3,7 @@
 use glam::{DAffine3, DQuat, DVec3};
 use rasray_scene::animation::{Channel, ChannelValues, Interpolation, NodeTransform, Placement, Rig};
 use rasray_scene::{Instance, Moment};
-use rasray_shaders_glsl::constants::scene::DRAW_MIRRORED;
+use rasray_shaders_glsl::constants::contract::DRAW_MIRRORED;
 use rasray_tests::harness::Bench;
 use rasray_tests::invariance::Subject;
 use rasray_tests::tier;
@@ -47,7 +47,7 @@ fn a_scale_that_changes_its_sign_mirrors() {
         let fresh = stage.fresh(&at(&stage.scene, seconds));
         fresh.draw_shadings.iter().map(|draw| draw.flags & DRAW_MIRRORED != 0).collect::<Vec<_>>()
     };
-    // `held` compares flags with these.
+    // `held` compares flags with these, those of the geometry's draws, too.
     assert_eq!([mirrored(0.1), mirrored(0.9)], [vec![false, false], vec![true, false]]);
 }
 

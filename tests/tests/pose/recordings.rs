@@ -75,7 +75,8 @@ fn pending_recordings_have_poses_and_views_of_their_own() {
                 let mut recorder = Recorder::from_raw(device, command);
                 let pose = stage.pass.frame(&stage.scene, &moments[number]).expect("it is whole");
                 stage.pass.record(&mut recorder, number as u32, &pose);
-                let sampling = Sampling { sampler: Sampler::Pcg, samples: 1 + number as u32 };
+                let sampling =
+                    Sampling { sampler: Sampler::Pcg, samples: 1 + number as u32, ..Sampling::default() };
                 let frame = stage.gpu.record_frame(&mut recorder, &views[number], sampling);
                 assert_eq!(frame.camera_position, views[number].eye().as_vec3().to_array());
                 let (copy, size) = (&copies[number], positions.size());

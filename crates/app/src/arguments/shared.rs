@@ -1,6 +1,8 @@
 //! Groups of options that several commands take.
 
-use super::structure::{StructureArguments, glass_shadows_parser, primary_parser, sampler_parser};
+use super::structure::{
+    StructureArguments, back_faces_parser, glass_shadows_parser, primary_parser, sampler_parser,
+};
 use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
@@ -9,7 +11,7 @@ use rasray_experiment::{
     placed_view,
 };
 use rasray_scene::needs::{Needs, Workload};
-use rasray_scene::{Environment, LoadOptions, Scene, SceneError, load_environment};
+use rasray_scene::{BackFaces, Environment, LoadOptions, Scene, SceneError, load_environment};
 use std::path::Path;
 
 /// Integrators by name.
@@ -87,6 +89,9 @@ pub struct FrameArguments {
     /// How what the camera sees first is found, of images
     #[arg(long, value_parser = primary_parser(), default_value = Primary::Trace.name())]
     pub primary: Primary,
+    /// Which rays pass the backs of single-sided surfaces, as glTF has them (doubleSided: false)
+    #[arg(long, value_parser = back_faces_parser(), default_value = BackFaces::Camera.name())]
+    pub back_faces: BackFaces,
 }
 
 impl FrameArguments {
@@ -121,8 +126,8 @@ impl FrameArguments {
             Integrator::Raycast => Integrator::Raycast,
         };
         let Size { width, height } = self.size;
-        let Self { spp, seed, sampler, primary, .. } = *self;
-        Ok(Frame { integrator, width, height, spp, seed, sampler, primary })
+        let Self { spp, seed, sampler, primary, back_faces, .. } = *self;
+        Ok(Frame { integrator, width, height, spp, seed, sampler, primary, back_faces })
     }
 }
 

@@ -3,6 +3,7 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use rasray_experiment::{ExperimentError, GlassShadows, Primary, RaySet, Refresh, Sampler, StructureOptions};
+use rasray_scene::BackFaces;
 use rasray_systems::{Group, OPTIONS, OptionRow, Preset, SYSTEMS, System, Values};
 use serde_json::Value;
 
@@ -59,6 +60,11 @@ pub fn primary_parser() -> impl TypedValueParser<Value = Primary> {
 /// Reads what smooth thin panes do to light.
 pub fn glass_shadows_parser() -> impl TypedValueParser<Value = GlassShadows> {
     choice(GlassShadows::ALL, |shadows| (shadows.name(), shadows.doc()))
+}
+
+/// Reads which rays pass the backs of surfaces.
+pub fn back_faces_parser() -> impl TypedValueParser<Value = BackFaces> {
+    choice(BackFaces::ALL, |back_faces| (back_faces.name(), back_faces.doc()))
 }
 
 /// The options of a structure on the command line.

@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use rasray_scene::Scene;
 use rasray_scene::animation::Rig;
 use rasray_scene::pose::Pose;
-use rasray_shaders_glsl::constants::scene::DRAW_MIRRORED;
+use rasray_shaders_glsl::constants::contract::DRAW_MIRRORED;
 use rasray_shaders_glsl::records::{PoseMatrix, PosePlacement, PoseTarget};
 
 use super::sources::{DrawPlace, JointPlace, SkinPlace};

@@ -107,7 +107,7 @@ fn attributes_are_posed_once_per_instance_and_shared_where_they_can_be() {
     let [plain, mirrored, emissive] = tables.draw_shadings[..] else { panic!("three draws") };
     assert_eq!(
         (plain.flags, mirrored.flags),
-        (contract::DRAW_ALPHA_MASKED, contract::DRAW_ALPHA_MASKED | numbers::DRAW_MIRRORED)
+        (contract::DRAW_ALPHA_MASKED, contract::DRAW_ALPHA_MASKED | contract::DRAW_MIRRORED)
     );
     assert_eq!((plain.uv0, plain.colors), (mirrored.uv0, mirrored.colors));
     assert_ne!(plain.normals, mirrored.normals);

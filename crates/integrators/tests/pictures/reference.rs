@@ -7,7 +7,7 @@
 use crate::common::{difference::*, scenes::*, *};
 use glam::DVec3;
 use rasray_reference::shading::Sampler;
-use rasray_scene::{Camera, Scene};
+use rasray_scene::{BackFaces, Camera, Environment, Instance, Scene};
 
 /// At most `deviating` of the pixels may differ.
 fn compare(scene: &Scene, camera: &Camera, samples: u32, kind: &Kind, deviating: f64) {
@@ -65,4 +65,38 @@ fn light_through_veils_and_panes() {
     let eye = forward_camera(DVec3::new(0.0, 0.0, 0.9));
     compare(&veiled_room(), &eye, 4, &Kind::Path(3), 0.01);
     compare(&veiled_room(), &eye, 4, &Kind::OpaquePanes(3), 0.01);
+}
+
+/// Rooms that are looked into from outside, through walls without an outside and behind blended surfaces.
+#[test]
+fn backs_are_passed_by_the_rays_that_are_asked_to() {
+    let eye = forward_camera(DVec3::new(0.1, 0.05, 2.6));
+    let mut behind_a_veil = glass_room();
+    let (number, veil) = (behind_a_veil.meshes.len(), 5);
+    behind_a_veil.meshes.push(square(DVec3::Z * 1.5, DVec3::X * 0.5, DVec3::Y * 0.5, veil));
+    let instance = behind_a_veil.instances[0].clone();
+    behind_a_veil.instances.push(Instance { mesh: number, ..instance });
+    for mut scene in [behind_a_veil, textured_room()] {
+        scene.environment = Environment::Constant([0.3; 3]);
+        for (number, material) in scene.materials.iter_mut().enumerate() {
+            material.culls_back = number != 1;
+        }
+        let mirror = glam::DAffine3::from_scale(DVec3::new(1.0, -1.0, 1.0));
+        // Not the walls.
+        for instance in scene.instances.iter_mut().skip(6).step_by(2) {
+            instance.world_from_mesh = mirror * instance.world_from_mesh;
+        }
+        for back_faces in BackFaces::ALL {
+            for kind in [Kind::Path(4), Kind::Occlusion(1.0)] {
+                let found = passing_difference([back_faces; 2], &scene, &eye, 4, &kind);
+                eprintln!("{back_faces:?}: {found:?}");
+                assert!(found.share <= 0.01 && found.mean <= 0.01, "{back_faces:?}: {found:?}");
+            }
+            let others = BackFaces::ALL.iter().filter(|other| **other != back_faces);
+            for other in others {
+                let found = passing_difference([*other, back_faces], &scene, &eye, 4, &Kind::Path(4));
+                assert!(found.share > 0.1, "{other:?} in place of {back_faces:?} is noticed: {found:?}");
+            }
+        }
+    }
 }

@@ -312,6 +312,46 @@ fn holes_of_masks_are_seen_through() {
     assert!(through > 40, "{through} pixels show what is behind a hole");
 }
 
+/// Walls without an outside, slivers, and every other triangle of an instance that mirrors its mesh.
+#[test]
+fn backs_are_passed_alike() {
+    let (device, _turn) = drawing_device();
+    let mut random = Random(41);
+    let triangles: Vec<[DVec3; 3]> = (0..150)
+        .map(|number| {
+            let middle = DVec3::NEG_Z * 4.0 + random.point() * 1.5;
+            let thin = if number % 3 == 0 { 1e-3 } else { 1.0 };
+            [middle + random.point(), middle + random.point() * thin, middle + random.point()]
+        })
+        .collect();
+    let (half, other) = triangles.split_at(75);
+    let mut culling = soup(half);
+    let mirrored = soup(other);
+    culling.meshes.extend(mirrored.meshes);
+    let mut instance = mirrored.instances[0].clone();
+    (instance.mesh, instance.world_from_mesh) = (1, DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0)));
+    culling.instances.push(instance);
+    let mut two_sided = culling.clone();
+    culling.materials[0].culls_back = true;
+    let seen = |scene: &Scene, name: &str| {
+        let both = Both::new(&device, scene, perspective(DVec3::ZERO, 0.9), [40, 32]);
+        both.compare(name, 2, 1280).hits
+    };
+    let (fewer, all) = (seen(&culling, "single-sided"), seen(&two_sided, "two-sided"));
+    assert!(fewer > 200 && fewer < all, "{fewer} of {all} hits are left");
+    // A floor of which the eye is below: it reaches behind the eye, and nothing of it is seen.
+    two_sided.materials[0].culls_back = true;
+    two_sided.meshes.truncate(1);
+    two_sided.instances.truncate(1);
+    let up = DVec3::Y * 0.5;
+    let corners = [up - DVec3::X * 9.0, up + DVec3::Z * 9.0, up + DVec3::X * 9.0 - DVec3::Z * 50.0];
+    two_sided.meshes[0].positions = corners.map(|corner| corner.as_vec3().to_array()).to_vec();
+    two_sided.meshes[0].indices = vec![0, 1, 2];
+    assert_eq!(seen(&two_sided, "a floor from below"), 0);
+    two_sided.meshes[0].indices = vec![0, 2, 1];
+    assert!(seen(&two_sided, "a ceiling") > 0);
+}
+
 #[test]
 fn pictures_are_the_same_as_with_traced_camera_rays() {
     let (device, _turn) = drawing_device();

@@ -2,7 +2,7 @@ use glam::{Vec2, Vec3};
 
 use super::Tracer;
 use crate::shading::{
-    View, basis_around, camera_ray, cosine_hemisphere, pixel_position,
+    View, basis_around, cosine_hemisphere,
     random::{Numbers, RANDOM_BSDF_U, RANDOM_BSDF_V, random_dimension},
     spawn_ray,
 };
@@ -10,7 +10,7 @@ use crate::shading::{
 impl Tracer<'_> {
     /// One sample: 1 if nothing is hit within `distance` metres, else 0.
     pub(super) fn ambient_occlusion(&self, view: &View, distance: f32, random: Numbers) -> Vec3 {
-        let ray = camera_ray(view, self.posed.frame_origin(), pixel_position(view.width, random));
+        let ray = self.camera_ray(view, random);
         let Some(surface) = self.closest(&ray) else { return Vec3::ONE };
         let place = Vec2::new(
             random.float(random_dimension(0, RANDOM_BSDF_U)),

@@ -22,7 +22,10 @@ use rasray_scene::{Camera, Scene};
 
 use crate::{
     oracle::{Oracle, Outcome},
-    shading::{PosedScene, Ray, ReferenceError, Sampler, Surface, View, bsdf::SMOOTH_ROUGHNESS},
+    shading::{
+        PosedScene, Ray, ReferenceError, Sampler, Surface, View, bsdf::SMOOTH_ROUGHNESS, camera_ray, pixel_position,
+        random::Numbers,
+    },
 };
 
 /// What paths do.
@@ -67,7 +70,18 @@ impl Tracer<'_> {
     }
 
     fn occluded(&self, ray: &Ray) -> bool {
-        self.oracle.occluded(&ray.to_oracle()).occluded
+        self.oracle.occluded(&self.spawned(*ray).to_oracle()).occluded
+    }
+
+    /// The ray of one sample of a pixel.
+    fn camera_ray(&self, view: &View, random: Numbers) -> Ray {
+        let ray = camera_ray(view, self.posed.frame_origin(), pixel_position(view.width, random));
+        Ray { culls_back_faces: self.posed.back_faces().lets_camera_rays(), ..ray }
+    }
+
+    /// A ray that left a surface, with the backs that such rays pass.
+    fn spawned(&self, ray: Ray) -> Ray {
+        Ray { culls_back_faces: self.posed.back_faces().lets_other_rays(), ..ray }
     }
 }
 
@@ -93,13 +107,13 @@ impl PosedScene<'_> {
         &self,
         view: &View,
         passes_panes: bool,
-        sample: impl Fn(&Tracer<'_>, crate::shading::random::Numbers) -> glam::Vec3 + Sync,
+        sample: impl Fn(&Tracer<'_>, Numbers) -> glam::Vec3 + Sync,
     ) -> Result<Image, ReferenceError> {
         view.check()?;
         let accept = |primitive: u32, barycentrics: [f64; 2]| self.alpha_accepts(primitive, barycentrics);
         let accept: Option<crate::oracle::Accept<'_>> =
             if self.has_alpha_masks() { Some(&accept) } else { None };
-        let oracle = Oracle::new(self.positions(), self.indices(), accept)?;
+        let oracle = Oracle::new(self.positions(), self.indices(), accept)?.with_backs(|id| self.back_of(id));
         let tracer = Tracer { posed: self, oracle, passes_panes };
         Ok(Image::render(view, |random| sample(&tracer, random)))
     }

@@ -4,8 +4,7 @@ use glam::Vec3;
 
 use super::Tracer;
 use crate::shading::{
-    LightSample, Ray, Surface, View, bsdf_pdf, bsdf_sample, bsdf_straight, bsdf_times_cosine, camera_ray,
-    pixel_position,
+    LightSample, Ray, Surface, View, bsdf_pdf, bsdf_sample, bsdf_straight, bsdf_times_cosine,
     random::{
         Numbers, RANDOM_BSDF_LOBE, RANDOM_LIGHT_KIND, RANDOM_OPACITY_FIRST, RANDOM_ROULETTE, random_dimension,
     },
@@ -59,7 +58,9 @@ impl PathState {
         }
         self.passed += 1;
         let ahead = spawn_ray(surface, ray.direction, f32::INFINITY);
-        Some(Ray { cone_width: footprint, cone_spread: ray.cone_spread, ..ahead })
+        // As the ray that it is: a camera ray passes the backs that camera rays pass.
+        let culls_back_faces = ray.culls_back_faces;
+        Some(Ray { culls_back_faces, cone_width: footprint, cone_spread: ray.cone_spread, ..ahead })
     }
 
     fn emission_weight(&self, light_pdf: impl FnOnce() -> f32) -> f32 {
@@ -81,7 +82,7 @@ impl Tracer<'_> {
             passed: 0,
             origin: Vec3::ZERO,
         };
-        let mut next = Some(camera_ray(view, self.posed.frame_origin(), pixel_position(view.width, random)));
+        let mut next = Some(self.camera_ray(view, random));
         while let Some(ray) = next {
             next = match self.closest(&ray) {
                 Some(surface) => self.step(&mut state, &ray, &surface, max_bounces),
@@ -123,7 +124,7 @@ impl Tracer<'_> {
             return None;
         }
         state.radiance += self.direct_light(state, surface, -ray.direction);
-        scatter(state, ray, surface, footprint)
+        scatter(state, ray, surface, footprint).map(|ray| self.spawned(ray))
     }
 
     /// One light sample, seen from the surface.
@@ -141,7 +142,7 @@ impl Tracer<'_> {
     fn arriving(&self, mut ray: Ray, target: Option<Vec3>) -> Vec3 {
         let mut share = Vec3::ONE;
         for _ in 0..=LAYER_LIMIT {
-            let Some(surface) = self.closest(&ray) else { return share };
+            let Some(surface) = self.closest(&self.spawned(ray)) else { return share };
             let (straight, _) = bsdf_straight(&surface, -ray.direction);
             share *= surface.opacity * straight + (1.0 - surface.opacity);
             if !(share.max_element() > 0.0) {

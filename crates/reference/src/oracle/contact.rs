@@ -1,5 +1,6 @@
 //! One ray against one triangle.
 
+use super::Side;
 use super::exact::{self, Point};
 use super::ray::Ray;
 use super::t_bound::SeenTriangle;
@@ -38,6 +39,10 @@ pub(super) struct Contact {
     pub seen: [[f64; 2]; 3],
     /// Whether the triangle winds counter-clockwise as the ray sees it (in the sheared axes).
     pub facing: bool,
+    /// The side that the ray meets, in exact arithmetic where it hits.
+    pub side: Side,
+    /// Single precision sees the same side.
+    pub side_is_certain: bool,
 }
 
 /// A ray prepared for many triangles: axes are permuted cyclically so that the direction is longest
@@ -146,6 +151,10 @@ impl ContactTest {
         let hit = inside && self.t_min < t && t < self.t_max;
         // The device answers no hit nearer than its own bound: it could be the surface that the ray starts on.
         let in_range = self.t_min.max(bound) < t_low && t_high < self.t_max;
+        let facing = if inside { signs.contains(&1) } else { sum > 0.0 };
+        let scale: f64 = edges.iter().map(|edge| edge.scale).sum();
+        // Sheared axes see a triangle from behind where the ray runs towards positive values.
+        let counter_clockwise = facing == (self.direction[self.axis_z] < 0.0);
         Some(Contact {
             hit,
             certain: hit && in_range && !near.contains(&true),
@@ -162,7 +171,9 @@ impl ContactTest {
                     && surrounds(ends.map(|v| (v.y, v.y_scale)))
             }),
             seen: vertices.map(|v| [v.x, v.y]),
-            facing: if inside { signs.contains(&1) } else { sum > 0.0 },
+            facing,
+            side: if counter_clockwise { Side::CounterClockwise } else { Side::Clockwise },
+            side_is_certain: sum.abs() > SINGLE_ERROR * scale,
         })
     }
 

@@ -43,12 +43,23 @@ const BRUTE_FORCE_LIMIT: usize = 64;
 /// weight of vertex 2])` to `true` for a hit. Called from several threads.
 pub type Accept<'a> = &'a (dyn Fn(u32, [f64; 2]) -> bool + Sync);
 
+/// A side of a triangle: that from which its corners are seen in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Counter-clockwise.
+    CounterClockwise,
+    /// Clockwise.
+    Clockwise,
+}
+
 /// The triangles of a scene, ready to be asked. Primitive ids are running triangle indices.
 pub struct Oracle<'a> {
     triangles: Vec<[[f32; 3]; 3]>,
     primitives: Vec<u32>,
     bvh: Option<Bvh>,
     accept: Option<Accept<'a>>,
+    /// The back of each triangle that has one, by slot; empty where none has.
+    backs: Vec<Option<Side>>,
     dropped: usize,
     collapsed: usize,
 }
@@ -136,7 +147,16 @@ impl<'a> Oracle<'a> {
             Search::Automatic => triangles.len() > BRUTE_FORCE_LIMIT,
         };
         let bvh = hierarchy.then(|| Bvh::build(&triangles));
-        Ok(Self { triangles, primitives, bvh, accept, dropped, collapsed })
+        Ok(Self { triangles, primitives, bvh, accept, backs: Vec::new(), dropped, collapsed })
+    }
+
+    /// With triangles that have a back, which rays that cull back faces pass. `back_of` says which side it is by the id of
+    /// the triangle; `None` where both sides are there for every ray.
+    #[must_use]
+    pub fn with_backs(self, back_of: impl Fn(u32) -> Option<Side>) -> Self {
+        let backs: Vec<_> = self.primitives.iter().map(|&primitive| back_of(primitive)).collect();
+        let backs = if backs.iter().any(Option::is_some) { backs } else { Vec::new() };
+        Self { backs, ..self }
     }
 
     /// Triangles that rays are tested against: those neither dropped nor collapsed.
@@ -196,6 +216,7 @@ impl<'a> Oracle<'a> {
             return;
         }
         let Some(contact) = test.contact(&self.triangles[slot]) else { return };
+        let Some(contact) = self.met(ray, slot, contact) else { return };
         if contact.t_low > found.cutoff {
             return;
         }
@@ -207,6 +228,22 @@ impl<'a> Oracle<'a> {
             found.cutoff = found.cutoff.min(contact.t_high);
         }
         found.contacts.push((slot, contact));
+    }
+
+    /// What is left of a contact where the ray passes backs: nothing of a back that single precision sees as well. Where
+    /// rounding decides the side, the triangle may be reported, and promises nothing.
+    fn met(&self, ray: &Ray, slot: usize, contact: Contact) -> Option<Contact> {
+        let back = self.backs.get(slot).copied().flatten().filter(|_| ray.culls_back_faces);
+        let Some(back) = back else { return Some(contact) };
+        let is_back = contact.side == back;
+        match (contact.side_is_certain, is_back) {
+            (true, true) => None,
+            (true, false) => Some(contact),
+            (false, _) => {
+                let hit = contact.hit && !is_back;
+                Some(Contact { hit, certain: false, in_range: false, ..contact })
+            }
+        }
     }
 
     /// `contacts` are sorted by primitive.

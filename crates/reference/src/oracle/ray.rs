@@ -11,12 +11,21 @@ pub struct Ray {
     pub t_max: f32,
     /// A triangle that is never hit.
     pub exclude_primitive: Option<u32>,
+    /// Backs are no hits: of the triangles that have one ([`Oracle::with_backs`](super::Oracle::with_backs)).
+    pub culls_back_faces: bool,
 }
 
 impl Ray {
     /// A ray that counts hits from its origin to infinity.
     pub fn new(origin: [f32; 3], direction: [f32; 3]) -> Self {
-        Self { origin, t_min: 0.0, direction, t_max: f32::INFINITY, exclude_primitive: None }
+        Self {
+            origin,
+            t_min: 0.0,
+            direction,
+            t_max: f32::INFINITY,
+            exclude_primitive: None,
+            culls_back_faces: false,
+        }
     }
 
     /// A ray through `point` at t = 1, up to the rounding of `point - origin`.

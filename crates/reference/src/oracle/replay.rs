@@ -25,6 +25,8 @@ pub enum TestClass {
     Excluded,
     /// Refused by the alpha test.
     Transparent,
+    /// A back that the ray passes.
+    BackFace,
     /// The ray passes outside of the triangle.
     Outside,
 }
@@ -113,12 +115,15 @@ impl Oracle<'_> {
         let signs = exact_signs(test, triangle);
         let inside = !(signs.contains(&1) && signs.contains(&-1));
         let contact = test.contact(triangle);
+        let met = contact.and_then(|contact| self.met(ray, slot, contact));
         let class = if ray.exclude_primitive == Some(primitive) {
             TestClass::Excluded
+        } else if contact.is_some() && met.is_none() {
+            TestClass::BackFace
         } else if signs == [0; 3] {
             TestClass::InPlane
         } else {
-            match &contact {
+            match &met {
                 Some(contact) if contact.t_low > cutoff => TestClass::Behind,
                 Some(contact)
                     if self.accept.is_some_and(|accept| !accept(primitive, contact.barycentrics)) =>
@@ -159,6 +164,7 @@ impl fmt::Display for TestClass {
             Self::Behind => "behind a certain hit",
             Self::Excluded => "excluded by the ray",
             Self::Transparent => "transparent",
+            Self::BackFace => "a back that the ray passes",
             Self::Outside => "passed outside",
         })
     }

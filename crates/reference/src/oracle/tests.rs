@@ -82,6 +82,70 @@ fn midpoint(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|axis| (0.5 * (f64::from(a[axis]) + f64::from(b[axis]))) as f32)
 }
 
+/// From every direction the side that the ray meets is the one that its exact angle with the normal says.
+#[test]
+fn a_back_is_passed_from_behind_alone() {
+    let mut random = Random(17);
+    let mut passed = 0;
+    for _ in 0..2000 {
+        let triangle = [(); 3].map(|()| random.point([0.0; 3], 1.0));
+        let [a, b, c] = triangle;
+        let target = midpoint(midpoint(a, b), c);
+        let ray = Ray { culls_back_faces: true, ..Ray::towards(random.point([0.0; 3], 4.0), target) };
+        let along =
+            exact::normal_along(ray.direction.map(f64::from), triangle.map(|corner| corner.map(f64::from)));
+        let mesh = soup(&[triangle]);
+        for (back, is_passed) in
+            [(Some(Side::Clockwise), along > 0.0), (Some(Side::CounterClockwise), along < 0.0), (None, false)]
+        {
+            let oracle = oracle(&mesh).with_backs(|_| back);
+            let verdict = oracle.closest(&ray);
+            if !verdict.ambiguous {
+                assert_eq!(verdict.outcome.hit().is_none(), is_passed, "{triangle:?} {ray:?} {back:?}");
+                passed += usize::from(is_passed);
+            }
+            assert!(oracle.closest(&Ray { culls_back_faces: false, ..ray }).outcome.hit().is_some());
+            let tested = oracle.replay(&ray).tests;
+            assert!(verdict.ambiguous || (tested[0].class == TestClass::BackFace) == is_passed);
+        }
+    }
+    assert!(passed > 1900, "{passed}");
+}
+
+/// Where rounding may turn a triangle that is seen edge-on, it may be reported, and promises nothing.
+#[test]
+fn a_side_that_rounding_decides_is_left_open() {
+    let edge_on = [[-1.0, 1.0, 2.0], [1.0, 1.0 + f32::EPSILON, 2.0], [0.0, 2.6, 6.0]];
+    let behind = [[-4.0, -4.0, 9.0], [4.0, -4.0, 9.0], [0.0, 8.0, 9.0]];
+    let ray = Ray { culls_back_faces: true, ..Ray::towards([-0.25, -1.0, -3.0], [0.25, 3.0, 7.0]) };
+    for back in [Side::Clockwise, Side::CounterClockwise] {
+        let oracle = oracle(&soup(&[edge_on, behind])).with_backs(|id| (id == 0).then_some(back));
+        let verdict = oracle.closest(&ray);
+        assert!(verdict.ambiguous && !verdict.miss_allowed, "{verdict:?}");
+        let candidates: Vec<_> = verdict.candidates.iter().map(|c| (c.primitive, c.certain)).collect();
+        assert_eq!(candidates, [(0, false), (1, true)], "{back:?}");
+    }
+}
+
+#[test]
+fn a_closed_mesh_of_backs_is_open_from_within_and_closed_from_outside() {
+    let mut random = Random(23);
+    let mesh = sphere([0.3, -0.2, 0.1], 1.0, 9);
+    let oracle = oracle(&mesh).with_backs(|_| Some(Side::Clockwise));
+    for _ in 0..3000 {
+        let (inside, outside) = (random.point([0.3, -0.2, 0.1], 0.3), random.point([0.0; 3], 9.0));
+        let distance: f32 = outside.iter().zip([0.3, -0.2, 0.1]).map(|(a, b)| (a - b) * (a - b)).sum();
+        if distance < 1.2 {
+            continue;
+        }
+        let culling = |ray: Ray| Ray { culls_back_faces: true, ..ray };
+        assert!(!oracle.occluded(&culling(Ray::towards(inside, outside))).occluded);
+        let towards = oracle.closest(&culling(Ray::towards(outside, inside)));
+        let (_, t) = towards.outcome.hit().expect("the front is met");
+        assert!(t < 1.0 && !towards.miss_allowed, "{towards:?}");
+    }
+}
+
 #[test]
 fn a_ray_in_a_triangles_plane_passes_it() {
     let (mut positions, mut indices) = cube();

@@ -50,7 +50,7 @@ pub fn pixel_position(width: u32, random: Numbers) -> Vec2 {
 }
 
 /// The ray through `position` (pixels from the top left corner; the first pixel's centre is
-/// (0.5, 0.5)), relative to `frame_origin` (world, metres). Its cone is that of one sample of the pixel.
+/// (0.5, 0.5)), relative to `frame_origin` (world, metres). Its cone is that of one sample of the pixel; it passes no backs.
 pub fn camera_ray(view: &View, frame_origin: DVec3, position: Vec2) -> Ray {
     let placement = view.camera.world_from_camera;
     let axis = |axis: DVec3, otherwise: DVec3| axis.normalize_or(otherwise).as_vec3();
@@ -73,6 +73,7 @@ pub fn camera_ray(view: &View, frame_origin: DVec3, position: Vec2) -> Ray {
         direction,
         t_max: f32::INFINITY,
         exclude_primitive: None,
+        culls_back_faces: false,
         cone_width: cone_width * scale,
         cone_spread: cone_spread * scale,
     }

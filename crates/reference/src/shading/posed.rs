@@ -1,7 +1,9 @@
 //! A scene with every instance in place, ready to be asked for surfaces and lights.
 
 use glam::{DMat3, DVec3, Vec3, Vec4};
-use rasray_scene::{AlphaMode, Environment, Material, Mesh, Scene, TextureRef};
+use rasray_scene::{AlphaMode, BackFaces, Environment, Material, Mesh, Scene, TextureRef};
+
+use crate::oracle::Side;
 
 use super::{
     ReferenceError,
@@ -32,6 +34,7 @@ pub struct PosedScene<'a> {
     pub(super) textures: TextureTable<'a>,
     pub(super) lights: LightTable,
     pub(super) environment: EnvironmentTable,
+    back_faces: BackFaces,
     draw_of_triangle: Vec<u32>,
     frame_origin: DVec3,
     positions: Vec<[f32; 3]>,
@@ -88,11 +91,30 @@ impl<'a> PosedScene<'a> {
             textures,
             lights: LightTable::default(),
             environment: EnvironmentTable::new(&scene.environment),
+            back_faces: BackFaces::default(),
             draw_of_triangle,
             frame_origin,
             positions,
             indices,
         })
+    }
+
+    /// With other rays that pass the backs of single-sided surfaces.
+    #[must_use]
+    pub fn with_back_faces(self, back_faces: BackFaces) -> Self {
+        Self { back_faces, ..self }
+    }
+
+    /// Which rays pass the backs of single-sided surfaces.
+    pub fn back_faces(&self) -> BackFaces {
+        self.back_faces
+    }
+
+    /// The back of a triangle, where its surface is single-sided.
+    pub fn back_of(&self, primitive: u32) -> Option<Side> {
+        let draw = self.draw_of(primitive);
+        let back = if draw.mirrored { Side::CounterClockwise } else { Side::Clockwise };
+        self.material(draw).culls_back.then_some(back)
     }
 
     /// Posed positions, metres relative to the frame origin, instance after instance.

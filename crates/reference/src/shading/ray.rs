@@ -15,6 +15,8 @@ pub struct Ray {
     pub t_max: f32,
     /// A triangle that is never hit.
     pub exclude_primitive: Option<u32>,
+    /// Backs of single-sided surfaces are no hits.
+    pub culls_back_faces: bool,
     /// Metres at the origin.
     pub cone_width: f32,
     /// Radians, growth of the width per metre.
@@ -30,6 +32,7 @@ impl Ray {
             direction: self.direction.to_array(),
             t_max: self.t_max,
             exclude_primitive: self.exclude_primitive,
+            culls_back_faces: self.culls_back_faces,
         }
     }
 }

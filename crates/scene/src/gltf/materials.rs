@@ -20,7 +20,7 @@ pub(super) fn convert(document: &Document<'_>, scene: &mut Scene) -> Result<(), 
         *slot = Some(scene.materials.len());
         scene.materials.push(match materials.get(i) {
             Some(material) => convert_one(document, i, material, &mut textures)?,
-            None => Material::default(),
+            None => Material { culls_back: true, ..Material::default() },
         });
     }
     for mesh in &mut scene.meshes {
@@ -68,6 +68,8 @@ fn convert_one(
         _ => AlphaMode::Opaque,
     };
     scalar_extensions(source, &mut material, &mut range);
+    // Boundaries of volumes have both sides, whatever the file says (KHR_materials_volume).
+    material.culls_back = !source.double_sided && material.thickness == 0.0;
     range.report(document);
 
     let mut read = |wanted: Option<Use<'_>>| match wanted {

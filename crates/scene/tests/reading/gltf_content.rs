@@ -102,6 +102,25 @@ fn missing_attributes_stay_missing() {
     assert_eq!((scene.meshes.len(), kinds(&scene)), (1, vec!["no-positions"]));
 }
 
+/// As the format has it: backs are culled unless the material is double-sided or bounds a volume.
+#[test]
+fn materials_say_whether_their_back_is_culled() {
+    let culls = |material: &str| {
+        let used = r#","extensionsUsed":["KHR_materials_volume","KHR_materials_transmission"]"#;
+        let extra = format!(r#"{used},"materials":[{material}]"#);
+        load_text(&triangle_gltf(NODE, r#","material":0"#, &extra)).materials[0].culls_back
+    };
+    let volume = |thickness: f32| {
+        format!(
+            r#"{{"extensions":{{"KHR_materials_transmission":{{"transmissionFactor":1}},
+                "KHR_materials_volume":{{"thicknessFactor":{thickness}}}}}}}"#
+        )
+    };
+    assert!(culls("{}") && culls(r#"{"doubleSided":false}"#) && !culls(r#"{"doubleSided":true}"#));
+    assert!(culls(&volume(0.0)) && !culls(&volume(0.1)));
+    assert!(load_text(&triangle_gltf(NODE, "", "")).materials[0].culls_back, "the format's own material");
+}
+
 #[test]
 fn attributes_of_another_length_are_dropped() {
     let text = triangle_gltf(NODE, "", "").replace(r#""POSITION":0"#, r#""POSITION":0,"NORMAL":2"#).replace(

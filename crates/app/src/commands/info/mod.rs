@@ -13,6 +13,7 @@ use rasray_experiment::{
     AovSelection, Frame, OpenBackend, Primary, Refresh, RenderJob, Sampler, SceneInfo, default_view,
 };
 use rasray_report::json_shown;
+use rasray_scene::BackFaces;
 use rasray_scene::needs::Needs;
 use serde_json::Value;
 
@@ -46,6 +47,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             seed: 0,
             sampler: Sampler::Sobol,
             primary: Primary::Trace,
+            back_faces: BackFaces::Camera,
         };
         let view = during("scene", "looking for a view", || default_view(&loaded.scene));
         if let Some(system) = system {

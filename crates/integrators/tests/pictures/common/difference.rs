@@ -4,7 +4,7 @@ use rasray_gpu_scene::Sampling;
 use rasray_integrators::{AmbientOcclusion, GlassShadows, Path, PathOptions};
 use rasray_reference::integrators as reference;
 use rasray_reference::shading::{PosedScene, Sampler, View};
-use rasray_scene::{Camera, Scene};
+use rasray_scene::{BackFaces, Camera, Scene};
 
 use super::{Stage, assert_silent, device, mean};
 
@@ -36,6 +36,17 @@ pub fn difference(shown: &Scene, scene: &Scene, camera: &Camera, samples: u32, k
     sampled_difference(shown, scene, camera, samples, kind, Sampler::default())
 }
 
+/// The same with rays that pass backs: on the device `shown`, on the CPU `back_faces`.
+pub fn passing_difference(
+    [shown, back_faces]: [BackFaces; 2],
+    scene: &Scene,
+    camera: &Camera,
+    samples: u32,
+    kind: &Kind,
+) -> Difference {
+    made_difference([scene, scene], camera, samples, kind, Sampler::default(), [shown, back_faces])
+}
+
 /// The same with the numbers of a sampler.
 pub fn sampled_difference(
     shown: &Scene,
@@ -45,16 +56,31 @@ pub fn sampled_difference(
     kind: &Kind,
     sampler: Sampler,
 ) -> Difference {
+    made_difference([shown, scene], camera, samples, kind, sampler, [BackFaces::default(); 2])
+}
+
+fn made_difference(
+    [shown, scene]: [&Scene; 2],
+    camera: &Camera,
+    samples: u32,
+    kind: &Kind,
+    sampler: Sampler,
+    [passed, back_faces]: [BackFaces; 2],
+) -> Difference {
     let device = device();
     let of_device = match sampler {
         Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
         Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
     };
     let mut stage = Stage::new(&device, shown, camera.clone(), WIDTH, HEIGHT, SEED);
-    stage.scene.set_sampling(Sampling { sampler: of_device, samples }).expect("the frame can be written");
+    stage
+        .scene
+        .set_sampling(Sampling { sampler: of_device, samples, back_faces: passed })
+        .expect("the frame can be written");
     let view = View { camera: camera.clone(), width: WIDTH, height: HEIGHT, samples, seed: SEED, sampler };
     let posed = PosedScene::new(scene, stage.scene.frame_origin()).expect("the scene is well formed");
     let opaque = |bounces| PathOptions { bounces, glass_shadows: GlassShadows::Opaque };
+    let posed = posed.with_back_faces(back_faces);
     let (image, reference) = match *kind {
         Kind::OpaquePanes(bounces) => (
             stage.render(&Path::new(&stage.desc(), opaque(bounces)).expect("valid"), samples),

@@ -87,6 +87,7 @@ fn blended_emitters_are_met_by_scattered_rays_alone() {
         direction: Vec3::NEG_Z,
         t_max: f32::INFINITY,
         exclude_primitive: None,
+        culls_back_faces: false,
         cone_width: 0.0,
         cone_spread: 0.0,
     };

@@ -17,6 +17,7 @@ fn ray(origin: Vec3, direction: Vec3) -> Ray {
         direction: direction.normalize(),
         t_max: f32::INFINITY,
         exclude_primitive: None,
+        culls_back_faces: false,
         cone_width: 0.0,
         cone_spread: 0.0,
     }

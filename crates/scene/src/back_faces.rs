@@ -1,0 +1,46 @@
+/// Which rays pass the backs of single-sided surfaces ([`Material::culls_back`](crate::Material::culls_back)).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BackFaces {
+    /// Those of the camera, on through what blends: rooms can be looked into, and are lit as if their walls were there.
+    #[default]
+    Camera,
+    /// Every ray.
+    All,
+    /// No ray.
+    None,
+}
+
+impl BackFaces {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Camera, Self::All, Self::None];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Camera => "camera",
+            Self::All => "all",
+            Self::None => "none",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Camera => {
+                "Camera rays alone: what the camera sees has no backs, and light is blocked by both sides"
+            }
+            Self::All => "Every ray: what is seen, mirrored and lit has no backs",
+            Self::None => "No ray: both sides of all surfaces are there",
+        }
+    }
+
+    /// Whether camera rays pass.
+    pub fn lets_camera_rays(self) -> bool {
+        self != Self::None
+    }
+
+    /// Whether scattered and shadow rays pass.
+    pub fn lets_other_rays(self) -> bool {
+        self == Self::All
+    }
+}

@@ -1,0 +1,40 @@
+// What: whether a ray passes a triangle because it meets its back.
+// Reads: draws; geometry where the side is not known. Writes: nothing.
+// Source: glTF 2.0, doubleSided. Which rays pass backs is the ray's (RAY_CULL_BACK_FACES), which triangles have one the
+// draw's (DRAW_SINGLE_SIDED).
+#ifndef ADS_BACK_FACE_GLSL
+#define ADS_BACK_FACE_GLSL
+
+#include "ads/geometry.glsl"
+
+bool ray_culls_back_faces(Ray ray) {
+    return (ray.flags & RAY_CULL_BACK_FACES) != 0u;
+}
+
+// DRAW_* bits of a triangle of the geometry that is bound; none where it has no draw.
+uint back_face_draw_flags(uint primitive) {
+    return geometry_header.draw_count == 0u ? 0u : geometry_draws[geometry_draw(primitive)].flags;
+}
+
+// Whether the ray passes a triangle that it meets on this side.
+bool back_face_is_passed(Ray ray, uint primitive, bool counter_clockwise) {
+    if (!ray_culls_back_faces(ray)) {
+        return false;
+    }
+    uint flags = back_face_draw_flags(primitive);
+    return (flags & DRAW_SINGLE_SIDED) != 0u && counter_clockwise == ((flags & DRAW_MIRRORED) != 0u);
+}
+
+// The same where a fragment stands for the triangle: the ray meets the side that it would meet of its plane.
+bool back_face_is_passed_by_plane(Ray ray, uint primitive) {
+    if (!ray_culls_back_faces(ray)) {
+        return false;
+    }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    return back_face_is_passed(ray, primitive, dot(cross(b - a, c - a), ray.direction) < 0.0);
+}
+
+#endif
