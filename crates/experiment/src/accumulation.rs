@@ -17,7 +17,7 @@ use crate::jobs::{Frame, Integrator, Primary};
 use crate::passes::Passes;
 use crate::shard::Shard;
 use crate::stage::{Stage, device_error, tracer_error};
-use rasray_report::Pass;
+use rasray_report::{Pass, PassOf};
 
 /// Makes the integrator of a frame.
 pub(super) fn integrator(
@@ -232,8 +232,8 @@ impl Accumulation {
         self.film.read(device).map_err(device_error)
     }
 
-    /// Times of the passes since the film was clear.
+    /// Times of the passes since the film was clear, all waves together.
     pub fn pass_times(&self) -> Vec<Pass> {
-        self.passes.report()
+        self.passes.report(Some(PassOf::Image))
     }
 }

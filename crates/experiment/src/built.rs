@@ -14,7 +14,7 @@ use crate::error::ExperimentError;
 use crate::jobs::Refresh;
 use crate::passes::{Passes, median, spread};
 use crate::stage::{Stage, device_error, tracer_error};
-use rasray_report::{Counters, Memory, Pass, Spread, Times};
+use rasray_report::{Counters, Memory, Pass, PassOf, Spread, Times};
 
 /// Why a first build failed.
 enum FirstBuild {
@@ -171,6 +171,9 @@ impl Built {
             other => other.map_err(ExperimentError::from)?,
         };
         let mut passes = Passes::default();
+        if outcome.prepare_milliseconds > 0.0 {
+            passes.add_one(Pass::HOST, outcome.prepare_milliseconds);
+        }
         passes.add(&outcome.passes);
         Ok(Self {
             frames,
@@ -202,10 +205,9 @@ impl Built {
         }
         self.outcome = self.refresh(device)?;
         self.passes = Passes::default();
-        self.passes.add(&self.outcome.passes);
         self.first_ms = None;
-        self.whole = vec![started.elapsed().as_secs_f64() * 1.0e3];
-        self.prepare = vec![self.outcome.prepare_milliseconds];
+        (self.whole, self.prepare) = (Vec::new(), Vec::new());
+        self.keep_times(started.elapsed().as_secs_f64() * 1.0e3);
         self.is_repeated = false;
         Ok(())
     }
@@ -215,9 +217,10 @@ impl Built {
             .map_err(|error| tracer_error(&error))
     }
 
-    /// Times of the passes of builds.
+    /// Times of the passes of builds, with what the host did: where builds were repeated to be timed, or a frame took one,
+    /// the shares of these passes are `build_ms` together.
     pub fn pass_times(&self) -> Vec<Pass> {
-        self.passes.report()
+        self.passes.report((!self.whole.is_empty()).then_some(PassOf::Build))
     }
 
     /// Builds what moves once more, which is everything but in parts, and keeps the times.
@@ -235,10 +238,21 @@ impl Built {
             self.whole.clear();
             self.prepare.clear();
         }
-        self.passes.add(&self.outcome.passes);
-        self.whole.push(self.outcome.host_milliseconds);
-        self.prepare.push(self.outcome.prepare_milliseconds);
+        self.keep_times(self.outcome.host_milliseconds);
         Ok(())
+    }
+
+    /// Keeps the times of the build that was just done and took `whole` milliseconds, with the host's parts as passes, so
+    /// that passes add up to the whole.
+    fn keep_times(&mut self, whole: f64) {
+        let BuildOutcome { passes, prepare_milliseconds, .. } = &self.outcome;
+        self.passes.repeat();
+        self.passes.add_one(Pass::HOST, *prepare_milliseconds);
+        self.passes.add(passes);
+        let seen = prepare_milliseconds + passes.iter().map(|pass| pass.milliseconds).sum::<f64>();
+        self.passes.add_one(Pass::WAITING, whole - seen);
+        self.whole.push(whole);
+        self.prepare.push(*prepare_milliseconds);
     }
 
     /// Sets the times of the build in a run.

@@ -74,7 +74,7 @@ impl<'a> Contestant<'a> {
             paths,
             times,
             spread: self.built.spread().collect(),
-            passes: self.built.passes.report(),
+            passes: self.built.pass_times(),
             memory: Some(self.built.memory(device)?),
             ..Run::default()
         })

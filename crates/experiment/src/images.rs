@@ -10,10 +10,10 @@ use crate::built::Built;
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, Frame, GlassShadows, Integrator};
-use crate::render::{Wanted, render_pixels, trace_ms, visible_ms};
+use crate::render::{Wanted, image_ms, render_pixels, trace_ms, visible_ms};
 use crate::stage::{Stage, device_error};
 use rasray_report::figures::{Images, SystemImage};
-use rasray_report::{ImageError, Run};
+use rasray_report::{ImageError, PassOf, Run};
 
 /// What images are made from.
 #[derive(Clone, Copy)]
@@ -130,9 +130,10 @@ pub(super) fn compare_images(
         run.times.timer = pixels.passes.timer();
         run.times.first_use_ms = Some(pixels.first_use_ms);
         run.times.trace_ms = trace_ms(&pixels.passes);
+        run.times.image_ms = image_ms(&pixels.passes);
         run.times.visible_ms = visible_ms(&pixels.passes, &frame);
         run.primary = Some(frame.primary.name().to_owned());
-        run.passes.extend(pixels.passes.report());
+        run.passes.extend(pixels.passes.report(Some(PassOf::Image)));
         run.counters = Some(pixels.counters);
         add(comparison, run, pixels.beauty)?;
     }

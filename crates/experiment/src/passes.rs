@@ -3,33 +3,76 @@
 use rasray_gpu::{PassTiming, TimerKind};
 use rasray_metrics::Summary;
 
-use rasray_report::{Pass, Spread, Timer};
+use rasray_report::{Pass, PassOf, Spread, Timer};
+
+/// What one pass took in each repetition.
+#[derive(Debug)]
+struct Row {
+    label: String,
+    /// Milliseconds of all its dispatches, one sum a repetition.
+    sums: Vec<f64>,
+    /// Its dispatches, one count a repetition.
+    dispatches: Vec<u64>,
+}
 
 /// All times of each pass, in the order the passes were first seen.
 #[derive(Debug, Default)]
 pub(super) struct Passes {
-    times: Vec<(String, Vec<f64>)>,
+    rows: Vec<Row>,
+    repetitions: usize,
     timer: Option<TimerKind>,
 }
 
 impl Passes {
-    /// Adds times of one submission.
-    pub(super) fn add(&mut self, timings: &[PassTiming]) {
-        for timing in timings {
-            self.timer = Some(timing.timer);
-            match self.times.iter_mut().find(|(label, _)| *label == timing.label) {
-                Some((_, times)) => times.push(timing.milliseconds),
-                None => self.times.push((timing.label.clone(), vec![timing.milliseconds])),
-            }
+    /// Begins another repetition: times that are added are its.
+    pub(super) fn repeat(&mut self) {
+        self.repetitions += 1;
+        for row in &mut self.rows {
+            row.sums.push(0.0);
+            row.dispatches.push(0);
         }
     }
 
-    /// Median and spread of each pass.
-    pub(super) fn report(&self) -> Vec<Pass> {
-        let pass = |(label, times): &(String, Vec<f64>)| {
-            let summary = Summary::of(times)?;
+    /// Adds times of one submission to the repetition; the first begins by itself.
+    pub(super) fn add(&mut self, timings: &[PassTiming]) {
+        for timing in timings {
+            self.timer = Some(timing.timer);
+            self.add_one(&timing.label, timing.milliseconds);
+        }
+    }
+
+    /// Adds a pass, or what the host did, to the repetition.
+    pub(super) fn add_one(&mut self, label: &str, milliseconds: f64) {
+        if self.repetitions == 0 {
+            self.repeat();
+        }
+        let known = self.rows.iter().position(|row| row.label == label);
+        let place = known.unwrap_or_else(|| {
+            let (sums, dispatches) = (vec![0.0; self.repetitions], vec![0; self.repetitions]);
+            self.rows.push(Row { label: label.to_owned(), sums, dispatches });
+            self.rows.len() - 1
+        });
+        let row = &mut self.rows[place];
+        row.sums[self.repetitions - 1] += milliseconds;
+        row.dispatches[self.repetitions - 1] += 1;
+    }
+
+    /// Milliseconds of all passes of each repetition.
+    fn totals(&self) -> Vec<f64> {
+        (0..self.repetitions).map(|index| self.rows.iter().map(|row| row.sums[index]).sum()).collect()
+    }
+
+    /// Share, median and spread of each pass as parts of a figure.
+    pub(super) fn report(&self, of: Option<PassOf>) -> Vec<Pass> {
+        let middle = middle(&self.totals());
+        let share = |sums: &[f64]| middle.iter().map(|index| sums[*index]).sum::<f64>() / middle.len() as f64;
+        let pass = |row: &Row| {
+            let summary = Summary::of(&row.sums)?;
             Some(Pass {
-                label: label.clone(),
+                label: row.label.clone(),
+                of,
+                ms_share: Some(share(&row.sums)),
+                dispatches: middle.first().map(|index| row.dispatches[*index]),
                 ms_median: summary.median,
                 ms_min: summary.min,
                 ms_max: summary.max,
@@ -38,12 +81,12 @@ impl Passes {
                 count: Some(summary.count as u64),
             })
         };
-        self.times.iter().filter_map(pass).collect()
+        self.rows.iter().filter_map(pass).collect()
     }
 
     /// Milliseconds of all passes whose label passes the filter.
     pub(super) fn total(&self, keep: impl Fn(&str) -> bool) -> f64 {
-        self.times.iter().filter(|(label, _)| keep(label)).flat_map(|(_, times)| times).sum()
+        self.rows.iter().filter(|row| keep(&row.label)).flat_map(|row| &row.sums).sum()
     }
 
     /// What measured them.
@@ -53,6 +96,14 @@ impl Passes {
             TimerKind::Host => Timer::Host,
         })
     }
+}
+
+/// The places of the median among times: one, or of an even number two, whose mean it is.
+fn middle(times: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..times.len()).collect();
+    order.sort_by(|a, b| times[*a].total_cmp(&times[*b]));
+    let count = order.len();
+    order[count.saturating_sub(1) / 2..(count / 2 + 1).min(count)].to_vec()
 }
 
 /// How far times lie apart; absent for nothing.
@@ -69,4 +120,65 @@ pub(super) fn spread(times: &[f64]) -> Option<Spread> {
 /// The median; 0 of nothing.
 pub(super) fn median(times: &[f64]) -> f64 {
     rasray_metrics::median(times).unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn timing(label: &str, milliseconds: f64) -> PassTiming {
+        PassTiming { label: label.to_owned(), milliseconds, timer: TimerKind::Device }
+    }
+
+    fn shares(passes: &Passes) -> Vec<f64> {
+        passes.report(None).iter().filter_map(|pass| pass.ms_share).collect()
+    }
+
+    #[test]
+    fn a_pass_is_all_its_dispatches_of_a_repetition() {
+        let mut passes = Passes::default();
+        for scale in [1.0, 3.0, 2.0] {
+            passes.repeat();
+            passes.add(&[timing("sort", scale), timing("scan", 10.0 * scale), timing("sort", 4.0 * scale)]);
+        }
+        let report = passes.report(Some(PassOf::Build));
+        let sort = &report[0];
+        assert_eq!(
+            (sort.label.as_str(), sort.of, sort.count, sort.dispatches),
+            ("sort", Some(PassOf::Build), Some(3), Some(2))
+        );
+        assert_eq!((sort.ms_min, sort.ms_median, sort.ms_max), (5.0, 10.0, 15.0));
+        assert_eq!(passes.total(|label| label == "scan"), 60.0);
+    }
+
+    /// Also where medians of the parts do not.
+    #[test]
+    fn shares_add_up_to_the_median_of_the_whole() {
+        let times = [[1.0, 9.0, 4.0], [8.0, 1.0, 2.0], [3.0, 3.0, 3.5], [7.0, 7.0, 7.0]];
+        for count in 1..=times.len() {
+            let mut passes = Passes::default();
+            for [a, b, c] in &times[..count] {
+                passes.repeat();
+                passes.add(&[timing("a", *a), timing("b", *b), timing("a", *c)]);
+            }
+            let wholes: Vec<f64> = times[..count].iter().map(|one| one.iter().sum()).collect();
+            assert_eq!(passes.totals(), wholes);
+            assert!((shares(&passes).iter().sum::<f64>() - median(&wholes)).abs() < 1.0e-12, "{count}");
+        }
+        // Those of three repetitions are the one that took 11; medians of the parts are 6.5 and 3, or 9.5.
+        assert_eq!(middle(&[14.0, 11.0, 9.5]), [1]);
+        assert_eq!((middle(&[]), middle(&[2.0, 1.0])), (vec![], vec![1, 0]));
+    }
+
+    #[test]
+    fn a_pass_that_a_repetition_lacks_took_no_time_in_it() {
+        let mut passes = Passes::default();
+        passes.add(&[timing("a", 1.0)]);
+        passes.repeat();
+        passes.add(&[timing("b", 5.0)]);
+        let report = passes.report(None);
+        assert_eq!((report[0].ms_min, report[0].ms_max), (0.0, 1.0));
+        assert_eq!((report[1].ms_min, report[1].ms_max), (0.0, 5.0));
+        assert!(Passes::default().report(None).is_empty());
+    }
 }

@@ -18,7 +18,7 @@ use crate::passes::Passes;
 use crate::shard::Shard;
 use crate::stage::{Stage, device_error};
 use crate::system_config::SystemConfig;
-use rasray_report::{Counters, Times};
+use rasray_report::{Counters, PassOf, Times};
 
 /// Which pixels are made.
 pub(super) struct Wanted<'a> {
@@ -109,6 +109,11 @@ pub(super) fn trace_ms(passes: &Passes) -> Option<f64> {
     Some(passes.total(|label| label.contains("/trace_"))).filter(|ms| *ms > 0.0)
 }
 
+/// Milliseconds of all passes of an image; absent where none was recorded.
+pub(super) fn image_ms(passes: &Passes) -> Option<f64> {
+    Some(passes.total(|_| true)).filter(|ms| *ms > 0.0)
+}
+
 /// Milliseconds that drawing what the camera sees took; absent where camera rays are traced.
 pub(super) fn visible_ms(passes: &Passes, frame: &Frame) -> Option<f64> {
     (frame.primary == Primary::Raster).then(|| passes.total(|label| label.contains("/visibility")))
@@ -190,8 +195,8 @@ pub(super) fn render(
     for (name, bytes) in stage.scene.bytes_by_part() {
         memory.by_part.insert(format!("scene {name}"), *bytes);
     }
-    let mut passes = built.passes.report();
-    passes.extend(pixels.passes.report());
+    let mut passes = built.pass_times();
+    passes.extend(pixels.passes.report(Some(PassOf::Image)));
     let mut output = RenderOutput {
         width: frame.width,
         height: frame.height,
@@ -208,6 +213,7 @@ pub(super) fn render(
             timer: pixels.passes.timer(),
             first_use_ms: Some(pixels.first_use_ms),
             trace_ms: trace_ms(&pixels.passes),
+            image_ms: image_ms(&pixels.passes),
             visible_ms: visible_ms(&pixels.passes, &frame),
             ..Times::default()
         },

@@ -13,7 +13,7 @@ use crate::jobs::{Answers, Comparison, KeptSet};
 use crate::passes::{Passes, median, spread};
 use crate::stage::tracer_error;
 use rasray_ray_files::{HitsFile, TrueHit};
-use rasray_report::{Run, Times};
+use rasray_report::{PassOf, Run, Times};
 
 /// Most rays that are traced at a time.
 const BATCH: usize = 131_072;
@@ -158,6 +158,7 @@ pub fn trace_in_turns(
                 traced.counters = outcome.counters;
             } else {
                 traced.milliseconds.push(outcome.milliseconds());
+                traced.passes.repeat();
                 traced.passes.add(&outcome.passes);
             }
         }
@@ -191,7 +192,7 @@ fn run_of(
         ..run.times
     };
     run.spread.extend(spread(&traced.milliseconds).map(|spread| ("trace_ms".to_owned(), spread)));
-    run.passes.extend(traced.passes.report());
+    run.passes.extend(traced.passes.report(Some(PassOf::Trace)));
     run.counters = Some(counters);
     Ok(run)
 }

@@ -37,13 +37,22 @@ pub(super) fn close_log(title: &str, values: impl Iterator<Item = f64>) -> Value
         axis["dtick"] = json!("D2");
     } else {
         // So few that each is written out: a 5 alone would not say of which power.
-        let powers = (low.floor() as i32..=high.floor() as i32).map(|power| 10_f64.powi(power));
-        let ticks = powers.flat_map(|power| [power, 2.0 * power, 5.0 * power]);
-        let inside = |tick: &f64| (low..=high).contains(&tick.log10());
-        axis["tickvals"] = ticks.filter(inside).collect();
+        let ticks = STEPS.map(|steps| {
+            let powers = (low.floor() as i32..=high.floor() as i32).map(|power| 10_f64.powi(power));
+            let ticks = powers.flat_map(|power| steps.iter().map(move |step| step * power));
+            ticks.filter(|tick| (low..=high).contains(&tick.log10())).collect::<Vec<f64>>()
+        });
+        let [few, more] = &ticks;
+        axis["tickvals"] = json!(if few.len() < LEAST_TICKS { more } else { few });
     }
     axis
 }
+
+/// Labels that make an axis a scale: two say nothing of what lies between them on a logarithmic one.
+const LEAST_TICKS: usize = 3;
+
+/// Where labels of a short logarithmic axis stand, in parts of a power of ten: the coarser where they are enough.
+const STEPS: [&[f64]; 2] = [&[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]];
 
 /// A linear axis from zero.
 pub(super) fn linear(title: &str) -> Value {
@@ -86,7 +95,16 @@ mod tests {
     #[test]
     fn the_few_labels_of_a_short_axis_are_written_out() {
         let axis = close_log("t", [3500.0, 9500.0].into_iter());
-        assert_eq!(axis["tickvals"], json!([5000.0, 10000.0]));
+        assert_eq!(
+            axis["tickvals"],
+            json!([2500.0, 3000.0, 4000.0, 5000.0, 6000.0, 7000.0, 8000.0, 9000.0, 10000.0, 15000.0])
+        );
+        // A single run, wherever it stands.
+        for tenth in 0..30 {
+            let axis = close_log("t", [10_f64.powf(f64::from(tenth) / 10.0)].into_iter());
+            let count = axis["tickvals"].as_array().map_or(0, Vec::len);
+            assert!((LEAST_TICKS..=11).contains(&count), "{tenth}: {axis}");
+        }
         let axis = close_log("t", [0.011, 0.82].into_iter());
         assert_eq!((&axis["tickvals"], &axis["dtick"]), (&Value::Null, &json!("D2")));
         assert_eq!(close_log("t", [0.01, 9.0].into_iter())["dtick"], json!(1));

@@ -2,10 +2,10 @@
 
 use super::axes;
 use super::markup::plot_text;
-use super::names::{by_workload, part_colour};
+use super::names::{by_workload, milliseconds, part_colour};
 use super::section::{Plot, Section};
-use rasray_report::bytes;
-use rasray_report::{Memory, Pass, Report, Run};
+use rasray_report::{Memory, Pass, PassOf, Report, Run};
+use rasray_report::{bytes, grouped};
 use serde_json::{Value, json};
 
 /// Parts that get a colour of their own; the rest share the last one.
@@ -14,6 +14,19 @@ const COLOURED: usize = 7;
 /// Bytes of a mebibyte.
 const MEBIBYTE: f64 = 1_048_576.0;
 
+/// A part of a build that is the host's, hatched so that it is told from passes of the device.
+struct HostPart {
+    name: &'static str,
+    colour: &'static str,
+    /// A pattern's name in the plots' library.
+    pattern: &'static str,
+}
+
+const HOST_PARTS: [HostPart; 2] = [
+    HostPart { name: Pass::HOST, colour: "#4d5866", pattern: "/" },
+    HostPart { name: Pass::WAITING, colour: "#a9b2bc", pattern: "." },
+];
+
 /// A part of a run's bar.
 struct Part<'a> {
     name: &'a str,
@@ -21,13 +34,26 @@ struct Part<'a> {
     words: String,
 }
 
+/// What a pass took of the figure that it is a part of.
+fn share(pass: &Pass) -> f64 {
+    pass.ms_share.unwrap_or(pass.ms_median)
+}
+
 fn pass_part(pass: &Pass) -> Part<'_> {
-    let mut words = format!("{:.3} ms ({:.3} to {:.3}", pass.ms_median, pass.ms_min, pass.ms_max);
-    if let (Some(q1), Some(q3)) = (pass.ms_q1, pass.ms_q3) {
-        words += &format!(", half of them {q1:.3} to {q3:.3}");
+    let mut words = format!("{:.3} ms", share(pass));
+    if let Some(dispatches) = pass.dispatches.filter(|count| *count > 1) {
+        words += &format!(" in {} dispatches", grouped(dispatches));
     }
-    words.push(')');
-    Part { name: &pass.label, size: pass.ms_median, words }
+    if pass.count != Some(1) {
+        words += &format!(
+            "<br>over repetitions: median {:.3}, {:.3} to {:.3}",
+            pass.ms_median, pass.ms_min, pass.ms_max
+        );
+        if let (Some(q1), Some(q3)) = (pass.ms_q1, pass.ms_q3) {
+            words += &format!(", half of them {q1:.3} to {q3:.3}");
+        }
+    }
+    Part { name: &pass.label, size: share(pass), words }
 }
 
 fn memory_parts(memory: &Memory) -> Vec<Part<'_>> {
@@ -58,20 +84,26 @@ fn bar_name(run: &Run) -> String {
     format!("{}<br>{}", plot_text(&run.system), rest.join(" "))
 }
 
-/// One trace a part: the coloured ones, then one of all others.
+/// Bars of one part, of each run that has it.
+fn bars_of(runs: &[(&Run, Vec<Part<'_>>)], name: &str) -> Vec<(String, f64, String)> {
+    let found = runs.iter().filter_map(|(run, parts)| {
+        // Where passes overlap on a device, waiting is less than nothing: a bar shows no such part.
+        let part = parts.iter().find(|part| part.name == name && part.size >= 0.0)?;
+        Some((bar_name(run), part.size, part.words.clone()))
+    });
+    found.collect()
+}
+
+/// One trace a part: the coloured ones, one of all others, then those of the host.
 fn stacked(runs: &[(&Run, Vec<Part<'_>>)], ranking: &[&str]) -> Vec<Value> {
+    let (host, ranking): (Vec<&str>, Vec<&str>) =
+        ranking.iter().copied().partition(|name| HOST_PARTS.iter().any(|part| part.name == *name));
     // A single part beyond the colours is not worth a group.
     let coloured = if ranking.len() <= COLOURED + 1 { ranking.len() } else { COLOURED };
     let (own, others) = ranking.split_at(coloured);
     let mut traces = Vec::new();
     for (index, name) in own.iter().enumerate() {
-        let found: Vec<_> = runs
-            .iter()
-            .filter_map(|(run, parts)| {
-                let part = parts.iter().find(|part| part.name == *name)?;
-                Some((bar_name(run), part.size, part.words.clone()))
-            })
-            .collect();
+        let found = bars_of(runs, name);
         if !found.is_empty() {
             traces.push(trace(name, part_colour(index), found));
         }
@@ -88,6 +120,15 @@ fn stacked(runs: &[(&Run, Vec<Part<'_>>)], ranking: &[&str]) -> Vec<Value> {
         .collect();
     if !rest.is_empty() {
         traces.push(trace(&format!("{} others", others.len()), part_colour(COLOURED), rest));
+    }
+    for part in HOST_PARTS.iter().filter(|part| host.contains(&part.name)) {
+        let found = bars_of(runs, part.name);
+        if !found.is_empty() {
+            let mut trace = trace(part.name, part.colour, found);
+            trace["marker"]["pattern"] =
+                json!({"shape": part.pattern, "fgcolor": "#ffffff", "fgopacity": 0.6});
+            traces.push(trace);
+        }
     }
     traces
 }
@@ -106,41 +147,104 @@ fn bar_height(runs: usize, traces: usize) -> usize {
     90 + 44 * runs + 22 * traces
 }
 
-/// Medians of the passes of each run.
+/// A figure of runs, and the passes that add up to it.
+struct Figure {
+    of: Option<PassOf>,
+    /// In titles, behind the rays.
+    name: &'static str,
+    /// The figure of a run, where it was measured.
+    value: fn(&Run) -> Option<f64>,
+}
+
+const FIGURES: [Figure; 4] = [
+    Figure { of: Some(PassOf::Build), name: "build", value: |run| run.times.build_ms },
+    Figure { of: Some(PassOf::Trace), name: "trace", value: |run| run.times.trace_ms },
+    Figure { of: Some(PassOf::Image), name: "all passes of the image", value: |run| run.times.image_ms },
+    Figure { of: None, name: "passes", value: |_| None },
+];
+
+/// Workloads whose runs took the same time in every part, and the runs of the first of them.
+struct SharedTimes<'a> {
+    workloads: Vec<String>,
+    runs: Vec<(&'a Run, Vec<Part<'a>>)>,
+}
+
+/// Bars of the passes of each run, one plot a figure that they add up to: those of builds once for all rays that were
+/// traced through them.
 pub(super) fn passes(report: &Report) -> Option<Section> {
     let ranking = ranked(report.runs.iter().flat_map(|run| run.passes.iter().map(pass_part)));
     let mut plots = Vec::new();
-    for (position, (workload, indices)) in by_workload(&report.runs).into_iter().enumerate() {
-        let runs: Vec<(&Run, Vec<Part<'_>>)> = indices
-            .iter()
-            .map(|index| &report.runs[*index])
-            .filter(|run| !run.passes.is_empty())
-            .map(|run| (run, run.passes.iter().map(pass_part).collect()))
-            .collect();
-        if runs.is_empty() {
-            continue;
+    for figure in FIGURES {
+        let mut shown: Vec<SharedTimes<'_>> = Vec::new();
+        for (workload, indices) in by_workload(&report.runs) {
+            let runs: Vec<(&Run, Vec<Part<'_>>)> = indices
+                .iter()
+                .map(|index| &report.runs[*index])
+                .map(|run| {
+                    (run, run.passes.iter().filter(|pass| pass.of == figure.of).map(pass_part).collect())
+                })
+                .filter(|(_, parts): &(&Run, Vec<Part<'_>>)| !parts.is_empty())
+                .collect();
+            if runs.is_empty() {
+                continue;
+            }
+            match shown.iter_mut().find(|one| same_times(&one.runs, &runs)) {
+                Some(same) => same.workloads.push(workload),
+                None => shown.push(SharedTimes { workloads: vec![workload], runs }),
+            }
         }
-        let data = stacked(&runs, &ranking);
-        plots.push(Plot {
-            id: format!("passes-{position}"),
-            title: format!("{workload}: milliseconds per pass"),
-            note: String::new(),
-            description: format!(
-                "Stacked bars of the time of each pass for {workload}: {}.",
-                totals(&runs, |size| format!("{size:.3} ms"))
-            ),
-            height: bar_height(runs.len(), data.len()),
-            data,
-            layout: json!({"barmode": "stack", "xaxis": axes::linear("ms, median"), "yaxis": axes::names()}),
-        });
+        for one in &shown {
+            plots.push(pass_plot(plots.len(), &figure, one, &ranking));
+        }
     }
     Section::of_plots(
         "passes",
         "Time per pass",
-        "Medians of every pass that was timed, build and trace alike; a label is the path of the pass's \
-         shader. Passes beyond the seven longest share a colour.",
+        "What each figure of the summary is made of: all dispatches of a pass together, in the repetition whose time is \
+         the median, so that a bar is as long as the figure beside it. A label is the path of the pass's shader; what the \
+         host does is hatched. Passes beyond the seven longest share a colour.",
         plots,
     )
+}
+
+fn same_times(a: &[(&Run, Vec<Part<'_>>)], b: &[(&Run, Vec<Part<'_>>)]) -> bool {
+    let sizes =
+        |parts: &[Part<'_>]| parts.iter().map(|part| (part.name.to_owned(), part.size)).collect::<Vec<_>>();
+    let same = |(a, b): (&(&Run, Vec<Part<'_>>), &(&Run, Vec<Part<'_>>))| {
+        a.0.contestant() == b.0.contestant() && sizes(&a.1) == sizes(&b.1)
+    };
+    a.len() == b.len() && a.iter().zip(b).all(same)
+}
+
+fn pass_plot(position: usize, figure: &Figure, one: &SharedTimes<'_>, ranking: &[&str]) -> Plot {
+    let SharedTimes { workloads, runs } = one;
+    let workloads = workloads.join(", ");
+    let data = stacked(runs, ranking);
+    // The figure of the summary stands at the end of each bar.
+    let ends = runs.iter().map(|(run, parts)| {
+        let length: f64 = parts.iter().map(|part| part.size.max(0.0)).sum();
+        let value = (figure.value)(run).unwrap_or(length);
+        json!({
+            "x": length, "y": bar_name(run), "text": format!("{} ms", milliseconds(value)), "showarrow": false,
+            "xanchor": "left", "xshift": 4,
+        })
+    });
+    let layout = json!({
+        "barmode": "stack", "xaxis": axes::linear("ms"), "yaxis": axes::names(), "annotations": ends.collect::<Vec<_>>(),
+    });
+    Plot {
+        id: format!("passes-{position}"),
+        title: format!("{workloads}: {}", figure.name),
+        note: String::new(),
+        description: format!(
+            "Stacked bars of the time of each pass, {} for {workloads}: {}.",
+            figure.name,
+            totals(runs, |size| format!("{size:.3} ms"))
+        ),
+        height: bar_height(runs.len(), data.len()),
+        data,
+        layout,
+    }
 }
 
 /// Each bar's name and length in words.

@@ -1,6 +1,7 @@
 //! How |dt|/t is distributed: histograms, and percentiles next to each other.
 
 use super::axes;
+use super::coincide::{Curve, covered, sentence};
 use super::markup::plot_text;
 use super::names::{by_workload, look};
 use super::section::{Plot, Section};
@@ -69,6 +70,7 @@ fn histogram_plot(
     let below = 0.01 / most;
     let mut largest = 0.0_f64;
     let mut data = Vec::new();
+    let (mut curves, mut names): (Vec<Curve>, Vec<String>) = (Vec::new(), Vec::new());
     for one in own.iter().filter(|one| one.bins.iter().any(|count| *count > 0)) {
         let run = &report.runs[one.run];
         let look = look(&report.runs, run);
@@ -84,6 +86,8 @@ fn histogram_plot(
         x.push(edge(end));
         y.push(below);
         let zero = 100.0 * one.zero as f64 / hits;
+        curves.push(y.iter().map(|height| Some(height.log10())).collect());
+        names.push(run.contestant());
         data.push(json!({
             "type": "scatter", "mode": "lines", "x": x, "y": y,
             "name": format!("{}, {zero:.1} % exact", plot_text(&run.contestant())),
@@ -93,11 +97,14 @@ fn histogram_plot(
     }
     let mut y = axes::decades("share of common hits", std::iter::once(largest));
     y["range"] = json!([(0.5 / most).log10(), (largest * 2.0).log10().min(0.1)]);
+    let [low, high] = [0, 1].map(|end| y["range"][end].as_f64().unwrap_or_default());
+    let coinciding = spread_apart(&mut data, curves, &names, high - low);
     let note = match exact {
         0 => String::new(),
         1 => "One run is exact in every hit and has no line.".to_owned(),
         _ => format!("{exact} runs are exact in every hit and have no line."),
     };
+    let note = [note, coinciding].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ");
     Plot {
         id: format!("histogram-{position}"),
         title: format!("{workload}: |dt|/t"),
@@ -115,18 +122,38 @@ fn histogram_plot(
     }
 }
 
+/// Widens lines that others lie on, and says which; `decades` is what the axis spans, heights are exponents.
+fn spread_apart(data: &mut [Value], curves: Vec<Curve>, names: &[String], decades: f64) -> String {
+    let shares = |curve: Curve| curve.into_iter().map(|height| height.map(|one| one / decades)).collect();
+    let curves: Vec<Curve> = curves.into_iter().map(shares).collect();
+    for (trace, below) in data.iter_mut().zip(covered(&curves)).filter(|(_, below)| *below > 0) {
+        let wider = 5.0 * below as f64;
+        trace["line"]["width"] = json!(trace["line"]["width"].as_f64().unwrap_or(2.0) + wider);
+        trace["opacity"] = json!(0.6);
+        if let Some(size) = trace["marker"]["size"].as_f64() {
+            trace["marker"]["size"] = json!(size + wider);
+        }
+    }
+    sentence(&curves, names)
+}
+
+/// Names of the percentiles, from left to right.
+const PERCENTILES: [&str; 5] = ["median", "90 %", "99 %", "99.9 %", "largest"];
+
 /// Names and values of the percentiles that were measured.
 fn measured(accuracy: &Accuracy) -> Vec<(&'static str, f64)> {
-    [
-        ("median", accuracy.dt_rel_p50),
-        ("90 %", accuracy.dt_rel_p90),
-        ("99 %", accuracy.dt_rel_p99),
-        ("99.9 %", accuracy.dt_rel_p999),
-        ("largest", accuracy.dt_rel_max),
-    ]
-    .into_iter()
-    .filter_map(|(name, value)| Some((name, value.filter(|value| value.is_finite())?)))
-    .collect()
+    let values = [
+        accuracy.dt_rel_p50,
+        accuracy.dt_rel_p90,
+        accuracy.dt_rel_p99,
+        accuracy.dt_rel_p999,
+        accuracy.dt_rel_max,
+    ];
+    PERCENTILES
+        .into_iter()
+        .zip(values)
+        .filter_map(|(name, value)| Some((name, value.filter(|value| value.is_finite())?)))
+        .collect()
 }
 
 /// Percentiles, one plot a workload and one line a run.
@@ -136,6 +163,7 @@ pub(super) fn percentiles(report: &Report) -> Option<Section> {
         let floor = edge(0);
         let mut drawn = Vec::new();
         let mut data: Vec<Value> = Vec::new();
+        let (mut curves, mut names): (Vec<Curve>, Vec<String>) = (Vec::new(), Vec::new());
         for index in indices {
             let run = &report.runs[index];
             let Some(accuracy) = &run.accuracy else { continue };
@@ -158,21 +186,33 @@ pub(super) fn percentiles(report: &Report) -> Option<Section> {
                 "line": {"color": look.colour, "dash": look.dash, "width": 1.5},
                 "marker": {"color": look.colour, "symbol": symbols, "size": 10, "line": {"width": 2, "color": look.colour}},
             }));
+            curves.push(
+                PERCENTILES
+                    .map(|wanted| {
+                        let found = values.iter().position(|(name, _)| *name == wanted)?;
+                        Some(heights[found].log10())
+                    })
+                    .to_vec(),
+            );
+            names.push(run.contestant());
             drawn.extend(heights);
         }
         if data.is_empty() {
             continue;
         }
+        let axis = axes::decades("|dt|/t", drawn.into_iter());
+        let [low, high] = [0, 1].map(|end| axis["range"][end].as_f64().unwrap_or_default());
+        let note = spread_apart(&mut data, curves, &names, high - low);
         plots.push(Plot {
             id: format!("percentiles-{position}"),
             title: format!("{workload}: percentiles of |dt|/t"),
-            note: String::new(),
+            note,
             description: format!("Percentiles of the relative error in t for {workload}, one line a run."),
             height: 380,
             data,
             layout: json!({
                 "xaxis": {"type": "category", "automargin": true},
-                "yaxis": axes::decades("|dt|/t", drawn.into_iter()),
+                "yaxis": axis,
             }),
         });
     }

@@ -94,14 +94,15 @@ fn pass_table(body: &mut Markup, run: &rasray_report::Run) {
     body.element("div", &[("class", "scrolled"), ("tabindex", "0"), ("role", "region"), ("aria-label", "Passes")], |body| {
         body.element("table", &[], |table| {
             table.fixed(
-                "<caption>Passes, ms</caption><thead><tr><th scope=\"col\">pass</th>\
+                "<caption>Passes, ms: all dispatches together, share of the figure, and over repetitions</caption>\
+                 <thead><tr><th scope=\"col\">pass</th><th scope=\"col\" class=\"number\">share</th>\
                  <th scope=\"col\" class=\"number\">median</th><th scope=\"col\" class=\"number\">shortest</th>\
                  <th scope=\"col\" class=\"number\">longest</th></tr></thead><tbody>",
             );
             for pass in &run.passes {
                 table.element("tr", &[], |row| {
                     row.leaf("th", &[("scope", "row")], &pass.label);
-                    for value in [pass.ms_median, pass.ms_min, pass.ms_max] {
+                    for value in [pass.ms_share.unwrap_or(pass.ms_median), pass.ms_median, pass.ms_min, pass.ms_max] {
                         row.leaf("td", &[("class", "number")], format_args!("{value:.4}"));
                     }
                 });

@@ -5,6 +5,7 @@
 
 mod axes;
 mod bars;
+mod coincide;
 mod depth_errors;
 mod details;
 mod document;
@@ -33,18 +34,18 @@ use rasray_report::figures::Figures;
 /// Figures that do not fit the report: a run that is not there, or a picture that lacks pixels.
 pub fn page(report: &Report, figures: &Figures) -> Result<Vec<u8>, HtmlError> {
     check(report, figures)?;
-    // Of many hard cases the verdicts are the summary, and a row per run is what to look up in.
+    // Charts before tables: what they show is seen at once. Of many hard cases the verdicts are the summary, and a row per run is what to look up in.
     let (summary, hard) = (summary::section(report), hard::section(report));
     let many = names::hard_cases(&report.runs) > names::MOST_HARD_CASES;
     let [first, second] = if many { [hard, summary] } else { [summary, hard] };
     let sections: Vec<_> = [
-        first,
-        second,
         speed_error::section(report),
-        depth_errors::histograms(report, figures),
-        depth_errors::percentiles(report),
         bars::passes(report),
         bars::memory(report),
+        depth_errors::histograms(report, figures),
+        depth_errors::percentiles(report),
+        first,
+        second,
         work::section(report, figures)?,
         images::section(report, figures)?,
         details::section(report)?,

@@ -1,6 +1,6 @@
 //! How runs are named, grouped and coloured, the same in every part of the page.
 
-use rasray_report::Run;
+use rasray_report::{Run, grouped};
 
 /// Colours that people with any colour vision tell apart, after Okabe and Ito; black is left out
 /// because it vanishes on a dark page, and yellow is last because it is faint on a light one.
@@ -78,6 +78,17 @@ fn position<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> usize {
         }
     }
     seen.len()
+}
+
+/// Milliseconds in words: long times need no fractions.
+pub(super) fn milliseconds(value: f64) -> String {
+    if value >= 1000.0 {
+        grouped(value.round() as u64)
+    } else if value >= 100.0 {
+        format!("{value:.1}")
+    } else {
+        format!("{value:.3}")
+    }
 }
 
 /// Colours for the parts of a bar; repeats after eight.

@@ -20,7 +20,11 @@
       ? ["#1b1f24", "#d8dde2", "#8c959f"]
       : [colour("text"), colour("grid"), colour("line")];
     const axis = (own) => ({
-      gridcolor: grid, linecolor: line, zerolinecolor: line, tickcolor: line, ...own,
+      gridcolor: grid, linecolor: line, zerolinecolor: line, tickcolor: line,
+      // Marks outside of the plot, between the labels of a logarithmic axis too.
+      ticks: "outside", ticklen: 5, showline: true,
+      ...(own.type === "log" ? { minor: { ticks: "outside", ticklen: 3, tickcolor: line, showgrid: false } } : {}),
+      ...own,
       title: { standoff: 8, ...own.title },
     });
     return {

@@ -1,7 +1,7 @@
-//! The table with one row per run; a click on a heading sorts it.
+//! The tables with one row per run; a click on a heading sorts them.
 
 use super::markup::Markup;
-use super::names::workload;
+use super::names::{milliseconds, workload};
 use super::section::Section;
 use super::sortable::{Heading, table};
 use rasray_report::{Accuracy, Counters, ImageError, RateRecord, Report, Run, Statistics};
@@ -30,6 +30,9 @@ struct Column {
     heading: &'static str,
     meaning: &'static str,
     cell: fn(&Run) -> Option<Cell>,
+    /// Whether it stands beside speed and error in the first table, which is as wide as a page; the others have one of
+    /// their own.
+    is_main: bool,
 }
 
 fn number(value: Option<f64>, digits: usize) -> Option<Cell> {
@@ -44,17 +47,6 @@ fn scientific(value: Option<f64>) -> Option<Cell> {
 
 fn count(value: Option<u64>) -> Option<Cell> {
     value.and_then(|value| Cell::new(grouped(value), value as f64))
-}
-
-/// Milliseconds in words: long times need no fractions.
-fn milliseconds(value: f64) -> String {
-    if value >= 1000.0 {
-        grouped(value.round() as u64)
-    } else if value >= 100.0 {
-        format!("{value:.1}")
-    } else {
-        format!("{value:.3}")
-    }
 }
 
 /// A median with its quartiles.
@@ -93,22 +85,31 @@ fn image(run: &Run, field: impl Fn(&ImageError) -> Option<f64>) -> Option<f64> {
 const COLUMNS: &[Column] = &[
     Column {
         heading: "build ms",
+        is_main: true,
         meaning: "posed positions to traceable, host work included; median, and quartiles where repeated",
         cell: |run| median(run, "build_ms", run.times.build_ms),
     },
     Column {
         heading: "trace ms",
+        is_main: true,
         meaning: "rays in to hits out; median, and quartiles where repeated",
         cell: |run| median(run, "trace_ms", run.times.trace_ms),
     },
-    Column { heading: "frame ms", meaning: "everything; median", cell: |run| number(run.times.frame_ms, 3) },
+    Column {
+        heading: "frame ms",
+        is_main: true,
+        meaning: "everything; median",
+        cell: |run| number(run.times.frame_ms, 3),
+    },
     Column {
         heading: "Mrays/s",
+        is_main: true,
         meaning: "millions of rays per second of trace time",
         cell: |run| number(run.times.mrays_per_s, 3),
     },
     Column {
         heading: "memory",
+        is_main: true,
         meaning: "the structure's allocations after the final build",
         cell: |run| {
             let value = run.memory.as_ref()?.structure_bytes?;
@@ -117,104 +118,124 @@ const COLUMNS: &[Column] = &[
     },
     Column {
         heading: "cells/ray",
+        is_main: false,
         meaning: "cells stepped per ray",
         cell: |run| number(counter(run, |counters| counters.cells_per_ray), 2),
     },
     Column {
         heading: "entries/ray",
+        is_main: false,
         meaning: "list entries or tree nodes read per ray",
         cell: |run| number(counter(run, |counters| counters.nodes_per_ray), 2),
     },
     Column {
         heading: "tests/ray",
+        is_main: false,
         meaning: "primitive tests per ray",
         cell: |run| number(counter(run, |counters| counters.tests_per_ray), 2),
     },
     Column {
         heading: "rays compared",
+        is_main: false,
         meaning: "unambiguous rays that the oracle compared",
         cell: |run| count(accuracy(run, |hits| hits.rays.checked_sub(hits.ambiguous))),
     },
     Column {
         heading: "missed",
+        is_main: true,
         meaning: "hits that were not found, and the interval of their rate",
         cell: |run| rate(run, "missed", accuracy(run, |hits| Some(hits.missed))),
     },
     Column {
         heading: "false",
+        is_main: true,
         meaning: "hits where there is nothing, and the interval of their rate",
         cell: |run| rate(run, "false_hits", accuracy(run, |hits| Some(hits.false_hits))),
     },
     Column {
         heading: "wrong",
+        is_main: true,
         meaning: "hits of another primitive, and the interval of their rate; absent where the structure does \
                   not know the primitive",
         cell: |run| rate(run, "wrong_primitive", accuracy(run, |hits| hits.wrong_primitive)),
     },
     Column {
         heading: "t off",
+        is_main: true,
         meaning: "hits with a t that the rounding of a careful f32 test does not explain, and the interval of \
                   their rate",
         cell: |run| rate(run, "t_off", accuracy(run, |hits| hits.t_off)),
     },
     Column {
         heading: "not finite",
+        is_main: false,
         meaning: "answers that are not finite numbers",
         cell: |run| rate(run, "non_finite", accuracy(run, |hits| Some(hits.non_finite))),
     },
     Column {
         heading: "|dt|/t p50",
+        is_main: false,
         meaning: "median of the relative error in t over common hits",
         cell: |run| scientific(accuracy(run, |hits| hits.dt_rel_p50)),
     },
     Column {
         heading: "|dt|/t p99",
+        is_main: true,
         meaning: "99th percentile of the relative error in t over common hits",
         cell: |run| scientific(accuracy(run, |hits| hits.dt_rel_p99)),
     },
     Column {
         heading: "|dt|/t max",
+        is_main: false,
         meaning: "largest relative error in t over common hits",
         cell: |run| scientific(accuracy(run, |hits| hits.dt_rel_max)),
     },
     Column {
         heading: "FLIP",
+        is_main: true,
         meaning: "mean of FLIP against the reference, 0 for equal images",
         cell: |run| number(image(run, |error| error.flip_mean), 5),
     },
     Column {
         heading: "FLIP p99",
+        is_main: true,
         meaning: "99th percentile of FLIP",
         cell: |run| number(image(run, |error| error.flip_p99), 5),
     },
     Column {
         heading: "FLIP max",
+        is_main: false,
         meaning: "FLIP of the worst pixel",
         cell: |run| number(image(run, |error| error.flip_max), 3),
     },
     Column {
         heading: "RMSE",
+        is_main: true,
         meaning: "root of the mean squared error of linear colours",
         cell: |run| scientific(image(run, |error| error.rmse)),
     },
     Column {
         heading: "relMSE",
+        is_main: false,
         meaning: "relative mean squared error",
         cell: |run| scientific(image(run, |error| error.relmse)),
     },
     Column {
         heading: "PSNR dB",
+        is_main: true,
         meaning: "peak signal to noise ratio; absent also where the images are equal",
         cell: |run| number(image(run, |error| error.psnr), 2),
     },
     Column {
         heading: "SSIM",
+        is_main: true,
         meaning: "structural similarity, 1 for equal images",
         cell: |run| number(image(run, |error| error.ssim), 5),
     },
 ];
 
-/// A table of the runs of rays and one of the images, as their columns differ.
+/// Tables of the runs of rays and of the images, as their columns differ: first what speed and error are, as wide as a
+/// page at most, then what else was counted.
 pub(super) fn section(report: &Report) -> Option<Section> {
     if report.runs.is_empty() {
         return None;
@@ -226,14 +247,21 @@ pub(super) fn section(report: &Report) -> Option<Section> {
         "<p class=\"script-only\">A heading sorts by its column; a second time turns the order around.</p>\n",
     );
     let mut explained: Vec<&Column> = Vec::new();
-    for (title, runs) in [("Rays against the oracle", rays), ("Images against the reference", images)] {
-        if runs.is_empty() {
+    let tables = [
+        ("Rays against the oracle", &rays, true),
+        ("Images against the reference", &images, true),
+        ("More of rays", &rays, false),
+        ("More of images", &images, false),
+    ];
+    for (title, runs, is_main) in tables {
+        // Only columns in which some run has a value.
+        let measured = |column: &&Column| runs.iter().any(|run| (column.cell)(run).is_some());
+        let columns: Vec<&Column> =
+            COLUMNS.iter().filter(|column| column.is_main == is_main).filter(measured).collect();
+        if runs.is_empty() || (columns.is_empty() && !is_main) {
             continue;
         }
-        // Only columns in which some run has a value.
-        let columns: Vec<&Column> =
-            COLUMNS.iter().filter(|column| runs.iter().any(|run| (column.cell)(run).is_some())).collect();
-        rows(&mut body, title, &runs, &columns);
+        rows(&mut body, title, runs, &columns);
         for column in columns {
             if !explained.iter().any(|known| known.heading == column.heading) {
                 explained.push(column);
@@ -288,7 +316,7 @@ fn row(table: &mut Markup, run: &Run, columns: &[&Column]) {
         row.leaf("th", &[("scope", "row"), ("title", &run.contestant())], &run.system);
         let preset = [Some(run.preset.as_str()), run.variant.as_deref()];
         let preset = preset.into_iter().flatten().collect::<Vec<_>>().join(" ");
-        row.leaf("td", &[], preset).leaf("td", &[], workload(run));
+        row.leaf("td", &[("class", "wrapped")], preset).leaf("td", &[("class", "wrapped")], workload(run));
         for column in columns {
             match (column.cell)(run) {
                 Some(cell) => {

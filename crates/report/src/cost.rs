@@ -58,6 +58,9 @@ pub struct Times {
     /// What the camera sees, found by drawing; absent where its rays were traced.
     #[serde(default, skip_serializing_if = "absent")]
     pub visible_ms: Option<f64>,
+    /// All passes of an image on the device, traces, drawing and shading; absent for sets of rays.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub image_ms: Option<f64>,
     /// Everything.
     #[serde(default, skip_serializing_if = "absent")]
     pub frame_ms: Option<f64>,
@@ -69,12 +72,35 @@ pub struct Times {
     pub mrays_per_s: Option<f64>,
 }
 
-/// A pass: medians after warm-up, milliseconds.
+/// The figure of a run that a pass is a part of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PassOf {
+    /// [`Times::build_ms`], where builds were repeated to be timed.
+    Build,
+    /// [`Times::trace_ms`] of a set of rays.
+    Trace,
+    /// [`Times::image_ms`].
+    Image,
+}
+
+/// A pass, or what the host does beside them: milliseconds of all its dispatches in one repetition together, after
+/// warm-up.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pass {
-    /// The path of its shader.
+    /// The path of its shader, [`Pass::HOST`] or [`Pass::WAITING`].
     pub label: String,
+    /// What it is a part of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub of: Option<PassOf>,
+    /// Its share of the figure that it is a part of: its time in the repetition whose time is that median, or the mean
+    /// of the two in the middle. The shares of a figure add up to it, which medians of the parts need not.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub ms_share: Option<f64>,
+    /// Times it was dispatched in that repetition.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dispatches: Option<u64>,
     /// Median.
     pub ms_median: f64,
     /// Shortest.
@@ -87,9 +113,16 @@ pub struct Pass {
     /// Third quartile.
     #[serde(default, skip_serializing_if = "absent")]
     pub ms_q3: Option<f64>,
-    /// Times measured.
+    /// Repetitions measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u64>,
+}
+
+impl Pass {
+    /// Label of the host's own part of a build, [`Times::build_host_ms`], such as a tree that it builds.
+    pub const HOST: &'static str = "host, before recording";
+    /// Label of what else the host sees of a build: recording, submitting, and waiting beyond the passes.
+    pub const WAITING: &'static str = "host, recording and waiting";
 }
 
 /// Bytes.

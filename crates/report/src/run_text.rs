@@ -79,6 +79,7 @@ pub(super) fn run_text(run: &Run) -> String {
         ("first build", "first_build_ms", times.first_build_ms),
         ("first use", "first_use_ms", times.first_use_ms),
         ("trace", "trace_ms", times.trace_ms),
+        ("image, all passes", "image_ms", times.image_ms),
         ("frame", "frame_ms", times.frame_ms),
     ];
     rows.extend(figures.into_iter().filter_map(|(name, key, value)| {

@@ -11,6 +11,14 @@ const PROBE: &str = r##"<script>
 addEventListener("load", () => {
   const report = (name, value) => parent.document.body.setAttribute(`data-probe-${name}`, value);
   report("width", innerWidth);
+  const wider = (box) => box.scrollWidth > box.clientWidth && box.getBoundingClientRect().width > 0;
+  const cut = [...document.querySelectorAll(".scrolled")].filter(wider);
+  report("cut", cut.map((box) => `${box.ariaLabel} ${box.scrollWidth} of ${box.clientWidth}`).join("|"));
+  const labels = (area, axis) => area.querySelectorAll(`.${axis}tick text`).length;
+  const few = [...document.querySelectorAll(".area")].flatMap((area) =>
+    ["x", "y"].filter((axis) => labels(area, axis) < 2 && !(axis === "y" && area.layout.yaxis.type === "category"))
+      .map((axis) => `${area.id} ${axis}`));
+  report("unlabelled", few.join("|"));
 
   const table = document.querySelector("table.sortable");
   const column = (index) => [...table.tBodies[0].rows].map((row) => row.cells[index].textContent).join("|");
@@ -67,9 +75,15 @@ fn the_page_works_in_a_browser() {
         assert_eq!(visit.complaints, Vec::<String>::new());
         let (areas, drawn) = (visit.probe("areas"), visit.probe("drawn"));
         // Speed and error: two for each of two ray sets, one for images. Two histograms, two times
-        // percentiles, three of passes, one of memory.
-        assert_eq!((areas.as_str(), drawn.as_str()), ("13", "13"));
+        // percentiles; of passes builds, two traces and images; one of memory.
+        assert_eq!((areas.as_str(), drawn.as_str()), ("14", "14"));
         assert_eq!(visit.probe("wide"), "0", "the page scrolls sideways at {width} pixels");
+        if width == "1280" {
+            assert_eq!(visit.probe("cut"), "", "tables that are wider than the page");
+        }
+        // Each axis of numbers has labels that make it a scale.
+        let unlabelled = visit.probe("unlabelled");
+        assert_eq!(unlabelled, "", "axes with fewer than two labels");
         let rates = |name: &str| -> Vec<f64> {
             visit.probe(name).split('|').map(|text| text.parse().expect("a rate")).collect()
         };

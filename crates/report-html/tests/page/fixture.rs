@@ -9,7 +9,8 @@
 use rasray_metrics::Rate;
 use rasray_report::figures::{DepthErrors, Figures, Images, SystemImage, WorkMap};
 use rasray_report::{
-    Accuracy, Counters, HardRecord, ImageError, Memory, Pass, RateRecord, Report, Run, SCHEMA, Spread, Times,
+    Accuracy, Counters, HardRecord, ImageError, Memory, Pass, PassOf, RateRecord, Report, Run, SCHEMA,
+    Spread, Times,
 };
 use serde_json::json;
 
@@ -27,16 +28,27 @@ const CONTESTANTS: [(&str, &str, f64, u64, f64); 5] = [
     ("brute-force", "robust", 0.02, 0, 0.0),
 ];
 
-fn passes(slowness: f64, system: &str) -> Vec<Pass> {
-    let names: &[&str] = match system {
-        "mmrt" => &["count", "scan", "fill", "sort", "skip", "bounds", "pages", "clear", "trace_queue"],
-        "brute-force" => &["trace_queue"],
-        _ => &["bin", "scan", "scatter", "trace_queue"],
+/// Passes whose shares are the figure, whose medians are not, and of which some are dispatched often.
+fn passes(figure: f64, of: PassOf, system: &str) -> Vec<Pass> {
+    let names: &[&str] = match (of, system) {
+        (PassOf::Build, "mmrt") => {
+            &["count", "scan", "fill", "sort", "skip", "bounds", "pages", "clear", "header", Pass::WAITING]
+        }
+        (PassOf::Build, "bvh") => &[Pass::HOST, "refit", Pass::WAITING],
+        (PassOf::Build, "brute-force") => &[Pass::WAITING],
+        (PassOf::Build, _) => &["bin", "scan", "scatter", Pass::WAITING],
+        (PassOf::Trace, _) => &["trace_queue"],
+        (PassOf::Image, _) => &["generate", "trace_queue", "shade"],
     };
+    let weight = |index: usize| 1.0 / (1.0 + ((index * 5) % 7) as f64);
+    let all: f64 = (0..names.len()).map(weight).sum();
     let pass = |(index, name): (usize, &&str)| {
-        let median = slowness * 8.0 / (1.0 + ((index * 5) % 7) as f64);
+        let share = figure * weight(index) / all;
+        let median = 0.97 * share;
         let mut pass = Pass::default();
-        pass.label = format!("{system}/{name}.comp");
+        pass.label =
+            if name.starts_with("host") { (*name).to_owned() } else { format!("{system}/{name}.comp") };
+        (pass.of, pass.ms_share, pass.dispatches) = (Some(of), Some(share), Some(1 + 5 * index as u64));
         (pass.ms_median, pass.ms_min, pass.ms_max) = (median, 0.9 * median, 1.3 * median);
         (pass.ms_q1, pass.ms_q3) = (Some(0.95 * median), Some(1.1 * median));
         pass
@@ -72,8 +84,11 @@ fn rate(name: &str, count: u64) -> (String, RateRecord) {
     (name.to_owned(), record)
 }
 
-fn run(contestant: &(&str, &str, f64, u64, f64), slowness: f64) -> Run {
+fn run(contestant: &(&str, &str, f64, u64, f64), slowness: f64, of: PassOf) -> Run {
     let (system, preset, rate, ..) = *contestant;
+    let (build_ms, trace_ms) = (40.0 / rate.sqrt(), slowness * 200.0 / rate);
+    let image_ms = (of == PassOf::Image).then_some(1.25 * trace_ms);
+    let traced = passes(image_ms.unwrap_or(trace_ms), of, system);
     Run {
         system: system.to_owned(),
         structure: if system == "mmrt" { "abuffer" } else { system }.to_owned(),
@@ -88,9 +103,10 @@ fn run(contestant: &(&str, &str, f64, u64, f64), slowness: f64) -> Run {
             frame_ms: Some(slowness * 200.0 / rate + 40.0 / rate.sqrt()),
             rays: Some(200_000),
             mrays_per_s: Some(rate / slowness),
+            image_ms,
             ..Default::default()
         },
-        passes: passes(slowness, system),
+        passes: passes(build_ms, PassOf::Build, system).into_iter().chain(traced).collect(),
         memory: Some(memory(system)),
         counters: Some(Counters {
             cells_per_ray: Some(12.0 * slowness),
@@ -120,7 +136,7 @@ fn traced(contestant: &(&str, &str, f64, u64, f64), set: &str, slowness: f64) ->
             rates: [rate("missed", wrong / 2), rate("false_hits", wrong / 7)].into(),
             ..Default::default()
         }),
-        ..run(contestant, slowness)
+        ..run(contestant, slowness, PassOf::Trace)
     }
 }
 
@@ -191,7 +207,7 @@ pub fn everything(scene: &str) -> (Report, Figures) {
                 ssim: Some(1.0 - f64::from(noise) * 0.01),
                 ..Default::default()
             }),
-            ..run(contestant, 3.0)
+            ..run(contestant, 3.0, PassOf::Image)
         });
     }
     figures.images = Some(images);

@@ -2,7 +2,7 @@
 
 use crate::fixture::{everything, hard_runs};
 use rasray_report::figures::Figures;
-use rasray_report::{PoseRecord, Report};
+use rasray_report::{Pass, PoseRecord, Report, Run};
 use rasray_report_html as html;
 
 fn page(report: &Report, figures: &Figures) -> String {
@@ -21,8 +21,9 @@ fn parts(page: &str) -> Vec<String> {
     page.split("<section id=\"").skip(1).map(|rest| rest.split('"').next().unwrap_or("").to_owned()).collect()
 }
 
+/// Charts come first, then tables, then pictures.
 const ALL_PARTS: [&str; 9] =
-    ["summary", "speed-error", "histograms", "percentiles", "passes", "memory", "work", "images", "runs"];
+    ["speed-error", "passes", "memory", "histograms", "percentiles", "summary", "work", "images", "runs"];
 
 #[test]
 fn a_full_report_has_every_part_once() {
@@ -80,8 +81,9 @@ fn hard_cases_have_verdicts_and_a_few_have_plots() {
         report.runs = hard_runs(cases);
         let page = page(&report, &Figures::default());
         let order = if plotted { ["summary", "hard-cases"] } else { ["hard-cases", "summary"] };
-        assert_eq!(parts(&page)[..2], order);
-        assert_eq!(parts(&page).contains(&"speed-error".to_owned()), plotted, "{cases} cases");
+        let tables: Vec<_> = parts(&page).into_iter().filter(|part| order.contains(&part.as_str())).collect();
+        assert_eq!(tables, order);
+        assert_eq!(parts(&page)[0] == "speed-error", plotted, "{cases} cases");
         let bad =
             report.runs.iter().filter(|run| run.hard.as_ref().is_some_and(|hard| hard.met == Some(false)));
         assert_eq!(page.matches("class=\"verdict broken\"").count(), bad.count());
@@ -110,7 +112,7 @@ fn numbers_that_change_change_the_page() {
     let changes: [(&str, Removal); 11] = [
         ("a rate", |report, _| report.runs[1].times.mrays_per_s = Some(3.5)),
         ("a missed hit", |report, _| report.runs[3].accuracy.as_mut().expect("judged").missed += 1),
-        ("a pass", |report, _| report.runs[7].passes[2].ms_median *= 1.5),
+        ("a pass", |report, _| report.runs[7].passes[2].ms_share = Some(1.5)),
         ("a part of memory", |report, _| {
             let parts = &mut report.runs[0].memory.as_mut().expect("measured").by_part;
             *parts.values_mut().next().expect("a part") += 4096;
@@ -136,6 +138,84 @@ fn numbers_that_change_change_the_page() {
         assert_ne!(page(&report, &figures), before, "{what}");
     }
     assert_eq!(page(&report, &figures), before, "the same report makes the same page");
+}
+
+/// What a bar chart shows: its title, and each bar's name with the sum of its parts.
+fn bars(page: &str, id: &str) -> Vec<(String, Vec<(String, f64)>)> {
+    let start = "<script type=\"application/json\" id=\"plots\">";
+    let plots = page.split(start).nth(1).and_then(|rest| rest.split("</script>").next()).expect("plots");
+    let plots: Vec<serde_json::Value> = serde_json::from_str(plots).expect("JSON");
+    let of = |plot: &serde_json::Value| -> Vec<(String, f64)> {
+        let mut sums: Vec<(String, f64)> = Vec::new();
+        let traces = plot["data"].as_array().expect("traces").iter().filter(|trace| trace["type"] == "bar");
+        for trace in traces {
+            let (names, sizes) =
+                (trace["y"].as_array().expect("names"), trace["x"].as_array().expect("sizes"));
+            for (name, size) in names.iter().zip(sizes) {
+                let (name, size) = (name.as_str().expect("a name"), size.as_f64().expect("a size"));
+                match sums.iter_mut().find(|(known, _)| known == name) {
+                    Some((_, sum)) => *sum += size,
+                    None => sums.push((name.to_owned(), size)),
+                }
+            }
+        }
+        sums
+    };
+    let named = |plot: &&serde_json::Value| plot["id"].as_str().is_some_and(|one| one.starts_with(id));
+    let title = |plot: &serde_json::Value| {
+        let area = format!("id=\"{}\"", plot["id"].as_str().expect("an id"));
+        let before = page.split(&area).next().expect("a page");
+        let title = before.rsplit("<strong>").next().and_then(|rest| rest.split("</strong>").next());
+        title.expect("a title").to_owned()
+    };
+    plots.iter().filter(named).map(|plot| (title(plot), of(plot))).collect()
+}
+
+#[test]
+fn bars_of_passes_are_as_long_as_the_figures_of_the_table() {
+    let (report, figures) = everything("spheres:10k");
+    let bars = bars(&page(&report, &figures), "passes");
+    let titles: Vec<_> = bars.iter().map(|(title, _)| title.as_str()).collect();
+    assert_eq!(
+        titles,
+        [
+            "camera, incoherent, image, path: build",
+            "camera: trace",
+            "incoherent: trace",
+            "image, path: all passes of the image"
+        ]
+    );
+    for (title, sums) in &bars {
+        let (rays, figure) = title.rsplit_once(": ").expect("rays and a figure");
+        let of_rays = |run: &&Run| rays.starts_with(run.ray_set.as_deref().unwrap_or("image"));
+        let mut seen = 0;
+        for run in report.runs.iter().filter(of_rays) {
+            let name = format!("{}<br>{}", run.system, run.preset);
+            let sum = sums.iter().find(|(bar, _)| *bar == name).expect("a bar").1;
+            let wanted = match figure {
+                "build" => run.times.build_ms,
+                "trace" => run.times.trace_ms,
+                _ => run.times.image_ms,
+            };
+            let wanted = wanted.expect("measured");
+            assert!((sum / wanted - 1.0).abs() < 1.0e-9, "{title}, {name}: {sum} of {wanted}");
+            seen += 1;
+        }
+        assert_eq!(seen, 5, "{title}");
+    }
+}
+
+/// Which part of a build is the host's is no pass of a device, however many passes there are.
+#[test]
+fn what_the_host_does_has_a_bar_of_its_own() {
+    let (report, figures) = everything("spheres:10k");
+    let page = page(&report, &figures);
+    for name in [Pass::HOST, Pass::WAITING] {
+        assert!(page.contains(&format!("\"name\":\"{name}\"")), "{name}");
+    }
+    let (_, sums) = &bars(&page, "passes")[0];
+    let brute = sums.iter().find(|(bar, _)| bar.starts_with("brute-force")).expect("a bar");
+    assert!(brute.1 > 0.0, "all that it does is the host's");
 }
 
 #[test]

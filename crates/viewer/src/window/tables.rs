@@ -9,7 +9,10 @@ pub(super) fn show_tables(ui: &mut egui::Ui, picture: &Picture) {
     let total: f64 = picture.passes.iter().map(|pass| pass.ms_median).sum();
     let title = format!("Times of passes ({total:.1} ms)");
     egui::CollapsingHeader::new(title).id_salt("times").show(ui, |ui| {
-        ui.weak("Medians per dispatch; those of the build are of its first, with what the driver compiled.");
+        ui.weak(
+            "All dispatches of a pass together, of the build and of all samples so far; those of the first build with what \
+             the driver compiled.",
+        );
         egui::Grid::new("times").num_columns(3).striped(true).show(ui, |ui| {
             ui.strong("pass");
             ui.strong("ms");
@@ -18,7 +21,7 @@ pub(super) fn show_tables(ui: &mut egui::Ui, picture: &Picture) {
             for pass in &picture.passes {
                 ui.label(&pass.label);
                 ui.monospace(format!("{:9.3}", pass.ms_median));
-                ui.monospace(grouped(pass.count.unwrap_or(1)));
+                ui.monospace(grouped(pass.dispatches.unwrap_or(1)));
                 ui.end_row();
             }
         });
