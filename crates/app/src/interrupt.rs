@@ -1,9 +1,12 @@
-//! SIGINT and SIGTERM: the first asks for an early end with a valid result, the second ends at once. Where nothing is
+//! SIGINT, SIGTERM and SIGHUP: the first asks for an early end with a valid result, a second ends at once. Where nothing is
 //! finished that could be kept, the first ends as well, after [`GRACE`]: a build, a compiler or a wave may take long.
+//!
+//! A terminal that goes away may send SIGHUP twice, itself and by its shell, and systemd sends one behind SIGTERM: it is
+//! never a second signal. Where it is ignored from the start, as under nohup, it stays ignored.
 
 use crate::error::EXIT_INTERRUPTED;
 use crate::terminal;
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
@@ -28,22 +31,40 @@ pub struct Interrupt {
     unfinished: Arc<Mutex<Vec<PathBuf>>>,
 }
 
+/// Whether the process was started with a signal ignored.
+fn is_ignored(signal: i32) -> bool {
+    let mut found = std::mem::MaybeUninit::<libc::sigaction>::uninit();
+    // SAFETY: without a new action `sigaction` only writes the present one to `found`, which has room for it.
+    let answer = unsafe { libc::sigaction(signal, std::ptr::null(), found.as_mut_ptr()) };
+    // SAFETY: it was written where the call succeeded.
+    answer == 0 && unsafe { found.assume_init() }.sa_sigaction == libc::SIG_IGN
+}
+
 fn locked(files: &Mutex<Vec<PathBuf>>) -> MutexGuard<'_, Vec<PathBuf>> {
     files.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Interrupt {
-    /// Takes over SIGINT and SIGTERM for the rest of the process.
+    /// Takes over SIGINT and SIGTERM, and SIGHUP unless it is ignored, for the rest of the process.
     ///
     /// # Errors
     /// The system refuses a handler.
     pub fn install() -> std::io::Result<Self> {
         let interrupt = Self::default();
         let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM])?;
+        if !is_ignored(SIGHUP) {
+            signals.add_signal(SIGHUP)?;
+        }
         let watched = interrupt.clone();
         std::thread::Builder::new().name("signals".to_owned()).spawn(move || {
-            for _ in signals.forever() {
+            for signal in signals.forever() {
+                if signal == SIGHUP {
+                    terminal::hang_up();
+                }
                 if watched.requested.swap(true, Ordering::SeqCst) {
+                    if signal == SIGHUP {
+                        continue;
+                    }
                     watched.leave();
                 }
                 let stopping = watched.clone();

@@ -23,7 +23,7 @@ use terminal::Talk;
 /// done, 1 missed targets with `--check`, 2 bad input or usage, 3 device, 4 refused to lose data, 130 stopped
 /// by a signal.
 ///
-/// Takes over SIGINT and SIGTERM and writes to stdout and stderr; call it once in a process.
+/// Takes over SIGINT, SIGTERM and SIGHUP and writes to stdout and stderr; call it once in a process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, open: &mut OpenBackend<'_>) -> u8 {
     let arguments: Vec<_> = arguments.into_iter().collect();
     let words = arguments.iter().skip(1).map(|word| word.to_string_lossy());
@@ -51,7 +51,7 @@ fn execute(parsed: CommandLine, line: &str, open: &mut OpenBackend<'_>) -> Resul
     let interrupt = Interrupt::install().map_err(|error| {
         AppError::device(
             format!("signals cannot be handled: {error}"),
-            "run in an environment that lets programs handle SIGINT and SIGTERM",
+            "run in an environment that lets programs handle SIGINT, SIGTERM and SIGHUP",
         )
     })?;
     terminal::start_logging();

@@ -2,7 +2,7 @@
 //! long. Nothing where quiet was asked for.
 
 use crate::terminal::{self, Talk};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rasray_experiment::Progress;
 use std::io::{self, IsTerminal};
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
@@ -17,6 +17,7 @@ const FIRST_SIGN: Duration = Duration::from_secs(10);
 pub struct ProgressLine {
     bar: ProgressBar,
     task: String,
+    count: Count,
     signs: Option<Signs>,
 }
 
@@ -26,7 +27,12 @@ impl ProgressLine {
         let says = terminal::says(Talk::Usual);
         let target = if says { ProgressDrawTarget::stderr_with_hz(8) } else { ProgressDrawTarget::hidden() };
         let signs = (says && !io::stderr().is_terminal()).then(|| Signs::new(FIRST_SIGN, terminal::note));
-        Self { bar: ProgressBar::with_draw_target(None, target), task: String::new(), signs }
+        Self {
+            bar: ProgressBar::with_draw_target(None, target),
+            task: String::new(),
+            count: Count::default(),
+            signs,
+        }
     }
 
     /// Shows how far the work is.
@@ -35,11 +41,17 @@ impl ProgressLine {
         if let Some(signs) = &self.signs {
             signs.set(&task, progress);
         }
-        if self.task != task {
+        let begins = self.task != task;
+        if begins {
             self.task = task;
-            // Elapsed time and the estimate belong to one task.
+            // Elapsed time belongs to one task.
             self.bar.reset();
             self.bar.enable_steady_tick(Duration::from_millis(250));
+        }
+        let to_go = self.count.to_go(progress, Instant::now());
+        let words = to_go.map_or(String::new(), |left| format!(", {} to go", HumanDuration(left)));
+        self.bar.set_prefix(words);
+        if begins {
             self.bar.set_style(style(progress.total > 0));
             self.bar.set_message(self.task.clone());
         }
@@ -70,9 +82,37 @@ pub(crate) fn during<T>(task: &str, unit: &str, work: impl FnOnce() -> T) -> T {
     result
 }
 
+/// What is counted, and since when: tasks with one unit and one total are parts of the same work.
+#[derive(Debug, Default)]
+struct Count {
+    unit: String,
+    total: u64,
+    /// When it began, and what was done by then.
+    begun: Option<(Instant, u64)>,
+}
+
+impl Count {
+    /// How long the work will take from `now` on, at the pace so far; absent before the first of it is done, and when all
+    /// is.
+    fn to_go(&mut self, progress: Progress<'_>, now: Instant) -> Option<Duration> {
+        let Progress { done, total, unit, .. } = progress;
+        if total == 0 {
+            return None;
+        }
+        let same = self.unit == unit && self.total == total;
+        let Some((begun, before)) = self.begun.filter(|(_, before)| same && *before <= done) else {
+            *self = Self { unit: unit.to_owned(), total, begun: Some((now, done)) };
+            return None;
+        };
+        let made = done - before;
+        let left = total.saturating_sub(done);
+        (made > 0 && left > 0).then(|| (now - begun).mul_f64(left as f64 / made as f64))
+    }
+}
+
 fn style(bounded: bool) -> ProgressStyle {
     let template = if bounded {
-        "{msg} {wide_bar} {human_pos}/{human_len}, {elapsed} gone, {eta} to go"
+        "{msg} {wide_bar} {human_pos}/{human_len}, {elapsed} gone{prefix}"
     } else {
         "{msg} {spinner} {elapsed} gone"
     };
@@ -155,6 +195,26 @@ impl Drop for Signs {
 mod tests {
     use super::*;
     use std::sync::{Arc, Mutex};
+
+    #[test]
+    fn an_estimate_begins_with_the_first_that_is_done_and_goes_on_over_tasks() {
+        let start = Instant::now();
+        let mut count = Count::default();
+        let mut to_go = |task, done, seconds| {
+            count
+                .to_go(Progress { task, done, total: 12, unit: "runs" }, start + Duration::from_secs(seconds))
+        };
+        assert_eq!((to_go("camera", 0, 0), to_go("camera", 0, 5)), (None, None));
+        assert_eq!(to_go("camera", 4, 8), Some(Duration::from_secs(16)));
+        // The next set of rays is of the same count, and its first step no pace of its own.
+        assert_eq!(to_go("bounce", 4, 8), Some(Duration::from_secs(16)));
+        assert_eq!((to_go("bounce", 8, 20), to_go("bounce", 12, 30)), (Some(Duration::from_secs(10)), None));
+        // Another total is another count, and so is one that begins again.
+        assert_eq!(to_go("bounce", 0, 31), None);
+        let other = Progress { task: "render", done: 3, total: 64, unit: "waves" };
+        assert_eq!(count.to_go(other, start), None);
+        assert_eq!(count.to_go(Progress { task: "build", done: 0, total: 0, unit: "waves" }, start), None);
+    }
 
     #[test]
     fn both_templates_are_valid() {

@@ -6,7 +6,7 @@ use rasray_report::{one_line, shown, shown_but};
 use rasray_scene::{Scene, Warning};
 use std::ffi::OsStr;
 use std::io::{self, IsTerminal, Write};
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use tracing_subscriber::EnvFilter;
 
 /// How much is said in addition to results and errors.
@@ -34,6 +34,33 @@ pub(crate) fn says(talk: Talk) -> bool {
     TALK.load(Ordering::Relaxed) >= talk as u8
 }
 
+/// Characters in a line of results: what COLUMNS says, else what the terminal has that stdout is; absent where stdout is
+/// none, for files and other programs.
+pub(crate) fn width() -> Option<usize> {
+    let asked = std::env::var("COLUMNS").ok();
+    // A program has one width; a terminal that does not say its own is taken to be as wide as terminals were.
+    width_of(asked.as_deref(), || {
+        let terminal = console::Term::stdout();
+        terminal.is_term().then(|| terminal.size_checked().map_or(80, |(_, columns)| columns.into()))
+    })
+}
+
+/// Fewest characters that a line is broken at: below, nothing of a table fits.
+const LEAST_WIDTH: usize = 20;
+
+fn width_of(asked: Option<&str>, terminal: impl FnOnce() -> Option<usize>) -> Option<usize> {
+    let asked = asked.and_then(|text| text.trim().parse().ok()).filter(|columns: &usize| *columns > 0);
+    asked.or_else(terminal).map(|columns| columns.max(LEAST_WIDTH))
+}
+
+/// Set once the terminal of this process was hung up: there is nobody left to read.
+static HUNG_UP: AtomicBool = AtomicBool::new(false);
+
+/// From now on what cannot be said is no error.
+pub(crate) fn hang_up() {
+    HUNG_UP.store(true, Ordering::Relaxed);
+}
+
 /// Writes bytes to stdout as they are. A reader that has gone away, such as `head`, wants no more and is no error.
 ///
 /// # Errors
@@ -51,9 +78,12 @@ pub(crate) fn write_out(bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// [`AppError::Refused`] when stdout takes no more.
 pub(crate) fn print(text: &str) -> Result<(), AppError> {
-    write_out(shown(text).as_bytes()).map_err(|error| {
-        AppError::refused(format!("stdout: {error}"), "send the output somewhere with space for it")
-    })
+    match write_out(shown(text).as_bytes()) {
+        Err(_) if HUNG_UP.load(Ordering::Relaxed) => Ok(()),
+        other => other.map_err(|error| {
+            AppError::refused(format!("stdout: {error}"), "send the output somewhere with space for it")
+        }),
+    }
 }
 
 /// Shows what a run gave: on stdout, or on stderr where a file takes stdout. Nothing where quiet was asked for.
@@ -153,6 +183,16 @@ impl Write for Log {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_width_is_asked_for_or_a_terminals() {
+        assert_eq!(width_of(Some("100"), || Some(80)), Some(100));
+        assert_eq!((width_of(None, || Some(80)), width_of(None, || None)), (Some(80), None));
+        for nothing in ["", "0", "-3", "wide"] {
+            assert_eq!(width_of(Some(nothing), || None), None, "{nothing}");
+        }
+        assert_eq!(width_of(Some("3"), || None), Some(LEAST_WIDTH));
+    }
 
     #[test]
     fn colours_are_for_terminals_whose_owner_does_not_mind() {

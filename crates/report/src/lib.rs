@@ -23,9 +23,9 @@ pub use schema::{
 };
 
 pub use markdown::markdown;
-pub use table::table;
+pub use table::{table, table_within};
 pub use text::{in_line, json_shown, one_line, shown, shown_but};
-pub use words::{bytes, columns, grouped};
+pub use words::{bytes, columns, columns_within, grouped, wrapped};
 
 use rasray_metrics::confidence_of_each;
 use serde_json::Value;

@@ -1,11 +1,11 @@
 //! The report as text for people.
 
 use crate::run_text::{heading, run_text, verdict};
-use crate::{HardRecord, Report, Run, Statistics, bytes, columns, grouped, in_line};
+use crate::{HardRecord, Report, Run, Statistics, bytes, columns, columns_within, grouped, in_line, wrapped};
 use std::fmt::Write;
 
 /// One row per run: speed next to error.
-fn summary(runs: &[Run]) -> String {
+fn summary(runs: &[Run], width: Option<usize>) -> String {
     let dash = || "-".to_owned();
     let titles = [
         "run",
@@ -58,7 +58,7 @@ fn summary(runs: &[Run]) -> String {
         row.extend(hard.then(|| run.hard.as_ref().map_or("-", met).to_owned()));
         rows.push(row);
     }
-    columns(&rows, 1)
+    width.map_or_else(|| columns(&rows, 1), |width| columns_within(&rows, 1, width))
 }
 
 /// How sure the rates are, one by one and together.
@@ -79,6 +79,27 @@ const RUNS_IN_FULL: usize = 24;
 /// The report for people: device, scene, and in words the `camera` that it was seen from; then what came of the runs in short, or in `full` each of them
 /// with every number unless they are very many, and with several runs one line each for comparison.
 pub fn table(report: &Report, camera: Option<&str>, full: bool) -> String {
+    table_within(report, camera, full, None)
+}
+
+/// The same in lines of at most `width` characters, where that is given: columns that do not fit come below in further blocks,
+/// and longer lines are broken between words, but for the camera's, which is there to be copied.
+pub fn table_within(report: &Report, camera: Option<&str>, full: bool, width: Option<usize>) -> String {
+    let whole = unbroken(report, camera, full, width);
+    let Some(width) = width else { return whole };
+    let fit = |line: &str| {
+        let label = line.starts_with("device ") || line.starts_with("scene  ") || line.starts_with("image  ");
+        let is_camera = line.starts_with("camera ");
+        if is_camera {
+            format!("{line}\n")
+        } else {
+            wrapped(&format!("{line}\n"), width, if label { 7 } else { 4 })
+        }
+    };
+    whole.lines().map(fit).collect()
+}
+
+fn unbroken(report: &Report, camera: Option<&str>, full: bool, width: Option<usize>) -> String {
     let device = &report.device;
     let note = if device.software { "; times of software devices are for ratios on that device" } else { "" };
     let mut text = format!("device {} ({}){note}\n", device.name, device.driver);
@@ -110,7 +131,7 @@ pub fn table(report: &Report, camera: Option<&str>, full: bool) -> String {
             }
             if !full || runs.len() > 1 {
                 text.push('\n');
-                text += &summary(runs);
+                text += &summary(runs, width);
             }
             if !full {
                 text += &verdicts(runs);
@@ -192,6 +213,43 @@ mod tests {
         assert!(text.contains("1 (0.1000 %)"), "{text}");
         let last = text.lines().last().expect("a summary");
         assert!(last.contains("brute-force robust eye") && last.trim_end().ends_with('-'), "{last}");
+    }
+
+    /// What stands in the table stands there once, however narrow a terminal is.
+    #[test]
+    fn a_table_fits_its_terminal() {
+        let rate = RateRecord::of(Rate { count: 812, total: 199_000 }).expect("something was tried");
+        let accuracy =
+            Accuracy { missed: 812, rates: [("missed".to_owned(), rate)].into(), ..Default::default() };
+        let hard = HardRecord { met: Some(true), reason: "many words ".repeat(20), ..Default::default() };
+        let run = Run {
+            system: "selective".to_owned(),
+            preset: "published".to_owned(),
+            ray_set: Some("incoherent".to_owned()),
+            times: Times { trace_ms: Some(12_345.678), build_ms: Some(987.5), ..Default::default() },
+            accuracy: Some(accuracy),
+            hard: Some(hard),
+            ..Default::default()
+        };
+        let name = "llvmpipe (LLVM 15.0.6, 128 bits)".to_owned();
+        let device = Device { name, driver: "Mesa 25.0.7".to_owned(), software: true };
+        let report = Report::new(Origin::default(), device, SceneRecord::default(), vec![run.clone(), run]);
+        let whole = table(&report, None, false);
+        assert!(whole.lines().any(|line| line.chars().count() > 132));
+        for width in [60, 80, 100, 132] {
+            let text = table_within(&report, None, false, Some(width));
+            for line in text.lines() {
+                assert!(line.chars().count() <= width, "{width}: {line}");
+            }
+            for title in ["build ms", "12345.678", "missed", "812 (<", "FLIP", "target"] {
+                assert_eq!(
+                    text.matches(title).count(),
+                    whole.matches(title).count(),
+                    "{width}, {title}: {text}"
+                );
+            }
+        }
+        assert_eq!(table_within(&report, None, false, Some(1000)), whole);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::terminal::{self, Talk};
 use crate::version::origin;
 use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet, check_run};
 use rasray_ray_files::{load_hits, load_rays};
-use rasray_report::{Report, table};
+use rasray_report::{Report, table_within};
 
 /// Rays per set unless told.
 const DEFAULT_RAYS: u32 = 200_000;
@@ -96,7 +96,7 @@ pub(crate) fn compare(
     output::save(targets.save(), &kept, interrupt)?;
     targets.write(&report, &figures, interrupt)?;
     terminal::summarize(
-        &table(&report, Some(&chosen.described()), terminal::says(Talk::Verbose)),
+        &table_within(&report, Some(&chosen.described()), terminal::says(Talk::Verbose), terminal::width()),
         targets.take_stdout(),
     )?;
     report.runs.iter().try_for_each(check_run)?;

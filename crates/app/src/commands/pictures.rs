@@ -13,7 +13,7 @@ use rasray_experiment::{
     AovSelection, Backend, Chosen, Frame, LoadedScene, Progress, RenderJob, RenderOutput, Shard,
     SystemConfig, check_run, picture_key,
 };
-use rasray_report::{FramesRecord, Report, json_shown, table};
+use rasray_report::{FramesRecord, Report, json_shown, table_within};
 
 /// What the pictures of a command have in common.
 pub(super) struct Pictures<'a> {
@@ -120,7 +120,12 @@ impl Pictures<'_> {
         let places = targets.image.iter().map(|(place, _)| place).chain(&targets.report);
         let takes_stdout = places.into_iter().any(Destination::is_stdout);
         terminal::summarize(
-            &table(&report, Some(&self.chosen.described()), terminal::says(Talk::Verbose)),
+            &table_within(
+                &report,
+                Some(&self.chosen.described()),
+                terminal::says(Talk::Verbose),
+                terminal::width(),
+            ),
             takes_stdout,
         )?;
         if output.samples_done < samples {

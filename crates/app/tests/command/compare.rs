@@ -1,7 +1,7 @@
 //! The built command on a device: what it saves can be traced again, and what others find is evaluated.
 
 use crate::scripted::rasray;
-use rasray_report::{Accuracy, Report};
+use rasray_report::{Accuracy, Pass, PassOf, Report};
 use std::path::Path;
 use std::process::Command;
 
@@ -100,6 +100,65 @@ fn a_page_has_figures_and_a_hard_case_its_verdict() {
     let met = |run: usize| report.runs[run].hard.as_ref().and_then(|hard| hard.met);
     assert_eq!((met(0), met(1)), (None, Some(true)));
     assert_eq!(report.scene.name, "hard:E5");
+}
+
+/// What passes and host took is what the figures say, also where a pass is dispatched often, the host builds, and the number
+/// of repetitions is even.
+#[test]
+fn passes_add_up_to_the_figures_of_a_run() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let line = "compare spheres:10k --systems bvh,grid bvh.builder=sah,lbvh --ray-set eye --rays 300 --size 16x9 --spp 1 \
+                --image --repetitions 4 --report r.json";
+    let output = rasray(folder.path(), line);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let report = std::fs::read(folder.path().join("r.json")).expect("a report");
+    let report: Report = serde_json::from_slice(&report).expect("the schema");
+    let (mut often, mut by_host) = (0, 0);
+    for run in report.runs.iter().filter(|run| run.times.build_ms.is_some()) {
+        let figures = [
+            (PassOf::Build, run.times.build_ms),
+            (PassOf::Trace, run.times.trace_ms.filter(|_| run.ray_set.is_some())),
+            (PassOf::Image, run.times.image_ms),
+        ];
+        for (of, figure) in figures {
+            let passes = || run.passes.iter().filter(|pass| pass.of == Some(of));
+            let sum: f64 = passes().map(|pass| pass.ms_share.expect("measured")).sum();
+            let figure = figure.unwrap_or(0.0);
+            assert!(
+                (sum - figure).abs() <= 1.0e-9 * figure,
+                "{} {of:?}: {sum} of {figure}",
+                run.contestant()
+            );
+            often += passes().filter(|pass| pass.dispatches > Some(1)).count();
+        }
+        let host = run.passes.iter().find(|pass| pass.label == Pass::HOST).expect("its own part");
+        assert_eq!(Some(host.ms_median), run.times.build_host_ms);
+        by_host += usize::from(host.ms_share > run.times.build_ms.map(|whole| 0.25 * whole));
+    }
+    assert!(often > 0 && by_host > 0, "{often} {by_host}");
+}
+
+/// A table fits the width that is asked for, and is whole where nobody asks.
+#[test]
+fn a_table_is_as_wide_as_columns_say() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let told = |columns: Option<&str>| {
+        let line =
+            "compare cornell --systems brute-force --ray-set eye --rays 50 --size 16x9 --repetitions 1";
+        let mut command = Command::new(env!("CARGO_BIN_EXE_rasray"));
+        command.args(line.split_whitespace()).current_dir(folder.path()).env_remove("COLUMNS");
+        columns.map(|columns| command.env("COLUMNS", columns));
+        let output = command.output().expect("the command starts");
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    let widest = |text: &str| text.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+    let (whole, narrow) = (told(None), told(Some("80")));
+    assert!(widest(&whole) > 120, "{whole}");
+    assert!(widest(&narrow) <= 80, "{narrow}");
+    for title in ["build ms", "Mrays/s", "missed", "wrong", "|dt|/t 99 %"] {
+        assert!(whole.contains(title) && narrow.contains(title), "{title}: {narrow}");
+    }
 }
 
 /// Rays through hundreds of thousands of triangles in one place need more rounds than rays are given at first: in a

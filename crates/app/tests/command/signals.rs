@@ -1,4 +1,4 @@
-//! SIGINT and SIGTERM: one makes a valid partial image, two leave nothing.
+//! SIGINT, SIGTERM and SIGHUP: one makes a valid partial image, two leave nothing.
 #![cfg(unix)]
 
 use crate::scripted::{READY, command, entries, stderr};
@@ -46,7 +46,7 @@ fn wait_until(otherwise: &str, child: &mut Child, mut done: impl FnMut(&mut Chil
 
 #[test]
 fn one_signal_makes_a_valid_image_of_the_samples_so_far() {
-    for signal in ["INT", "TERM"] {
+    for signal in ["INT", "TERM", "HUP"] {
         let folder = tempfile::tempdir().expect("a folder");
         let line = "render cornell --size 8x8 --spp 100000 --device slow -o a.exr --report r.json";
         let output = interrupted(folder.path(), line, &[signal]);
@@ -67,7 +67,7 @@ fn one_signal_makes_a_valid_image_of_the_samples_so_far() {
 /// A build, a compiler or a first wave that takes long is not waited for.
 #[test]
 fn one_signal_ends_within_two_seconds_where_nothing_is_finished() {
-    for signal in ["INT", "TERM"] {
+    for signal in ["INT", "TERM", "HUP"] {
         let folder = tempfile::tempdir().expect("a folder");
         let started = Instant::now();
         let line = "render cornell --size 8x8 --device stuck -o a.exr --report r.json";
@@ -178,4 +178,57 @@ fn one_signal_keeps_the_hard_cases_that_were_whole() {
     let report: rasray_report::Report = serde_json::from_slice(&report).expect("the schema");
     let ids: Vec<_> = report.runs.iter().filter_map(|run| run.ray_set.as_deref()).collect();
     assert_eq!(ids, ["G1"]);
+}
+
+/// A terminal that goes away sends SIGHUP, and so does its shell: what is finished is written all the same.
+#[test]
+fn hanging_up_twice_is_hanging_up_once() {
+    for signals in [["HUP", "HUP"], ["TERM", "HUP"]] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let line = "render cornell --size 8x8 --spp 100000 --device slow -o a.exr";
+        let mut child = command(folder.path(), line)
+            .env(READY, folder.path().join("ready"))
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the command starts");
+        wait_until("the command does not begin", &mut child, |_| folder.path().join("ready").exists());
+        std::thread::sleep(Duration::from_millis(150));
+        for signal in signals {
+            send(&child, &[signal]);
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        wait_until("the command does not stop", &mut child, |child| {
+            child.try_wait().expect("a child").is_some()
+        });
+        let output = child.wait_with_output().expect("its output");
+        assert_eq!(output.status.code(), Some(130), "{signals:?}: {}", stderr(&output));
+        assert_eq!(entries(folder.path()), ["a.exr", "ready"], "{signals:?}: {}", stderr(&output));
+    }
+}
+
+/// As under nohup: it was asked not to listen.
+#[test]
+fn hanging_up_is_ignored_where_it_was() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let ready = folder.path().join("ready");
+    let inner = command(folder.path(), "render cornell --size 8x8 --spp 60 --device slow -o a.png");
+    let mut outer = std::process::Command::new("bash");
+    outer.args(["-c", "trap '' HUP; exec \"$0\" \"$@\""]).arg(inner.get_program()).args(inner.get_args());
+    for (name, value) in inner.get_envs() {
+        outer.env(name, value.expect("set"));
+    }
+    let mut child = outer
+        .env(READY, &ready)
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("bash starts");
+    wait_until("the command does not begin", &mut child, |_| ready.exists());
+    send(&child, &["HUP"]);
+    wait_until("the command does not end", &mut child, |child| child.try_wait().expect("a child").is_some());
+    let output = child.wait_with_output().expect("its output");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(entries(folder.path()), ["a.png", "ready"]);
 }
