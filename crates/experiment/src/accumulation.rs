@@ -16,7 +16,7 @@ use crate::error::ExperimentError;
 use crate::jobs::{Frame, Integrator, Primary};
 use crate::passes::Passes;
 use crate::shard::Shard;
-use crate::stage::{Stage, device_error, tracer_error};
+use crate::stage::{Stage, device_error, image_error, tracer_error};
 use rasray_report::{Pass, PassOf};
 
 /// Makes the integrator of a frame.
@@ -35,7 +35,7 @@ pub(super) fn integrator(
     };
     made.map_err(|error| match error {
         IntegratorError::Option { .. } => ExperimentError::usage(error.to_string(), ""),
-        other => device_error(other),
+        other => image_error(other),
     })
 }
 
@@ -105,7 +105,7 @@ impl Accumulation {
         shard: Option<Shard>,
         needs: &Needs,
     ) -> Result<Self, ExperimentError> {
-        let film = Film::new(device, frame.width, frame.height).map_err(device_error)?;
+        let film = Film::new(device, frame.width, frame.height).map_err(image_error)?;
         let mut desc = IntegratorDesc::new(device, &stage.scene, &film);
         if *needs == Needs::all() {
             desc.features = rasray_gpu_scene::ShadingFeatures::ALL;

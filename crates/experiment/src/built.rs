@@ -13,7 +13,7 @@ use serde_json::Value;
 use crate::error::ExperimentError;
 use crate::jobs::Refresh;
 use crate::passes::{Passes, median, spread};
-use crate::stage::{Stage, device_error, tracer_error};
+use crate::stage::{Stage, device_error, scene_error, tracer_error};
 use rasray_report::{Counters, Memory, Pass, PassOf, Spread, Times};
 
 /// Why a first build failed.
@@ -71,26 +71,36 @@ fn first_build(
             error.to_string(),
             "leave out --refresh, or choose another --system",
         )),
-        SystemsError::Ads(error) => ads_error(error),
+        SystemsError::Ads(error) => ads_error(error, spec),
         other => refuse(ExperimentError::usage(other.to_string(), "see `rasray render --help`")),
     })?;
-    let mut structure = FrameStructure::new(device, made, KEEPING).map_err(ads_error)?;
+    let mut structure = FrameStructure::new(device, made, KEEPING).map_err(|error| ads_error(error, spec))?;
     let outcome =
         refresh_until_complete(device, &mut structure, viewpoint, timing).map_err(|error| match error {
-            TracerError::Ads(error) => ads_error(error),
+            TracerError::Ads(error) => ads_error(error, spec),
             other => refuse(tracer_error(&other)),
         })?;
     Ok((structure, outcome))
 }
 
-fn ads_error(error: AdsError) -> FirstBuild {
+fn ads_error(error: AdsError, spec: &Spec) -> FirstBuild {
     match error {
-        AdsError::Gpu(GpuError::TooLarge { .. }) => FirstBuild::ExceedsBinding(ExperimentError::device(
-            error,
-            "try --addressing address, or a smaller --resolution",
-        )),
+        AdsError::Gpu(GpuError::TooLarge { ref name, .. }) if is_pool(name, spec) => {
+            let smaller = spec.system().size_option().map(|option| format!("a smaller --{option}"));
+            let address = spec.system().has("addressing").then(|| "--addressing address".to_owned());
+            let fixes = [address, smaller, Some("another --device".to_owned())];
+            let fixes: Vec<String> = fixes.into_iter().flatten().collect();
+            let help = format!("try {}", fixes.join(" or "));
+            FirstBuild::ExceedsBinding(ExperimentError::device(error, help))
+        }
+        AdsError::Gpu(error @ GpuError::TooLarge { .. }) => FirstBuild::Other(scene_error(error.into())),
         other => FirstBuild::Other(device_error(other)),
     }
+}
+
+/// Whether a buffer is one of the structure's own, which are named after it: addresses reach these, and no others.
+fn is_pool(name: &str, spec: &Spec) -> bool {
+    name.strip_prefix(spec.structure()).is_some_and(|rest| rest.starts_with(' '))
 }
 
 /// Options and paths by name.
@@ -310,5 +320,43 @@ impl Built {
             regrows: Some(self.outcome.regrows.into()),
             ..Counters::default()
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Only what addresses reach is said to be reached by them.
+    #[test]
+    fn what_is_too_large_for_a_binding_comes_with_its_own_fix() {
+        let spec = |system: &str| Spec::new(system, "robust", []).expect("registered");
+        let fix = |system: &str, buffer: &str| {
+            let error = GpuError::TooLarge { name: buffer.to_owned(), size: 1 << 31, limit: 1 << 30 };
+            let (error, is_retried) = match ads_error(error.into(), &spec(system)) {
+                FirstBuild::ExceedsBinding(error) => (error, true),
+                FirstBuild::Other(error) => (error, false),
+            };
+            assert!(error.to_string().contains(buffer) && !error.to_string().contains("address"), "{error}");
+            assert!(matches!(error, ExperimentError::Device { .. }));
+            (error.help().to_owned(), is_retried)
+        };
+        for (system, pool, size) in
+            [("mmrt", "abuffer lists", "--resolution"), ("bricks", "bricks entries", "--grid")]
+        {
+            let (help, is_retried) = fix(system, pool);
+            assert!(is_retried && help.contains("--addressing address") && help.contains(size), "{help}");
+        }
+        // The host's triangles are bound whatever the structure.
+        for buffer in ["indices", "positions", "bricks"] {
+            let (help, is_retried) = fix("bricks", buffer);
+            assert!(
+                !is_retried && help.contains("fewer triangles") && !help.contains("--addressing"),
+                "{help}"
+            );
+        }
+        let film =
+            crate::stage::image_error(GpuError::TooLarge { name: "film".to_owned(), size: 9, limit: 8 });
+        assert!(film.help().contains("--size") && !film.to_string().contains("address"), "{film}");
     }
 }

@@ -16,7 +16,7 @@ use crate::error::ExperimentError;
 use crate::jobs::{AovSelection, FilmSums, Frame, GlassShadows, Primary, Refresh, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::shard::Shard;
-use crate::stage::{Stage, device_error};
+use crate::stage::{Stage, device_error, image_error};
 use crate::system_config::SystemConfig;
 use rasray_report::{Counters, PassOf, Times};
 
@@ -242,7 +242,7 @@ fn add_aovs(
 ) -> Result<(), ExperimentError> {
     let pixels = job.frame.width * job.frame.height;
     let capacity = rasray_integrators::wave_capacity(device).min(pixels);
-    let aov = AovPass::new(device, &stage.scene, capacity).map_err(device_error)?;
+    let aov = AovPass::new(device, &stage.scene, capacity).map_err(image_error)?;
     let visibility = visibility(device, stage, &job.frame)?;
     let traced = Traced::from(built.structure()).with_primary(visibility.as_ref());
     loop {

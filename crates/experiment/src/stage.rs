@@ -16,6 +16,11 @@ pub(super) fn device_error(error: impl std::fmt::Display) -> ExperimentError {
     ExperimentError::device(error, "try a smaller --resolution or --size, or another --device")
 }
 
+/// What an error about what holds an image, a film or its rays, is about: no option of structures makes it smaller.
+pub(super) fn image_error(error: impl std::fmt::Display) -> ExperimentError {
+    ExperimentError::device(error, "try a smaller --size, or another --device")
+}
+
 /// What an error about the scene's own tables is about: no option of structures or images makes them smaller.
 pub(super) fn scene_error(error: GpuSceneError) -> ExperimentError {
     let error = match error {

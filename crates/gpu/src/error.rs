@@ -61,10 +61,10 @@ pub enum GpuError {
         /// What needs it.
         what: String,
     },
-    /// A buffer is larger than a storage buffer binding may be.
+    /// A buffer is larger than a storage buffer binding may be. Pools of structures can be reached by device address
+    /// instead (`addressing` of their configurations); nothing else can.
     #[error(
-        "buffer `{name}` has {size} bytes, but a storage buffer binding ends at {limit} bytes on this device: \
-         reach it by device address or make it smaller"
+        "buffer `{name}` has {size} bytes, but a storage buffer binding ends at {limit} bytes on this device"
     )]
     TooLarge {
         /// Name of the buffer.
