@@ -6,7 +6,8 @@ use super::values;
 use crate::error::AppError;
 use crate::output::ImageFormat;
 use clap::{Args, ValueEnum};
-use rasray_experiment::{AovSelection, Refresh, Shard, SystemConfig, one_system};
+use rasray_experiment::{AovSelection, Frame, Refresh, Shard, SystemConfig, one_system};
+use rasray_scene::builtin::{Picture, picture};
 use rasray_systems::{Preset, SYSTEMS, System};
 use std::ffi::OsString;
 use std::ops::RangeInclusive;
@@ -31,7 +32,7 @@ Z (metres along the ray, 0: miss), N.X N.Y N.Z (geometric normal, world) and id 
 miss). Files are written next to their place and renamed, so a file there is always whole; of a link it is
 the file that the link leads to. The camera that was used is printed as options that put one there.
 
-SIGINT (Ctrl-C) or SIGTERM: the samples done so far are written, exit code 130; where none is, the command
+SIGINT (Ctrl-C), SIGTERM or SIGHUP: the samples done so far are written, exit code 130; where none is, the command
 ends within two seconds and writes nothing. A second one stops at once and writes nothing. Of --frames and
 of --shard only whole images are written; run again with --resume.";
 
@@ -107,6 +108,23 @@ impl RenderArguments {
     /// A preset or an option that the system does not have, or a value that it does not take.
     pub fn system(&self) -> Result<SystemConfig, AppError> {
         Ok(one_system(self.system, self.preset, &self.work.structure.0)?)
+    }
+
+    /// The image that was asked for; where nothing is said of it and the scene's own camera sees it, the one that suits a
+    /// built-in scene.
+    ///
+    /// # Errors
+    /// An option of an integrator that was not chosen.
+    pub fn frame(&self) -> Result<Frame, AppError> {
+        let frame = self.work.frame.frame()?;
+        let (given, view) = (&self.work.frame, &self.work.view);
+        let suits = self.scene.to_str().filter(|_| view.eye.is_none()).and_then(picture);
+        Ok(match suits {
+            Some(Picture { size: [width, height], samples }) if given.size.is_none() => {
+                Frame { width, height, spp: given.spp.unwrap_or(samples), ..frame }
+            }
+            _ => frame,
+        })
     }
 
     /// The images wanted in addition to the colours.

@@ -25,7 +25,8 @@ The window needs the cargo feature viewer, which takes some minutes more to buil
 
 /// Options of `rasray view`.
 #[derive(Debug, Args)]
-#[command(after_help = AFTER_HELP, mut_arg("spp", |argument| argument.default_value("256")))]
+#[command(after_help = AFTER_HELP, mut_arg("size", |argument| argument.help("Pixels").default_value("640x360")),
+          mut_arg("spp", |argument| argument.help("Samples per pixel, 1 to 1048576").default_value("256")))]
 pub struct ViewerArguments {
     /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
     #[arg(value_name = "SCENE")]

@@ -154,9 +154,10 @@ pub(super) fn check_format(
 /// There are no samples in it.
 pub(super) fn samples_shard(given: &RenderArguments) -> Result<Option<Shard>, AppError> {
     let Some(shard) = given.shard.filter(|_| given.frames.is_none()) else { return Ok(None) };
-    if shard.samples(given.work.frame.spp).len() == 0 {
+    let spp = given.frame()?.spp;
+    if shard.samples(spp).len() == 0 {
         return Err(AppError::usage(
-            format!("--shard {shard} has none of {} samples per pixel", given.work.frame.spp),
+            format!("--shard {shard} has none of {spp} samples per pixel"),
             "make no more shares than there are samples",
         ));
     }

@@ -21,7 +21,7 @@ pub(crate) fn render(
     open: &mut OpenBackend<'_>,
     interrupt: &Interrupt,
 ) -> Result<(), AppError> {
-    let frame = given.work.frame.frame()?;
+    let frame = given.frame()?;
     let aovs = given.aovs();
     let system = given.system()?.serving(frame.workload());
     let shard = samples_shard(given)?;

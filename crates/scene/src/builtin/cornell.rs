@@ -126,3 +126,27 @@ fn block(name: &str, footprint: [(f64, f64); 4], height: f64) -> Mesh {
     }
     shapes.finish()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Projection;
+    use crate::builtin::picture;
+
+    #[test]
+    fn its_picture_shows_the_room_and_nothing_beside_it() {
+        let scene = cornell();
+        let camera = &scene.cameras[0];
+        let Projection::Perspective { fov_y } = camera.projection else { panic!("a lens") };
+        let [width, height] = picture("cornell").expect("of its own").size.map(f64::from);
+        let view = camera.world_from_camera.inverse();
+        for (x, y) in [(-HALF_WIDTH, 0.0), (HALF_WIDTH, 0.0), (-HALF_WIDTH, HEIGHT), (HALF_WIDTH, HEIGHT)] {
+            let seen = view.transform_point3(at(x, y, 0.0));
+            let half = -seen.z * (0.5 * f64::from(fov_y)).tan();
+            // Corners of the opening lie within the frame, and less than one part in twenty from its edge.
+            for share in [seen.x.abs() / (half * width / height), seen.y.abs() / half] {
+                assert!((0.95..1.0).contains(&share), "{x} {y}: {share}");
+            }
+        }
+    }
+}

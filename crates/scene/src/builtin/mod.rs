@@ -46,6 +46,21 @@ use parameters::Parameters;
 pub const NAMES: [&str; 8] =
     ["cornell", "furnace", "spheres", "atrium", "ruins", "corridor", "walker", "cloth-ball"];
 
+/// What of a picture suits a built-in scene, where a picture of any scene would not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Pixels a row, and rows: in the proportions of what the scene's camera looks at.
+    pub size: [u32; 2],
+    /// Samples per pixel.
+    pub samples: u32,
+}
+
+/// The picture that suits the built-in scene that `spec` names, seen by its own camera. `cornell` is square and hard to
+/// light: fewer pixels that all show it, with more samples.
+pub fn picture(spec: &str) -> Option<Picture> {
+    (spec.split(':').next() == Some("cornell")).then_some(Picture { size: [256, 256], samples: 32 })
+}
+
 /// Makes the built-in scene that `spec` names, such as `cornell` or `furnace:albedo=0.8,emission=2`.
 ///
 /// `None` if the word before the first `:` is not the name of a built-in scene; it may then be a
