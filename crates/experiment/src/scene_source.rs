@@ -5,6 +5,7 @@ use crate::error::ExperimentError;
 use crate::key_hash::KeyHash;
 use rasray_gpu_scene::{Parts, PosePass, SceneTables, left_out_bytes};
 use rasray_report::{PoseRecord, SceneRecord, SmallerImageRecord};
+use rasray_scene::nearest::nearest;
 use rasray_scene::needs::Needs;
 use rasray_scene::pose::Pose;
 use rasray_scene::{
@@ -111,7 +112,17 @@ pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, Exp
     if path.exists() {
         return Err(ExperimentError::input(path, "is not a scene file by its name", kinds));
     }
-    Err(ExperimentError::input(path, "there is neither such a file nor such a built-in scene", kinds))
+    let nothing = "there is neither such a file nor such a built-in scene";
+    let help =
+        name.to_str().and_then(meant).map_or(kinds.clone(), |meant| format!("did you mean {meant}? {kinds}"));
+    Err(ExperimentError::input(path, nothing, help))
+}
+
+/// The built-in scene that was meant, with the parameters that were given.
+fn meant(name: &str) -> Option<String> {
+    let (word, parameters) = name.split_once(':').map_or((name, None), |(word, rest)| (word, Some(rest)));
+    let known = nearest(word, builtin::NAMES)?;
+    Some(parameters.map_or(known.to_owned(), |parameters| format!("{known}:{parameters}")))
 }
 
 fn loaded(scene: Scene, sha256: Option<String>, content: KeyHash) -> LoadedScene {
@@ -334,10 +345,15 @@ impl LoadedScene {
         Ok(())
     }
 
+    /// Whether anything moves the scene.
+    pub fn moves(&self) -> bool {
+        !self.scene.animation.clips.is_empty() || self.scene.animation.deformer.is_some()
+    }
+
     /// The clips that move the scene: the one that is wanted, else all that can be played at once.
     fn clips(&self, clip: Option<&str>) -> Result<Vec<usize>, ExperimentError> {
         let names = &self.scene.animation.clips;
-        if names.is_empty() && self.scene.animation.deformer.is_none() {
+        if !self.moves() {
             return Err(ExperimentError::usage(
                 format!("the scene {} has no clips that could move it", self.scene.name),
                 "leave --time out; `rasray info SCENE` says what moves",
@@ -473,6 +489,17 @@ mod tests {
             assert!(matches!(error, ExperimentError::Input { .. } | ExperimentError::Scene(_)), "{error:?}");
             assert!(error.to_string().contains(bad.split(':').next().unwrap_or(bad)), "{error}");
         }
-        assert!(load(OsStr::new("cornel")).expect_err("misspelt").help().contains("cornell"));
+        for (bad, meant) in [
+            ("cornel", Some("cornell")),
+            ("sphere:10k", Some("spheres:10k")),
+            ("cloth_ball:triangles=1k", Some("cloth-ball:triangles=1k")),
+            ("Atrium", Some("atrium")),
+            ("kitchen", None),
+        ] {
+            let error = load(OsStr::new(bad)).expect_err("misspelt");
+            let told = error.help().strip_prefix("did you mean ").and_then(|rest| rest.split_once("? "));
+            assert_eq!(told.map(|(name, _)| name), meant, "{bad}: {}", error.help());
+            assert!(error.help().contains("cornell, furnace"), "{}", error.help());
+        }
     }
 }

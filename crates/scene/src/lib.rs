@@ -25,6 +25,7 @@ mod load;
 mod mesh;
 pub mod model;
 mod moments;
+pub mod nearest;
 pub mod needs;
 pub mod obj;
 mod origin;

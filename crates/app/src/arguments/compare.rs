@@ -29,7 +29,7 @@ them. An option goes to the systems that have it; SYSTEM.OPTION=VALUE addresses 
 SYSTEM-PRESET.OPTION=VALUE one preset of it; mmrt.buckets=1,4,8 takes part once with each value.
 Times of software devices are for ratios on that device.
 
-SIGINT (Ctrl-C) or SIGTERM: the report holds the runs that were whole, of hard:all the cases, exit code 130;
+SIGINT (Ctrl-C), SIGTERM or SIGHUP: the report holds the runs that were whole, of hard:all the cases, exit code 130;
 where none is, the command ends within two seconds and writes nothing. A build or a trace that is under way
 ends first. A second signal stops at once and writes nothing.";
 

@@ -50,7 +50,7 @@ Exit codes:
   2    bad input or usage
   3    no suitable device, or the device failed
   4    refused to lose data: the result could not be written, or was not complete
-  130  stopped by SIGINT or SIGTERM; what was finished is written, unless stopped twice
+  130  stopped by SIGINT, SIGTERM or SIGHUP; what was finished is written, unless stopped twice
 
 RASRAY_LOG sets the log filter, for example RASRAY_LOG=debug. NO_COLOR=1 keeps colours out of it.";
 
@@ -113,19 +113,52 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<CommandLin
                 "nothing was asked for",
                 "say render, compare, view or info; 'rasray help' explains them, with examples",
             )),
-            _ => Refusal::Error(usage_error(&error, command)),
+            _ => Refusal::Error(usage_error(&error, command, &CommandLine::command())),
         }),
     }
 }
 
 /// Reads the words, and which options are among them.
 fn read(arguments: &[OsString]) -> Result<CommandLine, clap::Error> {
-    let matches = CommandLine::command().try_get_matches_from(arguments)?;
+    let matches = CommandLine::command().try_get_matches_from(with_negative_values(arguments))?;
     let mut line = CommandLine::from_arg_matches(&matches)?;
     if let Command::Compare(given) = &mut line.command {
         given.typed = matches.subcommand().map(|(_, own)| typed(own)).unwrap_or_default();
     }
     Ok(line)
+}
+
+/// The words, with negative numbers behind long options as their values: `--spp -1` as `--spp=-1`. The parser would take
+/// them for short options that it does not know, and blame these.
+fn with_negative_values(words: &[OsString]) -> Vec<OsString> {
+    let mut joined: Vec<OsString> = Vec::with_capacity(words.len());
+    let mut options = true;
+    for word in words {
+        let text = word.to_str().unwrap_or_default();
+        options &= text != "--";
+        let before = joined.last().and_then(|last| last.to_str());
+        let takes =
+            before.is_some_and(|last| last.len() > 2 && last.starts_with("--") && !last.contains('='));
+        let is_short = before == Some("-o");
+        match joined.last_mut() {
+            Some(last) if options && (takes || is_short) && is_negative(text) => {
+                last.push(if is_short { "" } else { "=" });
+                last.push(word);
+            }
+            _ => joined.push(word.clone()),
+        }
+    }
+    joined
+}
+
+/// Whether a word begins as a negative number does.
+fn is_negative(word: &str) -> bool {
+    let Some(rest) = word.strip_prefix('-') else { return false };
+    let digits = rest.strip_prefix('.').unwrap_or(rest);
+    let lower = rest.to_ascii_lowercase();
+    digits.starts_with(|first: char| first.is_ascii_digit())
+        || lower.starts_with("inf")
+        || lower.starts_with("nan")
 }
 
 /// Long names of the options that were typed, not left to their defaults.

@@ -36,6 +36,12 @@ impl IntegratorName {
     }
 }
 
+/// Pixels of an image unless told.
+const DEFAULT_SIZE: Size = Size { width: 640, height: 360 };
+
+/// Samples per pixel unless told.
+const DEFAULT_SAMPLES: u32 = 16;
+
 /// Bounces of a path unless told: light that enters and leaves a glass with two walls has scattered four times
 /// before it is seen on what stands behind, eight times where two such glasses stand in a row.
 const DEFAULT_BOUNCES: u32 = 8;
@@ -64,12 +70,12 @@ pub struct FrameArguments {
     /// What light does
     #[arg(long, value_enum, default_value_t = IntegratorName::Path)]
     pub integrator: IntegratorName,
-    /// Pixels
-    #[arg(long, value_name = "WxH", value_parser = values::size, default_value = "640x360")]
-    pub size: Size,
-    /// Samples per pixel, 1 to 1048576
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = values::whole(1, 1_048_576))]
-    pub spp: u32,
+    /// Pixels [default: 640x360; pictures of cornell: 256x256]
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    pub size: Option<Size>,
+    /// Samples per pixel, 1 to 1048576 [default: 16; pictures of cornell: 32]
+    #[arg(long, value_name = "N", value_parser = values::whole(1, 1_048_576))]
+    pub spp: Option<u32>,
     /// With --integrator path: at most this many scatterings (0: emission alone, 1: direct light; through
     /// thick or rough glass each surface is one), 0 to 64 [default: 8]
     #[arg(long, value_name = "N", value_parser = values::whole(0, 64))]
@@ -125,8 +131,9 @@ impl FrameArguments {
             }
             Integrator::Raycast => Integrator::Raycast,
         };
-        let Size { width, height } = self.size;
-        let Self { spp, seed, sampler, primary, back_faces, .. } = *self;
+        let Size { width, height } = self.size.unwrap_or(DEFAULT_SIZE);
+        let spp = self.spp.unwrap_or(DEFAULT_SAMPLES);
+        let Self { seed, sampler, primary, back_faces, .. } = *self;
         Ok(Frame { integrator, width, height, spp, seed, sampler, primary, back_faces })
     }
 }
@@ -140,10 +147,10 @@ pub struct ViewArguments {
     /// A camera of the scene, by name or by position from 0
     #[arg(long, value_name = "NAME", conflicts_with_all = ["eye", "target", "fov"])]
     pub camera: Option<String>,
-    /// Where to look from, metres
+    /// Where to look from, metres from -1e18 to 1e18
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true, requires = "target")]
     pub eye: Option<[f64; 3]>,
-    /// What to look at, metres
+    /// What to look at, metres from -1e18 to 1e18
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true, requires = "eye")]
     pub target: Option<[f64; 3]>,
     /// Full vertical angle of view, with --eye and --target [default: 45]
@@ -186,8 +193,8 @@ pub struct SceneArguments {
     /// Let alpha cut holes and blend; off makes every surface opaque
     #[arg(long, value_enum, default_value_t = Switch::On)]
     pub alpha: Switch,
-    /// Show the scene at this time of its animation, seconds; before the first and after the last key it stands still.
-    /// Of numbered files, the last that has begun is shown [default: at rest, as the file places everything]
+    /// Show the scene at this time of its animation, seconds from -1e9 to 1e9; before the first and after the last key it
+    /// stands still. Of numbered files, the last that has begun is shown [default: at rest, as the file places everything]
     #[arg(long, value_name = "SECONDS", value_parser = values::seconds, allow_hyphen_values = true)]
     pub time: Option<f64>,
     /// With a time: the clip that moves the scene, by name or by position from 0 [default: all that do not move the same
@@ -218,7 +225,7 @@ impl SceneArguments {
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("hdr")) {
             return Ok(Some(load_environment(path).map_err(|error| unreadable_map(path, &error))?));
         }
-        let color = values::point(value).map_err(|_| {
+        let color = values::three(value).ok_or_else(|| {
             AppError::usage(
                 format!("--environment {value} is neither a .hdr file nor a colour"),
                 "write --environment sky.hdr, or three linear values such as --environment 0.5,0.7,1",
@@ -227,7 +234,7 @@ impl SceneArguments {
         let color = color.map(|channel| channel as f32);
         if !color.iter().all(|channel| channel.is_finite() && *channel >= 0.0) {
             return Err(AppError::usage(
-                format!("--environment {value} has a negative or too large value"),
+                format!("--environment {value} has a value that is negative, too large or no number"),
                 "radiance is at least 0 and at most 3e38",
             ));
         }

@@ -82,9 +82,9 @@ impl StructureArguments {
     pub fn read_value(option: &str, value: &str) -> Result<StructureOptions, ExperimentError> {
         let command =
             Self::augment_args(Command::new("options").no_binary_name(true).disable_help_flag(true));
-        let matches = command.try_get_matches_from([format!("--{option}={value}")]);
+        let matches = command.clone().try_get_matches_from([format!("--{option}={value}")]);
         matches.and_then(|matches| Self::from_arg_matches(&matches)).map(|read| read.0).map_err(|error| {
-            let error = usage_error(&error, Some("compare"));
+            let error = usage_error(&error, Some("compare"), &command);
             ExperimentError::usage(error.to_string(), error.help())
         })
     }

@@ -48,6 +48,49 @@ fn defaults_are_the_documented_ones() {
     assert_eq!(given.work.structure, StructureArguments::default());
 }
 
+/// What nothing is said of suits the scene, its own camera and nothing else.
+#[test]
+fn a_picture_of_a_built_in_scene_suits_it() {
+    for (line, expected) in [
+        ("cornell", (256, 256, 32)),
+        ("cornell --spp 4", (256, 256, 4)),
+        ("cornell --size 640x360", (640, 360, 16)),
+        ("cornell --eye 0,0,1 --target 0,0,0", (640, 360, 16)),
+        ("walker", (640, 360, 16)),
+        ("cornell.glb", (640, 360, 16)),
+    ] {
+        let frame = render(&format!("render {line} -o a.png")).frame().expect("defaults fit together");
+        assert_eq!((frame.width, frame.height, frame.spp), expected, "{line}");
+    }
+}
+
+/// Whatever takes a value is named where that is negative.
+#[test]
+fn a_negative_number_is_the_value_of_the_option_before_it() {
+    let mut tried = 0;
+    for command in CommandLine::command().get_subcommands() {
+        let word = command.get_name();
+        let takes = |argument: &&clap::Arg| argument.get_action().takes_values();
+        for argument in command.get_arguments().filter(takes) {
+            let Some(option) = argument.get_long() else { continue };
+            for value in ["-1", "-.5", "-2x3", "-inf", "-1,2,3"] {
+                let Err(Refusal::Error(error)) = parse(arguments(&format!("{word} --{option} {value}")))
+                else {
+                    continue;
+                };
+                let text = error.to_string();
+                assert!(!text.contains("unexpected argument"), "{word} --{option} {value}: {text}");
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 200, "{tried}");
+    assert!(refused("render cornell -1").to_string().contains("'-1'"));
+    assert!(refused("render cornell -o a.png --validation -1").to_string().contains("--validation"));
+    assert!(refused("render cornell -- -1").to_string().contains("'-1'"));
+    assert_eq!(render("render cornell -o -1.png").output.as_deref(), Some(std::path::Path::new("-1.png")));
+}
+
 #[test]
 fn negative_coordinates_are_values() {
     let given = render("render cornell -o a.png --eye -1,2,-3 --target 0,-1,0 --fov 30 --exposure -1.5");

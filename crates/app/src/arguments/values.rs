@@ -72,19 +72,29 @@ pub fn whole(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, String> + Cl
     }
 }
 
-/// Reads three finite numbers, `1,-2.5,0`.
+/// Reads three numbers, `1,-2.5,0`; those that are not finite are left to the caller.
+pub fn three(text: &str) -> Option<[f64; 3]> {
+    let mut parts = text.split(',');
+    let mut next = || -> Option<f64> { parts.next()?.trim().parse().ok() };
+    let values = [next()?, next()?, next()?];
+    parts.next().is_none().then_some(values)
+}
+
+/// Largest distance of a point from the origin of the world along an axis, metres: farther away squares of distances
+/// exceed single precision.
+const FARTHEST: f64 = 1.0e18;
+
+/// Reads a point of the world, `1,-2.5,0`.
 ///
 /// # Errors
-/// Says what the form is.
+/// Says what the form and the range are.
 pub fn point(text: &str) -> Result<[f64; 3], String> {
-    let mut parts = text.split(',');
-    let mut next =
-        || -> Option<f64> { parts.next()?.trim().parse().ok().filter(|value: &f64| value.is_finite()) };
-    let values = (next(), next(), next());
-    match (values, parts.next()) {
-        ((Some(x), Some(y), Some(z)), None) => Ok([x, y, z]),
-        _ => Err("write three finite numbers, such as 0,1.5,-4".to_owned()),
+    let values = three(text).ok_or("write three numbers, such as 0,1.5,-4")?;
+    // Written so that NaN is refused.
+    if !values.iter().all(|value| value.abs() <= FARTHEST) {
+        return Err("each number must be from -1e18 to 1e18 metres".to_owned());
     }
+    Ok(values)
 }
 
 /// Reads a finite number that is at least 0.
@@ -140,14 +150,17 @@ pub fn shard(text: &str) -> Result<Shard, String> {
     Shard::parse(text).ok_or_else(|| "must be a share such as 2/8, the second of eight".to_owned())
 }
 
-/// Reads a time, finite.
+/// Latest time and, negative, the earliest, seconds: about thirty years.
+const LATEST: f64 = 1.0e9;
+
+/// Reads a time.
 ///
 /// # Errors
 /// Says what is allowed.
 pub fn seconds(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err("must be a finite number of seconds".to_owned()),
+        Ok(value) if value.abs() <= LATEST => Ok(value),
+        _ => Err("must be a number of seconds from -1e9 to 1e9".to_owned()),
     }
 }
 
@@ -214,7 +227,7 @@ mod tests {
     #[test]
     fn times() {
         assert_eq!((seconds("1.5"), seconds(" -2 ")), (Ok(1.5), Ok(-2.0)));
-        for bad in ["", "x", "nan", "inf", "1s"] {
+        for bad in ["", "x", "nan", "inf", "1s", "1e39", "-1e10"] {
             assert!(seconds(bad).is_err(), "{bad}");
         }
     }
@@ -222,7 +235,7 @@ mod tests {
     #[test]
     fn points() {
         assert_eq!(point("1,-2.5, 3e2"), Ok([1.0, -2.5, 300.0]));
-        for bad in ["", "1,2", "1,2,3,4", "1,2,x", "nan,0,0", "inf,0,0", "1;2;3"] {
+        for bad in ["", "1,2", "1,2,3,4", "1,2,x", "nan,0,0", "inf,0,0", "1;2;3", "1e39,0,0", "0,-1.1e18,0"] {
             assert!(point(bad).is_err(), "{bad}");
         }
     }

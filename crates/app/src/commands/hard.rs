@@ -11,7 +11,7 @@ use crate::version::origin;
 use rasray_experiment::{Backend, Comparison, HardJob, OpenBackend, SystemConfig, check_run, compare_file};
 use rasray_hard_cases::Scale;
 use rasray_ray_files::{HitsFile, load_hits};
-use rasray_report::{Report, Run, SceneRecord, columns, table};
+use rasray_report::{Report, Run, SceneRecord, columns, table_within};
 use std::ffi::OsStr;
 
 /// Rays of generated cases unless told.
@@ -90,7 +90,10 @@ pub(super) fn compare(
     let scene = SceneRecord { name: format!("hard:{id}"), triangles, ..SceneRecord::default() };
     let report = Report::new(origin(line), backend.device(), scene, whole.runs);
     targets.write(&report, &whole.figures, interrupt)?;
-    terminal::summarize(&table(&report, None, terminal::says(Talk::Verbose)), targets.take_stdout())?;
+    terminal::summarize(
+        &table_within(&report, None, terminal::says(Talk::Verbose), terminal::width()),
+        targets.take_stdout(),
+    )?;
     if let Some(error) = failed {
         terminal::warn(&format!(
             "{finished} of {} cases were whole before the error, and only they are reported",
@@ -126,12 +129,24 @@ fn ids(id: &str) -> Result<Vec<&'static str>, AppError> {
     } else {
         format!("there is no hard case '{id}'")
     };
-    Err(AppError::usage(message, format!("the {} cases are listed above; hard:{ALL} runs all", known.len())))
+    let meant = known
+        .iter()
+        .find(|known| known.eq_ignore_ascii_case(id))
+        .map_or(String::new(), |meant| format!("did you mean hard:{meant}? "));
+    Err(AppError::usage(
+        message,
+        format!("{meant}the {} cases are listed above; hard:{ALL} runs all", known.len()),
+    ))
 }
 
 /// Refuses what is about scenes, images and generated rays.
 fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
-    const UNFIT: [&str; 16] = [
+    const UNFIT: [&str; 22] = [
+        "time",
+        "clip",
+        "fps",
+        "primary",
+        "sampler",
         "image",
         "ray-set",
         "rays-file",
@@ -147,6 +162,7 @@ fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
         "spp",
         "bounces",
         "glass-shadows",
+        "back-faces",
         "ao-distance",
     ];
     match given.typed.iter().find(|typed| UNFIT.contains(&typed.as_str())) {

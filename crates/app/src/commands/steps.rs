@@ -121,6 +121,16 @@ pub(super) fn prepare(
     if reading.alpha == Switch::Off {
         loaded.close_holes();
     }
+    if shown.is_some() && !loaded.moves() {
+        let (option, asks) = match reading.time {
+            Some(_) => ("--time", "asks for a time of it"),
+            None => ("--frames", "asks for frames of it"),
+        };
+        return Err(AppError::usage(
+            format!("{option} {asks}, but the scene {} has no clips: nothing moves it", loaded.scene.name),
+            format!("leave {option} out; `rasray info SCENE` says what moves"),
+        ));
+    }
     let clip = reading.clip.as_deref();
     match shown {
         Some(Shown { seconds, posing: Posing::Device, .. }) => loaded.show(*seconds, clip)?,

@@ -52,7 +52,83 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         ("compare hard:E5 --systems mmrt --image", "--image", "leave it out"),
         ("compare hard:E5 --systems mmrt --size 640x360", "--size", "leave it out"),
         ("compare hard:E5 --systems mmrt --ray-set eye", "--ray-set", "leave it out"),
-        ("info cornel", "cornel", "cornell"),
+        ("info cornel", "cornel", "did you mean cornell?"),
+        ("render sphere:10k -o a.png", "sphere:10k", "did you mean spheres:10k?"),
+        ("render Atrium:detail=2 -o a.png", "Atrium", "did you mean atrium:detail=2?"),
+        ("render kitchen -o a.png", "kitchen", "scenes are .gltf"),
+        (
+            "render spheres:triangle=10k -o a.png",
+            "did you mean `triangles=10k`? the scene takes triangles",
+            "NAME:",
+        ),
+        ("render cornell:7 -o a.png", "`7` has no key; the scene takes none", "NAME:"),
+        ("render atrium:2 -o a.png", "`2` has no key; write detail=2", "NAME:"),
+        ("compare hard:E5 --systems mmrt --time 1", "--time", "leave it out"),
+        ("compare hard:E5 --systems mmrt --primary raster", "--primary", "leave it out"),
+        // What nothing moves is not the fault of an option that was not given.
+        ("render cornell -o #.png --frames 0-3", "--frames asks", "leave --frames out"),
+        ("render cornell -o a.png --time 1", "--time asks", "leave --time out"),
+        ("compare cornell --systems mmrt --time 1", "--time asks", "leave --time out"),
+        // Names of other renderers, slips, and options of other commands.
+        ("render cornell -o a.png --width 640", "--width", "did you mean '--size WIDTHxHEIGHT'"),
+        ("render cornell -o a.png --height=360", "--height", "did you mean '--size WIDTHxHEIGHT'"),
+        ("compare cornell --systems mmrt --max-depth 3", "--max-depth", "did you mean '--bounces'?"),
+        ("render cornell -o a.png --samples-per-pixel 4", "--samples-per-pixel", "did you mean '--spp'?"),
+        ("render cornell -o a.png --systems mmrt", "--systems", "did you mean '--system'?"),
+        ("compare cornell --system mmrt", "--system", "did you mean '--systems'?"),
+        ("render cornell -o a.png --markdown t.md", "--markdown", "rasray compare"),
+        ("render cornell -o a.png --nothing-like-it 4", "--nothing-like-it", "rasray render --help"),
+        // Numbers that are negative, not finite or beyond what there is, by the option that they are for.
+        ("render cornell -o a.png --spp -1", "'-1' for '--spp <N>': must be a whole number from 1", "--help"),
+        ("render cornell -o a.png --seed -1", "'-1' for '--seed <N>'", "--help"),
+        (
+            "render cornell -o a.png --bounces -.5",
+            "'-.5' for '--bounces <N>': must be a whole number from 0",
+            "--help",
+        ),
+        ("render cornell -o a.png --size -640x360", "'-640x360' for '--size <WxH>'", "--help"),
+        ("render cornell -o a.png --frames -5-3", "'-5-3' for '--frames <FIRST-LAST>'", "--help"),
+        ("render cornell -o a.png --grid -2", "'-2' for '--grid <N>'", "--help"),
+        (
+            "render cornell -o a.png --fov -inf --eye 0,0,0 --target 1,0,0",
+            "'-inf' for '--fov <DEGREES>'",
+            "--help",
+        ),
+        ("render cornell -o a.png --ao-distance -1", "'-1' for '--ao-distance <METRES>'", "--help"),
+        ("compare cornell --systems mmrt --rays -5", "'-5' for '--rays <N>'", "--help"),
+        ("render cornell -o a.png --environment -1,0,0", "--environment -1,0,0 has a value", "at least 0"),
+        ("render cornell -o a.png --environment 0,nan,0", "--environment 0,nan,0 has a value", "at least 0"),
+        (
+            "render cornell -o a.png --eye 1e39,0,0 --target 0,0,0",
+            "--eye <X,Y,Z>': each number must be from",
+            "--help",
+        ),
+        (
+            "render cornell -o a.png --eye 0,0,1 --target 0,-1e19,0",
+            "--target <X,Y,Z>': each number must be from",
+            "--help",
+        ),
+        (
+            "render cornell -o a.png --eye 0,0,1 --target 0,0,nan",
+            "--target <X,Y,Z>': each number must be from",
+            "--help",
+        ),
+        (
+            "render walker -o a.png --time 1e39",
+            "--time <SECONDS>': must be a number of seconds from -1e9",
+            "--help",
+        ),
+        (
+            "render walker -o a.png --time -inf",
+            "--time <SECONDS>': must be a number of seconds from -1e9",
+            "--help",
+        ),
+        (
+            "render cornell -o a.png --exposure nan",
+            "--exposure <STOPS>': must be a number from -64",
+            "--help",
+        ),
+        ("render cornell -o a.png --ao-distance 1e39", "--ao-distance <METRES>': must be a finite", "--help"),
     ];
     for (line, named, fix) in cases {
         let output = rasray(folder.path(), line);
@@ -84,6 +160,8 @@ fn a_hard_case_that_is_not_known_lists_those_that_are() {
         }
         assert!(stderr(&output).contains("hard:all"), "{}", stderr(&output));
     }
+    let output = rasray(folder.path(), "compare hard:e5 --systems mmrt");
+    assert!(stderr(&output).contains("did you mean hard:E5?"), "{}", stderr(&output));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use crate::SceneError;
+use crate::nearest::nearest;
 
 /// Parameters as written, each taken out once by the scene that knows it.
 pub(super) struct Parameters {
@@ -10,12 +11,15 @@ pub(super) struct Parameters {
     /// The value without a key, as in `spheres:10k`.
     positional: Option<String>,
     named: Vec<(String, String)>,
+    /// Keys that the scene asked for: those that it has.
+    known: Vec<String>,
 }
 
 impl Parameters {
     /// Splits `key=value,key=value`; one value without a key may stand in front.
     pub fn parse(spec: &str, rest: Option<&str>) -> Result<Self, SceneError> {
-        let mut parsed = Self { spec: spec.to_owned(), positional: None, named: Vec::new() };
+        let mut parsed =
+            Self { spec: spec.to_owned(), positional: None, named: Vec::new(), known: Vec::new() };
         let Some(rest) = rest else { return Ok(parsed) };
         for (place, part) in rest.split(',').enumerate() {
             let part = part.trim();
@@ -91,16 +95,35 @@ impl Parameters {
 
     /// Refuses what no scene took.
     pub fn finish(self) -> Result<(), SceneError> {
-        if let Some((key, _)) = self.named.first() {
-            return Err(self.error(format!("there is no parameter `{key}`; remove it")));
+        if let Some((key, value)) = self.named.first() {
+            let known = self.known.iter().map(String::as_str);
+            let fix = match nearest(key, known) {
+                Some(meant) => format!("did you mean `{meant}={value}`? "),
+                None => String::new(),
+            };
+            return Err(self.error(format!("there is no parameter `{key}`; {fix}{}", self.what_there_is())));
         }
         if let Some(value) = &self.positional {
-            return Err(self.error(format!("`{value}` has no key; write key={value}")));
+            let fix = match self.known.as_slice() {
+                [only] => format!("write {only}={value}"),
+                [] => self.what_there_is(),
+                _ => format!("write key={value}; {}", self.what_there_is()),
+            };
+            return Err(self.error(format!("`{value}` has no key; {fix}")));
         }
         Ok(())
     }
 
+    /// Which parameters the scene has.
+    fn what_there_is(&self) -> String {
+        match self.known.as_slice() {
+            [] => "the scene takes none".to_owned(),
+            known => format!("the scene takes {}", known.join(", ")),
+        }
+    }
+
     fn take(&mut self, key: &str) -> Option<String> {
+        self.known.push(key.to_owned());
         let place = self.named.iter().position(|(other, _)| other == key)?;
         Some(self.named.swap_remove(place).1)
     }
