@@ -75,9 +75,12 @@ pub(super) fn ends(axis: &Value) -> Option<[f64; 2]> {
     Some([end(0)?, end(1)?])
 }
 
-/// Names, the first at the top.
-pub(super) fn names() -> Value {
-    json!({"autorange": "reversed", "automargin": true, "type": "category"})
+/// Names in this order, the first at the top.
+pub(super) fn names(names: impl Iterator<Item = String>) -> Value {
+    json!({
+        "autorange": "reversed", "automargin": true, "type": "category",
+        "categoryorder": "array", "categoryarray": names.collect::<Vec<_>>(),
+    })
 }
 
 #[cfg(test)]

@@ -64,7 +64,7 @@ fn memory_parts(memory: &Memory) -> Vec<Part<'_>> {
         .collect()
 }
 
-/// Names of all parts, the largest in any run first, so that a part has one colour in the whole page.
+/// Names of all parts, the largest in any run first, so that a part has one colour in all plots of its kind.
 fn ranked<'a>(parts: impl Iterator<Item = Part<'a>>) -> Vec<&'a str> {
     let mut sizes: Vec<(&str, f64)> = Vec::new();
     for part in parts {
@@ -126,7 +126,7 @@ fn stacked(runs: &[(&Run, Vec<Part<'_>>)], ranking: &[&str]) -> Vec<Value> {
         if !found.is_empty() {
             let mut trace = trace(part.name, part.colour, found);
             trace["marker"]["pattern"] =
-                json!({"shape": part.pattern, "fgcolor": "#ffffff", "fgopacity": 0.6});
+                json!({"shape": part.pattern, "fillmode": "overlay", "fgcolor": "#ffffff", "fgopacity": 0.7});
             traces.push(trace);
         }
     }
@@ -172,9 +172,9 @@ struct SharedTimes<'a> {
 /// Bars of the passes of each run, one plot a figure that they add up to: those of builds once for all rays that were
 /// traced through them.
 pub(super) fn passes(report: &Report) -> Option<Section> {
-    let ranking = ranked(report.runs.iter().flat_map(|run| run.passes.iter().map(pass_part)));
     let mut plots = Vec::new();
     for figure in FIGURES {
+        let ranking = ranked(report.runs.iter().flat_map(|run| in_shares(run, figure.of)));
         let mut shown: Vec<SharedTimes<'_>> = Vec::new();
         for (workload, indices) in by_workload(&report.runs) {
             let runs: Vec<(&Run, Vec<Part<'_>>)> = indices
@@ -207,6 +207,15 @@ pub(super) fn passes(report: &Report) -> Option<Section> {
     )
 }
 
+/// Parts in shares of their bar, so that the parts of short bars have colours too.
+fn in_shares(run: &Run, of: Option<PassOf>) -> Vec<Part<'_>> {
+    let passes = || run.passes.iter().filter(|pass| pass.of == of);
+    let whole: f64 = passes().map(share).sum();
+    passes()
+        .map(|pass| Part { size: share(pass) / whole.max(f64::MIN_POSITIVE), ..pass_part(pass) })
+        .collect()
+}
+
 fn same_times(a: &[(&Run, Vec<Part<'_>>)], b: &[(&Run, Vec<Part<'_>>)]) -> bool {
     let sizes =
         |parts: &[Part<'_>]| parts.iter().map(|part| (part.name.to_owned(), part.size)).collect::<Vec<_>>();
@@ -230,7 +239,8 @@ fn pass_plot(position: usize, figure: &Figure, one: &SharedTimes<'_>, ranking: &
         })
     });
     let layout = json!({
-        "barmode": "stack", "xaxis": axes::linear("ms"), "yaxis": axes::names(), "annotations": ends.collect::<Vec<_>>(),
+        "barmode": "stack", "xaxis": axes::linear("ms"), "yaxis": axes::names(runs.iter().map(|one| bar_name(one.0))),
+        "annotations": ends.collect::<Vec<_>>(),
     });
     Plot {
         id: format!("passes-{position}"),
@@ -361,7 +371,7 @@ fn memory_plot(position: usize, workload: &str, own: &[(&Run, &Memory)], ranking
         ),
         height: bar_height(runs.len(), data.len()),
         data,
-        layout: json!({"barmode": "stack", "xaxis": axes::linear("MiB"), "yaxis": axes::names()}),
+        layout: json!({"barmode": "stack", "xaxis": axes::linear("MiB"), "yaxis": axes::names(runs.iter().map(|one| bar_name(one.0)))}),
     }
 }
 

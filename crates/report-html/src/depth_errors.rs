@@ -127,7 +127,7 @@ fn spread_apart(data: &mut [Value], curves: Vec<Curve>, names: &[String], decade
     let shares = |curve: Curve| curve.into_iter().map(|height| height.map(|one| one / decades)).collect();
     let curves: Vec<Curve> = curves.into_iter().map(shares).collect();
     for (trace, below) in data.iter_mut().zip(covered(&curves)).filter(|(_, below)| *below > 0) {
-        let wider = 5.0 * below as f64;
+        let wider = 3.5 * below as f64;
         trace["line"]["width"] = json!(trace["line"]["width"].as_f64().unwrap_or(2.0) + wider);
         trace["opacity"] = json!(0.6);
         if let Some(size) = trace["marker"]["size"].as_f64() {

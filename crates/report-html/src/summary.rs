@@ -67,7 +67,10 @@ fn rate(run: &Run, name: &str, value: Option<u64>) -> Option<Cell> {
 /// Where the true rate lies.
 fn interval(record: &RateRecord) -> String {
     let [low, high] = record.interval;
-    if record.count == 0 { format!("< {high:.1e}") } else { format!("{low:.1e} – {high:.1e}") }
+    let words =
+        if record.count == 0 { format!("<\u{a0}{high:.1e}") } else { format!("{low:.1e} – {high:.1e}") };
+    // A line may break between the two, but not at the sign of an exponent.
+    words.replace("e-", "e\u{2011}")
 }
 
 fn accuracy<T>(run: &Run, field: impl Fn(&Accuracy) -> Option<T>) -> Option<T> {

@@ -95,7 +95,10 @@ fn hard_cases_have_verdicts_and_a_few_have_plots() {
 fn intervals_and_quartiles_stand_next_to_their_numbers() {
     let (mut report, figures) = everything("spheres:10k");
     let before = page(&report, &figures);
-    assert!(before.contains("0<span class=\"interval\">&lt; 1.5e-5</span>"), "3/N of no missed hit");
+    assert!(
+        before.contains("0<span class=\"interval\">&lt;\u{a0}1.5e\u{2011}5</span>"),
+        "3/N of no missed hit"
+    );
     assert!(before.contains("<span class=\"interval\">27.568 – 31.921</span>"), "quartiles of a build");
     for run in &mut report.runs {
         run.spread.clear();
