@@ -5,11 +5,12 @@ use std::path::Path;
 
 use glam::DVec3;
 
+use super::library::Library;
 use super::skipped::Skipped;
+use super::smoothing::Smoothing;
 use super::statements::{Statement, number, statements};
 use crate::polygon::{Filling, Polygons};
 use crate::recognise::{BINARY, RENAME};
-use crate::reference::{Place, place};
 use crate::{Limits, Mesh, SceneError};
 
 /// What an OBJ file holds.
@@ -28,26 +29,6 @@ pub(super) struct Geometry {
     pub vertices: usize,
 }
 
-/// A `mtllib` statement.
-pub(super) struct Library {
-    /// All that follows the word.
-    pub name: String,
-}
-
-impl Library {
-    /// Names of files and where they lead. The statement may name one file with spaces or several files: one if that exists,
-    /// or where one leads outside.
-    pub fn files(&self, folder: &Path) -> Vec<(&str, Place)> {
-        let is_one = match place(folder, &self.name) {
-            Place::Below(file) => file.is_file(),
-            Place::Outside { beside, .. } => beside.is_some_and(|file| file.is_file()),
-        };
-        let names: Vec<&str> =
-            if is_one { vec![self.name.as_str()] } else { self.name.split_whitespace().collect() };
-        names.into_iter().map(|name| (name, place(folder, name))).collect()
-    }
-}
-
 /// Reads the statements of an OBJ file.
 pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometry, SceneError> {
     let mut reader = Reader {
@@ -57,9 +38,7 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
         uvs: Vec::new(),
         normals: Vec::new(),
         group: String::new(),
-        smoothing: 0,
-        smooth: HashMap::new(),
-        smooth_sums: Vec::new(),
+        smoothing: Smoothing::default(),
         material: String::new(),
         material_names: Vec::new(),
         material_index: HashMap::new(),
@@ -131,7 +110,7 @@ struct Run {
     uvs: Vec<[f64; 2]>,
     /// Of the file.
     file_normals: Vec<[f32; 3]>,
-    /// Places in `Reader::smooth_sums`.
+    /// Places in `Reader::smoothing`.
     made_normals: Vec<u32>,
     has_uvs: bool,
     normals: Normals,
@@ -145,12 +124,7 @@ struct Reader<'a> {
     uvs: Vec<[f64; 2]>,
     normals: Vec<[f32; 3]>,
     group: String,
-    /// The smoothing group, 0 for none.
-    smoothing: u32,
-    /// Place in `smooth_sums` of a vertex in a smoothing group.
-    smooth: HashMap<(u32, u32), u32>,
-    /// Sums of the normals of the faces there, weighted by area.
-    smooth_sums: Vec<DVec3>,
+    smoothing: Smoothing,
     material: String,
     material_names: Vec<String>,
     material_index: HashMap<String, usize>,
@@ -204,7 +178,7 @@ impl Reader<'_> {
             }
             b"mtllib" => self.libraries.push(Library { name: statement.name() }),
             b"o" | b"g" => self.group = statement.name(),
-            b"s" => self.smoothing = smoothing_group(statement),
+            b"s" => self.smoothing.take(statement),
             b"p" | b"l" => self.skipped.points_and_lines += 1,
             _ => {
                 self.skipped.note_unknown(statement);
@@ -241,10 +215,10 @@ impl Reader<'_> {
         let is_partial =
             !has_uvs && some_have(|corner| corner.uv) || !has_normals && some_have(|corner| corner.normal);
         self.skipped.partial += usize::from(is_partial);
-        let normals = match (has_normals, self.smoothing) {
+        let normals = match (has_normals, self.smoothing.is_on()) {
             (true, _) => Normals::File,
-            (false, 0) => Normals::Absent,
-            (false, _) => Normals::Made,
+            (false, false) => Normals::Absent,
+            (false, true) => Normals::Made,
         };
         let mut points = std::mem::take(&mut self.points);
         points.clear();
@@ -255,7 +229,11 @@ impl Reader<'_> {
             corner.normal = corner.normal.filter(|_| has_normals);
         }
         if normals == Normals::Made {
-            self.smooth_face(face, &points);
+            let sides = points[1..].windows(2);
+            let normal: DVec3 = sides.map(|pair| (pair[0] - points[0]).cross(pair[1] - points[0])).sum();
+            for corner in face.iter_mut() {
+                corner.normal = Some(self.smoothing.add(corner.position, normal));
+            }
         }
         let filling = self.polygons.fill(&points);
         self.points = points;
@@ -299,23 +277,6 @@ impl Reader<'_> {
         self.check_count(run.positions.len())?;
         self.run = Some(run);
         Ok(())
-    }
-
-    /// Adds the normal of a face to those of its corners in the smoothing group.
-    fn smooth_face(&mut self, face: &mut [Corner], points: &[DVec3]) {
-        let sides = points[1..].windows(2);
-        let normal: DVec3 = sides.map(|pair| (pair[0] - points[0]).cross(pair[1] - points[0])).sum();
-        for corner in face {
-            let made = *self.smooth.entry((corner.position, self.smoothing)).or_insert_with(|| {
-                self.smooth_sums.push(DVec3::ZERO);
-                (self.smooth_sums.len() - 1) as u32
-            });
-            // Triangles of a face without a normal are dropped or never hit.
-            if normal.is_finite() {
-                self.smooth_sums[made as usize] += normal;
-            }
-            corner.normal = Some(made);
-        }
     }
 
     /// Index in the run's mesh of a corner; corners that agree in all three indices are one vertex.
@@ -373,8 +334,7 @@ impl Reader<'_> {
     /// Gives their normals to the meshes of smoothing groups, now that all faces are known.
     fn make_normals(&mut self) {
         for (mesh, made) in std::mem::take(&mut self.made_normals) {
-            let normal = |made: u32| self.smooth_sums[made as usize].normalize_or(DVec3::Z).as_vec3();
-            self.meshes[mesh].normals = Some(made.into_iter().map(|made| normal(made).to_array()).collect());
+            self.meshes[mesh].normals = Some(self.smoothing.normals(&made));
         }
     }
 
@@ -436,13 +396,5 @@ impl Reader<'_> {
         // Indices are u32, whatever the limit says.
         let limit = self.limits.vertices.min(u64::from(u32::MAX) - 1);
         Limits::check(self.path, "the number of vertices", count as u64 + 1, limit, "vertices")
-    }
-}
-
-/// The number of a smoothing group; 0 for `off`. A word that is no number is a group of its own.
-fn smoothing_group(statement: &Statement<'_>) -> u32 {
-    match statement.words().next() {
-        None | Some(b"off") => 0,
-        Some(word) => std::str::from_utf8(word).ok().and_then(|word| word.parse().ok()).unwrap_or(u32::MAX),
     }
 }

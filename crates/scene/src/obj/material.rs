@@ -61,6 +61,10 @@ pub(super) fn translate(
         }
         _ => {}
     }
+    // What reflects has an index above 1: exporters write 1 where theirs is about refraction alone.
+    if material.transmission == 0.0 && strength > 0.0 && material.ior <= 1.0 {
+        material.ior = 1.5;
+    }
     if material.transmission == 0.0 && opacity < 1.0 {
         material.alpha_mode = AlphaMode::Blend;
         material.base_color[3] = opacity;

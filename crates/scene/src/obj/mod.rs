@@ -25,7 +25,7 @@
 //! | `Ke`, `map_Ke` | emission; a map without `Ke` has factor 1 |
 //! | `d`, `Tr` | opacity below 1 blends |
 //! | `map_d` | alpha mask at one half, together with `map_Kd` in one image |
-//! | `Ni` | index of refraction, 1.5 unless it is in [1, 10] |
+//! | `Ni` | index of refraction, 1.5 unless it is in [1, 10]; 1 counts as 1.5 where there is a `Ks` and no glass, since nothing would reflect |
 //! | `illum` 4, 6, 7, 9 | glass, unless the rule below says otherwise: transmits, coloured by `Tf` (white); 6 and 7 refract, the others are thin walls |
 //! | `illum` 3, 5, 8 with black `Kd` and a `Ks` | a mirror: metal of colour `Ks` |
 //! | `Pr`, `Pm` | perceptual roughness and metallic, in place of what follows from the others |
@@ -42,9 +42,11 @@
 //! `Kd` or a `d` between 0 and 1 all the same has a warning that they are not shown.
 
 mod geometry;
+mod library;
 mod material;
 mod mtl;
 mod skipped;
+mod smoothing;
 mod statements;
 mod textures;
 
@@ -60,7 +62,8 @@ use crate::reference::Place;
 use crate::remarks::Remarks;
 use crate::text::{reason, shown};
 use crate::{LoadOptions, Material, Scene, SceneError};
-use geometry::{Geometry, Library};
+use geometry::Geometry;
+use library::Library;
 use mtl::MtlMaterial;
 use textures::Textures;
 

@@ -75,6 +75,7 @@ fn opaque_surfaces_of_maya_are_no_glass() {
         let scene = with_material(folder.path(), lines);
         assert!(is_opaque(&scene.materials[0]), "{lines}");
         assert_eq!(scene.materials[0].base_color[..3], [0.5, 0.4, 0.3]);
+        assert!(!lines.contains("Ks") || scene.materials[0].ior == 1.5, "its Ks is seen");
         assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
     }
 }

@@ -1,0 +1,55 @@
+//! Smoothing groups: normals for faces that have none.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+
+use super::statements::Statement;
+
+/// The current group, and the normals of all groups so far.
+#[derive(Default)]
+pub(super) struct Smoothing {
+    /// 0 for none.
+    group: u32,
+    /// Place in `sums` of a vertex of the file in a group.
+    places: HashMap<(u32, u32), u32>,
+    /// Sums of the normals of the faces there, weighted by area.
+    sums: Vec<DVec3>,
+}
+
+impl Smoothing {
+    /// Reads a statement `s`: the number of a group, or `off`. A word that is no number is a group of its own.
+    pub fn take(&mut self, statement: &Statement<'_>) {
+        self.group = match statement.words().next() {
+            None | Some(b"off") => 0,
+            Some(word) => {
+                std::str::from_utf8(word).ok().and_then(|word| word.parse().ok()).unwrap_or(u32::MAX)
+            }
+        };
+    }
+
+    /// Whether faces are in a group.
+    pub fn is_on(&self) -> bool {
+        self.group != 0
+    }
+
+    /// Adds the normal of a face, as long as twice its area, to that of a vertex in the group, and says which that is.
+    pub fn add(&mut self, vertex: u32, normal: DVec3) -> u32 {
+        let Self { group, places, sums } = self;
+        let place = *places.entry((vertex, *group)).or_insert_with(|| {
+            sums.push(DVec3::ZERO);
+            (sums.len() - 1) as u32
+        });
+        // Triangles of a face without a normal are dropped or never hit.
+        if normal.is_finite() {
+            sums[place as usize] += normal;
+        }
+        place
+    }
+
+    /// The unit normals of vertices, once all faces are known.
+    pub fn normals(&self, places: &[u32]) -> Vec<[f32; 3]> {
+        let normal = |place: &u32| self.sums[*place as usize].normalize_or(DVec3::Z).as_vec3().to_array();
+        places.iter().map(normal).collect()
+    }
+}
