@@ -37,7 +37,7 @@ fn depths(folder: &Path, scene: &str, by: [f64; 3]) -> Vec<f32> {
     let image = read.expect("an image");
     let channels = image.layer_data.iter().flat_map(|layer| &layer.channel_data.list);
     let depth = channels
-        .filter(|channel| channel.name.to_string() == "Z")
+        .filter(|channel| channel.name.eq("Z"))
         .flat_map(|channel| channel.sample_data.values_as_f32());
     depth.collect()
 }
