@@ -1,7 +1,8 @@
 use glam::{DVec3, Vec2, Vec3};
-use rasray_scene::{AlphaMode, Environment, Material};
+use rasray_scene::{AlphaMode, Environment, Light, Material};
 
 use crate::{
+    integrators::PathOptions,
     shading::{PosedScene, Ray},
     testing::{assert_mean, cube, diffuse, quad, scene, view},
 };
@@ -74,6 +75,37 @@ fn light_through_a_blended_sheet_is_counted_once() {
     let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
     let image = posed.render_path(&view([0.0, 0.0, 5.0], [0.0; 3], 16, 96), 1).expect("rendered");
     assert_mean(&image, 0.7 * 0.7, 0.002, 0.04);
+}
+
+/// The sun above a pane and two blended sheets, seen from below them: what each lets pass, without noise.
+#[test]
+fn the_sun_shines_through_what_lets_it_pass() {
+    let blended = Material { base_color: [0.0, 0.0, 0.0, 0.3], alpha_mode: AlphaMode::Blend, ..diffuse(0.0) };
+    let pane = Material {
+        base_color: [0.9, 0.5, 0.2, 1.0],
+        transmission: 1.0,
+        roughness: 0.0,
+        thickness: 0.0,
+        specular: 0.0,
+        ..diffuse(1.0)
+    };
+    let wide =
+        |z: f32, material| quad(Vec3::new(-90.0, -90.0, z), Vec3::X * 180.0, Vec3::Y * 180.0, material);
+    let meshes = vec![wide(0.0, 2), wide(6.0, 0), wide(6.5, 0), wide(7.0, 1)];
+    let mut scene = scene(vec![blended, pane, diffuse(0.5)], meshes);
+    let direction = DVec3::new(0.6, 0.0, -0.8);
+    scene.lights.push(Light::Directional { direction, irradiance: [2.0; 3] });
+    let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+    let eye = view([0.0, 0.0, 5.0], [0.0; 3], 4, 2);
+    let lit = 0.5 / std::f32::consts::PI * 2.0 * 0.8 * 0.7 * 0.7;
+    for pixel in posed.render_path(&eye, 1).expect("rendered").pixels {
+        for (value, tint) in pixel.iter().zip([0.9, 0.5, 0.2]) {
+            assert!((value - lit * tint).abs() < 1.0e-6, "{pixel:?}");
+        }
+    }
+    let opaque = PathOptions { bounces: 4, passes_panes: false };
+    let image = posed.render_path(&eye, opaque).expect("rendered");
+    assert!(image.pixels.iter().all(|pixel| *pixel == [0.0; 3]));
 }
 
 /// Light samples choose no blended emitter: a scattered ray hits it as often as its opacity says, and counts fully.
