@@ -201,7 +201,11 @@ fn brute_force_waits_for_indices_that_are_gathered_and_triangles_that_are_counte
         let geometry = Geometry::new(device, desc).expect("the buffers hold it");
         // Of a part, too.
         let parts = match geometry.desc().count {
-            None => vec![geometry.parts(device, &[0..6], [geometry.bounds(); 2]).expect("they are parts")],
+            None => vec![
+                geometry
+                    .parts(device, std::slice::from_ref(&(0..6)), [geometry.bounds(); 2])
+                    .expect("they are parts"),
+            ],
             Some(_) => Vec::new(),
         };
         let of_parts = parts.iter().flat_map(|parts| [parts.static_part(), parts.moving_part()]);
