@@ -133,6 +133,18 @@ mod tests {
     }
 
     #[test]
+    fn an_image_narrower_than_the_frame_shows_all_of_it() {
+        let framed =
+            Camera { aspect_ratio: Some(2.0), ..camera(Projection::Orthographic { half_height: 1.0 }) };
+        for (width, height, halves) in [(90, 90, [2.0, 2.0]), (180, 90, [2.0, 1.0]), (270, 90, [3.0, 1.0])] {
+            let mut frame = Frame::default();
+            View { camera: framed.clone(), width, height, seed: 0 }.write(&mut frame, DVec3::ZERO);
+            assert_eq!([frame.half_width, frame.half_height], halves, "{width}x{height}");
+            assert_eq!(frame.cone_width, 2.0 * halves[1] / 90.0, "pixels are as large as they are high");
+        }
+    }
+
+    #[test]
     fn a_sample_has_its_share_of_the_pixel() {
         let mut frame = Frame::default();
         Sampling { sampler: Sampler::Pcg, samples: 16, ..Sampling::default() }.write(&mut frame, false);

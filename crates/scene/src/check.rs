@@ -40,10 +40,28 @@ pub fn clean_mesh(path: &Path, mesh: &mut Mesh, warnings: &mut Vec<Warning>) -> 
 
 /// See [`clean_mesh`].
 pub(crate) fn clean(path: &Path, mesh: &mut Mesh, remarks: &mut Remarks) -> Result<(), SceneError> {
+    clean_deformed(path, mesh, None, remarks)
+}
+
+/// The same of a mesh at rest, with its positions `before` something deforms it: triangles are remarked on that have no area
+/// then, since what they are for a while is no fault of the file.
+pub(crate) fn clean_deformed(
+    path: &Path,
+    mesh: &mut Mesh,
+    before: Option<&[[f32; 3]]>,
+    remarks: &mut Remarks,
+) -> Result<(), SceneError> {
     triangles::check_indices(path, mesh)?;
-    triangles::clean(mesh, remarks);
+    triangles::clean(mesh, before, remarks);
     attributes::clean(mesh, remarks);
     Ok(())
+}
+
+/// Whether no triangle has an area. Indices need not have been checked.
+pub(crate) fn is_flattened(mesh: &Mesh) -> bool {
+    let is_whole = |corners: &[u32]| corners.iter().all(|&corner| (corner as usize) < mesh.positions.len());
+    let mut triangles = mesh.indices.chunks_exact(3);
+    triangles.all(|corners| is_whole(corners) && triangles::is_degenerate(&mesh.positions, corners))
 }
 
 /// The same of normals, tangents, texture coordinates and colours alone.

@@ -298,7 +298,17 @@ pub(crate) fn deform(
     for (rounded, position) in mesh.positions.iter_mut().zip(positions) {
         *rounded = (position - origin.unwrap_or_default()).as_vec3().to_array();
     }
+    keep_attributes(mesh, deformed);
     origin.map(DAffine3::from_translation)
+}
+
+/// Gives a mesh that is flattened to nothing the normals and tangents of its own shape: what is left of them has no direction,
+/// nobody sees it, and the mesh has them again as soon as it is more than nothing.
+fn keep_attributes(mesh: &mut Mesh, deformed: &DeformedMesh) {
+    if (deformed.normals.is_some() || deformed.tangents.is_some()) && check::is_flattened(mesh) {
+        mesh.normals.clone_from(&deformed.normals);
+        mesh.tangents.clone_from(&deformed.tangents);
+    }
 }
 
 /// The matrix that turns normals, whatever the determinant; for a mirrored map it also flips them back to the side that the

@@ -165,3 +165,28 @@ fn what_leaves_the_range_of_numbers_is_counted() {
     }
     assert_eq!(stage.fresh(&at(&stage.scene, 1.0)).posed.dropped_triangles, 7, "as the host counts them");
 }
+
+/// What a scale of 0 hides at rest, of a node or of a joint, is whole when it is shown, with its normals and tangents.
+#[test]
+fn what_is_hidden_at_rest_is_whole_when_it_is_shown() {
+    let bench = Bench::new();
+    let (rigid, mesh) = (cloud(30, [0.0; 3], 17), cloud(30, [0.0; 3], 18));
+    let vertices = mesh.positions.len();
+    let (joint_nodes, skin, mut channels) = skin(4, 2, DVec3::new(1.0, 2.0, 3.0), DVec3::ZERO);
+    let mut nodes = [vec![node(None, DVec3::X), node(None, DVec3::Y)], joint_nodes].concat();
+    for hidden in [0, 2] {
+        if let NodeTransform::Parts { scale, .. } = &mut nodes[hidden].transform {
+            *scale = DVec3::ZERO;
+        }
+        channels.push(linear(hidden, ChannelValues::Scale(vec![[0.0; 3], [1.0, 2.0, 0.5]])));
+    }
+    let mut skinned = shape(1, &mesh);
+    skinned.skin = Some(binding(vertices, 4, 4, 19));
+    let rig = Rig { nodes, skins: vec![skin], deformed: vec![skinned], ..Rig::default() };
+    let made = scene(vec![rigid, mesh], rig, channels);
+    assert!(made.meshes.iter().all(|mesh| mesh.normals.is_some() && mesh.tangents.is_some()));
+    let stage = Stage::new(&bench, made, DVec3::ZERO);
+    for seconds in [1.0, 0.25] {
+        assert_close("hidden at rest", stage.held(&at(&stage.scene, seconds)), 2 * vertices, 1.0e-5);
+    }
+}

@@ -33,7 +33,7 @@ pub(super) fn check_indices(path: &Path, mesh: &Mesh) -> Result<(), SceneError> 
 }
 
 /// Drops triangles with unusable corners, flushes subnormals, counts zero areas.
-pub(super) fn clean(mesh: &mut Mesh, remarks: &mut Remarks) {
+pub(super) fn clean(mesh: &mut Mesh, before: Option<&[[f32; 3]]>, remarks: &mut Remarks) {
     let place = place(mesh);
     let mut unusable = Vec::new();
     let mut flushed = 0;
@@ -66,14 +66,15 @@ pub(super) fn clean(mesh: &mut Mesh, remarks: &mut Remarks) {
         remarks.count("dropped-triangles", &place, dropped, text);
     }
     remarks.count("subnormal-coordinates", &place, flushed, "subnormal coordinates were set to 0");
-    let degenerate = mesh.indices.chunks_exact(3).filter(|corners| is_degenerate(mesh, corners)).count();
+    let positions = before.unwrap_or(&mesh.positions);
+    let degenerate = mesh.indices.chunks_exact(3).filter(|corners| is_degenerate(positions, corners)).count();
     let text = "triangles have no area; they are kept and never hit";
     remarks.count("degenerate-triangles", &place, degenerate, text);
 }
 
 /// Whether the area of a triangle is zero, in f64.
-fn is_degenerate(mesh: &Mesh, corners: &[u32]) -> bool {
-    face_normal(&mesh.positions, corners) == DVec3::ZERO
+pub(super) fn is_degenerate(positions: &[[f32; 3]], corners: &[u32]) -> bool {
+    face_normal(positions, corners) == DVec3::ZERO
 }
 
 /// Twice the area of a triangle along its normal, square metres.

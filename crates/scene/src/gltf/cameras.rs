@@ -25,8 +25,9 @@ pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usi
                 let aspect_ratio = aspect_ratio(source);
                 cameras.push((node, Camera { name, world_from_camera, projection, aspect_ratio }));
             }
-            _ => {
-                document.note("bad-camera", format!("camera {name}"), fault(document, index.value(), source))
+            (placed, _) => {
+                let fault = fault(document, index.value(), source, placed.is_some());
+                document.note("bad-camera", format!("camera {name}"), format!("{fault}; it was dropped"));
             }
         }
     }
@@ -34,12 +35,22 @@ pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usi
 }
 
 /// Why a camera is dropped.
-fn fault(document: &Document<'_>, index: usize, source: &JsonCamera) -> String {
-    match source.type_ {
-        Checked::Invalid => {
-            format!("its type {}; it was dropped", document.unknown(&format!("cameras[{index}].type")))
+fn fault(document: &Document<'_>, index: usize, source: &JsonCamera, is_placed: bool) -> String {
+    match (source.type_, &source.perspective, &source.orthographic) {
+        (Checked::Invalid, ..) => {
+            format!("its type {}", document.unknown(&format!("cameras[{index}].type")))
         }
-        Checked::Valid(_) => "its place or projection is degenerate; it was dropped".to_owned(),
+        _ if projection(source).is_some() && !is_placed => {
+            "its node looks in no direction: it has a scale of 0, or is not finite".to_owned()
+        }
+        (Checked::Valid(Type::Perspective), Some(perspective), _) => {
+            format!("yfov {} is not between 0 and pi", perspective.yfov)
+        }
+        (Checked::Valid(Type::Orthographic), _, Some(parallel)) => {
+            format!("ymag {} is no height", parallel.ymag)
+        }
+        (Checked::Valid(Type::Perspective), None, _) => "it has no perspective".to_owned(),
+        (Checked::Valid(Type::Orthographic), _, None) => "it has no orthographic".to_owned(),
     }
 }
 

@@ -55,7 +55,13 @@ pub(super) fn place(
             let shown = Shown { node, mesh, primitive };
             match placer.mesh(shown)? {
                 // Joints place a skinned mesh, not its node: copies would coincide.
-                Some((mesh, Some(world))) => placer.instances(node, mesh, world, &[DAffine3::IDENTITY])?,
+                Some((mesh, Some(world))) => {
+                    if copies.len() > 1 {
+                        let text = "has copies of a mesh with a skin, which joints place: they would coincide, and one is shown";
+                        document.note("skinned-copies", format!("nodes[{node}]"), text);
+                    }
+                    placer.instances(node, mesh, world, &[DAffine3::IDENTITY])?;
+                }
                 Some((mesh, None)) => placer.instances(node, mesh, hierarchy.world[node], copies)?,
                 None => {}
             }

@@ -144,7 +144,9 @@ pub(super) fn read(
         kept.skin = binding;
         deformed = Some(kept);
     }
-    check::clean(document.path, &mut mesh, &mut document.remarks.borrow_mut())?;
+    let clips = !document.root.animations.is_empty();
+    let before = deformed.as_ref().filter(|_| clips).map(|kept| &kept.positions[..]);
+    check::clean_deformed(document.path, &mut mesh, before, &mut document.remarks.borrow_mut())?;
     if mesh.indices.is_empty() {
         skipped.empty += 1;
         return Ok(None);

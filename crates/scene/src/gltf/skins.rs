@@ -9,6 +9,9 @@ use super::document::Document;
 use crate::SceneError;
 use crate::animation::{Skin, SkinBinding};
 
+/// How far the last row of a matrix may be from (0, 0, 0, 1).
+const PROJECTIVE_TOLERANCE: f32 = 1e-4;
+
 /// Reads all skins of a file.
 pub(super) fn read_all(document: &Document<'_>) -> Result<Vec<Skin>, SceneError> {
     document
@@ -19,7 +22,11 @@ pub(super) fn read_all(document: &Document<'_>) -> Result<Vec<Skin>, SceneError>
         .map(|(i, skin)| {
             let joints: Vec<usize> = skin.joints.iter().map(|joint| joint.value()).collect();
             let joint_from_mesh = match skin.inverse_bind_matrices {
-                Some(accessor) => read_floats::<16>(document, accessor.value())?.iter().map(affine).collect(),
+                Some(accessor) => {
+                    let matrices = read_floats::<16>(document, accessor.value())?;
+                    remark_matrices(document, i, &matrices[..joints.len().min(matrices.len())]);
+                    matrices.iter().map(affine).collect()
+                }
                 None => vec![DAffine3::IDENTITY; joints.len()],
             };
             if joint_from_mesh.len() < joints.len() {
@@ -33,8 +40,32 @@ pub(super) fn read_all(document: &Document<'_>) -> Result<Vec<Skin>, SceneError>
         .collect()
 }
 
-/// The affine part of a column-major matrix.
+/// Says which inverse bind matrices are not taken as they are.
+fn remark_matrices(document: &Document<'_>, skin: usize, matrices: &[[f32; 16]]) {
+    let count = |is_bad: &dyn Fn(&[f32; 16]) -> bool| matrices.iter().filter(|matrix| is_bad(matrix)).count();
+    let (place, mut remarks) = (format!("skins[{skin}].inverseBindMatrices"), document.remarks.borrow_mut());
+    let bad = count(&|matrix| !is_finite(matrix));
+    remarks.count("skin-matrices", &place, bad, "matrices are not finite; none is applied");
+    let bottom = |matrix: &[f32; 16]| [matrix[3], matrix[7], matrix[11], matrix[15] - 1.0];
+    let bad =
+        count(&|matrix| is_finite(matrix) && bottom(matrix).iter().any(|x| x.abs() > PROJECTIVE_TOLERANCE));
+    remarks.count(
+        "skin-matrices",
+        &place,
+        bad,
+        "matrices are projective; their last row is taken as 0 0 0 1",
+    );
+}
+
+fn is_finite(matrix: &[f32; 16]) -> bool {
+    matrix.iter().all(|x| x.is_finite())
+}
+
+/// The affine part of a column-major matrix; the identity where it is not finite.
 fn affine(elements: &[f32; 16]) -> DAffine3 {
+    if !is_finite(elements) {
+        return DAffine3::IDENTITY;
+    }
     let column = |k: usize| DVec3::new(elements[k].into(), elements[k + 1].into(), elements[k + 2].into());
     DAffine3 { matrix3: DMat3::from_cols(column(0), column(4), column(8)), translation: column(12) }
 }

@@ -135,12 +135,15 @@ fn primitives_without_targets_are_not_displaced() {
     }
 }
 
+/// The path with its node, times and values of a channel, its interpolation, and what is said of it.
+type Channel<'a> = (&'a str, &'a [f32], &'a [f32], &'a str, &'a str);
+
 /// What is wrong with a channel is said of what is wrong.
 #[test]
 fn a_channel_that_cannot_be_played_says_why() {
     let nan = f32::NAN;
     let three = [0.0; 9];
-    let cases: &[(&str, &[f32], &[f32], &str, &str)] = &[
+    let cases: &[Channel<'_>] = &[
         ("translation", &[], &[], "LINEAR", "it has no keys"),
         ("translation", &[0.0, nan, 2.0], &three, "LINEAR", "the time of key 1 is NaN"),
         (
@@ -455,4 +458,81 @@ fn weights_of_several_targets_stay_apart() {
     // Corner 1 is at 1, and each target displaces it by as much as its weight.
     assert_eq!([0, 1].map(|instance| corners(&scene, instance, 0.0)[1].x), [1.0, 2.0]);
     assert_eq!([0, 1].map(|instance| corners(&scene, instance, 1.0)[1].x), [1.5, 1.75]);
+}
+
+/// What a skin hides at rest by a scale of 0 is no fault of the mesh: its triangles and normals are there when it is shown.
+#[test]
+fn what_a_joint_hides_at_rest_is_not_said_to_be_broken() {
+    let mut file = File::new();
+    let (joints, weights) =
+        (file.accessor(&[0; 12], 5121, "VEC4", 3), file.floats("VEC4", &[1.0, 0.0, 0.0, 0.0].repeat(3)));
+    let normals = file.floats("VEC3", &[0.0, 0.0, 1.0].repeat(3));
+    let (input, output) = (file.floats("SCALAR", &[0.0]), file.floats("VEC3", &[1.0; 3]));
+    let rest = |clips: &str| {
+        file.load(&format!(
+            r#""meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":{normals},"JOINTS_0":{joints},"WEIGHTS_0":{weights}}}}}]}}],
+            "nodes":[{{"mesh":0,"skin":0}},{{"scale":[0,0,0]}}],"skins":[{{"joints":[1]}}]{clips}"#
+        ))
+    };
+    let scene = rest(&format!(
+        r#","animations":[{{"channels":[{{"sampler":0,"target":{{"node":1,"path":"scale"}}}}],
+        "samplers":[{{"input":{input},"output":{output}}}]}}]"#
+    ));
+    assert_eq!(kinds(&scene), ["zero-scale"], "{:?}", scene.warnings);
+    assert!(scene.meshes[0].normals.is_some());
+    let shown = scene.at(&Moment { seconds: 0.0, clips: vec![0] }).expect("a rig");
+    assert!(shown.warnings.is_empty(), "{:?}", shown.warnings);
+    assert_eq!(shown.meshes[0].normals, Some(vec![[0.0, 0.0, 1.0]; 3]));
+    // Without a clip it is so for good.
+    assert!(kinds(&rest("")).contains(&"degenerate-triangles"));
+}
+
+#[test]
+fn skins_and_cameras_say_what_is_wrong_with_them() {
+    let mut file = File::new();
+    let joints = file.accessor(&[0; 12], 5121, "VEC4", 3);
+    let weights = file.floats("VEC4", &[1.0, 0.0, 0.0, 0.0].repeat(3));
+    let identity = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+    for (place, value, says) in
+        [(12, f32::NAN, "1 matrices are not finite"), (3, 0.5, "1 matrices are projective")]
+    {
+        let mut matrix = identity;
+        matrix[place] = value;
+        let mut file = File {
+            buffers: file.buffers.clone(),
+            views: file.views.clone(),
+            accessors: file.accessors.clone(),
+        };
+        let matrices = file.floats("MAT4", &matrix);
+        let scene = file.load(&format!(
+            r#""meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"JOINTS_0":{joints},"WEIGHTS_0":{weights}}}}}]}}],
+            "nodes":[{{"mesh":0,"skin":0}},{{}}],"skins":[{{"joints":[1],"inverseBindMatrices":{matrices}}}]"#
+        ));
+        let found = messages(&scene, "skin-matrices");
+        assert!(found.len() == 1 && found[0].contains(says), "{:?}", scene.warnings);
+        assert_eq!(corners(&scene, 0, 0.0)[1], DVec3::X);
+    }
+    for (node, camera, says) in [
+        (
+            "",
+            r#"{"type":"perspective","perspective":{"yfov":9,"znear":1}}"#,
+            "yfov 9 is not between 0 and pi",
+        ),
+        (
+            "",
+            r#"{"type":"orthographic","orthographic":{"xmag":1,"ymag":0,"znear":1,"zfar":2}}"#,
+            "ymag 0 is no height",
+        ),
+        ("", r#"{"type":"perspective"}"#, "it has no perspective"),
+        (
+            r#","scale":[0,0,0]"#,
+            r#"{"type":"perspective","perspective":{"yfov":1,"znear":1}}"#,
+            "looks in no direction",
+        ),
+    ] {
+        let scene = file
+            .load(&format!(r#"{TRIANGLE},"nodes":[{{"mesh":0}},{{"camera":0{node}}}],"cameras":[{camera}]"#));
+        let found = messages(&scene, "bad-camera");
+        assert!(found.len() == 1 && found[0].contains(says), "{:?}", scene.warnings);
+    }
 }
