@@ -230,7 +230,7 @@ fn the_number_of_driver_threads_changes_no_hit() {
     let answers = |threads: &str| -> Vec<String> {
         let binary = std::env::current_exe().expect("a test knows its binary");
         let output = Command::new(binary)
-            .args(["--exact", "answers_are_printed_for_another_process", "--nocapture"])
+            .args(["--exact", "invariance::answers_are_printed_for_another_process", "--nocapture"])
             .env(CHILD, "1")
             .env(THREADS, threads)
             .output()

@@ -27,7 +27,7 @@ fn in_child(test: &str, environment: &[(&str, &str)]) -> bool {
 #[test]
 fn a_missing_validation_layer_is_an_error_with_the_package() {
     let environment = [("VK_LAYER_PATH", "/nonexistent")];
-    if in_child("a_missing_validation_layer_is_an_error_with_the_package", &environment) {
+    if in_child("installation::a_missing_validation_layer_is_an_error_with_the_package", &environment) {
         let desc = DeviceDesc { validation: true, ..DeviceDesc::default() };
         let error = Device::create(&desc).expect_err("there is no layer");
         assert!(matches!(error, GpuError::ValidationLayerMissing), "{error}");
@@ -39,7 +39,7 @@ fn a_missing_validation_layer_is_an_error_with_the_package() {
 fn a_machine_without_drivers_is_an_error_with_the_package() {
     let nowhere = "/nonexistent/driver.json";
     let environment = [("VK_ICD_FILENAMES", nowhere), ("VK_DRIVER_FILES", nowhere)];
-    if in_child("a_machine_without_drivers_is_an_error_with_the_package", &environment) {
+    if in_child("installation::a_machine_without_drivers_is_an_error_with_the_package", &environment) {
         let error = Device::create(&DeviceDesc::default()).expect_err("there is no driver");
         assert!(matches!(error, GpuError::NoDevice), "{error}");
         assert!(error.to_string().contains("mesa-vulkan-drivers"), "{error}");

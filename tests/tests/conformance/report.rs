@@ -80,7 +80,7 @@ pub fn write(bench: &Bench, runs: Vec<Run>) {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         commit: commit(),
         command: Some(format!(
-            "RASRAY_FULL=1 {FILE}=FILE cargo test -p rasray-tests --test conformance -- rows::"
+            "RASRAY_FULL=1 {FILE}=FILE cargo test -p rasray-tests --test all -- conformance::rows::"
         )),
     };
     let report = Report::new(origin, device, scene, runs);

@@ -18,7 +18,7 @@ use rasray_tests::harness::Bench;
 use rasray_tests::tier::{Counts, is_full};
 use rasray_tracer::TracerError;
 
-use crate::report;
+use crate::conformance::report;
 
 /// Rays of a case for rows that find triangles without loss.
 const RAYS: Counts<usize> = Counts { quick: 1000, software: 20_000, full: 150_000 };

@@ -13,7 +13,7 @@ use rasray_systems::Spec;
 use rasray_tests::harness::Bench;
 use rasray_tracer::{Keeping, Refresh};
 
-use crate::pictures::{SIZE, input, pictures, spec, still, swinging, tables, view};
+use crate::frames::pictures::{SIZE, input, pictures, spec, still, swinging, tables, view};
 
 /// Cells along a side of a sheet in each frame, two triangles each: one that grows, shrinks, and goes.
 const SIDES: [usize; 9] = [1, 2, 24, 3, 0, 0, 17, 18, 2];

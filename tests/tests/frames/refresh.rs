@@ -18,10 +18,10 @@ use rasray_tests::random::Random;
 use rasray_tests::tier::{first, is_full};
 use rasray_tracer::{BatchTracer, FrameOutcome, Frames, Keeping, Refresh, TracerError};
 
-use crate::crowd::{Crowd, Shown};
-use crate::kept::{Kept, Recorded};
-use crate::parts::that_find_all;
-use crate::scenes::{among, made, swinging_hall, third, view};
+use crate::frames::crowd::{Crowd, Shown};
+use crate::frames::kept::{Kept, Recorded};
+use crate::frames::parts::that_find_all;
+use crate::frames::scenes::{among, made, swinging_hall, third, view};
 
 const RAYS: usize = 600;
 

@@ -12,7 +12,7 @@ use rasray_tests::random::Random;
 use rasray_tests::tier::Counts;
 use rasray_tracer::{FrameOutcome, Frames, Keeping, TracerError};
 
-use crate::crowd::{Crowd, Shown};
+use crate::frames::crowd::{Crowd, Shown};
 
 /// Frames of the system that is the default, and of each other preset.
 const FRAMES: [Counts<usize>; 2] = [

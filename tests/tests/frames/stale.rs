@@ -7,7 +7,7 @@ use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
 use rasray_tracer::{FrameOutcome, Frames, Keeping, TracerError};
 
-use crate::crowd::{Crowd, Shown};
+use crate::frames::crowd::{Crowd, Shown};
 
 const RAYS: usize = 64;
 

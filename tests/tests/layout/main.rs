@@ -10,7 +10,7 @@ use rasray_shaders_glsl::records::{self, Hit, RecordLayout, test_kernels};
 use rasray_shaders_glsl::{self as shaders, Shader};
 use rasray_systems::SYSTEMS;
 
-use crate::reader::{Member, Record, difference, push_constants, read_by_spirq, read_by_us};
+use crate::layout::reader::{Member, Record, difference, push_constants, read_by_spirq, read_by_us};
 
 /// A module with the records that each of the two readers finds in it, the own one first.
 type Found = (&'static Shader, [BTreeMap<String, Record>; 2]);

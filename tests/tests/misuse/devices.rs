@@ -7,7 +7,7 @@ use rasray_tests::shapes::closed_box;
 use rasray_tests::tier::first;
 use rasray_tracer::{BatchTracer, build_until_complete};
 
-use crate::unbuilt::{EYE, rays};
+use crate::misuse::unbuilt::{EYE, rays};
 
 /// Structures that can be built by computing. The quick tier has those whose kernels other tests have as well, and one more.
 const COMPUTED: &[&str] = &["bricks", "bvh", "grid", "brute-force", "abuffer", "primitive", "voxel", "ldc"];

@@ -10,7 +10,7 @@ use rasray_tests::invariance::Subject;
 use rasray_tests::shapes::{closed_box, sphere};
 use rasray_tracer::build_until_complete;
 
-use crate::{dirty_memory, larger};
+use crate::misuse::{dirty_memory, larger};
 
 /// Each recording has its own header, and each slot keeps the demand of its build: the second one's are not the first
 /// one's.

@@ -8,8 +8,8 @@ use rasray_integrators::Film;
 use rasray_tests::harness::{Bench, bits_of_any_build};
 use rasray_tests::shapes::closed_box;
 
-use crate::dirty_memory;
-use crate::unbuilt::{EYE, rays};
+use crate::misuse::dirty_memory;
+use crate::misuse::unbuilt::{EYE, rays};
 
 /// The first thing recorded of a queue may be a trace.
 #[test]

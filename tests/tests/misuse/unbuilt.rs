@@ -14,7 +14,7 @@ use rasray_tests::invariance::Subject;
 use rasray_tests::shapes::{closed_box, sphere};
 use rasray_tracer::{BatchTracer, FrameOutcome, FrameStructure, Keeping, TracerError, build_until_complete};
 
-use crate::dirty_memory;
+use crate::misuse::dirty_memory;
 
 pub const EYE: [f32; 3] = [0.0; 3];
 

@@ -8,7 +8,7 @@ use rasray_tests::pictures::{rays_inside, stage};
 use rasray_tests::tier::is_full;
 use rasray_tracer::build_until_complete;
 
-use crate::published::{SIZE, made};
+use crate::payloads::published::{SIZE, made};
 
 /// Ids kept for diagnostics give the triangle of a hit and change nothing else: t and surfaces are the same to the bit.
 #[test]

@@ -10,8 +10,8 @@ use rasray_scene::deforming::{Deformation, Deformer, Shape, Topology};
 use rasray_scene::{Instance, Material, Mesh, Moment, Scene, SceneError};
 use rasray_tests::harness::Bench;
 
-use crate::held::{Figures, Stage};
-use crate::shapes::{at, cloud, linear, node, scene, shape};
+use crate::pose::held::{Figures, Stage};
+use crate::pose::shapes::{at, cloud, linear, node, scene, shape};
 
 /// Lets a mesh grow from where it was; `says` makes of the mesh then what the deformer gives.
 struct Growing {

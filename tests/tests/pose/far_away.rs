@@ -5,8 +5,8 @@ use rasray_scene::Scene;
 use rasray_scene::animation::{ChannelValues, NodeTransform, Rig, Skin};
 use rasray_tests::harness::Bench;
 
-use crate::held::{Figures, Stage, worst_ulps};
-use crate::shapes::{at, binding, cloud, linear, node, scene, shape, skin};
+use crate::pose::held::{Figures, Stage, worst_ulps};
+use crate::pose::shapes::{at, binding, cloud, linear, node, scene, shape, skin};
 
 const FAR: DVec3 = DVec3::new(1.0e6, -3.0e5, 2.0e6);
 

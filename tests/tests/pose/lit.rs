@@ -6,8 +6,8 @@ use rasray_scene::animation::{ChannelValues, Rig};
 use rasray_scene::{Camera, Environment, Light, Material, Projection, Scene};
 use rasray_tests::harness::Bench;
 
-use crate::held::Stage;
-use crate::shapes::{at, cloud, linear, node, scene};
+use crate::pose::held::Stage;
+use crate::pose::shapes::{at, cloud, linear, node, scene};
 
 /// A lamp that shrinks to nothing and grows, another one that stays, and lights and a camera on moving nodes.
 fn lamps(lights: Vec<Light>, environment: [f32; 3], others: bool) -> Scene {

@@ -8,8 +8,8 @@ use rasray_tests::harness::Bench;
 use rasray_tests::invariance::Subject;
 use rasray_tests::tier;
 
-use crate::held::{Figures, Stage};
-use crate::shapes::{at, binding, cloud, linear, node, scene, shape, skin, target};
+use crate::pose::held::{Figures, Stage};
+use crate::pose::shapes::{at, binding, cloud, linear, node, scene, shape, skin, target};
 
 /// All times, posed in this order.
 const TIMES: [f64; 6] = [0.0, 1.0, 0.3, 0.5, 0.77, 0.1];

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rasray_scene::{Environment, Light, LoadOptions, Moment};
 use rasray_tests::harness::Bench;
 
-use crate::held::Stage;
+use crate::pose::held::Stage;
 
 /// Files, and how many vertices of each move.
 const FILES: [(&str, usize); 12] = [

@@ -14,9 +14,9 @@ use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
 use rasray_tracer::build_until_complete;
 
-use crate::deformed::deforming;
-use crate::held::{Stage, view};
-use crate::shapes::{at, binding, cloud, linear, node, scene, shape, skin};
+use crate::pose::deformed::deforming;
+use crate::pose::held::{Stage, view};
+use crate::pose::shapes::{at, binding, cloud, linear, node, scene, shape, skin};
 
 /// A turning and a skinned mesh beside one that stays, and one that the host deforms.
 fn moving() -> Scene {

@@ -13,7 +13,7 @@ use rasray_tests::harness::Bench;
 use rasray_tests::shapes::{Triangle, sphere};
 use rasray_tracer::build_until_complete;
 
-use crate::edges::{
+use crate::primitive::edges::{
     Capacity, EYE, NEAR_TRIANGLES, demand, every_edge_capacity, made, missing_capacity_for_triangles, rays,
     scene, trace,
 };

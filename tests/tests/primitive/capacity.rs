@@ -9,7 +9,7 @@ use rasray_ads_primitive::{
 use rasray_tests::harness::Bench;
 use rasray_tests::shapes::Triangle;
 
-use crate::edges::{
+use crate::primitive::edges::{
     Capacity, EYE, NEAR_TRIANGLES, demand, every_edge_capacity, made, missing_capacity_for_triangles, scene,
 };
 

@@ -11,7 +11,7 @@ use rasray_tests::visits::{
     FACE_NEAR, FaceCell, Visit, exact_face_chords, near_size, run_kernel, runs, unresolved, visit_holds,
 };
 
-use crate::march_cases;
+use crate::shared::march_cases;
 
 /// Maximum number of visits of one ray. A traversal is monotone in columns and rows, and a line crosses at most three
 /// faces at length, so there are at most 4 (resolution + 2) steps and a few for the border. Each visits at

@@ -1,6 +1,6 @@
 //! Dispatches, transfers and timings on a device made here.
 
-use crate::common::{Scale, bytes_of, device, finish, storage};
+use crate::device::common::{Scale, bytes_of, device, finish, storage};
 use rasray_gpu::*;
 
 #[test]
@@ -92,7 +92,7 @@ fn a_pipeline_has_the_bindings_that_its_shader_uses() {
     // Sets 1 to 3 are not used at all.
     let desc = ComputePipelineDesc {
         name: "scale of three",
-        spirv: crate::common::shaders::SCALE,
+        spirv: crate::device::common::shaders::SCALE,
         sets: &[&layout; 4],
         push_constant_bytes: 8,
         constants: &[],
@@ -119,12 +119,12 @@ fn a_pipeline_has_the_bindings_that_its_shader_uses() {
     finish(device);
 }
 
-/// The pipeline of [`crate::common::shaders::SCALE`] with a bias.
+/// The pipeline of [`crate::device::common::shaders::SCALE`] with a bias.
 fn pipeline(device: &Device, name: &str, bias: u32) -> ComputePipeline {
     let layout = device.create_set_layout(name, 1).expect("set layout");
     let desc = ComputePipelineDesc {
         name,
-        spirv: crate::common::shaders::SCALE,
+        spirv: crate::device::common::shaders::SCALE,
         sets: &[&layout],
         push_constant_bytes: 8,
         constants: &[(7, bias)],
@@ -193,7 +193,7 @@ fn specialisation_defaults_hold_where_nothing_is_given() {
     scale.pipeline = device
         .create_compute_pipeline(&ComputePipelineDesc {
             name: "scale without bias",
-            spirv: crate::common::shaders::SCALE,
+            spirv: crate::device::common::shaders::SCALE,
             sets: &[&scale.layout],
             push_constant_bytes: 8,
             constants: &[],

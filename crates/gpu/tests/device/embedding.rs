@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::common::{Scale, finish};
+use crate::device::common::{Scale, finish};
 use rasray_gpu::*;
 
 fn raw(host: &Device) -> RawDevice {
@@ -56,7 +56,7 @@ unsafe impl Memory for Counted {
 
 #[test]
 fn an_adopted_device_runs_the_same_work_and_destroys_nothing_of_the_host() {
-    let host = crate::common::device();
+    let host = crate::device::common::device();
     let device = adopt(raw(&host)).expect("adoption");
     assert_eq!((device.name(), device.why_chosen()), (host.name(), "handed in by the host"));
     let scale = Scale::new(&device, 100);
@@ -84,7 +84,7 @@ fn an_adopted_device_runs_the_same_work_and_destroys_nothing_of_the_host() {
 
 #[test]
 fn memory_cache_and_limit_of_the_host_are_used() {
-    let host = crate::common::device();
+    let host = crate::device::common::device();
     let alive = Arc::new(AtomicUsize::new(0));
     let pool = PooledMemory::new(host.raw_instance(), host.raw_physical(), host.raw(), false).expect("pool");
     // SAFETY: a cache without initial data has no conditions.
@@ -116,7 +116,7 @@ fn memory_cache_and_limit_of_the_host_are_used() {
 
 #[test]
 fn a_false_description_of_a_device_is_refused() {
-    let host = crate::common::device();
+    let host = crate::device::common::device();
     let error = adopt(RawDevice { enabled: vec![Feature::ScalarBlockLayout], ..raw(&host) })
         .expect_err("no barriers");
     assert!(
@@ -132,7 +132,7 @@ fn a_false_description_of_a_device_is_refused() {
 
 #[test]
 fn a_command_buffer_of_the_host_is_recorded_into() {
-    let device = crate::common::device();
+    let device = crate::device::common::device();
     let scale = Scale::new(&device, 64);
     let timers = device.create_timers(1).expect("timers");
     let raw = device.raw();
@@ -156,7 +156,7 @@ fn a_command_buffer_of_the_host_is_recorded_into() {
         recorder.set_timers(&timers);
         recorder.bind_compute(&scale.pipeline);
         recorder.bind_sets(0, &[&set]);
-        recorder.push_constants(crate::common::bytes_of(&[64, 10]));
+        recorder.push_constants(crate::device::common::bytes_of(&[64, 10]));
         recorder.begin_pass("timed");
         scale.dispatch(&mut recorder);
         recorder.end_pass();
@@ -185,7 +185,7 @@ fn a_command_buffer_of_the_host_is_recorded_into() {
 
 #[test]
 fn a_device_without_a_queue_records_but_does_not_submit() {
-    let host = crate::common::device();
+    let host = crate::device::common::device();
     let device = adopt(RawDevice { queue: vk::Queue::null(), ..raw(&host) }).expect("adoption");
     let error = device.submit(|_| ()).expect_err("no queue");
     assert!(error.to_string().contains("without a queue"), "{error}");

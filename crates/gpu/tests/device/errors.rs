@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::common::{Scale, device, finish, shaders, storage};
+use crate::device::common::{Scale, device, finish, shaders, storage};
 use rasray_gpu::*;
 
 /// The error of a recording, which must also contain `text`.
@@ -122,7 +122,7 @@ fn creation_names_what_is_wrong() {
     let too_many = device.limits().max_storage_buffers_per_stage.saturating_add(1);
     assert!(matches!(device.create_set_layout("many", too_many), Err(GpuError::LimitExceeded { .. })));
 
-    let other = crate::common::device();
+    let other = crate::device::common::device();
     let error = other.create_binding_set(&layout, "set", &[&buffer]).expect_err("of another device");
     assert!(error.to_string().contains("another device"), "{error}");
     finish(other);
@@ -181,7 +181,7 @@ fn memory_is_counted_and_limited() {
 #[test]
 fn a_timeout_names_the_pass_and_abandons_the_device() {
     // Without validation: an abandoned device is never destroyed, which the layer would report at exit.
-    let desc = DeviceDesc { requirements: crate::common::requirements(), ..DeviceDesc::default() };
+    let desc = DeviceDesc { requirements: crate::device::common::requirements(), ..DeviceDesc::default() };
     let device = Device::create(&desc).expect("a Vulkan device");
     let buffer = storage(&device, "values", 256);
     let layout = device.create_set_layout("slow", 1).expect("set layout");

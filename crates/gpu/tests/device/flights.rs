@@ -1,6 +1,6 @@
 //! Frames in flight.
 
-use crate::common::{Scale, device, finish, storage};
+use crate::device::common::{Scale, device, finish, storage};
 use rasray_gpu::*;
 
 #[test]

@@ -1,6 +1,6 @@
 //! Draws without attachments.
 
-use crate::common::{bytes_of, device, device_with, finish, requirements, shaders, storage};
+use crate::device::common::{bytes_of, device, device_with, finish, requirements, shaders, storage};
 use rasray_gpu::*;
 
 struct Count {

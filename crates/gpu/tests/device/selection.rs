@@ -1,6 +1,6 @@
 //! Choosing a device.
 
-use crate::common::requirements;
+use crate::device::common::requirements;
 use rasray_gpu::*;
 
 #[test]
@@ -35,29 +35,29 @@ fn a_preference_by_index_or_name_is_followed() {
 
 #[test]
 fn only_what_was_asked_for_is_enabled() {
-    let device = crate::common::device();
+    let device = crate::device::common::device();
     assert_eq!(device.enabled().len(), requirements().required.len());
     assert!(!device.has(Feature::BufferDeviceAddress));
-    crate::common::finish(device);
+    crate::device::common::finish(device);
 
     let wanted = Requirements {
         optional: Feature::ALL.iter().map(|feature| (*feature, "to see that it can be enabled")).collect(),
         ..Requirements::default()
     };
     let devices = Device::list(&wanted).expect("a Vulkan driver");
-    let device = crate::common::device_with(requirements().merge(&wanted));
+    let device = crate::device::common::device_with(requirements().merge(&wanted));
     let summary = devices.iter().find(|summary| summary.name == device.name()).expect("listed before");
     assert_eq!(device.enabled(), summary.features);
     assert_eq!(summary.missing_optional.len() + summary.features.len(), Feature::ALL.len());
-    let buffer = crate::common::storage(&device, "values", 64);
+    let buffer = crate::device::common::storage(&device, "values", 64);
     assert_eq!(buffer.address().is_some(), device.has(Feature::BufferDeviceAddress));
     drop(buffer);
-    crate::common::finish(device);
+    crate::device::common::finish(device);
 }
 
 #[test]
 fn validation_reports_a_real_mistake() {
-    let device = crate::common::device();
+    let device = crate::device::common::device();
     let buffer = device
         .create_buffer(&BufferDesc {
             name: "never filled",

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use crate::common::difference::{Kind, difference};
+use crate::pictures::common::difference::{Kind, difference};
 use rasray_scene::{Environment, LoadOptions, default_view::default_camera};
 
 /// Instances, mirrored normal maps, texture settings, vertex colours, lights, blending.

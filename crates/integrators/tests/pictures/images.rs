@@ -1,6 +1,6 @@
 //! Images with known values, rendered with the brute-force structure.
 
-use crate::common::*;
+use crate::pictures::common::*;
 use glam::DVec3;
 use rasray_gpu_scene::ShadingFeatures;
 use rasray_integrators::{

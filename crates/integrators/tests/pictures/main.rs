@@ -1,6 +1,6 @@
 //! Integrators on a device against the naive reference.
 
-mod common;
+pub(crate) mod common;
 mod corpus;
 mod images;
 mod needs;

@@ -1,6 +1,6 @@
 //! What a render cannot observe is left out without a change of the picture.
 
-use crate::common::{scenes::*, *};
+use crate::pictures::common::{scenes::*, *};
 use glam::DVec3;
 use rasray_gpu::Device;
 use rasray_gpu_scene::{Parts, View};

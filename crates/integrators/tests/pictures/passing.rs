@@ -5,7 +5,7 @@ use rasray_gpu::Timing;
 use rasray_integrators::{GlassShadows, Integrator, PATH_LAYER_LIMIT, Path, PathOptions, Wave};
 use rasray_scene::{AlphaMode, Filter, Image, Light, Material, Projection, Scene, Texture, TextureRef, Wrap};
 
-use crate::common::*;
+use crate::pictures::common::*;
 
 const SIZE: u32 = 8;
 

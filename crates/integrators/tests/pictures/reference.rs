@@ -4,7 +4,7 @@
 //! against each other. What remains is rounding: a few paths take another turn where a random number
 //! falls next to a threshold, so most pixels must agree closely and the means very closely.
 
-use crate::common::{difference::*, scenes::*, *};
+use crate::pictures::common::{difference::*, scenes::*, *};
 use glam::DVec3;
 use rasray_reference::shading::Sampler;
 use rasray_scene::{BackFaces, Camera, Environment, Instance, Scene};

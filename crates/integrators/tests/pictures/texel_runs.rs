@@ -1,7 +1,7 @@
 //! Textures whose texels lie in several buffers: the same pictures.
 
-use crate::common::scenes::textured_room;
-use crate::common::{Stage, are_same, assert_silent, device, forward_camera, mean};
+use crate::pictures::common::scenes::textured_room;
+use crate::pictures::common::{Stage, are_same, assert_silent, device, forward_camera, mean};
 use glam::DVec3;
 use rasray_ads::BruteForce;
 use rasray_gpu::Device;

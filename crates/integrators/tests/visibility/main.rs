@@ -1,11 +1,8 @@
 //! What camera rays hit, found by drawing, against brute force: hits must be the same in every bit.
 
-#[path = "../pictures/common/mod.rs"]
-mod common;
-
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-use common::{scenes::textured_room, *};
+use crate::pictures::common::{scenes::textured_room, *};
 use glam::{DAffine3, DVec3};
 use rasray_ads::{BruteForce, Counters, Hit, Surface};
 use rasray_gpu::{Device, DeviceDesc};

@@ -4,7 +4,7 @@ use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Coverage, Storage};
 use rasray_faults::{in_child, scrambled};
 use rasray_tests::tier::in_turn;
 
-use crate::survive::{self, Flag, each_conservative_node, survive};
+use crate::damage::survive::{self, Flag, each_conservative_node, survive};
 
 type Damage = survive::Damage<Contents>;
 
@@ -146,28 +146,28 @@ fn check(config: Config, damages: &[Damage]) {
 
 #[test]
 fn damaged_lists_reached_by_descriptor_are_survived_and_told() {
-    if in_child("abuffer::damaged_lists_reached_by_descriptor_are_survived_and_told") {
+    if in_child("damage::abuffer::damaged_lists_reached_by_descriptor_are_survived_and_told") {
         check(Config::robust(32), &DAMAGES);
     }
 }
 
 #[test]
 fn damaged_lists_reached_by_address_are_survived_and_told() {
-    if in_child("abuffer::damaged_lists_reached_by_address_are_survived_and_told") {
+    if in_child("damage::abuffer::damaged_lists_reached_by_address_are_survived_and_told") {
         check(Config { addressing: Addressing::Address, ..Config::robust(32) }, &DAMAGES);
     }
 }
 
 #[test]
 fn damaged_lists_of_the_published_preset_are_survived_and_told() {
-    if in_child("abuffer::damaged_lists_of_the_published_preset_are_survived_and_told") {
+    if in_child("damage::abuffer::damaged_lists_of_the_published_preset_are_survived_and_told") {
         check(Config::published(32), &DAMAGES);
     }
 }
 
 #[test]
 fn damaged_lists_of_every_storage_are_survived_and_told() {
-    if in_child("abuffer::damaged_lists_of_every_storage_are_survived_and_told") {
+    if in_child("damage::abuffer::damaged_lists_of_every_storage_are_survived_and_told") {
         for (turn, storage) in Storage::ALL.into_iter().enumerate() {
             for &inline in in_turn(&[false, true], turn) {
                 println!("{}, inline: {inline}", storage.name());
@@ -179,7 +179,7 @@ fn damaged_lists_of_every_storage_are_survived_and_told() {
 
 #[test]
 fn damaged_conservative_lists_are_survived_and_told() {
-    if in_child("abuffer::damaged_conservative_lists_are_survived_and_told") {
+    if in_child("damage::abuffer::damaged_conservative_lists_are_survived_and_told") {
         let config = Config { coverage: Coverage::Conservative, ..Config::robust(32) };
         for addressing in [Addressing::Descriptor, Addressing::Address] {
             check(Config { addressing, ..config }, &DAMAGES_OF_CONSERVATIVE_LISTS);

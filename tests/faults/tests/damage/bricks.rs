@@ -3,7 +3,7 @@
 use rasray_bricks::{Addressing, Bricks, Config, Contents, Views};
 use rasray_faults::{in_child, scrambled};
 
-use crate::survive::{self, Flag, survive};
+use crate::damage::survive::{self, Flag, survive};
 
 type Damage = survive::Damage<Contents>;
 
@@ -66,7 +66,7 @@ fn check(config: Config, damages: &[Damage]) {
 
 #[test]
 fn damaged_lists_of_bricks_are_survived_and_told() {
-    if in_child("bricks::damaged_lists_of_bricks_are_survived_and_told") {
+    if in_child("damage::bricks::damaged_lists_of_bricks_are_survived_and_told") {
         for corners in [true, false] {
             println!("corners kept: {corners}");
             check(Config { corners, ..Config::new(Views::Cube) }, &OF_LISTS);
@@ -76,7 +76,7 @@ fn damaged_lists_of_bricks_are_survived_and_told() {
 
 #[test]
 fn damaged_bricks_are_survived_and_told() {
-    if in_child("bricks::damaged_bricks_are_survived_and_told") {
+    if in_child("damage::bricks::damaged_bricks_are_survived_and_told") {
         for addressing in [Addressing::Descriptor, Addressing::Address] {
             check(Config { addressing, ..Config::new(Views::Cube) }, &OF_BRICKS);
         }

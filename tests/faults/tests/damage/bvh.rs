@@ -3,7 +3,7 @@
 use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents};
 use rasray_faults::{in_child, scrambled};
 
-use crate::survive::{self, Flag, survive};
+use crate::damage::survive::{self, Flag, survive};
 
 type Damage = survive::Damage<Contents>;
 
@@ -55,7 +55,7 @@ fn check(config: Config) {
 
 #[test]
 fn damaged_trees_are_survived_and_told() {
-    if in_child("bvh::damaged_trees_are_survived_and_told") {
+    if in_child("damage::bvh::damaged_trees_are_survived_and_told") {
         for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
             for addressing in [Addressing::Descriptor, Addressing::Address] {
                 check(Config { addressing, ..Config::new(builder) });

@@ -3,7 +3,7 @@
 use rasray_faults::{in_child, scrambled};
 use rasray_ldc::{Addressing, Config, Contents, LayeredDepthCube};
 
-use crate::survive::{self, Flag, each_conservative_node, survive};
+use crate::damage::survive::{self, Flag, each_conservative_node, survive};
 
 type Damage = survive::Damage<Contents>;
 
@@ -65,7 +65,7 @@ fn check(config: Config, damages: &[Damage]) {
 
 #[test]
 fn damaged_lists_of_layered_depth_cubes_are_survived_and_told() {
-    if in_child("ldc::damaged_lists_of_layered_depth_cubes_are_survived_and_told") {
+    if in_child("damage::ldc::damaged_lists_of_layered_depth_cubes_are_survived_and_told") {
         for addressing in [Addressing::Descriptor, Addressing::Address] {
             check(Config { addressing, ..Config::robust(32) }, &OF_LISTS);
         }
@@ -75,7 +75,7 @@ fn damaged_lists_of_layered_depth_cubes_are_survived_and_told() {
 
 #[test]
 fn damaged_conservative_lists_of_layered_depth_cubes_are_survived_and_told() {
-    if in_child("ldc::damaged_conservative_lists_of_layered_depth_cubes_are_survived_and_told") {
+    if in_child("damage::ldc::damaged_conservative_lists_of_layered_depth_cubes_are_survived_and_told") {
         for addressing in [Addressing::Descriptor, Addressing::Address] {
             check(Config { addressing, ..Config::robust(32) }, &OF_CONSERVATIVE_LISTS);
         }

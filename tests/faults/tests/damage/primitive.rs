@@ -3,7 +3,7 @@
 use rasray_ads_primitive::{Addressing, Config, Contents, PrimitiveLists, Storage};
 use rasray_faults::{in_child, scrambled};
 
-use crate::survive::{self, Flag, survive};
+use crate::damage::survive::{self, Flag, survive};
 
 type Damage = survive::Damage<Contents>;
 
@@ -76,7 +76,7 @@ fn check(config: Config, damages: &[Damage]) {
 
 #[test]
 fn damaged_links_of_primitives_are_survived_and_told() {
-    if in_child("primitive::damaged_links_of_primitives_are_survived_and_told") {
+    if in_child("damage::primitive::damaged_links_of_primitives_are_survived_and_told") {
         for addressing in [Addressing::Descriptor, Addressing::Address] {
             check(Config { storage: Storage::Linked, addressing, ..Config::robust(32) }, &OF_LINKS);
         }
@@ -86,7 +86,7 @@ fn damaged_links_of_primitives_are_survived_and_told() {
 
 #[test]
 fn damaged_lists_of_primitives_of_every_storage_are_survived_and_told() {
-    if in_child("primitive::damaged_lists_of_primitives_of_every_storage_are_survived_and_told") {
+    if in_child("damage::primitive::damaged_lists_of_primitives_of_every_storage_are_survived_and_told") {
         for storage in [Storage::Linked, Storage::Contiguous] {
             println!("{storage:?}");
             check(Config { storage, ..Config::robust(32) }, &OF_ANY);

@@ -9,7 +9,7 @@ use rasray_systems::SYSTEMS;
 use rasray_tests::tier::is_full;
 use rasray_tracer::{BatchTracer, TracerError, build_until_complete};
 
-use crate::survive::{RAYS, words};
+use crate::damage::survive::{RAYS, words};
 
 /// What every word of a pool becomes.
 type Filling = (&'static str, fn(&mut [u32]));
@@ -70,7 +70,7 @@ fn check(system: &str, addressing: &str) {
 
 #[test]
 fn whatever_pools_hold_is_survived() {
-    if in_child("registry::whatever_pools_hold_is_survived") {
+    if in_child("damage::registry::whatever_pools_hold_is_survived") {
         for system in SYSTEMS.iter().filter(|system| system.has("addressing")) {
             let tried: &[_] = if is_full() { &["descriptor", "address"] } else { &["descriptor"] };
             tried.iter().for_each(|addressing| check(system.name, addressing));

@@ -4,7 +4,7 @@ use rasray_faults::{in_child, scrambled};
 use rasray_tests::tier::in_turn;
 use rasray_voxel::{Addressing, Config, Contents, Payload, Storage, Voxels};
 
-use crate::survive::{self, Flag, survive};
+use crate::damage::survive::{self, Flag, survive};
 
 type Damage = survive::Damage<Contents>;
 
@@ -106,7 +106,7 @@ fn check(config: Config, damages: &[Damage]) {
 
 #[test]
 fn damaged_links_of_voxels_are_survived_and_told() {
-    if in_child("voxel::damaged_links_of_voxels_are_survived_and_told") {
+    if in_child("damage::voxel::damaged_links_of_voxels_are_survived_and_told") {
         for storage in [Storage::Linked, Storage::Paged] {
             println!("{}", storage.name());
             check(Config { storage, ..Config::robust(32) }, &OF_LINKS);
@@ -117,7 +117,7 @@ fn damaged_links_of_voxels_are_survived_and_told() {
 
 #[test]
 fn damaged_links_of_voxels_reached_by_address_are_survived_and_told() {
-    if in_child("voxel::damaged_links_of_voxels_reached_by_address_are_survived_and_told") {
+    if in_child("damage::voxel::damaged_links_of_voxels_reached_by_address_are_survived_and_told") {
         for storage in [Storage::Linked, Storage::Paged] {
             let addressing = Addressing::Address;
             check(Config { storage, addressing, ..Config::robust(32) }, &OF_LINKS);
@@ -127,7 +127,7 @@ fn damaged_links_of_voxels_reached_by_address_are_survived_and_told() {
 
 #[test]
 fn damaged_lists_of_voxels_of_every_storage_are_survived_and_told() {
-    if in_child("voxel::damaged_lists_of_voxels_of_every_storage_are_survived_and_told") {
+    if in_child("damage::voxel::damaged_lists_of_voxels_of_every_storage_are_survived_and_told") {
         for (turn, storage) in Storage::ALL.into_iter().enumerate() {
             println!("{}", storage.name());
             let planes = Config { storage, ..Config::robust(32) };
