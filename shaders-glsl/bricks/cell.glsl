@@ -122,14 +122,19 @@ void brick_test(BrickRef s, uint primitive, Ray ray, inout TraceState state) {
         atomicAdd(BRICK_HEADER(s).corrupted, 1u);
         return;
     }
-    if (!kept) {
-        test_anywhere(ray, primitive, state);
-        return;
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    if (kept) {
+        a = BRICK_CORNERS(s)[3u * primitive];
+        b = BRICK_CORNERS(s)[3u * primitive + 1u];
+        c = BRICK_CORNERS(s)[3u * primitive + 2u];
+    } else {
+        geometry_vertices(primitive, a, b, c);
     }
     float infinity = uintBitsToFloat(0x7F800000u);
     state.tests++;
-    test_corners(ray, primitive, BRICK_CORNERS(s)[3u * primitive], BRICK_CORNERS(s)[3u * primitive + 1u],
-        BRICK_CORNERS(s)[3u * primitive + 2u], -infinity, infinity, state.best);
+    test_corners(ray, primitive, a, b, c, -infinity, infinity, state.best);
 }
 
 #endif

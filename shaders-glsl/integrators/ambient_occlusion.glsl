@@ -12,8 +12,7 @@
 // metres, +infinity for all. Inactive where the camera ray missed; the sample is 1 then.
 Ray ambient_occlusion_ray(Surface s, float range, uint pixel, uint sample_index) {
     if (s.valid == 0u) return ray_inactive();
-    vec2 random = vec2(random_float(pixel, sample_index, random_dimension(0u, RANDOM_BSDF_U)),
-                       random_float(pixel, sample_index, random_dimension(0u, RANDOM_BSDF_V)));
+    vec2 random = random_place(pixel, sample_index, random_dimension(0u, RANDOM_BSDF_U));
     vec3 direction = basis_around(s.geometric_normal) * cosine_hemisphere(random);
     return spawn_ray(s, normalize(direction), range);
 }

@@ -39,12 +39,8 @@ bool path_is_pane(Surface s) {
     return s.transmission > 0.0 && s.thickness <= 0.0 && s.roughness < BSDF_SMOOTH_ROUGHNESS;
 }
 
-// Light sampling at the surface.
-void path_sample_light(PathState state, Surface s, vec3 o, inout PathStep asked) {
-    vec4 random = random_vec4(state.pixel, state.sample_index, random_dimension(state.bounce, RANDOM_LIGHT_KIND));
-    LightSample light = light_sample(s, random);
-    if (light.flags == 0u) return;
-    BsdfValue towards = bsdf_towards(bsdf_terms(s, o), s, light.direction);
+// Asks for the light of a sample that was chosen, which the surface reflects as `towards` says.
+void path_ask_light(PathState state, Surface s, LightSample light, BsdfValue towards, inout PathStep asked) {
     float weight = (light.flags & SAMPLE_DELTA) != 0u ? 1.0 : path_power_heuristic(light.pdf, towards.pdf);
     vec3 pending = state.throughput * towards.value * light.radiance * (weight / light.pdf);
     if (!(largest_component(pending) > 0.0)) return;
@@ -129,9 +125,7 @@ Ray path_shadow_step(inout PathState state, Ray ray, Surface s, vec3 target, ino
 }
 
 // Scatters; next_ray stays inactive where the path ends.
-void path_scatter(inout PathState state, Ray ray, Surface s, vec3 o, float footprint, inout PathStep asked) {
-    vec4 random = random_vec4(state.pixel, state.sample_index, random_dimension(state.bounce, RANDOM_BSDF_LOBE));
-    BsdfSample chosen = bsdf_sample(s, o, random);
+void path_scatter(inout PathState state, Ray ray, Surface s, BsdfSample chosen, float footprint, inout PathStep asked) {
     if (chosen.flags == 0u) return;
     state.throughput *= chosen.weight;
     bool delta = (chosen.flags & SAMPLE_DELTA) != 0u;
@@ -188,8 +182,30 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
         return asked;
     }
     if (state.bounce >= max_bounces) return asked;
-    path_sample_light(state, s, -direction, asked);
-    path_scatter(state, ray, s, -direction, footprint, asked);
+    BsdfTerms terms = bsdf_terms(s, -direction);
+    BsdfSample chosen;
+    // What the light chooses, then what the surface does: one copy of the random numbers and of the lobes serves both.
+    [[dont_unroll]] for (uint technique = 0u; technique < 2u; technique++) {
+        uint dimension = random_dimension(state.bounce, technique == 0u ? RANDOM_LIGHT_KIND : RANDOM_BSDF_LOBE);
+        vec4 random = random_vec4(state.pixel, state.sample_index, dimension);
+        LightSample light;
+        bool open;
+        vec3 towards;
+        if (technique == 0u) {
+            light = light_sample(s, random);
+            open = light.flags != 0u;
+            towards = light.direction;
+        } else {
+            chosen = bsdf_choose(terms, s, random);
+            open = bsdf_is_open(chosen);
+            towards = chosen.direction;
+        }
+        if (!open) continue;
+        BsdfValue value = bsdf_towards(terms, s, towards);
+        if (technique == 0u) path_ask_light(state, s, light, value, asked);
+        else chosen = bsdf_chosen(chosen, value);
+    }
+    path_scatter(state, ray, s, chosen, footprint, asked);
     return asked;
 }
 

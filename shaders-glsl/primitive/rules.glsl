@@ -22,7 +22,8 @@ bool primitive_in_tile(PrimitiveRef s, PrimitiveTile tile, float t) {
     return point.z > 0.0 && all(equal(floor(place), vec2(tile.cell)));
 }
 
-// Tests a candidate that a tile lists. True if it became the best hit.
+// Tests a candidate that a tile lists. A hit counts by its t alone, in whatever cell it lies, unless the paper's rule is
+// chosen. True if it became the best hit.
 bool primitive_test_in_tile(PrimitiveRef s, PrimitiveTile tile, uint primitive, Ray ray, inout TraceState state) {
     float infinity = uintBitsToFloat(0x7F800000u);
     float t;
@@ -30,7 +31,7 @@ bool primitive_test_in_tile(PrimitiveRef s, PrimitiveTile tile, uint primitive, 
     float t_error;
     state.tests++;
     uint verdict = evaluate_triangle(ray, state.best, primitive, -infinity, infinity, t, barycentrics, t_error);
-    if (verdict == TEST_ACCEPTED && !primitive_in_tile(s, tile, t)) {
+    if (PRIMITIVE_ACCEPT == PRIMITIVE_ACCEPT_TILE && verdict == TEST_ACCEPTED && !primitive_in_tile(s, tile, t)) {
         verdict = TEST_OUTSIDE_CELL;
     }
     test_log(primitive, verdict, t, t_error);

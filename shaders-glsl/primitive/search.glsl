@@ -82,9 +82,7 @@ bool primitive_search(PrimitiveRef s, Ray ray, PrimitiveTile tile, float slack, 
             uint primitive = primitive_list_next(s, search.list);
             trace_log(STEP_ENTRY, search.list.at, 0u, 0u, 0.0, 0.0);
             if (primitive != PRIMITIVE_NONE) {
-                // A hit counts by its t alone, in whatever cell it lies, unless the paper's rule is chosen.
-                bool better = PRIMITIVE_ACCEPT == PRIMITIVE_ACCEPT_TILE
-                    ? primitive_test_in_tile(s, tile, primitive, ray, state) : test_anywhere(ray, primitive, state);
+                bool better = primitive_test_in_tile(s, tile, primitive, ray, state);
                 search.found = search.found || better;
             }
             if (any_hit && state.best.primitive != PRIMITIVE_NONE) {

@@ -109,10 +109,11 @@ bool bsdf_refract(BsdfTerms terms, vec3 h, out vec3 i) {
     return true;
 }
 
-// Random numbers: lobe, side, and two for the direction. flags 0: absorbed.
-BsdfSample bsdf_sample(Surface s, vec3 o, vec4 random) {
+// A direction that one of the lobes chooses; weight and pdf of one that is no delta are those of bsdf_chosen. Random
+// numbers: lobe, side, and two for the direction. flags 0: absorbed. `terms` are of the surface and the direction from
+// which it is seen: what asks for several things of them makes them once.
+BsdfSample bsdf_choose(BsdfTerms terms, Surface s, vec4 random) {
     BsdfSample chosen = BsdfSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0u);
-    BsdfTerms terms = bsdf_terms(s, o);
     if (terms.o.z <= 0.0) return chosen;
     float family, through;
     bsdf_cosine_probability(terms, family, through);
@@ -150,11 +151,26 @@ BsdfSample bsdf_sample(Surface s, vec3 o, vec4 random) {
     // A facet can send light through the surface as a whole; the cosine family makes up for what is lost so.
     float cosine = random.x < family ? dot(local, terms.base) : local.z;
     if (bsdf_side(s, world, cosine) != expected) return chosen;
-    BsdfValue towards = bsdf_towards(terms, s, world);
-    if (!(towards.pdf > 0.0) || towards.pdf > 1.0e30) return chosen;
+    return BsdfSample(world, 0.0, vec3(0.0), flags);
+}
+
+// Whether a direction that was chosen still needs bsdf_chosen.
+bool bsdf_is_open(BsdfSample chosen) { return chosen.flags != 0u && (chosen.flags & SAMPLE_DELTA) == 0u; }
+
+// The sample of a direction that was chosen, from what all lobes do towards it.
+BsdfSample bsdf_chosen(BsdfSample chosen, BsdfValue towards) {
+    BsdfSample absorbed = BsdfSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0u);
+    if (!(towards.pdf > 0.0) || towards.pdf > 1.0e30) return absorbed;
     vec3 weight = towards.value / towards.pdf;
-    if (!(largest_component(weight) > 0.0)) return chosen;
-    return BsdfSample(world, towards.pdf, weight, flags);
+    if (!(largest_component(weight) > 0.0)) return absorbed;
+    return BsdfSample(chosen.direction, towards.pdf, weight, chosen.flags);
+}
+
+// Both in one.
+BsdfSample bsdf_sample(BsdfTerms terms, Surface s, vec4 random) {
+    BsdfSample chosen = bsdf_choose(terms, s, random);
+    if (!bsdf_is_open(chosen)) return chosen;
+    return bsdf_chosen(chosen, bsdf_towards(terms, s, chosen.direction));
 }
 
 #endif

@@ -23,8 +23,7 @@ Ray camera_ray(vec2 pixel_position) {
 vec2 camera_pixel_position(uint pixel, uint sample_index) {
     uint width = scene_frame().width;
     vec2 corner = vec2(pixel % width, pixel / width);
-    return corner + vec2(random_float(pixel, sample_index, RANDOM_CAMERA_X),
-                         random_float(pixel, sample_index, RANDOM_CAMERA_Y));
+    return corner + random_place(pixel, sample_index, RANDOM_CAMERA_X);
 }
 
 #endif

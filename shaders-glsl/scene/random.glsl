@@ -65,12 +65,26 @@ uvec4 random_group(uint pixel, uint sample_index, uint group) {
                  random_scramble(reversed, words.z), random_scramble(random_sobol_second(reversed), words.w));
 }
 
+// A number of the sampler without groups.
+float random_alone(uint pixel, uint sample_index, uint dimension) {
+    return random_unit(random_words(uvec4(pixel, sample_index, dimension, random_seed())).x);
+}
+
 // Uniform in [0, 1), a multiple of 2^-24.
 float random_float(uint pixel, uint sample_index, uint dimension) {
     if (random_sampler() == SAMPLER_SOBOL) {
         return random_unit(random_group(pixel, sample_index, dimension >> 2)[dimension & 3u]);
     }
-    return random_unit(random_words(uvec4(pixel, sample_index, dimension, random_seed())).x);
+    return random_alone(pixel, sample_index, dimension);
+}
+
+// The last two numbers of a group, spread best over a square; `dimension` is the first of the two.
+vec2 random_place(uint pixel, uint sample_index, uint dimension) {
+    if (random_sampler() == SAMPLER_SOBOL) {
+        uvec4 bits = random_group(pixel, sample_index, dimension >> 2);
+        return vec2(random_unit(bits.z), random_unit(bits.w));
+    }
+    return vec2(random_alone(pixel, sample_index, dimension), random_alone(pixel, sample_index, dimension + 1u));
 }
 
 // Dimension of one use at scattering `bounce`; `offset` is RANDOM_LIGHT_KIND to RANDOM_ROULETTE.
@@ -84,10 +98,10 @@ vec4 random_vec4(uint pixel, uint sample_index, uint dimension) {
         uvec4 bits = random_group(pixel, sample_index, dimension >> 2);
         return vec4(random_unit(bits.x), random_unit(bits.y), random_unit(bits.z), random_unit(bits.w));
     }
-    return vec4(random_float(pixel, sample_index, dimension),
-                random_float(pixel, sample_index, dimension + 1u),
-                random_float(pixel, sample_index, dimension + 2u),
-                random_float(pixel, sample_index, dimension + 3u));
+    return vec4(random_alone(pixel, sample_index, dimension),
+                random_alone(pixel, sample_index, dimension + 1u),
+                random_alone(pixel, sample_index, dimension + 2u),
+                random_alone(pixel, sample_index, dimension + 3u));
 }
 
 #endif

@@ -43,10 +43,42 @@ float surface_uv_area(DrawShading draw, uint uv_set, uvec3 triangle, float twice
 
 vec4 surface_texel(TextureRef reference, DrawShading draw, uvec3 triangle, vec3 weights, float twice_area,
                    float footprint) {
-    if (!SHADING_TEXTURES || reference.texture == TEXTURE_NONE) return vec4(1.0);
+    if (reference.texture == TEXTURE_NONE) return vec4(1.0);
     vec2 uv = attribute_uv(draw, reference.uv_set, triangle, weights);
     float area = footprint > 0.0 ? surface_uv_area(draw, reference.uv_set, triangle, twice_area) : 0.0;
     return texture_sample(reference, uv, texture_level(reference, area, footprint));
+}
+
+// Texels of all textures of a material; white where it has none.
+struct SurfaceTexels {
+    vec4 normal;
+    vec4 base_color;
+    vec4 metallic_roughness;
+    vec4 emission;
+    vec4 transmission;
+};
+
+// They are sampled by the same code in a loop: five copies of it would be most of a kernel, and of the time that a driver
+// takes to compile it. Of an unlit material only the first two are asked for.
+SurfaceTexels surface_texels(Material material, DrawShading draw, uvec3 triangle, vec3 weights, float twice_area,
+                             float footprint) {
+    SurfaceTexels texels = SurfaceTexels(vec4(1.0), vec4(1.0), vec4(1.0), vec4(1.0), vec4(1.0));
+    if (!SHADING_TEXTURES) return texels;
+    uint count = (material.flags & MATERIAL_UNLIT) != 0u ? 2u : 5u;
+    [[dont_unroll]] for (uint place = 0u; place < count; place++) {
+        TextureRef reference = material.normal_texture;
+        if (place == 1u) reference = material.base_color_texture;
+        if (place == 2u) reference = material.metallic_roughness_texture;
+        if (place == 3u) reference = material.emission_texture;
+        if (place == 4u) reference = material.transmission_texture;
+        vec4 texel = surface_texel(reference, draw, triangle, weights, twice_area, footprint);
+        if (place == 0u) texels.normal = texel;
+        if (place == 1u) texels.base_color = texel;
+        if (place == 2u) texels.metallic_roughness = texel;
+        if (place == 3u) texels.emission = texel;
+        if (place == 4u) texels.transmission = texel;
+    }
+    return texels;
 }
 
 // Tangent along growing u (w: sign of the bitangent), from the vertices or else from the triangle's
@@ -113,19 +145,18 @@ Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
     // The smaller axis of the cone's ellipse: along the larger one, the samples of a pixel are many.
     float footprint = ray.cone_width + ray.cone_spread * t * speed;
 
+    SurfaceTexels texels = surface_texels(material, draw, triangle, weights, twice_area, footprint);
     vec3 interpolated = attribute_normal(draw, triangle, weights);
     // Attributes describe the front; seen from behind they are turned.
     float facing = s.side == 1u ? 1.0 : -1.0;
     if (SHADING_TEXTURES && material.normal_texture.texture != TEXTURE_NONE) {
         vec3 front = dot(interpolated, interpolated) > 0.0 ? normalize(interpolated) : s.geometric_normal * facing;
         vec4 tangent = surface_tangent(draw, material, triangle, weights, ab, ac);
-        vec4 texel = surface_texel(material.normal_texture, draw, triangle, weights, twice_area, footprint);
-        interpolated = surface_mapped_normal(front, tangent, texel.xyz, material.normal_scale);
+        interpolated = surface_mapped_normal(front, tangent, texels.normal.xyz, material.normal_scale);
     }
     s.normal = surface_shading_normal(interpolated * facing, s.geometric_normal);
 
-    vec4 texel = surface_texel(material.base_color_texture, draw, triangle, weights, twice_area, footprint);
-    vec4 base_color = attribute_base_color(draw, material, triangle, weights, texel);
+    vec4 base_color = attribute_base_color(draw, material, triangle, weights, texels.base_color);
     s.opacity = SHADING_BLEND && (material.flags & MATERIAL_ALPHA_BLEND) != 0u ? clamp(base_color.a, 0.0, 1.0) : 1.0;
     s.primitive = primitive;
     s.material = draw.material;
@@ -137,15 +168,12 @@ Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
     }
 
     s.base_color = clamp(base_color.rgb, 0.0, 1.0);
-    vec4 metal = surface_texel(material.metallic_roughness_texture, draw, triangle, weights, twice_area, footprint);
-    s.metallic = clamp(material.metallic * metal.b, 0.0, 1.0);
-    s.roughness = clamp(material.roughness * metal.g, 0.0, 1.0);
+    s.metallic = clamp(material.metallic * texels.metallic_roughness.b, 0.0, 1.0);
+    s.roughness = clamp(material.roughness * texels.metallic_roughness.g, 0.0, 1.0);
     if (s.side == 1u || (material.flags & MATERIAL_DOUBLE_SIDED) != 0u) {
-        vec4 glow = surface_texel(material.emission_texture, draw, triangle, weights, twice_area, footprint);
-        s.emission = material.emission * glow.rgb;
+        s.emission = material.emission * texels.emission.rgb;
     }
-    vec4 clear = surface_texel(material.transmission_texture, draw, triangle, weights, twice_area, footprint);
-    s.transmission = SHADING_TRANSMISSION ? clamp(material.transmission * clear.r, 0.0, 1.0) : 0.0;
+    s.transmission = SHADING_TRANSMISSION ? clamp(material.transmission * texels.transmission.r, 0.0, 1.0) : 0.0;
     s.ior = material.ior;
     s.thickness = material.thickness;
     s.attenuation_color = material.attenuation_color;

@@ -34,6 +34,6 @@ void main() {
     }
     Case c = cases[index];
     vec4 random = random_vec4(c.pixel, c.sample_index, c.dimension);
-    results[index] = Result(bsdf_sample(c.surface, c.o, random), bsdf_evaluate(c.surface, c.o, c.i),
-                            bsdf_pdf(c.surface, c.o, c.i), random);
+    BsdfSample chosen = bsdf_sample(bsdf_terms(c.surface, c.o), c.surface, random);
+    results[index] = Result(chosen, bsdf_evaluate(c.surface, c.o, c.i), bsdf_pdf(c.surface, c.o, c.i), random);
 }

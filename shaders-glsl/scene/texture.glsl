@@ -32,19 +32,16 @@ int texture_wrap(int x, int size, uint wrap) {
     return clamp(x, 0, size - 1);
 }
 
-vec4 texture_fetch(Texture source, uint first_texel, ivec2 size, ivec2 texel) {
-    uint wrap_u = source.sampling & 3u;
-    uint wrap_v = (source.sampling >> TEXTURE_WRAP_V_SHIFT) & 3u;
-    int x = texture_wrap(texel.x, size.x, wrap_u);
-    int y = texture_wrap(texel.y, size.y, wrap_v);
-    vec4 value = scene_texel(first_texel + uint(y) * uint(size.x) + uint(x));
+vec4 texture_fetch(Texture source, uint first_texel, int width, ivec2 texel) {
+    vec4 value = scene_texel(first_texel + uint(texel.y) * uint(width) + uint(texel.x));
     if ((source.sampling & TEXTURE_SRGB) != 0u) {
         value.rgb = vec3(srgb_decode(value.r), srgb_decode(value.g), srgb_decode(value.b));
     }
     return value;
 }
 
-// One level; uv is reduced already.
+// One level; uv is reduced already. The texel at the place, or the four around it where the texture is filtered: either
+// fetches its first texel by the same code.
 vec4 texture_sample_level(Texture source, vec2 uv, uint level) {
     uint first_texel = source.first_texel;
     uvec2 size = uvec2(source.width, source.height);
@@ -53,22 +50,26 @@ vec4 texture_sample_level(Texture source, vec2 uv, uint level) {
         size = max(size >> 1, uvec2(1u));
     }
     ivec2 extent = ivec2(size);
+    uint wrap_u = source.sampling & 3u;
+    uint wrap_v = (source.sampling >> TEXTURE_WRAP_V_SHIFT) & 3u;
+    bool filtered = (source.sampling & TEXTURE_LINEAR) != 0u;
     vec2 place = uv * vec2(extent);
-    if ((source.sampling & TEXTURE_LINEAR) == 0u) {
-        return texture_fetch(source, first_texel, extent, ivec2(floor(place)));
-    }
-    place -= 0.5;
+    if (filtered) place -= 0.5;
     vec2 corner = floor(place);
     vec2 share = place - corner;
     ivec2 texel = ivec2(corner);
-    vec4 top = mix(texture_fetch(source, first_texel, extent, texel),
-                   texture_fetch(source, first_texel, extent, texel + ivec2(1, 0)), share.x);
-    vec4 bottom = mix(texture_fetch(source, first_texel, extent, texel + ivec2(0, 1)),
-                      texture_fetch(source, first_texel, extent, texel + ivec2(1, 1)), share.x);
+    ivec2 near = ivec2(texture_wrap(texel.x, extent.x, wrap_u), texture_wrap(texel.y, extent.y, wrap_v));
+    vec4 first = texture_fetch(source, first_texel, extent.x, near);
+    if (!filtered) return first;
+    ivec2 far = ivec2(texture_wrap(texel.x + 1, extent.x, wrap_u), texture_wrap(texel.y + 1, extent.y, wrap_v));
+    vec4 top = mix(first, texture_fetch(source, first_texel, extent.x, ivec2(far.x, near.y)), share.x);
+    vec4 bottom = mix(texture_fetch(source, first_texel, extent.x, ivec2(near.x, far.y)),
+                      texture_fetch(source, first_texel, extent.x, far), share.x);
     return mix(top, bottom, share.y);
 }
 
-// RGBA, colour decoded to linear where the texture holds sRGB. White where there is no texture.
+// RGBA, colour decoded to linear where the texture holds sRGB. White where there is no texture. Both levels are sampled by
+// the same code in a loop: a kernel with this function in it at several places is compiled in a fraction of the time.
 vec4 texture_sample(TextureRef reference, vec2 uv, float level) {
     if (!SHADING_TEXTURES || reference.texture == TEXTURE_NONE) return vec4(1.0);
     Texture source = scene_texture(reference.texture);
@@ -77,13 +78,13 @@ vec4 texture_sample(TextureRef reference, vec2 uv, float level) {
     place.y = texture_reduce(place.y, (source.sampling >> TEXTURE_WRAP_V_SHIFT) & 3u);
     float last = float(source.level_count - 1u);
     float used = level > 0.0 ? min(level, last) : 0.0;
-    if ((source.sampling & TEXTURE_LINEAR) == 0u) {
-        return texture_sample_level(source, place, uint(used + 0.5));
-    }
-    float lower = floor(used);
-    vec4 value = texture_sample_level(source, place, uint(lower));
-    if (used > lower) {
-        value = mix(value, texture_sample_level(source, place, uint(lower) + 1u), used - lower);
+    bool filtered = (source.sampling & TEXTURE_LINEAR) != 0u;
+    float lower = filtered ? floor(used) : used + 0.5;
+    uint levels = filtered && used > lower ? 2u : 1u;
+    vec4 value = vec4(0.0);
+    [[dont_unroll]] for (uint above = 0u; above < levels; above++) {
+        vec4 sampled = texture_sample_level(source, place, uint(lower) + above);
+        value = above == 0u ? sampled : mix(value, sampled, used - lower);
     }
     return value;
 }
