@@ -121,6 +121,63 @@ mod tests {
         assert!(pack::pack(&words[..8]).is_none());
     }
 
+    /// Instructions of a module's entry point once every call stands for what is called, as drivers compile it.
+    fn expanded_length(words: &[u32]) -> usize {
+        // What is in a function: its own instructions, and the functions that it calls.
+        let mut functions: std::collections::HashMap<u32, (usize, Vec<u32>)> =
+            std::collections::HashMap::new();
+        let (mut entry, mut function, mut place) = (None, None, 5);
+        while place < words.len() {
+            let (length, operation) = ((words[place] >> 16) as usize, words[place] & 0xFFFF);
+            match operation {
+                // OpEntryPoint, OpFunction, OpFunctionEnd
+                15 => entry = entry.or(Some(words[place + 2])),
+                54 => function = Some(words[place + 2]),
+                56 => function = None,
+                // Lines of source, variables, labels and what only names where branches meet again.
+                8 | 317 | 59 | 246 | 247 | 248 => {}
+                _ => {
+                    if let Some(function) = function {
+                        let (own, calls) = functions.entry(function).or_default();
+                        *own += 1;
+                        // OpFunctionCall
+                        if operation == 57 {
+                            calls.push(words[place + 3]);
+                        }
+                    }
+                }
+            }
+            place += length;
+        }
+        let mut open = vec![entry.expect("a module has an entry point")];
+        let mut sum = 0;
+        while let Some(function) = open.pop() {
+            let (own, calls) = &functions[&function];
+            sum += own;
+            open.extend(calls);
+        }
+        sum
+    }
+
+    /// A function that is called at several places is compiled as often, which takes most of the time to a first picture
+    /// and of the tests on drivers that compile on the processor.
+    #[test]
+    fn no_module_holds_many_copies_of_a_long_function() {
+        for shader in ALL.iter().filter(|shader| !shader.name.contains("/test_")) {
+            let most = match shader.entry {
+                "ads/surfaces.comp" | "integrators/visibility_resolve.comp" => 6_000,
+                "integrators/path_shade.comp" => 15_000,
+                _ => 26_000,
+            };
+            let length = expanded_length(&shader.words());
+            assert!(
+                length <= most,
+                "{} has {length} instructions, and at most {most} were meant",
+                shader.name
+            );
+        }
+    }
+
     #[test]
     fn records_without_default_are_records() {
         for name in records_of_glsl::ZEROS_MISLEAD {
