@@ -202,7 +202,7 @@ pub(super) fn passes(report: &Report) -> Option<Section> {
         "Time per pass",
         "What each figure of the summary is made of: all dispatches of a pass together, in the repetition whose time is \
          the median, so that a bar is as long as the figure beside it. A label is the path of the pass's shader; what the \
-         host does is hatched. Passes beyond the seven longest share a colour.",
+         host does is hatched. Passes beyond the seven that are the largest parts of their bars share a colour.",
         plots,
     )
 }

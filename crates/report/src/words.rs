@@ -76,7 +76,9 @@ pub fn wrapped(text: &str, width: usize, indent: usize) -> String {
             let first = start.max(rest.iter().position(|one| *one != ' ').unwrap_or(0));
             let is_space = |place: &usize| rest[*place] == ' ';
             let before = (first + 1..=width).rev().find(is_space);
-            let Some(place) = before.or_else(|| (width + 1..rest.len()).find(is_space)) else { break };
+            let Some(place) = before.or_else(|| (width.max(first) + 1..rest.len()).find(is_space)) else {
+                break;
+            };
             let broken: String = rest[..place].iter().collect();
             lines += broken.trim_end();
             lines.push('\n');
@@ -137,7 +139,7 @@ mod tests {
             let blocks = text.matches("mmrt robust").count();
             assert_eq!(
                 blocks,
-                [(18, 3), (24, 2), (27, 2), (80, 1)].iter().find(|one| one.0 == width).map_or(0, |one| one.1),
+                [(18, 3), (24, 3), (27, 2), (80, 1)].iter().find(|one| one.0 == width).map_or(0, |one| one.1),
                 "{text}"
             );
         }
