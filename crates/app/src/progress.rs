@@ -48,7 +48,7 @@ impl ProgressLine {
             self.bar.reset();
             self.bar.enable_steady_tick(Duration::from_millis(250));
         }
-        let to_go = self.count.to_go(progress, Instant::now());
+        let to_go = self.count.time_left(progress, Instant::now());
         let words = to_go.map_or(String::new(), |left| format!(", {} to go", HumanDuration(left)));
         self.bar.set_prefix(words);
         if begins {
@@ -94,7 +94,7 @@ struct Count {
 impl Count {
     /// How long the work will take from `now` on, at the pace so far; absent before the first of it is done, and when all
     /// is.
-    fn to_go(&mut self, progress: Progress<'_>, now: Instant) -> Option<Duration> {
+    fn time_left(&mut self, progress: Progress<'_>, now: Instant) -> Option<Duration> {
         let Progress { done, total, unit, .. } = progress;
         if total == 0 {
             return None;
@@ -106,7 +106,9 @@ impl Count {
         };
         let made = done - before;
         let left = total.saturating_sub(done);
-        (made > 0 && left > 0).then(|| (now - begun).mul_f64(left as f64 / made as f64))
+        // Something is left to do: never less than a second.
+        let seconds = || ((now - begun).as_secs_f64() * left as f64 / made as f64).ceil().max(1.0);
+        (made > 0 && left > 0).then(|| Duration::from_secs(seconds() as u64))
     }
 }
 
@@ -201,19 +203,25 @@ mod tests {
         let start = Instant::now();
         let mut count = Count::default();
         let mut to_go = |task, done, seconds| {
-            count
-                .to_go(Progress { task, done, total: 12, unit: "runs" }, start + Duration::from_secs(seconds))
+            count.time_left(
+                Progress { task, done, total: 12, unit: "runs" },
+                start + Duration::from_secs(seconds),
+            )
         };
         assert_eq!((to_go("camera", 0, 0), to_go("camera", 0, 5)), (None, None));
         assert_eq!(to_go("camera", 4, 8), Some(Duration::from_secs(16)));
         // The next set of rays is of the same count, and its first step no pace of its own.
         assert_eq!(to_go("bounce", 4, 8), Some(Duration::from_secs(16)));
         assert_eq!((to_go("bounce", 8, 20), to_go("bounce", 12, 30)), (Some(Duration::from_secs(10)), None));
+        assert_eq!(to_go("bounce", 11, 20), Some(Duration::from_secs(2)));
         // Another total is another count, and so is one that begins again.
         assert_eq!(to_go("bounce", 0, 31), None);
         let other = Progress { task: "render", done: 3, total: 64, unit: "waves" };
-        assert_eq!(count.to_go(other, start), None);
-        assert_eq!(count.to_go(Progress { task: "build", done: 0, total: 0, unit: "waves" }, start), None);
+        assert_eq!(count.time_left(other, start), None);
+        assert_eq!(
+            count.time_left(Progress { task: "build", done: 0, total: 0, unit: "waves" }, start),
+            None
+        );
     }
 
     #[test]

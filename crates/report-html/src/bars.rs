@@ -27,6 +27,9 @@ const HOST_PARTS: [HostPart; 2] = [
     HostPart { name: Pass::WAITING, colour: "#a9b2bc", pattern: "." },
 ];
 
+/// A run and the parts of its bar.
+type Bar<'a> = (&'a Run, Vec<Part<'a>>);
+
 /// A part of a run's bar.
 struct Part<'a> {
     name: &'a str,
@@ -85,7 +88,7 @@ fn bar_name(run: &Run) -> String {
 }
 
 /// Bars of one part, of each run that has it.
-fn bars_of(runs: &[(&Run, Vec<Part<'_>>)], name: &str) -> Vec<(String, f64, String)> {
+fn bars_of(runs: &[Bar<'_>], name: &str) -> Vec<(String, f64, String)> {
     let found = runs.iter().filter_map(|(run, parts)| {
         // Where passes overlap on a device, waiting is less than nothing: a bar shows no such part.
         let part = parts.iter().find(|part| part.name == name && part.size >= 0.0)?;
@@ -95,7 +98,7 @@ fn bars_of(runs: &[(&Run, Vec<Part<'_>>)], name: &str) -> Vec<(String, f64, Stri
 }
 
 /// One trace a part: the coloured ones, one of all others, then those of the host.
-fn stacked(runs: &[(&Run, Vec<Part<'_>>)], ranking: &[&str]) -> Vec<Value> {
+fn stacked(runs: &[Bar<'_>], ranking: &[&str]) -> Vec<Value> {
     let (host, ranking): (Vec<&str>, Vec<&str>) =
         ranking.iter().copied().partition(|name| HOST_PARTS.iter().any(|part| part.name == *name));
     // A single part beyond the colours is not worth a group.
@@ -166,7 +169,7 @@ const FIGURES: [Figure; 4] = [
 /// Workloads whose runs took the same time in every part, and the runs of the first of them.
 struct SharedTimes<'a> {
     workloads: Vec<String>,
-    runs: Vec<(&'a Run, Vec<Part<'a>>)>,
+    runs: Vec<Bar<'a>>,
 }
 
 /// Bars of the passes of each run, one plot a figure that they add up to: those of builds once for all rays that were
@@ -177,13 +180,13 @@ pub(super) fn passes(report: &Report) -> Option<Section> {
         let ranking = ranked(report.runs.iter().flat_map(|run| in_shares(run, figure.of)));
         let mut shown: Vec<SharedTimes<'_>> = Vec::new();
         for (workload, indices) in by_workload(&report.runs) {
-            let runs: Vec<(&Run, Vec<Part<'_>>)> = indices
+            let runs: Vec<Bar<'_>> = indices
                 .iter()
                 .map(|index| &report.runs[*index])
                 .map(|run| {
                     (run, run.passes.iter().filter(|pass| pass.of == figure.of).map(pass_part).collect())
                 })
-                .filter(|(_, parts): &(&Run, Vec<Part<'_>>)| !parts.is_empty())
+                .filter(|(_, parts): &Bar<'_>| !parts.is_empty())
                 .collect();
             if runs.is_empty() {
                 continue;
@@ -216,12 +219,11 @@ fn in_shares(run: &Run, of: Option<PassOf>) -> Vec<Part<'_>> {
         .collect()
 }
 
-fn same_times(a: &[(&Run, Vec<Part<'_>>)], b: &[(&Run, Vec<Part<'_>>)]) -> bool {
+fn same_times(a: &[Bar<'_>], b: &[Bar<'_>]) -> bool {
     let sizes =
         |parts: &[Part<'_>]| parts.iter().map(|part| (part.name.to_owned(), part.size)).collect::<Vec<_>>();
-    let same = |(a, b): (&(&Run, Vec<Part<'_>>), &(&Run, Vec<Part<'_>>))| {
-        a.0.contestant() == b.0.contestant() && sizes(&a.1) == sizes(&b.1)
-    };
+    let same =
+        |(a, b): (&Bar<'_>, &Bar<'_>)| a.0.contestant() == b.0.contestant() && sizes(&a.1) == sizes(&b.1);
     a.len() == b.len() && a.iter().zip(b).all(same)
 }
 
@@ -258,8 +260,8 @@ fn pass_plot(position: usize, figure: &Figure, one: &SharedTimes<'_>, ranking: &
 }
 
 /// Each bar's name and length in words.
-fn totals(runs: &[(&Run, Vec<Part<'_>>)], words: impl Fn(f64) -> String) -> String {
-    let one = |(run, parts): &(&Run, Vec<Part<'_>>)| {
+fn totals(runs: &[Bar<'_>], words: impl Fn(f64) -> String) -> String {
+    let one = |(run, parts): &Bar<'_>| {
         format!("{} {}", run.contestant(), words(parts.iter().map(|part| part.size).sum()))
     };
     runs.iter().map(one).collect::<Vec<_>>().join(", ")
@@ -328,7 +330,7 @@ fn memory_plot(position: usize, workload: &str, own: &[(&Run, &Memory)], ranking
     let whole = |memory: &Memory| -> Option<u64> {
         memory.by_part.is_empty().then_some(memory.structure_bytes).flatten()
     };
-    let runs: Vec<(&Run, Vec<Part<'_>>)> = own
+    let runs: Vec<Bar<'_>> = own
         .iter()
         .map(|(run, memory)| {
             let mut parts = memory_parts(memory);
