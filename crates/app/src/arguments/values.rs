@@ -160,7 +160,7 @@ const LATEST: f64 = 1.0e9;
 pub fn seconds(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value.abs() <= LATEST => Ok(value),
-        _ => Err("must be a number of seconds from -1e9 to 1e9".to_owned()),
+        _ => Err("must be a finite number of seconds from -1e9 to 1e9".to_owned()),
     }
 }
 

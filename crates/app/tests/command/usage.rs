@@ -115,12 +115,12 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         ),
         (
             "render walker -o a.png --time 1e39",
-            "--time <SECONDS>': must be a number of seconds from -1e9",
+            "--time <SECONDS>': must be a finite number of seconds from -1e9",
             "--help",
         ),
         (
             "render walker -o a.png --time -inf",
-            "--time <SECONDS>': must be a number of seconds from -1e9",
+            "--time <SECONDS>': must be a finite number of seconds from -1e9",
             "--help",
         ),
         (
