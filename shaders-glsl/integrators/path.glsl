@@ -7,6 +7,7 @@
 #include "scene/bsdf.glsl"
 #include "scene/light.glsl"
 #include "scene/random.glsl"
+#include "scene/terminator.glsl"
 
 #define PATH_INFINITY uintBitsToFloat(0x7F800000u)
 
@@ -182,17 +183,22 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
         return asked;
     }
     if (state.bounce >= max_bounces) return asked;
-    BsdfTerms terms = bsdf_terms(s, -direction);
+    // What light samples see: the smooth shape, where that is asked for.
+    Surface seen = terminator_surface(s, -direction);
+    bool is_smooth = scene_frame().shadow_terminator != SHADOW_TERMINATOR_NONE;
+    BsdfTerms terms;
     BsdfSample chosen;
     // What the light chooses, then what the surface does: one copy of the random numbers and of the lobes serves both.
     [[dont_unroll]] for (uint technique = 0u; technique < 2u; technique++) {
         uint dimension = random_dimension(state.bounce, technique == 0u ? RANDOM_LIGHT_KIND : RANDOM_BSDF_LOBE);
         vec4 random = random_vec4(state.pixel, state.sample_index, dimension);
+        if (technique == 1u) seen = s;
+        if (technique == 0u || is_smooth) terms = bsdf_terms(seen, -direction);
         LightSample light;
         bool open;
         vec3 towards;
         if (technique == 0u) {
-            light = light_sample(s, random);
+            light = light_sample(seen, random);
             open = light.flags != 0u;
             towards = light.direction;
         } else {
@@ -201,9 +207,15 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
             towards = chosen.direction;
         }
         if (!open) continue;
-        BsdfValue value = bsdf_towards(terms, s, towards);
-        if (technique == 0u) path_ask_light(state, s, light, value, asked);
-        else chosen = bsdf_chosen(chosen, value);
+        BsdfValue value = bsdf_towards(terms, seen, towards);
+        if (technique == 1u) {
+            chosen = bsdf_chosen(chosen, value);
+            continue;
+        }
+        // Scattered rays do not leave below the triangle, so nothing else finds the light there.
+        bool is_found = (dot(towards, s.geometric_normal) > 0.0) == (dot(towards, seen.geometric_normal) > 0.0);
+        if (!is_found) value.pdf = 0.0;
+        path_ask_light(state, seen, light, value, asked);
     }
     path_scatter(state, ray, s, chosen, footprint, asked);
     return asked;

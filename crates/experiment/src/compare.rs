@@ -33,7 +33,8 @@ pub(super) fn compare(
     let origin = stage.scene.frame_origin();
     let posed = PosedScene::with_positions(job.scene, origin, positions.clone())
         .map_err(|error| ExperimentError::usage(error.to_string(), ""))?
-        .with_back_faces(frame.back_faces);
+        .with_back_faces(frame.back_faces)
+        .with_shadow_terminator(frame.shadow_terminator);
     let accept = |primitive: u32, barycentrics: [f64; 2]| posed.alpha_accepts(primitive, barycentrics);
     says("oracle", "building");
     let masked = posed.has_alpha_masks() && stage.dropped_triangles == 0;

@@ -1,8 +1,8 @@
 //! An image to make, as plain data.
 
 pub use rasray_integrators::GlassShadows;
-use rasray_scene::BackFaces;
 use rasray_scene::needs::{self, Workload};
+use rasray_scene::{BackFaces, ShadowTerminator};
 
 /// What light does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +74,8 @@ pub struct Frame {
     pub primary: Primary,
     /// Which rays pass the backs of single-sided surfaces.
     pub back_faces: BackFaces,
+    /// Where shadow rays of smooth surfaces start, of paths.
+    pub shadow_terminator: ShadowTerminator,
 }
 
 /// How what camera rays hit is found.

@@ -51,7 +51,7 @@ mod tests {
     use crate::jobs::{AovSelection, Frame, GlassShadows, Integrator, Primary, Refresh, Sampler};
     use crate::{Shard, StructureOptions, default_view, load, one_system};
     use rasray_scene::needs::Needs;
-    use rasray_scene::{BackFaces, Environment};
+    use rasray_scene::{BackFaces, Environment, ShadowTerminator};
     use rasray_systems::{Preset, SYSTEMS};
     use std::collections::BTreeSet;
     use std::ffi::OsStr;
@@ -66,6 +66,7 @@ mod tests {
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
         back_faces: BackFaces::Camera,
+        shadow_terminator: ShadowTerminator::None,
     };
 
     fn job(loaded: &LoadedScene) -> RenderJob<'_> {
@@ -94,12 +95,13 @@ mod tests {
             picture_key("1", &loaded, &job)
         };
         let first = key(&|_| ());
-        let changes: [&dyn Fn(&mut RenderJob<'_>); 10] = [
+        let changes: [&dyn Fn(&mut RenderJob<'_>); 11] = [
             &|job| job.frame.spp = 4,
             &|job| job.frame.seed = 2,
             &|job| job.frame.width = 5,
             &|job| job.frame.sampler = Sampler::Pcg,
             &|job| job.frame.back_faces = BackFaces::None,
+            &|job| job.frame.shadow_terminator = ShadowTerminator::Offset,
             &|job| job.frame.integrator = Integrator::path(3),
             &|job| {
                 job.frame.integrator = Integrator::Path { bounces: 2, glass_shadows: GlassShadows::Opaque };

@@ -154,7 +154,12 @@ impl Stage {
             Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
             Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
         };
-        let sampling = Sampling { sampler, samples: frame.spp, back_faces: frame.back_faces };
+        let sampling = Sampling {
+            sampler,
+            samples: frame.spp,
+            back_faces: frame.back_faces,
+            shadow_terminator: frame.shadow_terminator,
+        };
         self.scene.set_sampling(sampling).map_err(device_error)
     }
 }

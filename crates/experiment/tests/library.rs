@@ -37,6 +37,7 @@ fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> Comp
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
         back_faces: rasray_scene::BackFaces::Camera,
+        shadow_terminator: rasray_scene::ShadowTerminator::None,
     };
     CompareJob {
         scene: &loaded.scene,

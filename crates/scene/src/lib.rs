@@ -36,6 +36,7 @@ mod recognise;
 mod reference;
 mod remarks;
 pub mod sequence;
+mod shadow_terminator;
 mod text;
 mod time;
 mod warning;
@@ -49,6 +50,7 @@ pub use limits::{Limits, LoadOptions, SceneChoice};
 pub use load::load;
 pub use model::*;
 pub use pose::Moment;
+pub use shadow_terminator::ShadowTerminator;
 
 /// What the readme shows compiles.
 #[cfg(doctest)]

@@ -25,6 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
         back_faces: rasray_scene::BackFaces::Camera,
+        shadow_terminator: rasray_scene::ShadowTerminator::None,
     };
     let options = StructureOptions::default();
     let system = SystemConfig { system: &SYSTEMS[0], preset: Preset::Robust, options, variant: None };

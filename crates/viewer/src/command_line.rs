@@ -1,7 +1,7 @@
 //! The command line that makes a picture again.
 
 use rasray_experiment::{Frame, GlassShadows, Integrator, Primary, SystemConfig};
-use rasray_scene::BackFaces;
+use rasray_scene::{BackFaces, ShadowTerminator};
 
 /// A word as a shell reads it back.
 pub fn quoted(word: &str) -> String {
@@ -15,7 +15,8 @@ pub fn quoted(word: &str) -> String {
 
 /// The words that make a frame.
 pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
-    let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces } = frame;
+    let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces, shadow_terminator } =
+        frame;
     let mut words = vec![
         "--size".to_owned(),
         format!("{width}x{height}"),
@@ -42,6 +43,9 @@ pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
     }
     if *back_faces != BackFaces::default() {
         words.extend(["--back-faces".to_owned(), back_faces.name().to_owned()]);
+    }
+    if *shadow_terminator != ShadowTerminator::default() {
+        words.extend(["--shadow-terminator".to_owned(), shadow_terminator.name().to_owned()]);
     }
     words
 }

@@ -128,6 +128,7 @@ pub(crate) mod tests {
             sampler: Sampler::Sobol,
             primary: Primary::Trace,
             back_faces: rasray_scene::BackFaces::Camera,
+            shadow_terminator: rasray_scene::ShadowTerminator::None,
         };
         let system = SystemConfig {
             system: &SYSTEMS[0],

@@ -36,6 +36,7 @@ fn settings() -> Settings {
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
         back_faces: rasray_scene::BackFaces::Camera,
+        shadow_terminator: rasray_scene::ShadowTerminator::None,
     };
     let system = system("bricks");
     Settings {

@@ -2,6 +2,7 @@
 
 use super::structure::{
     StructureArguments, back_faces_parser, glass_shadows_parser, primary_parser, sampler_parser,
+    shadow_terminator_parser,
 };
 use super::values::{self, Size, Switch};
 use crate::error::AppError;
@@ -11,7 +12,9 @@ use rasray_experiment::{
     placed_view,
 };
 use rasray_scene::needs::{Needs, Workload};
-use rasray_scene::{BackFaces, Environment, LoadOptions, Scene, SceneError, load_environment};
+use rasray_scene::{
+    BackFaces, Environment, LoadOptions, Scene, SceneError, ShadowTerminator, load_environment,
+};
 use std::path::Path;
 
 /// Integrators by name.
@@ -98,6 +101,9 @@ pub struct FrameArguments {
     /// Which rays pass the backs of single-sided surfaces, as glTF has them (doubleSided: false)
     #[arg(long, value_parser = back_faces_parser(), default_value = BackFaces::Camera.name())]
     pub back_faces: BackFaces,
+    /// With --integrator path: where shadow rays of smooth surfaces start [default: none]
+    #[arg(long, value_parser = shadow_terminator_parser())]
+    pub shadow_terminator: Option<ShadowTerminator>,
 }
 
 impl FrameArguments {
@@ -118,6 +124,9 @@ impl FrameArguments {
         if self.glass_shadows.is_some() && self.integrator != IntegratorName::Path {
             return Err(belongs("--glass-shadows", "path"));
         }
+        if self.shadow_terminator.is_some() && self.integrator != IntegratorName::Path {
+            return Err(belongs("--shadow-terminator", "path"));
+        }
         if self.ao_distance.is_some() && self.integrator != IntegratorName::Ao {
             return Err(belongs("--ao-distance", "ao"));
         }
@@ -134,7 +143,8 @@ impl FrameArguments {
         let Size { width, height } = self.size.unwrap_or(DEFAULT_SIZE);
         let spp = self.spp.unwrap_or(DEFAULT_SAMPLES);
         let Self { seed, sampler, primary, back_faces, .. } = *self;
-        Ok(Frame { integrator, width, height, spp, seed, sampler, primary, back_faces })
+        let shadow_terminator = self.shadow_terminator.unwrap_or_default();
+        Ok(Frame { integrator, width, height, spp, seed, sampler, primary, back_faces, shadow_terminator })
     }
 }
 

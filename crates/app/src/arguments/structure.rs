@@ -3,7 +3,7 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use rasray_experiment::{ExperimentError, GlassShadows, Primary, RaySet, Refresh, Sampler, StructureOptions};
-use rasray_scene::BackFaces;
+use rasray_scene::{BackFaces, ShadowTerminator};
 use rasray_systems::{Group, OPTIONS, OptionRow, Preset, SYSTEMS, System, Values};
 use serde_json::Value;
 
@@ -65,6 +65,11 @@ pub fn glass_shadows_parser() -> impl TypedValueParser<Value = GlassShadows> {
 /// Reads which rays pass the backs of surfaces.
 pub fn back_faces_parser() -> impl TypedValueParser<Value = BackFaces> {
     choice(BackFaces::ALL, |back_faces| (back_faces.name(), back_faces.doc()))
+}
+
+/// Reads where shadow rays of smooth surfaces start.
+pub fn shadow_terminator_parser() -> impl TypedValueParser<Value = ShadowTerminator> {
+    choice(ShadowTerminator::ALL, |terminator| (terminator.name(), terminator.doc()))
 }
 
 /// The options of a structure on the command line.

@@ -141,7 +141,7 @@ fn ids(id: &str) -> Result<Vec<&'static str>, AppError> {
 
 /// Refuses what is about scenes, images and generated rays.
 fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
-    const UNFIT: [&str; 22] = [
+    const UNFIT: [&str; 23] = [
         "time",
         "clip",
         "fps",
@@ -163,6 +163,7 @@ fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
         "bounces",
         "glass-shadows",
         "back-faces",
+        "shadow-terminator",
         "ao-distance",
     ];
     match given.typed.iter().find(|typed| UNFIT.contains(&typed.as_str())) {

@@ -23,8 +23,8 @@ use rasray_scene::{Camera, Scene};
 use crate::{
     oracle::{Oracle, Outcome},
     shading::{
-        PosedScene, Ray, ReferenceError, Sampler, Surface, View, bsdf::SMOOTH_ROUGHNESS, camera_ray, pixel_position,
-        random::Numbers,
+        PosedScene, Ray, ReferenceError, Sampler, Surface, View, bsdf::SMOOTH_ROUGHNESS, camera_ray,
+        pixel_position, random::Numbers,
     },
 };
 

@@ -130,12 +130,16 @@ impl Tracer<'_> {
     /// One light sample, seen from the surface.
     fn direct_light(&self, state: &PathState, surface: &Surface, o: Vec3) -> Vec3 {
         let random = state.random.four(random_dimension(state.bounce, RANDOM_LIGHT_KIND));
-        let Some(light) = self.posed.light_sample(surface, random) else { return Vec3::ZERO };
-        let pending = state.throughput * reflected(surface, o, &light);
+        let smooth = self.posed.terminator_surface(surface, o);
+        let Some(light) = self.posed.light_sample(&smooth, random) else { return Vec3::ZERO };
+        // Scattered rays do not leave below the triangle, so nothing else finds the light there.
+        let above = |normal: Vec3| light.direction.dot(normal) > 0.0;
+        let is_found = above(surface.geometric_normal) == above(smooth.geometric_normal);
+        let pending = state.throughput * reflected(&smooth, o, &light, is_found);
         if !(pending.max_element() > 0.0) {
             return Vec3::ZERO;
         }
-        light.shadow_ray(surface).map_or(Vec3::ZERO, |ray| pending * self.arriving(ray, light.target))
+        light.shadow_ray(&smooth).map_or(Vec3::ZERO, |ray| pending * self.arriving(ray, light.target))
     }
 
     /// Share of the light that arrives along a shadow ray, which ends at `target` where there is one.
@@ -160,11 +164,14 @@ impl Tracer<'_> {
     }
 }
 
-/// What the surface sends along `o` of an unoccluded light sample, weighted.
-fn reflected(surface: &Surface, o: Vec3, light: &LightSample) -> Vec3 {
+/// What the surface sends along `o` of an unoccluded light sample, weighted; `is_found` where scattered rays find it, too.
+fn reflected(surface: &Surface, o: Vec3, light: &LightSample, is_found: bool) -> Vec3 {
     let value = bsdf_times_cosine(surface, o, light.direction);
-    let weight =
-        if light.delta { 1.0 } else { power_heuristic(light.pdf, bsdf_pdf(surface, o, light.direction)) };
+    let weight = if light.delta || !is_found {
+        1.0
+    } else {
+        power_heuristic(light.pdf, bsdf_pdf(surface, o, light.direction))
+    };
     value * light.radiance * (weight / light.pdf)
 }
 

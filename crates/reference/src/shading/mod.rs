@@ -31,6 +31,7 @@ pub mod random;
 mod ray;
 mod spawn;
 mod surface;
+mod terminator;
 mod texture;
 mod triangle;
 

@@ -13,8 +13,8 @@ use rasray_experiment::{
     AovSelection, Frame, OpenBackend, Primary, Refresh, RenderJob, Sampler, SceneInfo, default_view,
 };
 use rasray_report::json_shown;
-use rasray_scene::BackFaces;
 use rasray_scene::needs::Needs;
+use rasray_scene::{BackFaces, ShadowTerminator};
 use serde_json::Value;
 
 use super::steps::{fit_images, load_scene, open_device};
@@ -48,6 +48,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             sampler: Sampler::Sobol,
             primary: Primary::Trace,
             back_faces: BackFaces::Camera,
+            shadow_terminator: ShadowTerminator::None,
         };
         let view = during("scene", "looking for a view", || default_view(&loaded.scene));
         if let Some(system) = system {

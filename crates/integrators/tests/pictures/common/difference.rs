@@ -75,7 +75,7 @@ fn made_difference(
     let mut stage = Stage::new(&device, shown, camera.clone(), WIDTH, HEIGHT, SEED);
     stage
         .scene
-        .set_sampling(Sampling { sampler: of_device, samples, back_faces: passed })
+        .set_sampling(Sampling { sampler: of_device, samples, back_faces: passed, ..Sampling::default() })
         .expect("the frame can be written");
     let view = View { camera: camera.clone(), width: WIDTH, height: HEIGHT, samples, seed: SEED, sampler };
     let posed = PosedScene::new(scene, stage.scene.frame_origin()).expect("the scene is well formed");

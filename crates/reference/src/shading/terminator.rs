@@ -1,0 +1,48 @@
+//! What light samples see of smooth triangles.
+
+use glam::Vec3;
+use rasray_scene::ShadowTerminator;
+
+use super::{Surface, posed::PosedScene, triangle::barycentric_weights};
+
+impl PosedScene<'_> {
+    /// The surface on the smooth shape that the normals of its triangle's vertices suggest, as `o` sees it; the same one where
+    /// there is none, or nothing is asked for.
+    pub(crate) fn terminator_surface(&self, surface: &Surface, o: Vec3) -> Surface {
+        let known = surface
+            .primitive
+            .filter(|_| self.shadow_terminator == ShadowTerminator::Offset && !(surface.transmission > 0.0));
+        let Some(primitive) = known else { return *surface };
+        let draw = self.draw_of(primitive);
+        let Some(normals) = &draw.normals else { return *surface };
+        let corners = self.vertices(primitive);
+        let weights = barycentric_weights(barycentrics(surface.position, corners)).to_array();
+        let facing = if surface.front { 1.0 } else { -1.0 };
+        let (mut smoothed, mut offset) = (Vec3::ZERO, Vec3::ZERO);
+        for ((vertex, corner), weight) in
+            self.mesh_vertices(draw, primitive).into_iter().zip(corners).zip(weights)
+        {
+            let normal = facing * normals[vertex];
+            smoothed += weight * normal;
+            offset -= weight * (surface.position - corner).dot(normal).min(0.0) * normal;
+        }
+        let size = smoothed.length();
+        if !(size > 0.0) || !(smoothed.dot(surface.geometric_normal) > 0.0) || !(smoothed.dot(o) > 0.0) {
+            return *surface;
+        }
+        let geometric_normal = smoothed / size;
+        let normal =
+            if surface.normal.dot(geometric_normal) < 0.0 { geometric_normal } else { surface.normal };
+        let (position, position_error) = (surface.position + offset, 2.0 * surface.position_error);
+        Surface { position, position_error, geometric_normal, normal, ..*surface }
+    }
+}
+
+/// Weights of vertices 1 and 2 of a point of a triangle's plane.
+fn barycentrics(point: Vec3, [a, b, c]: [Vec3; 3]) -> glam::Vec2 {
+    let (ab, ac) = (b - a, c - a);
+    let normal = ab.cross(ac);
+    let squared = normal.length_squared();
+    let weights = glam::Vec2::new((point - a).cross(ac).dot(normal), ab.cross(point - a).dot(normal));
+    if squared > 0.0 { weights / squared } else { glam::Vec2::ZERO }
+}

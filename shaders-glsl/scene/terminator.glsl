@@ -1,0 +1,43 @@
+// What: the surface that light samples see of a smooth triangle, so that the border of its shadow is that of the smooth
+// shape and does not show the triangles.
+// Reads: frame, geometry, draw shadings, posed attributes. Writes: nothing.
+// Source: Hanika 2021, Hacking the shadow terminator (Ray Tracing Gems II, chapter 4), for the origin.
+#ifndef SCENE_TERMINATOR_GLSL
+#define SCENE_TERMINATOR_GLSL
+
+#include "ads/triangle.glsl"
+#include "scene/attributes.glsl"
+
+// The surface with its position moved out to the planes through the vertices across their normals, and the smooth normal in
+// place of the geometric one. The same surface where the triangle is flat or not known, where it transmits, and where the
+// smooth shape faces away from `o`.
+Surface terminator_surface(Surface s, vec3 o) {
+    Frame frame = scene_frame();
+    if (frame.shadow_terminator == SHADOW_TERMINATOR_NONE || s.primitive >= frame.triangle_count
+        || s.transmission > 0.0) {
+        return s;
+    }
+    DrawShading draw = scene_draw_shading(scene_draw_of(s.primitive));
+    if (draw.normals == ATTRIBUTE_NONE) return s;
+    uvec3 triangle = geometry_triangle(s.primitive);
+    vec3 corners[3];
+    geometry_vertices(s.primitive, corners[0], corners[1], corners[2]);
+    vec3 weights = barycentric_weights(triangle_barycentrics(s.position, corners[0], corners[1], corners[2]));
+    float facing = s.side == 1u ? 1.0 : -1.0;
+    vec3 smoothed = vec3(0.0);
+    vec3 offset = vec3(0.0);
+    for (int k = 0; k < 3; k++) {
+        vec3 normal = facing * scene_posed_vec3(draw.normals + 3u * (triangle[k] - draw.first_vertex));
+        smoothed += weights[k] * normal;
+        offset -= weights[k] * min(dot(s.position - corners[k], normal), 0.0) * normal;
+    }
+    float size = length(smoothed);
+    if (!(size > 0.0) || !(dot(smoothed, s.geometric_normal) > 0.0) || !(dot(smoothed, o) > 0.0)) return s;
+    s.position += offset;
+    s.position_error *= 2.0;
+    s.geometric_normal = smoothed / size;
+    if (dot(s.normal, s.geometric_normal) < 0.0) s.normal = s.geometric_normal;
+    return s;
+}
+
+#endif
