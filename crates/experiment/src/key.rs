@@ -95,7 +95,7 @@ mod tests {
             picture_key("1", &loaded, &job)
         };
         let first = key(&|_| ());
-        let changes: [&dyn Fn(&mut RenderJob<'_>); 11] = [
+        let changes: [&dyn Fn(&mut RenderJob<'_>); 12] = [
             &|job| job.frame.spp = 4,
             &|job| job.frame.seed = 2,
             &|job| job.frame.width = 5,

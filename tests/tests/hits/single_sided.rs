@@ -290,8 +290,11 @@ fn the_wall_behind_a_square_that_is_turned_away_is_seen() {
     }
 }
 
+/// System, preset and options.
+type Row = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+
 /// Structures of fragments, of which each stands for its triangle in another way.
-const FRAGMENTS: &[(&str, &str, &[(&str, &str)])] = &[
+const FRAGMENTS: &[Row] = &[
     ("mmrt", "robust", &[("resolution", "192")]),
     ("mmrt", "robust", &[("resolution", "192"), ("payload", "plane")]),
     ("mmrt", "published", &[("resolution", "192"), ("payload", "index")]),

@@ -128,7 +128,7 @@ fn meshes_of_a_skin_are_as_exact_as_each_of_them_allows() {
     let mut far_nodes = skin.joint_from_mesh.clone();
     // Joints 4 to 7 take what is far away in the space of the mesh to where the others are, for the second mesh alone.
     for step in &mut far_nodes[4..] {
-        *step = *step * DAffine3::from_translation(-apart);
+        *step *= DAffine3::from_translation(-apart);
     }
     let deformed = meshes.iter().enumerate().map(|(number, mesh)| {
         let mut shape = shape(number, mesh);
