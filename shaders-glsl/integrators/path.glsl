@@ -185,7 +185,6 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
     if (state.bounce >= max_bounces) return asked;
     // What light samples see: the smooth shape, where that is asked for.
     Surface seen = terminator_surface(s, -direction);
-    bool is_smooth = scene_frame().shadow_terminator != SHADOW_TERMINATOR_NONE;
     BsdfTerms terms;
     BsdfSample chosen;
     // What the light chooses, then what the surface does: one copy of the random numbers and of the lobes serves both.
@@ -193,7 +192,7 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
         uint dimension = random_dimension(state.bounce, technique == 0u ? RANDOM_LIGHT_KIND : RANDOM_BSDF_LOBE);
         vec4 random = random_vec4(state.pixel, state.sample_index, dimension);
         if (technique == 1u) seen = s;
-        if (technique == 0u || is_smooth) terms = bsdf_terms(seen, -direction);
+        if (technique == 0u || TERMINATOR_IS_SMOOTH) terms = bsdf_terms(seen, -direction);
         LightSample light;
         bool open;
         vec3 towards;
@@ -214,7 +213,7 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
         }
         // Scattered rays do not leave below the triangle, so nothing else finds the light there.
         bool is_found = (dot(towards, s.geometric_normal) > 0.0) == (dot(towards, seen.geometric_normal) > 0.0);
-        if (!is_found) value.pdf = 0.0;
+        if (TERMINATOR_IS_SMOOTH && !is_found) value.pdf = 0.0;
         path_ask_light(state, seen, light, value, asked);
     }
     path_scatter(state, ray, s, chosen, footprint, asked);

@@ -79,9 +79,6 @@
 #define SAMPLER_SOBOL 0u
 #define SAMPLER_PCG 1u
 
-// Frame.shadow_terminator.
-#define SHADOW_TERMINATOR_NONE 0u
-#define SHADOW_TERMINATOR_OFFSET 1u
 
 // BsdfSample.flags and LightSample.flags.
 #define SAMPLE_VALID 1u

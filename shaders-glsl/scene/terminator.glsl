@@ -8,15 +8,14 @@
 #include "ads/triangle.glsl"
 #include "scene/attributes.glsl"
 
+// Whether light samples see the smooth shape.
+layout(constant_id = 96) const bool TERMINATOR_IS_SMOOTH = false;
+
 // The surface with its position moved out to the planes through the vertices across their normals, and the smooth normal in
 // place of the geometric one. The same surface where the triangle is flat or not known, where it transmits, and where the
 // smooth shape faces away from `o`.
 Surface terminator_surface(Surface s, vec3 o) {
-    Frame frame = scene_frame();
-    if (frame.shadow_terminator == SHADOW_TERMINATOR_NONE || s.primitive >= frame.triangle_count
-        || s.transmission > 0.0) {
-        return s;
-    }
+    if (!TERMINATOR_IS_SMOOTH || s.primitive >= scene_frame().triangle_count || s.transmission > 0.0) return s;
     DrawShading draw = scene_draw_shading(scene_draw_of(s.primitive));
     if (draw.normals == ATTRIBUTE_NONE) return s;
     uvec3 triangle = geometry_triangle(s.primitive);

@@ -8,7 +8,7 @@
 #include "scene/constants.glsl"
 
 // Camera, sizes of the tables and the constant environment. Metres relative to the frame origin.
-// 156 bytes.
+// 152 bytes.
 struct Frame {
     vec3 camera_position;       // where perspective rays start; the centre of an orthographic image
     uint projection;            // PROJECTION_*
@@ -34,7 +34,6 @@ struct Frame {
     float footprint_scale;      // of a camera ray's cone: `1 / sqrt(samples per pixel)`
     uint camera_ray_flags;      // RAY_* bits of camera rays
     uint spawned_ray_flags;     // RAY_* bits of rays that leave surfaces
-    uint shadow_terminator;     // SHADOW_TERMINATOR_*
     vec3 kind_shares;           // probability of the kinds of light: punctual, emissive triangles, environment
     uint texel_shift;           // a run of texels has `2^texel_shift` of them; at most 30
 };

@@ -163,19 +163,22 @@ mod tests {
     /// and of the tests on drivers that compile on the processor.
     #[test]
     fn no_module_holds_many_copies_of_a_long_function() {
+        let mut longer = Vec::new();
         for shader in ALL.iter().filter(|shader| !shader.name.contains("/test_")) {
             let most = match shader.entry {
                 "ads/surfaces.comp" | "integrators/visibility_resolve.comp" => 6_000,
-                "integrators/path_shade.comp" => 15_000,
-                _ => 26_000,
+                "integrators/path_shade.comp" => 18_000,
+                _ => 28_500,
             };
             let length = expanded_length(&shader.words());
-            assert!(
-                length <= most,
-                "{} has {length} instructions, and at most {most} were meant",
-                shader.name
-            );
+            if length > most {
+                longer.push(format!(
+                    "{} has {length} instructions, and at most {most} were meant",
+                    shader.name
+                ));
+            }
         }
+        assert!(longer.is_empty(), "{}", longer.join("\n"));
     }
 
     #[test]

@@ -26,7 +26,8 @@ pub(super) fn integrator(
 ) -> Result<Box<dyn rasray_integrators::Integrator>, ExperimentError> {
     let made: Result<Box<dyn rasray_integrators::Integrator>, _> = match frame.integrator {
         Integrator::Path { bounces, glass_shadows } => {
-            Path::new(desc, PathOptions { bounces, glass_shadows }).map(|i| Box::new(i) as _)
+            let options = PathOptions { bounces, glass_shadows, shadow_terminator: frame.shadow_terminator };
+            Path::new(desc, options).map(|i| Box::new(i) as _)
         }
         Integrator::AmbientOcclusion { distance } => {
             AmbientOcclusion::new(desc, distance.unwrap_or(f32::INFINITY)).map(|i| Box::new(i) as _)

@@ -154,12 +154,7 @@ impl Stage {
             Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
             Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
         };
-        let sampling = Sampling {
-            sampler,
-            samples: frame.spp,
-            back_faces: frame.back_faces,
-            shadow_terminator: frame.shadow_terminator,
-        };
+        let sampling = Sampling { sampler, samples: frame.spp, back_faces: frame.back_faces };
         self.scene.set_sampling(sampling).map_err(device_error)
     }
 }

@@ -1,11 +1,10 @@
 //! The camera as shaders read it.
 
 use glam::DVec3;
-use rasray_scene::{BackFaces, Camera, Projection, ShadowTerminator};
+use rasray_scene::{BackFaces, Camera, Projection};
 use rasray_shaders_glsl::constants::contract::RAY_CULL_BACK_FACES;
 use rasray_shaders_glsl::constants::scene::{
-    PROJECTION_ORTHOGRAPHIC, PROJECTION_PERSPECTIVE, SAMPLER_PCG, SAMPLER_SOBOL, SHADOW_TERMINATOR_NONE,
-    SHADOW_TERMINATOR_OFFSET,
+    PROJECTION_ORTHOGRAPHIC, PROJECTION_PERSPECTIVE, SAMPLER_PCG, SAMPLER_SOBOL,
 };
 
 use crate::layout::Frame;
@@ -43,18 +42,11 @@ pub struct Sampling {
     pub samples: u32,
     /// Which rays pass the backs of single-sided surfaces.
     pub back_faces: BackFaces,
-    /// Where shadow rays of smooth surfaces start.
-    pub shadow_terminator: ShadowTerminator,
 }
 
 impl Default for Sampling {
     fn default() -> Self {
-        Self {
-            sampler: Sampler::default(),
-            samples: 1,
-            back_faces: BackFaces::default(),
-            shadow_terminator: ShadowTerminator::default(),
-        }
+        Self { sampler: Sampler::default(), samples: 1, back_faces: BackFaces::default() }
     }
 }
 
@@ -67,10 +59,6 @@ impl Sampling {
         frame.sampling = match self.sampler {
             Sampler::Sobol => SAMPLER_SOBOL,
             Sampler::Pcg => SAMPLER_PCG,
-        };
-        frame.shadow_terminator = match self.shadow_terminator {
-            ShadowTerminator::None => SHADOW_TERMINATOR_NONE,
-            ShadowTerminator::Offset => SHADOW_TERMINATOR_OFFSET,
         };
         frame.footprint_scale = 1.0 / (self.samples.max(1) as f32).sqrt();
     }

@@ -5,10 +5,12 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Device, Recorder};
 use rasray_gpu_scene::{GpuScene, ShadingFeatures};
+use rasray_scene::ShadowTerminator;
 use rasray_shaders_glsl::{
     INTEGRATORS_FILM_ACCUMULATE, INTEGRATORS_PATH_RESOLVE, INTEGRATORS_PATH_SHADE,
     INTEGRATORS_PATH_SHADE_PASSING, INTEGRATORS_PRIMARY,
     constant_ids::integrators::PATHS_PASS_PANES,
+    constant_ids::scene::TERMINATOR_IS_SMOOTH,
     constants::scene::{PATH_LAYER_LIMIT, WAVE_ROUND_LAST, WAVE_ROUND_RESUMES},
     records::{PathState, PathWaiting},
 };
@@ -68,6 +70,8 @@ pub struct PathOptions {
     pub bounces: u32,
     /// What smooth thin panes do to light; without bounces they are opaque.
     pub glass_shadows: GlassShadows,
+    /// What light samples see of coarse smooth meshes.
+    pub shadow_terminator: ShadowTerminator,
 }
 
 impl From<u32> for PathOptions {
@@ -115,7 +119,7 @@ impl Path {
     /// More than [`BOUNCE_LIMIT`] bounces, sizes that do not fit, out of memory, or the device
     /// refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, options: impl Into<PathOptions>) -> Result<Self, IntegratorError> {
-        let PathOptions { bounces, glass_shadows } = options.into();
+        let PathOptions { bounces, glass_shadows, shadow_terminator } = options.into();
         if bounces > BOUNCE_LIMIT {
             return Err(IntegratorError::Option {
                 option: "bounces",
@@ -153,6 +157,7 @@ impl Path {
         let shader = if passing { &INTEGRATORS_PATH_SHADE_PASSING } else { &INTEGRATORS_PATH_SHADE };
         let mut constants = Vec::from(desc.features.constants());
         constants.push((PATHS_PASS_PANES, panes.into()));
+        constants.push((TERMINATOR_IS_SMOOTH, (shadow_terminator == ShadowTerminator::Offset).into()));
         Ok(Self {
             bounces,
             rounds: rounds(bounces, passing).into(),

@@ -129,11 +129,10 @@ fn exact_device(requirements: &Requirements) -> Device {
 }
 
 #[test]
-fn brute_force_runs_on_the_floor() {
-    let device = exact_device(&Requirements::floor());
-    let mut structure =
-        BruteForce::new(&device, &geometry(&device), None, false).expect("the floor is enough");
-    assert_eq!(structure.requirements(), Requirements::floor());
+fn brute_force_runs_on_what_it_requires() {
+    let device = exact_device(&BruteForce::requirements_of());
+    let mut structure = BruteForce::new(&device, &geometry(&device), None, false).expect("that is enough");
+    assert_eq!(structure.requirements(), BruteForce::requirements_of());
     runs(&device, &mut structure);
     drop(structure);
     assert_eq!(device.validation_messages(), Vec::<String>::new());

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use rasray_ads::{Hit, InlineTrace, Ray, Structure};
+use rasray_ads::{Geometry, Hit, InlineTrace, Ray, Structure};
 use rasray_gpu::{BufferDesc, BufferUsage, ComputePipelineDesc, Feature, MemoryLocation, Timing};
 use rasray_shaders_glsl::records::test_kernels::ParityTestConstants;
 use rasray_shaders_glsl::{ALL, Shader};
@@ -33,12 +33,11 @@ fn rays() -> Vec<Ray> {
 fn side_by_side(
     bench: &Bench,
     shader: &Shader,
-    triangles: &[Triangle],
+    geometry: &Geometry,
     [first, second]: [&InlineTrace<'_>; 2],
     rays: &[Ray],
 ) -> Vec<[Hit; 2]> {
     let device = bench.device();
-    let geometry = bench.geometry(triangles);
     let input = device.create_buffer_with("rays", BufferUsage::STORAGE, rays).expect("rays fit");
     let unanswered = Hit { t: f32::NAN, primitive: 0xDEAD, a: 0.0, b: 0.0 };
     let output = device
@@ -98,9 +97,8 @@ struct Traced {
 }
 
 impl Traced {
-    fn new(bench: &Bench, spec: &Spec) -> Self {
-        let geometry = bench.geometry(&scene());
-        let mut structure = spec.create(bench.device(), &geometry, None).expect("the options are valid");
+    fn new(bench: &Bench, geometry: &Geometry, spec: &Spec) -> Self {
+        let mut structure = spec.create(bench.device(), geometry, None).expect("the options are valid");
         build_until_complete(bench.device(), &mut *structure, [0.0; 3], Timing::None).expect("it is built");
         let hits = bench.trace(&*structure, &rays()).hits;
         let hit = hits.iter().filter(|hit| hit.is_hit()).count();
@@ -111,12 +109,12 @@ impl Traced {
 
 /// The default of every structure that can be called from another shader, by its folder of shaders, reached as
 /// `addressing` says.
-fn structures(bench: &Bench, addressing: &str) -> BTreeMap<&'static str, Traced> {
+fn structures(bench: &Bench, geometry: &Geometry, addressing: &str) -> BTreeMap<&'static str, Traced> {
     let mut structures = BTreeMap::new();
     for system in SYSTEMS.iter().filter(|system| system.has("addressing")) {
         let options = [("addressing".to_owned(), addressing.to_owned())];
         let spec = Spec::new(system.name, "robust", options).expect("the options are valid");
-        structures.entry(spec.structure()).or_insert_with(|| Traced::new(bench, &spec));
+        structures.entry(spec.structure()).or_insert_with(|| Traced::new(bench, geometry, &spec));
     }
     structures
 }
@@ -125,9 +123,10 @@ fn shader(name: &str) -> &'static Shader {
     ALL.iter().find(|shader| shader.name == name).unwrap_or_else(|| panic!("{name} is no permutation"))
 }
 
-fn check(bench: &Bench, name: &str, traced: [&Traced; 2]) {
+/// `geometry` is the one that both were built for: a shader has it once.
+fn check(bench: &Bench, geometry: &Geometry, name: &str, traced: [&Traced; 2]) {
     let inline = traced.map(|one| one.structure.inline_trace().expect("it can be called"));
-    let found = side_by_side(bench, shader(name), &scene(), [&inline[0], &inline[1]], &rays());
+    let found = side_by_side(bench, shader(name), geometry, [&inline[0], &inline[1]], &rays());
     assert_eq!(differences(&found, [&traced[0].hits, &traced[1].hits]), 0, "{name}");
     // The comparison notices answers to other rays.
     let mut moved = traced[0].hits.clone();
@@ -137,12 +136,17 @@ fn check(bench: &Bench, name: &str, traced: [&Traced; 2]) {
 
 /// Every pair of structures, or but for the large counts these: all pairs compile, or there would be no
 /// tests, and a driver takes seconds for each. The names of their shaders end in `suffix`.
-fn check_pairs(bench: &Bench, structures: &BTreeMap<&str, Traced>, suffix: &str, quick: &[[&str; 2]]) {
+fn check_pairs(
+    (bench, geometry): (&Bench, &Geometry),
+    structures: &BTreeMap<&str, Traced>,
+    suffix: &str,
+    quick: &[[&str; 2]],
+) {
     assert!(structures.len() >= 6, "{:?}", structures.keys());
     for (first, one) in structures {
         for (second, other) in structures.iter().filter(|(second, _)| *second > first) {
             if is_full() || quick.contains(&[first, second]) {
-                check(bench, &format!("ads/test_parity.{first}.{second}{suffix}"), [one, other]);
+                check(bench, geometry, &format!("ads/test_parity.{first}.{second}{suffix}"), [one, other]);
             }
         }
     }
@@ -151,9 +155,10 @@ fn check_pairs(bench: &Bench, structures: &BTreeMap<&str, Traced>, suffix: &str,
 #[test]
 fn any_two_structures_share_a_shader() {
     let bench = Bench::new();
+    let geometry = bench.geometry(&scene());
     check_pairs(
-        &bench,
-        &structures(&bench, "descriptor"),
+        (&bench, &geometry),
+        &structures(&bench, &geometry, "descriptor"),
         "",
         &[["abuffer", "voxel"], ["bricks", "primitive"]],
     );
@@ -166,10 +171,12 @@ fn by_address_any_two_and_two_of_a_kind_share_a_shader() {
         println!("skipped: the device has no buffer device addresses");
         return;
     }
-    let structures = structures(&bench, "address");
-    check_pairs(&bench, &structures, ".address", &[["abuffer", "ldc"], ["primitive", "voxel"]]);
+    let geometry = bench.geometry(&scene());
+    let structures = structures(&bench, &geometry, "address");
+    check_pairs((&bench, &geometry), &structures, ".address", &[["abuffer", "ldc"], ["primitive", "voxel"]]);
     let options = [("addressing", "address"), ("builder", "lbvh")];
     let options = options.map(|(name, value)| (name.to_owned(), value.to_owned()));
-    let lbvh = Traced::new(&bench, &Spec::new("bvh", "robust", options).expect("the options are valid"));
-    check(&bench, "ads/test_parity.bvh.bvh.address", [&structures["bvh"], &lbvh]);
+    let lbvh =
+        Traced::new(&bench, &geometry, &Spec::new("bvh", "robust", options).expect("the options are valid"));
+    check(&bench, &geometry, "ads/test_parity.bvh.bvh.address", [&structures["bvh"], &lbvh]);
 }

@@ -81,7 +81,9 @@ fn frames_are_images_of_their_times_and_go_on_where_they_stopped() {
     let reports: Vec<Value> =
         rows().lines().map(|line| serde_json::from_str(line).expect("JSON in each line")).collect();
     let poses: Vec<_> = reports.iter().map(|report| report["scene"]["pose"].clone()).collect();
-    assert_eq!(poses[2], json!({ "time_s": 1.25, "clips": ["rise"], "frame": 10 }));
+    let frames = json!({ "first": 8, "last": 11, "key": poses[0]["frames"]["key"] });
+    assert!(frames["key"].is_string());
+    assert_eq!(poses[2], json!({ "time_s": 1.25, "clips": ["rise"], "frame": 10, "frames": frames }));
     assert_eq!(poses.len(), 4);
     // What is there stays as it is; what is missing, damaged or of another time is made, and what has no row.
     std::fs::copy(image("011"), image("009")).expect("it is there");
@@ -168,8 +170,11 @@ fn numbered_files_are_shown_at_their_times() {
         let report = std::fs::read(folder.path().join(format!("r{frame}.json"))).expect("the report");
         let report: Value = serde_json::from_slice(&report).expect("JSON");
         let file = format!("s.{number:03}.ply");
-        let pose = json!({ "time_s": f64::from(frame) / 8.0, "clips": [], "frame": frame, "file": file });
-        assert_eq!(report["scene"]["pose"], pose);
+        let found = &report["scene"]["pose"];
+        let frames = json!({ "first": 1, "last": 6, "key": found["frames"]["key"] });
+        let time = f64::from(frame) / 8.0;
+        let pose = json!({ "time_s": time, "clips": [], "frame": frame, "frames": frames, "file": file });
+        assert_eq!(*found, pose);
         assert_eq!(report["scene"]["triangles"], json!(1 + number));
     }
     // At a time the last that has begun; at rest the first.

@@ -140,7 +140,7 @@ fn only_scenes_that_let_light_pass_record_more() {
         Material { transmission: 1.0, roughness: 0.0, thickness: 0.0, specular: 1.0, ..lambert(1.0, 0.0) };
     let rough = Material { roughness: 0.5, ..thin.clone() };
     let thick = Material { thickness: 0.1, ..thin.clone() };
-    let opaque = |bounces| PathOptions { bounces, glass_shadows: GlassShadows::Opaque };
+    let opaque = |bounces| PathOptions { glass_shadows: GlassShadows::Opaque, ..PathOptions::from(bounces) };
     let (lean, passing) = (2 * 3 + 1, 2 * 3 + 1 + 8);
     for (material, tint, without) in [
         (lambert(0.5, 0.0), lean, lean),

@@ -7,7 +7,7 @@
 use crate::pictures::common::{difference::*, scenes::*, *};
 use glam::DVec3;
 use rasray_gpu_scene::Sampling;
-use rasray_integrators::Path;
+use rasray_integrators::{Path, PathOptions};
 use rasray_reference::shading::PosedScene;
 use rasray_reference::shading::Sampler;
 use rasray_scene::{
@@ -140,9 +140,10 @@ fn a_coarse_ball_is_lit_as_a_ball() {
     let errors = ShadowTerminator::ALL.map(|shadow_terminator| {
         let mut stage = Stage::new(&device, &scene, eye.clone(), side, side, 3);
         let samples = 16;
-        let sampling = Sampling { samples, shadow_terminator, ..Sampling::default() };
+        let sampling = Sampling { samples, ..Sampling::default() };
         stage.scene.set_sampling(sampling).expect("the frame can be written");
-        let image = stage.render(&Path::new(&stage.desc(), 1).expect("valid"), samples);
+        let options = PathOptions { shadow_terminator, ..PathOptions::from(1) };
+        let image = stage.render(&Path::new(&stage.desc(), options).expect("valid"), samples);
         let view = rasray_reference::shading::View {
             camera: eye.clone(),
             width: side,

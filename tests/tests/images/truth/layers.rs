@@ -145,7 +145,8 @@ fn light_under_thin_panes_has_their_tint() {
             let found = studio.estimate(&studio.path(1), samples(&bench, 16));
             assert_truth(&name, &found, truth, 2e-5);
             // Scattered rays find what has an extent without light samples, for a bounce per pane.
-            let opaque = PathOptions { bounces: 1 + count as u32, glass_shadows: GlassShadows::Opaque };
+            let opaque =
+                PathOptions { glass_shadows: GlassShadows::Opaque, ..PathOptions::from(1 + count as u32) };
             let found = studio.estimate(&studio.path(opaque), samples(&bench, 16));
             match lamp {
                 Lamp::Sky | Lamp::Square => assert_truth(&format!("{name}, opaque"), &found, truth, 2e-5),

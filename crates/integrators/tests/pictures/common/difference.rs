@@ -75,11 +75,11 @@ fn made_difference(
     let mut stage = Stage::new(&device, shown, camera.clone(), WIDTH, HEIGHT, SEED);
     stage
         .scene
-        .set_sampling(Sampling { sampler: of_device, samples, back_faces: passed, ..Sampling::default() })
+        .set_sampling(Sampling { sampler: of_device, samples, back_faces: passed })
         .expect("the frame can be written");
     let view = View { camera: camera.clone(), width: WIDTH, height: HEIGHT, samples, seed: SEED, sampler };
     let posed = PosedScene::new(scene, stage.scene.frame_origin()).expect("the scene is well formed");
-    let opaque = |bounces| PathOptions { bounces, glass_shadows: GlassShadows::Opaque };
+    let opaque = |bounces| PathOptions { glass_shadows: GlassShadows::Opaque, ..PathOptions::from(bounces) };
     let posed = posed.with_back_faces(back_faces);
     let (image, reference) = match *kind {
         Kind::OpaquePanes(bounces) => (
