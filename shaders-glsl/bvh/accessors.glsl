@@ -43,33 +43,48 @@ layout(set = STRUCTURE_SET, binding = 3, scalar) buffer BvhScratchBuffer { uint 
 #define BVH_SCRATCH(s) bvh_scratch_words
 #endif
 
-// A node, read as whole vectors. An index past the end is counted and gives a node whose boxes no ray hits.
-BvhNode bvh_node(BvhRef s, uint node) {
+// The boxes and references of a node's children side by side, read as whole vectors. A node of two children has none in
+// the last two places. An index past the end is counted and gives a node without children.
+BvhWideNode bvh_node(BvhRef s, uint node) {
     if (node >= BVH_HEADER(s).node_capacity) {
         atomicAdd(BVH_HEADER(s).corrupted, 1u);
-        const vec3 far = vec3(3.0e38);
-        return BvhNode(far, BVH_NONE, -far, BVH_NONE, far, BVH_NONE, -far, 0u);
+        const vec4 far = vec4(3.0e38);
+        return BvhWideNode(far, far, far, far, far, far, uvec4(BVH_NONE), BVH_NONE, 0u, 0u, 0u);
     }
-    uvec4 a = BVH_NODE_VECTORS(s)[4u * node];
-    uvec4 b = BVH_NODE_VECTORS(s)[4u * node + 1u];
-    uvec4 c = BVH_NODE_VECTORS(s)[4u * node + 2u];
-    uvec4 d = BVH_NODE_VECTORS(s)[4u * node + 3u];
-    return BvhNode(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), c.w,
-        uintBitsToFloat(d.xyz), d.w);
+    if (BVH_WIDTH == BVH_WIDE) {
+        uint at = 8u * node;
+        return BvhWideNode(uintBitsToFloat(BVH_NODE_VECTORS(s)[at]), uintBitsToFloat(BVH_NODE_VECTORS(s)[at + 1u]),
+            uintBitsToFloat(BVH_NODE_VECTORS(s)[at + 2u]), uintBitsToFloat(BVH_NODE_VECTORS(s)[at + 3u]),
+            uintBitsToFloat(BVH_NODE_VECTORS(s)[at + 4u]), uintBitsToFloat(BVH_NODE_VECTORS(s)[at + 5u]),
+            BVH_NODE_VECTORS(s)[at + 6u], BVH_NODE_VECTORS(s)[at + 7u].x, 0u, 0u, 0u);
+    }
+    uvec4 lower_0 = BVH_NODE_VECTORS(s)[4u * node];
+    uvec4 upper_0 = BVH_NODE_VECTORS(s)[4u * node + 1u];
+    uvec4 lower_1 = BVH_NODE_VECTORS(s)[4u * node + 2u];
+    uvec4 upper_1 = BVH_NODE_VECTORS(s)[4u * node + 3u];
+    return BvhWideNode(uintBitsToFloat(uvec4(lower_0.x, lower_1.x, lower_0.xx)),
+        uintBitsToFloat(uvec4(upper_0.x, upper_1.x, upper_0.xx)), uintBitsToFloat(uvec4(lower_0.y, lower_1.y, lower_0.yy)),
+        uintBitsToFloat(uvec4(upper_0.y, upper_1.y, upper_0.yy)), uintBitsToFloat(uvec4(lower_0.z, lower_1.z, lower_0.zz)),
+        uintBitsToFloat(uvec4(upper_0.z, upper_1.z, upper_0.zz)), uvec4(lower_0.w, upper_0.w, uvec2(BVH_NONE)), lower_1.w,
+        0u, 0u, 0u);
 }
 
 // The link by which a node is reached.
 uint bvh_parent(BvhRef s, uint node) {
-    return node < BVH_HEADER(s).node_capacity ? BVH_NODES(s)[node].parent : BVH_NONE;
+    if (node >= BVH_HEADER(s).node_capacity) {
+        return BVH_NONE;
+    }
+    return BVH_WIDTH == BVH_WIDE ? BVH_NODE_VECTORS(s)[8u * node + 7u].x : BVH_NODE_VECTORS(s)[4u * node + 2u].w;
 }
 
 // The child that a link refers to.
 uint bvh_child(BvhRef s, uint link) {
-    uint node = link >> 1u;
+    uint node = link / BVH_WIDTH;
     if (node >= BVH_HEADER(s).node_capacity) {
         return BVH_NONE;
     }
-    return (link & 1u) == 0u ? BVH_NODES(s)[node].child_0 : BVH_NODES(s)[node].child_1;
+    uint slot = link % BVH_WIDTH;
+    return BVH_WIDTH == BVH_WIDE ? BVH_NODE_VECTORS(s)[8u * node + 6u][slot] : BVH_NODE_VECTORS(s)[4u * node + slot].w;
 }
 
 // A triangle, read as whole vectors. An index past the end is counted and gives a triangle without area.

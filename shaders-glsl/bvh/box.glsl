@@ -1,17 +1,21 @@
-// What: the conservative test of a ray against a box.
+// What: the conservative test of a ray against the boxes of a node's children.
 // Reads, writes: nothing.
 // Source: Kay and Kajiya 1986 (slabs); the margin is derived in docs/systems/bvh.md.
 #ifndef BVH_BOX_GLSL
 #define BVH_BOX_GLSL
 
-#include "bvh/constants.glsl"
+#include "bvh/types.glsl"
 
-// What the box test needs of a ray.
+// The key of a child that is not to be entered.
+#define BVH_NO_KEY 0xFFFFFFFFu
+
+// A ray as boxes meet it, by the sides that it reaches first and last along each axis.
 struct BvhRay {
-    vec3 origin_below;    // the origin moved upwards by the margin: lower sides are seen from here
-    vec3 origin_above;    // the origin moved downwards by the margin: upper sides are seen from here
+    vec3 origin_first;    // the origin moved by the margin: first sides are seen from here
+    vec3 origin_last;     // the origin moved by the margin the other way: last sides are seen from here
     vec3 inverse;         // of the direction, finite and not zero
     float t_min;
+    bvec3 descends;       // along which axes the ray reaches upper sides first
 };
 
 float bvh_inverse(float component, float smallest) {
@@ -31,21 +35,37 @@ BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min, vec3 lower, vec3 upper)
     vec3 place = abs(origin);
     precise float margin = BVH_BOX_MARGIN * max(reach.x, max(reach.y, reach.z))
         + BVH_ORIGIN_MARGIN * max(place.x, max(place.y, place.z));
-    precise vec3 below = origin + margin;
-    precise vec3 above = origin - margin;
-    return BvhRay(below, above, inverse, max(t_min, 0.0));
+    precise vec3 moved_up = origin + margin;
+    precise vec3 moved_down = origin - margin;
+    bvec3 descends = lessThan(inverse, vec3(0.0));
+    return BvhRay(mix(moved_up, moved_down, descends), mix(moved_down, moved_up, descends), inverse, max(t_min, 0.0),
+        descends);
 }
 
-// Whether the ray may hit a triangle within the box at a t up to `farthest`. `entry` is where it enters,
-// a function of ray and box alone: it also orders the children of a node, always in the same way.
-bool bvh_ray_intersects(BvhRay ray, vec3 lower, vec3 upper, float farthest, out float entry) {
-    precise vec3 t_below = (lower - ray.origin_below) * ray.inverse;
-    precise vec3 t_above = (upper - ray.origin_above) * ray.inverse;
-    vec3 t_in = min(t_below, t_above);
-    vec3 t_out = max(t_below, t_above);
-    entry = max(max(t_in.x, t_in.y), max(t_in.z, ray.t_min));
-    float leave = min(t_out.x, min(t_out.y, t_out.z));
-    return entry <= min(leave, farthest);
+// Keys of a node's children: the t at which the ray enters the child's box, with the child's number in its two lowest bits.
+// They order the children by ray and boxes alone, always in the same way. BVH_NO_KEY where the ray misses a child, or enters it
+// behind `farthest`; the child `always` has its key in any case.
+uvec4 bvh_keys(BvhRay ray, BvhWideNode node, float farthest, uint always) {
+    precise vec4 first_x = ((ray.descends.x ? node.upper_x : node.lower_x) - ray.origin_first.x) * ray.inverse.x;
+    precise vec4 first_y = ((ray.descends.y ? node.upper_y : node.lower_y) - ray.origin_first.y) * ray.inverse.y;
+    precise vec4 first_z = ((ray.descends.z ? node.upper_z : node.lower_z) - ray.origin_first.z) * ray.inverse.z;
+    precise vec4 last_x = ((ray.descends.x ? node.lower_x : node.upper_x) - ray.origin_last.x) * ray.inverse.x;
+    precise vec4 last_y = ((ray.descends.y ? node.lower_y : node.upper_y) - ray.origin_last.y) * ray.inverse.y;
+    precise vec4 last_z = ((ray.descends.z ? node.lower_z : node.upper_z) - ray.origin_last.z) * ray.inverse.z;
+    vec4 entry = max(max(first_x, first_y), max(first_z, vec4(ray.t_min)));
+    vec4 leave = min(min(last_x, last_y), min(last_z, vec4(farthest)));
+    const uvec4 numbers = uvec4(0u, 1u, 2u, 3u);
+    // A zero may have a sign.
+    uvec4 keys = (floatBitsToUint(entry) & 0x7FFFFFFCu) | numbers;
+    bvec4 is_missed = greaterThan(entry, leave);
+    bvec4 is_none = equal(node.children, uvec4(BVH_NONE));
+    bvec4 is_wanted = equal(numbers, uvec4(always));
+    return mix(mix(mix(keys, uvec4(BVH_NO_KEY), is_missed), uvec4(BVH_NO_KEY), is_none), keys, is_wanted);
+}
+
+// The t of a key, at most four units of rounding before the ray enters the child.
+float bvh_entry(uint key) {
+    return key == BVH_NO_KEY ? uintBitsToFloat(0x7F800000u) : uintBitsToFloat(key & ~3u);
 }
 
 #endif

@@ -9,8 +9,10 @@ layout(local_size_x = 1) in;
 
 void main() {
     uint triangles = BVH_HEADER(build.structure).triangle_count;
+    // One more than the nodes that so many triangles need at most: docs/systems/bvh.md, "Memory".
+    uint nodes = BVH_WIDTH == BVH_WIDE ? (2u * triangles + 2u) / 3u : triangles;
     bool fits = triangles <= BVH_HEADER(build.structure).record_capacity
-        && triangles <= BVH_HEADER(build.structure).node_capacity + 1u
+        && nodes <= BVH_HEADER(build.structure).node_capacity + 1u
         && triangles == geometry_triangle_count();
     BVH_HEADER(build.structure).status = build_status(fits);
 }

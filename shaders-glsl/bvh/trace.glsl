@@ -24,6 +24,33 @@
 
 #define BVH_INFINITY uintBitsToFloat(0x7F800000u)
 
+float bvh_least(vec4 values) {
+    return min(min(values.x, values.y), min(values.z, values.w));
+}
+
+float bvh_most(vec4 values) {
+    return max(max(values.x, values.y), max(values.z, values.w));
+}
+
+// Exchanges two children of `keys` and `children` where the second comes first.
+#define BVH_ORDER(i, j) { \
+        bool swaps = keys.j < keys.i; \
+        uvec2 first = swaps ? uvec2(keys.j, children.j) : uvec2(keys.i, children.i); \
+        uvec2 second = swaps ? uvec2(keys.i, children.i) : uvec2(keys.j, children.j); \
+        keys.i = first.x; \
+        children.i = first.y; \
+        keys.j = second.x; \
+        children.j = second.y; \
+    }
+
+// Leaves a child to be entered later.
+#define BVH_PUSH(i) \
+    if (keys.i != BVH_NO_KEY) { \
+        stack_children[stack_size] = children.i; \
+        stack_entries[stack_size] = bvh_entry(keys.i); \
+        stack_size += 1u; \
+    }
+
 // The next subtree that waits on the stack and may hold a nearer hit; false where none does.
 #define BVH_POP(found) \
     found = false; \
@@ -38,11 +65,14 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     if (root == BVH_NONE) {
         return TRACE_MISS;
     }
-    BvhRay slabs = BvhRay(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+    vec3 lower = vec3(0.0);
+    vec3 upper = vec3(0.0);
     if ((root & BVH_LEAF) == 0u) {
-        BvhNode node = bvh_node(s, root);
-        slabs = bvh_ray(ray.origin, ray.direction, ray.t_min, min(node.lower_0, node.lower_1), max(node.upper_0, node.upper_1));
+        BvhWideNode node = bvh_node(s, root);
+        lower = vec3(bvh_least(node.lower_x), bvh_least(node.lower_y), bvh_least(node.lower_z));
+        upper = vec3(bvh_most(node.upper_x), bvh_most(node.upper_y), bvh_most(node.upper_z));
     }
+    BvhRay slabs = bvh_ray(ray.origin, ray.direction, ray.t_min, lower, upper);
     Hit best = state.best;
     // Link of the subtree that is entered or was left.
     uint link = BVH_NONE;
@@ -63,28 +93,33 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     while (!ended) {
         while (entering) {
             while (entering && (child & BVH_LEAF) == 0u && nodes + tests < work_budget) {
-                BvhNode node = bvh_node(s, child);
+                BvhWideNode node = bvh_node(s, child);
                 nodes += 1u;
-                float entry_0;
-                float entry_1;
-                bool intersects_0 = bvh_ray_intersects(slabs, node.lower_0, node.upper_0, best.t, entry_0);
-                bool intersects_1 = bvh_ray_intersects(slabs, node.lower_1, node.upper_1, best.t, entry_1);
-                trace_log(STEP_NODE, child, node.child_0, 0u, min(entry_0, entry_1), best.t);
-                bool first = intersects_0 && !(intersects_1 && entry_1 < entry_0);
-                if (intersects_0 && intersects_1) {
-                    if (stack_size == BVH_STACK) {
-                        // What waits is found again upwards from the child that is entered.
-                        link = 2u * child + (first ? 0u : 1u);
+                uvec4 keys = bvh_keys(slabs, node, best.t, BVH_WIDE);
+                uvec4 children = node.children;
+                BVH_ORDER(x, y)
+                if (BVH_WIDTH == BVH_WIDE) {
+                    BVH_ORDER(z, w)
+                    BVH_ORDER(x, z)
+                    BVH_ORDER(y, w)
+                    BVH_ORDER(y, z)
+                }
+                trace_log(STEP_NODE, child, node.children.x, 0u, bvh_entry(keys.x), best.t);
+                if (keys.x == BVH_NO_KEY) {
+                    BVH_POP(entering)
+                } else {
+                    if (stack_size + BVH_WIDTH > BVH_STACK + 1u) {
+                        // Those that wait are found again upwards from the child that is entered.
+                        link = BVH_WIDTH * child + (keys.x & 3u);
                         stack_size = 0u;
                     } else {
-                        stack_children[stack_size] = first ? node.child_1 : node.child_0;
-                        stack_entries[stack_size] = max(entry_0, entry_1);
-                        stack_size += 1u;
+                        if (BVH_WIDTH == BVH_WIDE) {
+                            BVH_PUSH(w)
+                            BVH_PUSH(z)
+                        }
+                        BVH_PUSH(y)
                     }
-                }
-                child = first ? node.child_0 : node.child_1;
-                if (!intersects_0 && !intersects_1) {
-                    BVH_POP(entering)
+                    child = children.x;
                 }
             }
             if (entering && (child & BVH_LEAF) == 0u) {
@@ -109,26 +144,24 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
             }
         }
         ended = paused || link == BVH_NONE;
-        // Upwards: the sibling comes next if it is the one that is entered second.
+        // Upwards: of the siblings that are entered later, the first one comes next.
         while (!ended && !entering) {
             if (nodes + tests >= work_budget) {
                 paused = true;
                 ended = true;
                 break;
             }
-            uint parent = link >> 1u;
-            BvhNode node = bvh_node(s, parent);
+            uint parent = link / BVH_WIDTH;
+            uint left = link % BVH_WIDTH;
+            BvhWideNode node = bvh_node(s, parent);
             nodes += 1u;
-            float entry_0;
-            float entry_1;
-            bool intersects_0 = bvh_ray_intersects(slabs, node.lower_0, node.upper_0, best.t, entry_0);
-            bool intersects_1 = bvh_ray_intersects(slabs, node.lower_1, node.upper_1, best.t, entry_1);
-            trace_log(STEP_NODE, parent, node.child_0, 0u, min(entry_0, entry_1), best.t);
-            bool left_1 = (link & 1u) == 1u;
-            bool left_first = left_1 == (entry_1 < entry_0);
-            if (left_first && (left_1 ? intersects_0 : intersects_1)) {
-                child = left_1 ? node.child_0 : node.child_1;
-                link ^= 1u;
+            uvec4 keys = bvh_keys(slabs, node, best.t, left);
+            trace_log(STEP_NODE, parent, node.children.x, 0u, bvh_entry(keys[left]), best.t);
+            uvec4 later = mix(uvec4(BVH_NO_KEY), keys, greaterThan(keys, uvec4(keys[left])));
+            uint next = min(min(later.x, later.y), min(later.z, later.w));
+            if (next != BVH_NO_KEY) {
+                link = BVH_WIDTH * parent + (next & 3u);
+                child = node.children[next & 3u];
                 entering = true;
             } else {
                 link = node.parent;
@@ -147,6 +180,8 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     return best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
+#undef BVH_ORDER
+#undef BVH_PUSH
 #undef BVH_POP
 
 uint bvh_status(BvhRef s) {

@@ -1,10 +1,13 @@
-// What: the records of a bounding volume hierarchy with two children per node.
+// What: the records of a bounding volume hierarchy with two or four children per node.
 // Reads, writes: nothing.
 #ifndef BVH_TYPES_GLSL
 #define BVH_TYPES_GLSL
 
 #include "contract/types.glsl"
 #include "bvh/constants.glsl"
+
+// Constant ids 80 to 89 belong to hierarchies. Children of a node: 2 or 4.
+layout(constant_id = 80) const uint BVH_WIDTH = 2u;
 
 // State and sizes of one tree. 96 bytes.
 struct BvhHeader {
@@ -26,7 +29,7 @@ struct BvhHeader {
     uvec2 spare_address;    // zero
 };
 
-// An inner node: the boxes of its two children, so that one read decides about both. 64 bytes.
+// An inner node of a tree with two children per node: the boxes of both, so that one read decides about both. 64 bytes.
 // A child reference is a node's number, or BVH_LEAF with a range of records.
 // A link refers to one child of one node: twice the node's number, plus 1 for the second child.
 struct BvhNode {
@@ -42,6 +45,24 @@ struct BvhNode {
     // the other end of the run of records below this node, one end of which has the node's number; zero in a tree of the
     // host
     uint other_end;
+};
+
+// An inner node of a tree with four children per node, side by side, so that they are tested together. 128 bytes.
+// A link refers to one child of one node: four times the node's number, plus that of the child.
+struct BvhWideNode {
+    vec4 lower_x;           // lower corners of the children, metres relative to the frame origin
+    vec4 upper_x;           // upper corners
+    vec4 lower_y;           // lower corners
+    vec4 upper_y;           // upper corners
+    vec4 lower_z;           // lower corners
+    vec4 upper_z;           // upper corners
+    // references of the children: nodes' numbers, or leaves; BVH_NONE where there is none, with the box of the first
+    uvec4 children;
+    // link by which this node is reached: four times the parent's number, plus that of the child; BVH_NONE for the root
+    uint parent;
+    uint spare_0;           // zero
+    uint spare_1;           // zero
+    uint spare_2;           // zero
 };
 
 // A triangle in the order of the leaves. 40 bytes.

@@ -51,6 +51,42 @@ impl BvhNode {
     }
 }
 
+impl BvhWideNode {
+    /// A node with these children, one to four, that is reached by a link: reference and box of each.
+    pub fn new(parent: u32, children: &[(u32, [[f32; 3]; 2])]) -> Self {
+        let mut node = Self { children: [BVH_NONE; 4], parent, ..Self::zeroed() };
+        for slot in 0..4 {
+            // The box of an absent child changes no union.
+            let (reference, bounds) = children.get(slot).copied().unwrap_or((BVH_NONE, children[0].1));
+            node.children[slot] = reference;
+            node.set_box(slot, bounds);
+        }
+        node
+    }
+
+    /// Sets the box of a child, 0 to 3.
+    pub fn set_box(&mut self, slot: usize, [lower, upper]: [[f32; 3]; 2]) {
+        let axes = [
+            (&mut self.lower_x, &mut self.upper_x),
+            (&mut self.lower_y, &mut self.upper_y),
+            (&mut self.lower_z, &mut self.upper_z),
+        ];
+        for (axis, (lowers, uppers)) in axes.into_iter().enumerate() {
+            (lowers[slot], uppers[slot]) = (lower[axis], upper[axis]);
+        }
+    }
+
+    /// Number, reference and box of the children that there are.
+    pub fn children(&self) -> impl Iterator<Item = (u32, u32, [[f32; 3]; 2])> {
+        let node = *self;
+        (0..4_usize).filter(move |slot| node.children[*slot] != BVH_NONE).map(move |slot| {
+            let lower = [node.lower_x[slot], node.lower_y[slot], node.lower_z[slot]];
+            let upper = [node.upper_x[slot], node.upper_y[slot], node.upper_z[slot]];
+            (slot as u32, node.children[slot], [lower, upper])
+        })
+    }
+}
+
 impl BvhRecord {
     /// All corners.
     pub fn corners(&self) -> [[f32; 3]; 3] {

@@ -1,7 +1,9 @@
 //! Options of the BVH.
 
 use rasray_ads::{Addressing, AdsError, Counters, check_range, check_work_budget};
-use rasray_shaders_glsl::constants::bvh::BVH_LEAF_LIMIT;
+use rasray_shaders_glsl::constants::bvh::{BVH_LEAF_LIMIT, BVH_WIDE};
+
+use crate::{Node, WideNode};
 
 /// What builds the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,11 +28,40 @@ impl Builder {
     }
 }
 
+/// Children of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Width {
+    /// Two.
+    Two,
+    /// Four, tested together: fewer nodes to read, and the fastest to trace.
+    Four,
+}
+
+impl Width {
+    /// The number.
+    pub fn children(self) -> u32 {
+        match self {
+            Self::Two => 2,
+            Self::Four => BVH_WIDE,
+        }
+    }
+
+    /// Bytes of a node.
+    pub(crate) fn node_bytes(self) -> usize {
+        match self {
+            Self::Two => size_of::<Node>(),
+            Self::Four => size_of::<WideNode>(),
+        }
+    }
+}
+
 /// All options. None of them changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
     /// What builds the tree.
     pub builder: Builder,
+    /// Children per node; only for [`Builder::Sah`], the others make trees of two.
+    pub width: Width,
     /// Maximum number of triangles per leaf, 1 to 16; only for [`Builder::Sah`], whose heuristic may use fewer.
     pub leaf: u32,
     /// How pools are reached.
@@ -49,10 +80,19 @@ impl Config {
     pub fn new(builder: Builder) -> Self {
         Self {
             builder,
+            width: Width::Four,
             leaf: 4,
             addressing: Addressing::Descriptor,
             counters: Counters::Off,
             work_budget: None,
+        }
+    }
+
+    /// Children of a node of the trees that are made.
+    pub fn made_width(&self) -> Width {
+        match self.builder {
+            Builder::Sah => self.width,
+            Builder::Lbvh | Builder::Refit => Width::Two,
         }
     }
 
@@ -69,6 +109,7 @@ impl Config {
     pub fn options(&self) -> Vec<(&'static str, String)> {
         let mut options = vec![("builder", self.builder.name().to_owned())];
         if self.builder == Builder::Sah {
+            options.push(("width", self.width.children().to_string()));
             options.push(("leaf", self.leaf.to_string()));
         }
         options

@@ -3,7 +3,7 @@
 use rasray_ads::{AdsError, Scan, Sizes};
 use rasray_shaders_glsl::constants::bvh::{BVH_DIGIT_VALUES, BVH_LEAF_SHIFT, BVH_SORT_CHUNK, BVH_UNION};
 
-use crate::{Builder, Config, Header, Node, Pool, Record};
+use crate::{Builder, Config, Header, Pool, Record, Width};
 
 /// Name of the structure in errors.
 pub(crate) const NAME: &str = "bvh";
@@ -33,8 +33,17 @@ fn unions(triangles: u64) -> u64 {
     union_levels(triangles).sum()
 }
 
-/// What a tree over `triangles` triangles allocates. Every inner node has two children, so there is one fewer
-/// than there are leaves at most.
+/// Inner nodes of a tree over so many triangles at most. With two children per node there is one fewer than there are
+/// leaves. A node of four that has fewer children has leaves only: with w nodes of four children and v others, of two
+/// leaves at least, 4 w + 2 v children and w + v - 1 of them nodes leave at most (2 n - 1) / 3 nodes.
+pub(crate) fn most_nodes(width: Width, triangles: u64) -> u64 {
+    match width {
+        Width::Two => triangles.saturating_sub(1),
+        Width::Four => (2 * triangles).saturating_sub(1) / 3,
+    }
+}
+
+/// What a tree over `triangles` triangles allocates.
 ///
 /// # Errors
 /// An option is out of range, or there are more triangles than a leaf's 27 bits can address.
@@ -48,7 +57,7 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
         NAME,
         [
             pool(Pool::Header, 1, size_of::<Header>()),
-            pool(Pool::Nodes, triangles.saturating_sub(1), size_of::<Node>()),
+            pool(Pool::Nodes, most_nodes(config.made_width(), triangles), config.made_width().node_bytes()),
             pool(Pool::Records, triangles, size_of::<Record>()),
             pool(Pool::Scratch, scratch_words(config.builder, triangles), size_of::<u32>()),
         ],
@@ -58,7 +67,7 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
 /// Bytes of the page's formula for counted nodes and triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// What traces read: header 96, 64 per node, 40 per triangle.
+    /// What traces read: header 96, 64 per node of two children or 128 per node of four, 40 per triangle.
     pub traced: u64,
     /// What only the build uses: 28 per triangle by [`Builder::Sah`]; by the others 16 per triangle, 1024
     /// for every 256 of them, 4 for every 1024 of them, and 24 per union of four boxes, unions of unions
@@ -74,8 +83,12 @@ impl FormulaBytes {
 }
 
 /// The page's formula. It shares nothing with [`plan`], so that the two check each other.
-pub fn formula_bytes(builder: Builder, nodes: u64, triangles: u64) -> FormulaBytes {
-    let scratch = match builder {
+pub fn formula_bytes(config: &Config, nodes: u64, triangles: u64) -> FormulaBytes {
+    let node = match (config.builder, config.width) {
+        (Builder::Sah, Width::Four) => 128,
+        _ => 64,
+    };
+    let scratch = match config.builder {
         Builder::Sah => 28 * triangles,
         Builder::Lbvh | Builder::Refit => {
             let (mut boxes, mut level) = (0, triangles);
@@ -87,7 +100,7 @@ pub fn formula_bytes(builder: Builder, nodes: u64, triangles: u64) -> FormulaByt
             16 * triangles + 1024 * chunks + 4 * chunks.div_ceil(4) + 24 * boxes
         }
     };
-    FormulaBytes { traced: 96 + 64 * nodes + 40 * triangles, scratch }
+    FormulaBytes { traced: 96 + node * nodes + 40 * triangles, scratch }
 }
 
 #[cfg(test)]
@@ -97,11 +110,18 @@ mod tests {
     #[test]
     fn plan_equals_formula() {
         for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
-            for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
-                let sizes = plan(&Config::new(builder), triangles).expect("options are in range");
-                let formula = formula_bytes(builder, triangles - 1, triangles);
-                assert_eq!(sizes.bytes(), formula.total(), "{builder:?} {triangles}");
-                assert_ne!(sizes.bytes(), formula_bytes(builder, triangles, triangles).total());
+            for width in [Width::Two, Width::Four] {
+                for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
+                    let config = Config { width, ..Config::new(builder) };
+                    let sizes = plan(&config, triangles).expect("options are in range");
+                    let nodes = most_nodes(config.made_width(), triangles);
+                    assert_eq!(
+                        sizes.bytes(),
+                        formula_bytes(&config, nodes, triangles).total(),
+                        "{config:?} {triangles}"
+                    );
+                    assert_ne!(sizes.bytes(), formula_bytes(&config, nodes + 1, triangles).total());
+                }
             }
         }
     }

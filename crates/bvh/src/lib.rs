@@ -17,12 +17,15 @@ mod order;
 mod pool;
 mod structure;
 mod validate;
+mod wide;
 
-pub use config::{Builder, Config};
+pub use config::{Builder, Config, Width};
 pub use layout::{FormulaBytes, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::Addressing;
-pub use rasray_shaders_glsl::records::{BvhHeader as Header, BvhNode as Node, BvhRecord as Record};
+pub use rasray_shaders_glsl::records::{
+    BvhHeader as Header, BvhNode as Node, BvhRecord as Record, BvhWideNode as WideNode,
+};
 pub use structure::{Bvh, Demand, Tree};
 pub use validate::{Contents, Fault, Shape, well_formed};
 

@@ -8,19 +8,21 @@ use rasray_ads::{
     SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_shaders_glsl::constant_ids::bvh::BVH_WIDTH;
 use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
 
 use crate::build::Build;
 use crate::host::{self, Box3};
-use crate::layout::{BOX_WORDS, NAME, formula_bytes, plan};
+use crate::layout::{BOX_WORDS, NAME, formula_bytes, most_nodes, plan};
 use crate::order::Order;
-use crate::{Builder, Config, Contents, Header, Node, Pool, Record, well_formed};
+use crate::wide::widened;
+use crate::{Builder, Config, Contents, Header, Node, Pool, Record, WideNode, Width, well_formed};
 
 /// Rounds that a trace records at first. Each costs two dispatches, also where no ray is left, and only a ray that
 /// hits hundreds of thousands of boxes needs more.
 const FIRST_ROUNDS: u32 = 64;
 
-/// A bounding volume hierarchy with two children per node, made from a [`Config`].
+/// A bounding volume hierarchy with two or four children per node, made from a [`Config`].
 pub type Bvh = Pooled<Tree>;
 
 /// Pipelines of the build: the design of [`Bvh`].
@@ -137,7 +139,8 @@ impl Design for Tree {
     const TITLE: &'static str = "the hierarchy";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
-    const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT, Node::LAYOUT, Record::LAYOUT];
+    const RECORDS: &'static [RecordLayout] =
+        &[Header::LAYOUT, Node::LAYOUT, WideNode::LAYOUT, Record::LAYOUT];
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Primitive
@@ -151,8 +154,8 @@ impl Design for Tree {
         Requirements::compute()
     }
 
-    fn constants(_config: &Config) -> Vec<(u32, u32)> {
-        Vec::new()
+    fn constants(config: &Config) -> Vec<(u32, u32)> {
+        vec![(BVH_WIDTH, config.made_width().children())]
     }
 
     fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
@@ -203,10 +206,20 @@ impl Design for Tree {
         let triangles = parts.geometry.download_count(device)?;
         let boxes = device.download_as::<Box3>(parts.pools.pool(Pool::Scratch), 0, triangles as usize)?;
         let tree = host::build(&boxes, parts.config.leaf);
-        device.upload_slice(parts.pools.pool(Pool::Nodes), 0, &tree.nodes)?;
+        let nodes = match parts.config.width {
+            Width::Two => {
+                device.upload_slice(parts.pools.pool(Pool::Nodes), 0, &tree.nodes)?;
+                tree.nodes.len()
+            }
+            Width::Four => {
+                let wide = widened(&tree);
+                device.upload_slice(parts.pools.pool(Pool::Nodes), 0, &wide)?;
+                wide.len()
+            }
+        };
         let order_at = size_of::<Box3>() as u64 * u64::from(triangles);
         device.upload_slice(parts.pools.pool(Pool::Scratch), order_at, &tree.order)?;
-        self.prepared = Some(Prepared { root: tree.root, nodes: tree.nodes.len() as u64, triangles });
+        self.prepared = Some(Prepared { root: tree.root, nodes: nodes as u64, triangles });
         Ok(())
     }
 
@@ -285,7 +298,7 @@ impl Design for Tree {
         StructureReport {
             options: parts.config.options(),
             paths: parts.config.paths(),
-            formula_bytes: formula_bytes(parts.config.builder, nodes, triangles).total(),
+            formula_bytes: formula_bytes(&parts.config, nodes, triangles).total(),
             stored: Some(header.triangle_count.into()),
             ..StructureReport::default()
         }
@@ -293,10 +306,16 @@ impl Design for Tree {
 
     fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
         let triangles = header.triangle_count as usize;
-        let nodes = triangles.saturating_sub(1).min(self.nodes as usize);
+        let width = parts.config.made_width();
+        let nodes = most_nodes(width, triangles as u64).min(self.nodes) as usize;
+        let [two, four] = match width {
+            Width::Two => [nodes, 0],
+            Width::Four => [0, nodes],
+        };
         Ok(Contents {
             header,
-            nodes: device.download_as::<Node>(parts.pools.pool(Pool::Nodes), 0, nodes)?,
+            nodes: device.download_as::<Node>(parts.pools.pool(Pool::Nodes), 0, two)?,
+            wide_nodes: device.download_as::<WideNode>(parts.pools.pool(Pool::Nodes), 0, four)?,
             records: device.download_as::<Record>(parts.pools.pool(Pool::Records), 0, triangles)?,
         })
     }
@@ -306,8 +325,11 @@ impl Design for Tree {
     }
 
     fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let pools =
-            vec![(Pool::Nodes, cast_slice(&contents.nodes)), (Pool::Records, cast_slice(&contents.records))];
+        let nodes = match contents.nodes[..] {
+            [] => cast_slice(&contents.wide_nodes),
+            _ => cast_slice(&contents.nodes),
+        };
+        let pools = vec![(Pool::Nodes, nodes), (Pool::Records, cast_slice(&contents.records))];
         (contents.header, pools)
     }
 }

@@ -1,19 +1,52 @@
 //! Checks the contents of a built tree.
 
-use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_LEAF_SHIFT, BVH_NONE};
+use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_LEAF_SHIFT, BVH_NONE, BVH_WIDE};
 
 use crate::host::{Box3, union};
-use crate::{Header, Node, Record};
+use crate::{Header, Node, Record, WideNode};
 
 /// A tree as downloaded.
 #[derive(Clone, Debug)]
 pub struct Contents {
     /// The header.
     pub header: Header,
-    /// Inner nodes.
+    /// Inner nodes of two children; empty in a tree of four.
     pub nodes: Vec<Node>,
+    /// Inner nodes of four children; empty in a tree of two.
+    pub wide_nodes: Vec<WideNode>,
     /// Triangles in the order of the leaves.
     pub records: Vec<Record>,
+}
+
+impl Contents {
+    /// Slots of children in a node: what a link is divided by.
+    fn width(&self) -> u32 {
+        if self.wide_nodes.is_empty() { 2 } else { BVH_WIDE }
+    }
+
+    /// Inner nodes.
+    fn node_count(&self) -> usize {
+        self.nodes.len().max(self.wide_nodes.len())
+    }
+
+    /// Link, reference and box of the children of a node that there is.
+    fn children(&self, node: u32) -> Vec<(u32, u32, Box3)> {
+        match self.wide_nodes.get(node as usize) {
+            Some(wide) => {
+                wide.children().map(|(slot, child, bounds)| (BVH_WIDE * node + slot, child, bounds)).collect()
+            }
+            None => (0..)
+                .zip(self.nodes[node as usize].children())
+                .map(|(slot, (child, bounds))| (2 * node + slot, child, bounds))
+                .collect(),
+        }
+    }
+
+    /// The link that a node stores.
+    fn parent(&self, node: u32) -> Option<u32> {
+        let two = self.nodes.get(node as usize).map(|node| node.parent);
+        two.or_else(|| self.wide_nodes.get(node as usize).map(|node| node.parent))
+    }
 }
 
 /// What a sound tree looks like.
@@ -85,18 +118,20 @@ pub enum Fault {
 /// The first fault found.
 pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
     let mut shape = Shape::default();
+    let width = contents.width();
     let mut in_leaves = vec![0_usize; contents.records.len()];
-    let mut reached = vec![false; contents.nodes.len()];
+    let mut reached = vec![false; contents.node_count()];
     // Nodes in an order in which each comes after its parent.
     let mut order = Vec::new();
-    let mut below: Vec<[Box3; 2]> = vec![[EMPTY; 2]; contents.nodes.len()];
+    // What is below each link.
+    let mut below: Vec<Box3> = vec![EMPTY; contents.node_count() * width as usize];
     let mut pending = Vec::new();
     if contents.header.root != BVH_NONE {
         pending.push((contents.header.root, BVH_NONE, 0));
     }
     while let Some((reference, link, levels)) = pending.pop() {
         shape.levels = shape.levels.max(levels);
-        let node = link >> 1;
+        let node = link / width;
         if reference & BVH_LEAF != 0 {
             let first = (reference & ((1 << BVH_LEAF_SHIFT) - 1)) as usize;
             let count = ((reference & !BVH_LEAF) >> BVH_LEAF_SHIFT) as usize + 1;
@@ -106,31 +141,30 @@ pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
             in_leaves[first..first + count].iter_mut().for_each(|times| *times += 1);
             if link != BVH_NONE {
                 let corners = records.iter().flat_map(Record::corners);
-                below[node as usize][(link & 1) as usize] = corners.fold(EMPTY, |all, p| union(all, [p, p]));
+                below[link as usize] = corners.fold(EMPTY, |all, p| union(all, [p, p]));
             }
             continue;
         }
-        let found = contents.nodes.get(reference as usize).ok_or(Fault::Dangling { node, reference })?;
-        if found.parent != link || std::mem::replace(&mut reached[reference as usize], true) {
-            return Err(Fault::Parent { node: reference, link, parent: found.parent });
+        let parent = contents.parent(reference).ok_or(Fault::Dangling { node, reference })?;
+        if parent != link || std::mem::replace(&mut reached[reference as usize], true) {
+            return Err(Fault::Parent { node: reference, link, parent });
         }
         order.push(reference);
-        pending.push((found.child_1, 2 * reference + 1, levels + 1));
-        pending.push((found.child_0, 2 * reference, levels + 1));
+        let children = contents.children(reference);
+        pending.extend(children.into_iter().rev().map(|(link, child, _)| (child, link, levels + 1)));
     }
     for &node in order.iter().rev() {
-        let [first, second] = below[node as usize];
-        let parent = contents.nodes[node as usize].parent;
-        if parent != BVH_NONE {
-            below[(parent >> 1) as usize][(parent & 1) as usize] = union(first, second);
+        let whole = contents.children(node).iter().map(|(link, ..)| below[*link as usize]).fold(EMPTY, union);
+        if let Some(parent) = contents.parent(node).filter(|parent| *parent != BVH_NONE) {
+            below[parent as usize] = whole;
         }
     }
     for &node in &order {
-        for (child, (_, stored)) in contents.nodes[node as usize].children().into_iter().enumerate() {
-            let contents = below[node as usize][child];
+        for (link, _, stored) in contents.children(node) {
+            let contents = below[link as usize];
             if without_subnormals(stored) != without_subnormals(contents) {
                 let (stored, contents) = (format!("{stored:?}"), format!("{contents:?}"));
-                return Err(Fault::Bounds { link: 2 * node + child as u32, stored, contents });
+                return Err(Fault::Bounds { link, stored, contents });
             }
         }
     }
@@ -157,18 +191,18 @@ fn each_once(times: &[usize]) -> Result<(), (usize, usize)> {
     times.iter().position(|&times| times != 1).map_or(Ok(()), |index| Err((index, times[index])))
 }
 
-fn area([lower, upper]: Box3) -> f64 {
+/// Half the area of a box, square metres.
+pub(crate) fn area([lower, upper]: Box3) -> f64 {
     let side = |axis: usize| f64::from(upper[axis]) - f64::from(lower[axis]);
     side(0) * side(1) + side(1) * side(2) + side(2) * side(0)
 }
 
 fn cost(contents: &Contents, order: &[u32]) -> f64 {
     let Some(&root) = order.first() else { return contents.records.len() as f64 };
-    let [(_, first), (_, second)] = contents.nodes[root as usize].children();
-    let whole = area(union(first, second));
+    let whole = area(contents.children(root).into_iter().fold(EMPTY, |all, (.., bounds)| union(all, bounds)));
     let mut sum = whole;
     for &node in order {
-        for (reference, bounds) in contents.nodes[node as usize].children() {
+        for (_, reference, bounds) in contents.children(node) {
             let units = match reference & BVH_LEAF {
                 0 => 1.0,
                 _ => f64::from(((reference & !BVH_LEAF) >> BVH_LEAF_SHIFT) + 1),

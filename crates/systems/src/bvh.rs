@@ -1,6 +1,6 @@
 //! Bounding volume hierarchies: the baseline.
 
-use rasray_bvh::{Builder, Bvh, Config};
+use rasray_bvh::{Builder, Bvh, Config, Width};
 
 use crate::given::{Given, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
@@ -8,7 +8,7 @@ use crate::{Preset, Spec, System, SystemsError};
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "bvh",
-    doc: "A bounding volume hierarchy with two children per node: the baseline",
+    doc: "A bounding volume hierarchy: the baseline",
     structure: "bvh",
     records: Bvh::RECORDS,
     large_pools: &[],
@@ -27,6 +27,9 @@ const OPTIONS: &[Setter<Config>] = &[
     ("builder", |config, given| {
         let builders = [Builder::Sah, Builder::Lbvh, Builder::Refit].map(|builder| (builder.name(), builder));
         given.choice(&builders).map(|value| config.builder = value)
+    }),
+    ("width", |config, given| {
+        given.choice(&[("2", Width::Two), ("4", Width::Four)]).map(|value| config.width = value)
     }),
     ("leaf", |config, given| given.number().map(|value| config.leaf = value)),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),

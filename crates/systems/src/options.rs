@@ -326,6 +326,13 @@ pub const OPTIONS: &[OptionRow] = &[
         ],
         "How the structure is built",
     ),
+    words(
+        "width",
+        Speed,
+        Same,
+        &[("2", "Two"), ("4", "Four, tested together")],
+        "With --builder sah: children per node of the tree",
+    ),
     row(
         "leaf",
         Speed,

@@ -1,7 +1,7 @@
 //! Hits of the BVH are those of brute force, bit for bit, whatever its options and however often rays pause.
 
 use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, Structure, TraceMode};
-use rasray_bvh::{Addressing, Builder, Bvh, Config};
+use rasray_bvh::{Addressing, Builder, Bvh, Config, Width};
 use rasray_gpu::Timing;
 use rasray_hard_cases as hard_cases;
 use rasray_hard_cases::Scale;
@@ -121,6 +121,10 @@ fn configurations(builder: Builder) -> Vec<(String, Config, Option<u32>)> {
         for leaf in [1, 2, 8, 16] {
             configurations.push((format!("{leaf} triangles per leaf"), Config { leaf, ..base }, None));
         }
+        let two = Config { width: Width::Two, ..base };
+        configurations.push(("two children per node".to_owned(), two, None));
+        let paused = Config { work_budget: Some(3), addressing: Addressing::Address, ..two };
+        configurations.push(("two children per node, 3 units per dispatch".to_owned(), paused, Some(500)));
     }
     configurations
 }
@@ -157,19 +161,21 @@ fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
     let geometry = bench.geometry(&triangles);
     let expected = reference_answers(&bench, &geometry, &rays);
     let tracer = BatchTracer::new(bench.device(), rays.len() as u32).expect("a queue fits");
-    for builder in [Builder::Sah, Builder::Lbvh] {
-        let config = Config { work_budget: Some(16), ..Config::new(builder) };
+    for (builder, width) in
+        [(Builder::Sah, Width::Two), (Builder::Sah, Width::Four), (Builder::Lbvh, Width::Two)]
+    {
+        let config = Config { work_budget: Some(16), width, ..Config::new(builder) };
         let mut bvh = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
         build_until_complete(bench.device(), &mut bvh, [0.0; 3], Timing::None).expect("the build completes");
         let first = bvh.rounds();
         let (_, counters) = trace_in_rounds(&bench, &bvh, &rays, TraceMode::Closest, first);
-        assert!(counters.unfinished > 0, "{builder:?}: {first} rounds were enough");
+        assert!(counters.unfinished > 0, "{builder:?}, {width:?}: {first} rounds were enough");
         let of = |mode| tracer.trace(&bvh, &rays, mode, Timing::None).expect("every ray is answered").hits;
         let found = Answers {
             closest: of(TraceMode::Closest).iter().map(bits).collect(),
             occluded: of(TraceMode::Occluded).iter().map(Hit::is_hit).collect(),
         };
-        same(&expected, &found, &rays, &format!("{builder:?}"));
+        same(&expected, &found, &rays, &format!("{builder:?}, {width:?}"));
         assert!(bvh.rounds() > first);
         // It ends: no ray can need more rounds than a ray that hits every box.
         while bvh.allow_more_rounds() {}
@@ -200,21 +206,50 @@ fn chain() -> Vec<Triangle> {
     triangles
 }
 
-/// A ray from within all boxes remembers a sibling at every level: more than its stack holds.
+/// Triangles of sizes that halve towards the origin, whose boxes all hold a piece of the diagonal and which all lie beside
+/// it, and a large one behind them across it: in a tree by surface area of four children per node each level has the next
+/// few sizes and all smaller ones. `mirror` turns axes around.
+fn scales(mirror: [f32; 3]) -> Vec<Triangle> {
+    let mut triangles: Vec<Triangle> = (0..48)
+        .map(|level| {
+            let size = 0.5_f32.powi(level);
+            [[1.0, 1.2, 1.0], [1.9, 2.0, 1.0], [1.0, 2.0, 2.0]].map(|corner| corner.map(|x: f32| x * size))
+        })
+        .collect();
+    triangles.push([[2.5, 2.5, 1.0], [1.0, 4.0, 4.0], [4.0, 1.0, 4.0]]);
+    triangles
+        .iter()
+        .map(|corners| corners.map(|corner| std::array::from_fn(|axis| corner[axis] * mirror[axis])))
+        .collect()
+}
+
+/// A ray from within all boxes, or towards larger and larger ones, remembers siblings at every level: more than its stack
+/// holds.
 #[test]
 fn rays_that_remember_more_than_their_stack_lose_nothing() {
     let bench = Bench::new();
-    let triangles = chain();
-    let geometry = bench.geometry(&triangles);
     let mut random = Random::new(7);
-    let rays: Vec<_> = (0..500).map(|_| Ray::new(random.point(0.4, 0.6), random.direction())).collect();
-    let expected = reference_answers(&bench, &geometry, &rays);
-    assert!(expected.occluded.iter().any(|occluded| *occluded));
-    for builder in [Builder::Sah, Builder::Lbvh] {
-        for budget in [None, Some(50)] {
-            let config = Config { work_budget: budget, ..Config::new(builder) };
-            let found = of_bvh(&bench, config, &geometry, &rays, budget.map(|_| 400));
-            same(&expected, &found, &rays, &format!("{builder:?}, {budget:?}"));
+    let within: Vec<_> = (0..500).map(|_| Ray::new(random.point(0.4, 0.6), random.direction())).collect();
+    let mut scenes = vec![(chain(), within)];
+    for mirror in [[1.0; 3], [-1.0; 3]] {
+        let mut outwards = || -> Ray {
+            let aside = random.point(-0.1, 0.1);
+            Ray::new([0.0; 3], std::array::from_fn(|axis| mirror[axis] * (1.0 + aside[axis])))
+        };
+        scenes.push((scales(mirror), (0..200).map(|_| outwards()).collect()));
+    }
+    for (triangles, rays) in scenes {
+        let geometry = bench.geometry(&triangles);
+        let expected = reference_answers(&bench, &geometry, &rays);
+        assert!(expected.occluded.iter().any(|occluded| *occluded));
+        for (builder, width) in
+            [(Builder::Sah, Width::Two), (Builder::Sah, Width::Four), (Builder::Lbvh, Width::Two)]
+        {
+            for budget in [None, Some(50)] {
+                let config = Config { work_budget: budget, width, ..Config::new(builder) };
+                let found = of_bvh(&bench, config, &geometry, &rays, budget.map(|_| 400));
+                same(&expected, &found, &rays, &format!("{builder:?}, {width:?}, {budget:?}"));
+            }
         }
     }
 }

@@ -1,12 +1,12 @@
 //! Every tree that is built is downloaded and checked node by node.
 
 use rasray_ads::{Check, Ray, Structure, TraceMode};
-use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Fault, Shape, plan, well_formed};
+use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Fault, Shape, Width, plan, well_formed};
 use rasray_experiment::Placed;
 use rasray_gpu::Timing;
 use rasray_hard_cases as hard_cases;
 use rasray_hard_cases::Scale;
-use rasray_shaders_glsl::constants::bvh::BVH_LEAF;
+use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
@@ -69,7 +69,13 @@ fn checked(contents: &Contents, triangles: &[Triangle], what: &str) -> Shape {
     shape
 }
 
-fn all_trees_of(builder: Builder) {
+/// Every builder with every width that it makes.
+fn kinds() -> [Config; 4] {
+    let two = Config { width: Width::Two, ..Config::new(Builder::Sah) };
+    [Config::new(Builder::Sah), two, Config::new(Builder::Lbvh), Config::new(Builder::Refit)]
+}
+
+fn all_trees_of(config: Config) {
     let bench = Bench::new();
     let twins = vec![[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]; 700];
     let points = vec![[[0.25; 3]; 3]; 65];
@@ -92,7 +98,6 @@ fn all_trees_of(builder: Builder) {
             scenes.push((id.to_owned(), kept));
         }
     }
-    let config = Config::new(builder);
     let mut by_descriptor = tree(&bench, config);
     let mut by_address = tree(&bench, Config { addressing: Addressing::Address, ..config });
     for (index, (name, triangles)) in scenes.iter().enumerate() {
@@ -103,7 +108,7 @@ fn all_trees_of(builder: Builder) {
         }
         for bvh in trees {
             let shape = checked(&rebuild(&bench, bvh, triangles), triangles, name);
-            if builder == Builder::Lbvh {
+            if config.builder == Builder::Lbvh {
                 assert_eq!(shape.leaves, triangles.len(), "{name}");
                 assert!(shape.levels <= LBVH_LEVELS, "{name}: {} levels", shape.levels);
             }
@@ -113,25 +118,30 @@ fn all_trees_of(builder: Builder) {
 
 #[test]
 fn trees_by_surface_area_are_sound() {
-    all_trees_of(Builder::Sah);
+    all_trees_of(Config::new(Builder::Sah));
+}
+
+#[test]
+fn trees_by_surface_area_of_two_children_per_node_are_sound() {
+    all_trees_of(Config { width: Width::Two, ..Config::new(Builder::Sah) });
 }
 
 #[test]
 fn trees_by_morton_codes_are_sound() {
-    all_trees_of(Builder::Lbvh);
+    all_trees_of(Config::new(Builder::Lbvh));
 }
 
 #[test]
 fn a_tree_is_the_same_every_time() {
     let bench = Bench::new();
     let triangles = scattered(3000, 8, 0.2);
-    for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
-        let config = Config::new(builder);
+    for config in kinds() {
         let (first, second) = (build(&bench, config, &triangles), build(&bench, config, &triangles));
-        assert!(first.records == second.records, "{builder:?}");
+        assert!(first.records == second.records, "{config:?}");
         let known =
             |contents: &Contents| contents.nodes.iter().map(|n| (n.children(), n.parent)).collect::<Vec<_>>();
-        assert!(known(&first) == known(&second), "{builder:?}");
+        assert!(known(&first) == known(&second), "{config:?}");
+        assert!(first.wide_nodes == second.wide_nodes, "{config:?}");
     }
 }
 
@@ -156,8 +166,8 @@ fn surface_area_gives_cheaper_trees_and_leaves_of_the_size_asked_for() {
 fn damaged_trees_are_noticed() {
     let bench = Bench::new();
     let triangles = scattered(300, 10, 0.2);
-    for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
-        let sound = build(&bench, Config::new(builder), &triangles);
+    for config in kinds().into_iter().filter(|config| config.made_width() == Width::Two) {
+        let sound = build(&bench, config, &triangles);
         let damaged = |damage: fn(&mut Contents)| {
             let mut contents = sound.clone();
             damage(&mut contents);
@@ -182,6 +192,30 @@ fn damaged_trees_are_noticed() {
         });
         assert!(matches!(fault, Fault::Bounds { .. } | Fault::Leaves { .. }), "{fault}");
     }
+}
+
+/// The same where nodes hold four children.
+#[test]
+fn damaged_trees_of_four_children_per_node_are_noticed() {
+    let bench = Bench::new();
+    let sound = build(&bench, Config::new(Builder::Sah), &scattered(300, 10, 0.2));
+    let damaged = |damage: fn(&mut Contents)| {
+        let mut contents = sound.clone();
+        damage(&mut contents);
+        well_formed(&contents).expect_err("the damage is noticed")
+    };
+    let fault = damaged(|c| c.wide_nodes[1].lower_z[2] = c.wide_nodes[1].lower_z[2].next_up());
+    assert!(matches!(fault, Fault::Bounds { link: 6, .. }), "{fault}");
+    let fault = damaged(|c| c.wide_nodes[0].upper_x[3] += 1.0);
+    assert!(matches!(fault, Fault::Bounds { link: 3, .. }), "{fault}");
+    let fault = damaged(|c| c.wide_nodes[2].parent ^= 1);
+    assert!(matches!(fault, Fault::Parent { node: 2, .. }), "{fault}");
+    let fault = damaged(|c| c.wide_nodes[0].children[2] = c.wide_nodes.len() as u32);
+    assert!(matches!(fault, Fault::Dangling { .. }), "{fault}");
+    let fault = damaged(|c| c.wide_nodes[0].children[1] = BVH_NONE);
+    assert!(matches!(fault, Fault::Bounds { .. } | Fault::Leaves { .. }), "{fault}");
+    let fault = damaged(|c| c.records[5].primitive = 7);
+    assert!(matches!(fault, Fault::Triangles { .. }), "{fault}");
 }
 
 #[test]
@@ -210,8 +244,7 @@ fn every_edge_capacity() {
     let geometry = bench.geometry(&triangles);
     let mut random = Random::new(10);
     let rays: Vec<_> = (0..500).map(|_| Ray::new(random.point(-6.0, 6.0), random.direction())).collect();
-    for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
-        let config = Config::new(builder);
+    for config in kinds() {
         let full = plan(&config, triangles.len() as u64).expect("in range");
         let mut bvh = Bvh::new(device, config, &geometry, None).expect("the options are valid");
         assert!(bench.build_once(&mut bvh, [0.0; 3]).complete);
@@ -220,7 +253,7 @@ fn every_edge_capacity() {
         for (index, pool) in full.pools.iter().enumerate().skip(1) {
             let n = pool.elements;
             for capacity in [0, 1, n / 2, n - 1, n] {
-                let what = format!("{builder:?}, capacity {capacity} of {n} {}", pool.name);
+                let what = format!("{config:?}, capacity {capacity} of {n} {}", pool.name);
                 let mut sizes = full.clone();
                 sizes.pools[index].elements = capacity;
                 bvh.resize(device, &sizes).expect("it fits");

@@ -1,0 +1,154 @@
+//! Trees of four children per node, made of trees of two.
+//!
+//! Which nodes of the tree of two stay is the choice that lowers the surface area heuristic's cost the most, found from
+//! the leaves up: Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", HPG
+//! 2017, section 3.1. Leaves and boxes stay as they are.
+
+use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_LEAF_SHIFT, BVH_NONE, BVH_WIDE};
+
+use crate::WideNode;
+use crate::host::{Box3, Tree};
+use crate::validate::area;
+
+/// Children of a node.
+const WIDE: usize = BVH_WIDE as usize;
+
+/// What a subtree costs at least as exactly 1, 2, 3 and 4 children of a node, infinity where it has fewer leaves, and how
+/// many of them its first half then takes.
+#[derive(Clone, Copy, Debug)]
+struct Choice {
+    costs: [f64; WIDE],
+    first: [u8; WIDE],
+}
+
+impl Choice {
+    /// A leaf is one child and costs its triangles, by area.
+    fn leaf(reference: u32, bounds: Box3) -> Self {
+        let triangles = ((reference & !BVH_LEAF) >> BVH_LEAF_SHIFT) + 1;
+        let mut costs = [f64::INFINITY; WIDE];
+        costs[0] = area(bounds) * f64::from(triangles);
+        Self { costs, first: [0; WIDE] }
+    }
+
+    /// An inner node is divided between several children, or is one: a node of its own, with as many children as it can
+    /// have. So a node with fewer than four has leaves only, which bounds their number.
+    fn inner(bounds: Box3, halves: [Self; 2]) -> Self {
+        let mut choice = Self { costs: [f64::INFINITY; WIDE], first: [0; WIDE] };
+        for children in 2..=WIDE {
+            for of_first in 1..children {
+                let cost = halves[0].costs[of_first - 1] + halves[1].costs[children - of_first - 1];
+                if cost < choice.costs[children - 1] {
+                    (choice.costs[children - 1], choice.first[children - 1]) = (cost, of_first as u8);
+                }
+            }
+        }
+        choice.costs[0] = area(bounds) + choice.costs[choice.most() - 1];
+        choice
+    }
+
+    /// As how many children it can be.
+    fn most(&self) -> usize {
+        (2..=WIDE).rev().find(|children| self.costs[children - 1] < f64::INFINITY).unwrap_or(1)
+    }
+}
+
+/// The same tree with up to four children per node, in the same order of leaves; empty where the root is a leaf. The
+/// root's number is 0 in both.
+pub(crate) fn widened(tree: &Tree) -> Vec<WideNode> {
+    if tree.root == BVH_NONE || tree.root & BVH_LEAF != 0 {
+        return Vec::new();
+    }
+    let mut bounds = vec![Box3::default(); tree.nodes.len()];
+    for node in &tree.nodes {
+        for (reference, child) in node.children() {
+            if reference & BVH_LEAF == 0 {
+                bounds[reference as usize] = child;
+            }
+        }
+    }
+    let mut choices = vec![Choice::leaf(BVH_LEAF, Box3::default()); tree.nodes.len()];
+    // Nodes come after their parents.
+    for (number, node) in tree.nodes.iter().enumerate().rev() {
+        let halves = node.children().map(|(reference, bounds)| match reference & BVH_LEAF {
+            0 => choices[reference as usize],
+            _ => Choice::leaf(reference, bounds),
+        });
+        choices[number] = Choice::inner(bounds[number], halves);
+    }
+    let mut wide = Vec::new();
+    let mut pending = vec![(0_usize, BVH_NONE)];
+    while let Some((source, link)) = pending.pop() {
+        let number = wide.len() as u32;
+        if link != BVH_NONE {
+            let parent: &mut WideNode = &mut wide[(link / BVH_WIDE) as usize];
+            parent.children[(link % BVH_WIDE) as usize] = number;
+        }
+        let mut children = Vec::with_capacity(WIDE);
+        gather(tree, &choices, source, choices[source].most(), &mut children);
+        wide.push(WideNode::new(link, &children));
+        for (slot, (reference, _)) in children.iter().enumerate().rev() {
+            if reference & BVH_LEAF == 0 {
+                pending.push((*reference as usize, BVH_WIDE * number + slot as u32));
+            }
+        }
+    }
+    wide
+}
+
+/// Collects what a node of the tree of two is as so many children: references into that tree.
+fn gather(tree: &Tree, choices: &[Choice], source: usize, children: usize, into: &mut Vec<(u32, Box3)>) {
+    let of_first = usize::from(choices[source].first[children - 1]);
+    for ((reference, bounds), wanted) in
+        tree.nodes[source].children().into_iter().zip([of_first, children - of_first])
+    {
+        if wanted == 1 {
+            into.push((reference, bounds));
+        } else {
+            gather(tree, choices, reference as usize, wanted, into);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Width;
+    use crate::host::build;
+    use crate::layout::most_nodes;
+
+    /// Boxes along a line, at distances that grow.
+    fn line(count: usize) -> Vec<Box3> {
+        (0..count).map(|i| [[(i * i) as f32, 0.0, 0.0], [(i * i + 1) as f32, 1.0, 1.0]]).collect()
+    }
+
+    #[test]
+    fn nodes_are_full_or_have_leaves_only() {
+        for count in [2, 3, 4, 5, 8, 9, 64, 1000] {
+            for leaf in [1, 4] {
+                // A line, and all in one place, whose areas are zero.
+                for boxes in [line(count), vec![[[0.5; 3]; 2]; count]] {
+                    let tree = build(&boxes, leaf);
+                    let wide = widened(&tree);
+                    let mut leaves = 0;
+                    for node in &wide {
+                        let below =
+                            node.children().filter(|(_, reference, _)| reference & BVH_LEAF != 0).count();
+                        let children = node.children().count();
+                        assert!(children == WIDE || (children >= 2 && below == children), "{count}, {leaf}");
+                        leaves += below;
+                    }
+                    assert!(wide.len() as u64 <= most_nodes(Width::Four, count as u64), "{count}, {leaf}");
+                    let leaves_of_two = tree.nodes.len() + 1;
+                    assert!(leaves == leaves_of_two || tree.nodes.is_empty(), "{count}, {leaf}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn eight_leaves_of_equal_size_take_three_nodes() {
+        let boxes: Vec<Box3> = (0..8).map(|i| [[i as f32, 0.0, 0.0], [i as f32 + 1.0, 1.0, 1.0]]).collect();
+        let wide = widened(&build(&boxes, 1));
+        assert_eq!(wide.len(), 3);
+    }
+}
