@@ -8,7 +8,7 @@ mod setting;
 
 use std::ops::ControlFlow;
 
-use rasray_experiment::{Contestant, StructureOptions, SystemConfig, incoherent_rays, trace_in_turns};
+use rasray_experiment::{Contestant, OptionValues, SystemConfig, incoherent_rays, trace_in_turns};
 use rasray_metrics::median;
 use rasray_systems::SYSTEMS;
 use setting::{SEED, Setting};
@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .map(|(system, preset)| SystemConfig {
             system,
             preset,
-            options: StructureOptions::default(),
+            options: OptionValues::default(),
             variant: None,
         })
         .collect();

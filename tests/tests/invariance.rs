@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::process::Command;
 
 use rasray_ads::{PRIMITIVE_NONE, StructureKind};
-use rasray_systems::{OPTIONS, SYSTEMS};
+use rasray_systems::{OPTIONS, SYSTEMS, StructureOption};
 use rasray_tests::harness::Bench;
 use rasray_tests::invariance::{
     EYE, Pairs, Subject, assert_same, choices, first_difference, pairwise, ray_count, rays, scene,
@@ -27,7 +27,7 @@ fn option_rays(kind: StructureKind) -> usize {
 fn every_option_of_every_system_is_tried() {
     let subjects = Subject::all();
     for subject in &subjects {
-        for row in subject.spec.system().options() {
+        for StructureOption { row, .. } in subject.spec.system().options() {
             // Another preset of the system may be the one that has it.
             let mut others = subjects.iter().filter(|other| other.spec.system() == subject.spec.system());
             let taken = others
@@ -35,11 +35,11 @@ fn every_option_of_every_system_is_tried() {
             assert!(taken, "{}: no value of --{} is tried", subject.name(), row.name);
         }
     }
-    for row in OPTIONS {
+    for StructureOption { row, hits, .. } in OPTIONS {
         for value in row.tried() {
             // What may change no hit is tried alone or in pairs, what may is only taken.
             let tried = |subject: &Subject| {
-                if row.hits.may_change(subject.kind) {
+                if hits.may_change(subject.kind) {
                     takes(subject, OPTIONS.iter(), (row.name, value))
                 } else {
                     let options = speed_options(subject);

@@ -35,7 +35,7 @@ impl From<FirstBuild> for ExperimentError {
 /// Whether addressing was left open, and the device has addresses.
 fn may_use_addresses(device: &Device, spec: &Spec) -> bool {
     let has_option = spec.system().has("addressing");
-    has_option && !spec.options().contains_key("addressing") && device.has(Feature::BufferDeviceAddress)
+    has_option && spec.options().get("addressing").is_none() && device.has(Feature::BufferDeviceAddress)
 }
 
 /// Frames are made one after the other, and each waits for its build: pools are as large as they have to be.

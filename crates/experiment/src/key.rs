@@ -30,7 +30,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         repetitions: _,
     } = job;
     let Camera { name: _, world_from_camera, projection, aspect_ratio } = camera;
-    let options: Vec<_> = system.options.texts().collect();
+    let options: Vec<_> = system.options.iter().map(|(name, value)| (name, value.to_string())).collect();
     // Numbers are written so that each reads back as the same.
     KeyHash::default()
         .with("program", program)
@@ -49,7 +49,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
 mod tests {
     use super::*;
     use crate::jobs::{AovSelection, Frame, GlassShadows, Integrator, Primary, Refresh, Sampler};
-    use crate::{Shard, StructureOptions, default_view, load, one_system};
+    use crate::{OptionValues, Shard, default_view, load, one_system};
     use rasray_scene::needs::Needs;
     use rasray_scene::{BackFaces, Environment, ShadowTerminator};
     use rasray_systems::{Preset, SYSTEMS};
@@ -70,7 +70,7 @@ mod tests {
     };
 
     fn job(loaded: &LoadedScene) -> RenderJob<'_> {
-        let system = one_system(&SYSTEMS[0], Preset::Robust, &StructureOptions::default());
+        let system = one_system(&SYSTEMS[0], Preset::Robust, &OptionValues::default());
         RenderJob {
             scene: &loaded.scene,
             moment: None,
@@ -109,7 +109,7 @@ mod tests {
             &|job| job.frame.integrator = Integrator::AmbientOcclusion { distance: Some(1.0e-30) },
             &|job| job.aovs.depth = true,
             &|job| job.camera.world_from_camera.translation.x = 1.0e-300,
-            &|job| job.system.options = StructureOptions::default().with("tile", 4),
+            &|job| job.system.options = OptionValues::default().with("tile", 4),
         ];
         let keys: BTreeSet<_> = changes.iter().map(|change| key(change)).chain([first.clone()]).collect();
         assert_eq!(keys.len(), changes.len() + 1);

@@ -2,14 +2,14 @@
 //! several systems.
 
 use crate::error::ExperimentError;
-use crate::system_config::{StructureOptions, SystemConfig};
+use crate::system_config::SystemConfig;
+use rasray_options::OptionValues;
 use rasray_systems::{Preset, SYSTEMS, System};
 
 mod assigned;
 mod names;
 
 use assigned::Assigned;
-pub use assigned::ReadValue;
 use names::{names, who_has};
 
 /// One system with its options, each of which it must have.
@@ -19,7 +19,7 @@ use names::{names, who_has};
 pub fn one_system(
     system: &'static System,
     preset: Preset,
-    options: &StructureOptions,
+    options: &OptionValues,
 ) -> Result<SystemConfig, ExperimentError> {
     if !system.presets.contains(&preset) {
         let own: Vec<_> = system.presets.iter().map(|preset| preset.name()).collect();
@@ -33,7 +33,7 @@ pub fn one_system(
             format!("its presets: {}; choose another --system for it: {}", own.join(", "), having.join(", ")),
         ));
     }
-    for option in options.given().keys() {
+    for (option, _) in options.iter() {
         if !system.has(option) {
             return Err(ExperimentError::usage(
                 format!("system {} has no option --{option}", system.name),
@@ -49,18 +49,17 @@ pub fn one_system(
 /// Every named system with every named preset that it has. An option goes to the systems that have it;
 /// `assignments` (`mmrt.samples=50`) address one system, or one preset of it (`mmrt-published.samples=50`),
 /// which takes part once with each of several values (`mmrt.samples=50,100`) and with every combination of
-/// them. `read_value` reads one value of an option in an assignment.
+/// them.
 ///
 /// # Errors
 /// A preset or an option that none of the named systems has, and a malformed assignment.
 pub fn several_systems(
     systems: &[&'static System],
     presets: &[Preset],
-    options: &StructureOptions,
+    options: &OptionValues,
     assignments: &[String],
-    read_value: &ReadValue<'_>,
 ) -> Result<Vec<SystemConfig>, ExperimentError> {
-    for option in options.given().keys() {
+    for (option, _) in options.iter() {
         if !systems.iter().any(|system| system.has(option)) {
             return Err(ExperimentError::usage(
                 format!("none of the systems {} has an option --{option}", names(systems)),
@@ -76,8 +75,7 @@ pub fn several_systems(
             ));
         }
     }
-    let assigned =
-        assignments.iter().map(|text| Assigned::read(text, read_value)).collect::<Result<Vec<_>, _>>()?;
+    let assigned = assignments.iter().map(|text| Assigned::read(text)).collect::<Result<Vec<_>, _>>()?;
     if let Some(Assigned { system, .. }) =
         assigned.iter().find(|assigned| !systems.contains(&assigned.system))
     {
@@ -106,13 +104,13 @@ pub fn several_systems(
                 assigned.system == *system && assigned.preset.is_none_or(|addressed| addressed == *preset)
             };
             let mut variants = vec![(options.filtered(|option| system.has(option)), String::new())];
-            for Assigned { values, .. } in assigned.iter().filter(addressed) {
+            for Assigned { option, values, .. } in assigned.iter().filter(addressed) {
                 let combined = variants.iter().flat_map(|(own, variant)| {
-                    values.iter().map(move |(over, word)| {
+                    values.iter().map(move |(value, word)| {
                         let words = [variant.as_str(), word.as_str()];
                         let several = words.into_iter().filter(|word| values.len() > 1 || *word != words[1]);
                         let variant = several.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
-                        (own.overlaid(over), variant)
+                        (own.clone().with(option, *value), variant)
                     })
                 });
                 variants = combined.collect();

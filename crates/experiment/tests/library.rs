@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_experiment::{
-    CompareJob, Comparison, DeviceChoice, Frame, HardJob, Integrator, LoadedScene, Primary, RaySet, Sampler,
-    StructureOptions, SystemConfig, default_view, load, open,
+    CompareJob, Comparison, DeviceChoice, Frame, HardJob, Integrator, LoadedScene, OptionValues, Primary,
+    RaySet, Sampler, SystemConfig, default_view, load, open,
 };
 use rasray_hard_cases::Scale;
 use rasray_ray_files::HitsFile;
@@ -21,7 +21,7 @@ fn systems(names: &[&str]) -> Vec<SystemConfig> {
     let config = |name: &&str| SystemConfig {
         system: System::named(name).expect("a system of the registry"),
         preset: Preset::Robust,
-        options: StructureOptions::default(),
+        options: OptionValues::default(),
         variant: None,
     };
     names.iter().map(config).collect()

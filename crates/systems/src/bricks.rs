@@ -29,9 +29,9 @@ const OPTIONS: &[Setter<Config>] = &[
     ("views", |config, given| {
         given.choice(&Views::ALL.map(|views| (views.name(), views))).map(|value| config.views = value)
     }),
-    ("grid", |config, given| given.number().map(|value| config.grid = Some(value))),
-    ("divisions", |config, given| given.number().map(|value| config.divisions = Some(value))),
-    ("slices", |config, given| given.number().map(|value| config.slices = Some(value))),
+    ("grid", |config, given| given.whole().map(|value| config.grid = Some(value))),
+    ("divisions", |config, given| given.whole().map(|value| config.divisions = Some(value))),
+    ("slices", |config, given| given.whole().map(|value| config.slices = Some(value))),
     ("corners", |config, given| given.switch().map(|value| config.corners = value)),
     ("skip", |config, given| given.switch().map(|value| config.skip = value)),
     ("builder", |config, given| {
@@ -40,7 +40,7 @@ const OPTIONS: &[Setter<Config>] = &[
             .map(|value| config.builder = value)
     }),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
-    ("capacity", |config, given| given.number().map(|value| config.entries = Some(value.into()))),
+    ("capacity", |config, given| given.whole().map(|value| config.entries = Some(value.into()))),
 ];
 
 /// The configuration that a spec stands for.

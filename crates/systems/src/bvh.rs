@@ -31,7 +31,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("width", |config, given| {
         given.choice(&[("2", Width::Two), ("4", Width::Four)]).map(|value| config.width = value)
     }),
-    ("leaf", |config, given| given.number().map(|value| config.leaf = value)),
+    ("leaf", |config, given| given.whole().map(|value| config.leaf = value)),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 

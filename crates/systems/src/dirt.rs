@@ -28,10 +28,10 @@ pub(crate) const SYSTEM: System = System {
 
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
-    ("resolution", |config, given| given.number().map(|value| config.resolution = value)),
-    ("tile", |config, given| given.number().map(|value| config.tile = value)),
-    ("buckets", |config, given| given.number().map(|value| config.buckets = value)),
-    ("capacity", |config, given| given.number().map(|value| config.entries = Some(value.into()))),
+    ("resolution", |config, given| given.whole().map(|value| config.resolution = value)),
+    ("tile", |config, given| given.whole().map(|value| config.tile = value)),
+    ("buckets", |config, given| given.whole().map(|value| config.buckets = value)),
+    ("capacity", |config, given| given.whole().map(|value| config.entries = Some(value.into()))),
     ("skip", |config, given| given.switch().map(|value| config.skip = value)),
     ("storage", |config, given| {
         given

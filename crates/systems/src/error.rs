@@ -1,6 +1,7 @@
 //! Errors of the registry.
 
 use rasray_ads::AdsError;
+use rasray_options::ValueError;
 
 /// Why a system cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -31,16 +32,12 @@ pub enum SystemsError {
         option: String,
     },
     /// The option has no such value.
-    #[error("{system}: --{option} {value} is not possible; {expected}")]
+    #[error("{system}: {error}")]
     Value {
         /// The system.
         system: &'static str,
-        /// The option.
-        option: String,
-        /// The requested name or value.
-        value: String,
-        /// What is possible.
-        expected: String,
+        /// The option and what it takes.
+        error: ValueError,
     },
     /// The structure refused.
     #[error(transparent)]

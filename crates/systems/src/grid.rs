@@ -24,9 +24,9 @@ pub(crate) const SYSTEM: System = System {
 
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
-    ("grid", |config, given| given.number().map(|value| config.cells = Some(value))),
+    ("grid", |config, given| given.whole().map(|value| config.cells = Some(value))),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
-    ("capacity", |config, given| given.number().map(|value| config.entries = Some(value.into()))),
+    ("capacity", |config, given| given.whole().map(|value| config.entries = Some(value.into()))),
 ];
 
 /// The configuration that a spec stands for.

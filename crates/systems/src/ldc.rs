@@ -26,20 +26,20 @@ pub(crate) const SYSTEM: System = System {
 
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
-    ("resolution", |config, given| given.number().map(|value| config.resolution = value)),
-    ("block", |config, given| given.number().map(|value| config.block = value)),
-    ("layers", |config, given| given.number().map(|value| config.layers = value)),
+    ("resolution", |config, given| given.whole().map(|value| config.resolution = value)),
+    ("block", |config, given| given.whole().map(|value| config.block = value)),
+    ("layers", |config, given| given.whole().map(|value| config.layers = value)),
     ("build", |config, given| {
         given.choice(&[("single", Making::Single), ("peel", Making::Peel)]).map(|value| config.making = value)
     }),
-    ("levels", |config, given| given.number().map(|value| config.levels = value)),
+    ("levels", |config, given| given.whole().map(|value| config.levels = value)),
     ("occupancy", |config, given| {
         given
             .choice(&[("bounds", Occupancy::Bounds), ("slices", Occupancy::Slices)])
             .map(|value| config.occupancy = value)
     }),
-    ("capacity", |config, given| given.number().map(|value| config.fragments = Some(value.into()))),
-    ("tolerance", |config, given| given.share().map(|value| config.tolerance = value)),
+    ("capacity", |config, given| given.whole().map(|value| config.fragments = Some(value.into()))),
+    ("tolerance", |config, given| given.number().map(|value| config.tolerance = value)),
     ("skip", |config, given| given.switch().map(|value| config.skip = value)),
     ("builder", |config, given| {
         given

@@ -11,18 +11,18 @@ mod grid;
 mod hu;
 mod ldc;
 mod mmrt;
-mod option_row;
 mod options;
 mod registry;
 mod selective;
 mod spec;
+mod structure_option;
 mod voxel;
 
 pub use error::SystemsError;
-pub use option_row::{Group, Hits, OptionRow, Values, Word};
-pub use options::{OPTIONS, option};
+pub use options::{OPTIONS, VIEW_LIMIT, option};
 pub use registry::SYSTEMS;
 pub use spec::{Preset, Spec, System};
+pub use structure_option::{Group, Hits, StructureOption};
 
 /// What the readme shows compiles.
 #[cfg(doctest)]

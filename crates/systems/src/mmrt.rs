@@ -26,11 +26,11 @@ pub(crate) const SYSTEM: System = System {
 
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
-    ("resolution", |config, given| given.number().map(|value| config.resolution = value)),
-    ("buckets", |config, given| given.number().map(|value| config.buckets = value)),
-    ("samples", |config, given| given.number().map(|value| config.samples = value)),
-    ("capacity", |config, given| given.number().map(|value| config.fragments = Some(value.into()))),
-    ("thickness", |config, given| given.length().map(|value| config.thickness = Some(value))),
+    ("resolution", |config, given| given.whole().map(|value| config.resolution = value)),
+    ("buckets", |config, given| given.whole().map(|value| config.buckets = value)),
+    ("samples", |config, given| given.whole().map(|value| config.samples = value)),
+    ("capacity", |config, given| given.whole().map(|value| config.fragments = Some(value.into()))),
+    ("thickness", |config, given| given.number().map(|value| config.thickness = Some(value))),
     ("jitter", |config, given| given.switch().map(|value| config.jitter = value)),
     ("single-layer", |config, given| given.switch().map(|value| config.single_layer = value)),
     ("sort", |config, given| given.switch().map(|value| config.sort = value)),
@@ -46,7 +46,7 @@ const OPTIONS: &[Setter<Config>] = &[
             .map(|value| config.builder = value)
     }),
     ("inline", |config, given| given.switch().map(|value| config.inline = value)),
-    ("page", |config, given| given.number().map(|value| config.page = value)),
+    ("page", |config, given| given.whole().map(|value| config.page = value)),
     ("views", |config, given| {
         given.choice(&Views::ALL.map(|views| (views.name(), views))).map(|value| config.views = value)
     }),
@@ -97,7 +97,7 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
     Given::apply_all(spec, OPTIONS, &mut config)?;
-    if !spec.options().contains_key("camera-resolution") {
+    if spec.options().get("camera-resolution").is_none() {
         config.camera_resolution = [config.resolution; 2];
     }
     config.validate()?;

@@ -2,7 +2,16 @@
 //! command line, its help, the page of options and the tests of invariance are made from these rows; each system says in
 //! its own file which of them it has and what they set.
 
-use crate::option_row::{Group, Hits, OptionRow, Values, Word};
+use rasray_options::{Least, OptionRow, Unit, Values, Word};
+
+use crate::structure_option::{Group, Hits, StructureOption};
+
+/// Most cells along a side of a view.
+pub const VIEW_LIMIT: u32 = 8192;
+
+const fn of(row: OptionRow, group: Group, hits: Hits) -> StructureOption {
+    StructureOption { row, group, hits }
+}
 
 const fn row(
     name: &'static str,
@@ -11,8 +20,8 @@ const fn row(
     values: Values,
     tried: &'static [&'static str],
     doc: &'static str,
-) -> OptionRow {
-    OptionRow { name, group, values, off_name: None, hits, tried, doc }
+) -> StructureOption {
+    of(OptionRow::new(name, values, doc).trying(tried), group, hits)
 }
 
 const fn words(
@@ -21,37 +30,39 @@ const fn words(
     hits: Hits,
     words: &'static [Word],
     doc: &'static str,
-) -> OptionRow {
-    row(name, group, hits, Values::Words(words), &[], doc)
+) -> StructureOption {
+    of(OptionRow::words(name, words, doc), group, hits)
 }
 
-const SWITCH: &[Word] = &[("on", "Yes"), ("off", "No")];
+const fn switch(name: &'static str, group: Group, hits: Hits, doc: &'static str) -> StructureOption {
+    of(OptionRow::switch(name, doc), group, hits)
+}
 
-const fn switch(name: &'static str, group: Group, hits: Hits, doc: &'static str) -> OptionRow {
-    words(name, group, hits, SWITCH, doc)
+const fn trying(tried: &'static [&'static str], option: StructureOption) -> StructureOption {
+    StructureOption { row: option.row.trying(tried), ..option }
 }
 
 use Group::{Diagnostic, Limit, Method, Size, Speed};
 use Hits::{MayChange, Same, SameForTriangles, SameWithoutLoss};
 
 /// Every option, in the order of help.
-pub const OPTIONS: &[OptionRow] = &[
+pub const OPTIONS: &[StructureOption] = &[
     row(
         "resolution",
         Size,
         SameForTriangles,
-        Values::Whole(1, 8192),
+        Values::Whole(1, VIEW_LIMIT),
         &["12", "37"],
-        "Cells along each side of a view, 1 to 8192",
+        "Cells along each side of a view",
     ),
     row(
         "camera-resolution",
         Size,
         SameForTriangles,
-        Values::Cells,
+        Values::Cells(VIEW_LIMIT),
         &["12", "37"],
-        "With a camera among --views: columns and rows of its view, 1 to 8192 each, or one number for both; as \
-         --resolution if not given",
+        "With a camera among --views: columns and rows of its view, or one number for both; as --resolution if \
+         not given",
     ),
     row(
         "grid",
@@ -60,7 +71,7 @@ pub const OPTIONS: &[OptionRow] = &[
         Values::Whole(1, 1024),
         &["8", "24"],
         "Cells along the longest side of the scene or, with --views cube, columns along each side of a face, by its \
-         triangles if not given; voxels along each side of its cube, balanced with --resolution if not given; 1 to 1024",
+         triangles if not given; voxels along each side of its cube, balanced with --resolution if not given",
     ),
     row(
         "tile",
@@ -68,7 +79,7 @@ pub const OPTIONS: &[OptionRow] = &[
         SameForTriangles,
         Values::Whole(1, 64),
         &["1", "2", "4", "8"],
-        "Pixels along each side of a tile: lists are kept per tile, 1 to 64",
+        "Pixels along each side of a tile: lists are kept per tile",
     ),
     row(
         "buckets",
@@ -76,7 +87,7 @@ pub const OPTIONS: &[OptionRow] = &[
         SameWithoutLoss,
         Values::Whole(1, 64),
         &["1", "2", "8", "12", "32", "64"],
-        "Depth buckets per cell, 1 to 64",
+        "Depth buckets per cell",
     ),
     row(
         "slices",
@@ -84,7 +95,7 @@ pub const OPTIONS: &[OptionRow] = &[
         SameForTriangles,
         Values::Whole(1, 1024),
         &["8", "64"],
-        "Bricks with --views cube: depth slices, the same for all columns, 1 to 1024",
+        "Bricks with --views cube: depth slices, the same for all columns",
     ),
     row(
         "block",
@@ -92,7 +103,7 @@ pub const OPTIONS: &[OptionRow] = &[
         Same,
         Values::Whole(1, 64),
         &["1", "4", "64"],
-        "Cells along each side of a block of cells, a power of two, 1 to 64",
+        "Cells along each side of a block of cells, a power of two",
     ),
     row(
         "divisions",
@@ -101,13 +112,13 @@ pub const OPTIONS: &[OptionRow] = &[
         Values::Whole(0, 3),
         &["0", "1", "2"],
         "Bricks along the axes: how often a cell that lists many small triangles is divided into 4x4x4 smaller ones, at \
-         most, 0 to 3",
+         most",
     ),
-    row("levels", Size, Same, Values::Whole(1, 2), &["1", "2"], "Levels of blocks of cells, 1 or 2"),
-    OptionRow {
+    row("levels", Size, Same, Values::Whole(1, 2), &["1", "2"], "Levels of blocks of cells"),
+    trying(
         // A camera's view needs a camera, which the scenes of these tests lack.
-        tried: &["cube", "axes"],
-        ..words(
+        &["cube", "axes"],
+        words(
             "views",
             Method,
             SameForTriangles,
@@ -121,8 +132,8 @@ pub const OPTIONS: &[OptionRow] = &[
                 ),
             ],
             "Which projections are drawn",
-        )
-    },
+        ),
+    ),
     words(
         "storage",
         Method,
@@ -137,27 +148,29 @@ pub const OPTIONS: &[OptionRow] = &[
         ],
         "How a cell's fragments or triangles are kept",
     ),
-    OptionRow {
-        off_name: Some("decoupled"),
-        ..switch(
-            "inline",
-            Method,
-            Same,
-            "Keep the payload of a fragment within its list [opposite: --decoupled]",
-        )
-    },
+    of(
+        OptionRow {
+            off_name: Some("decoupled"),
+            ..OptionRow::switch(
+                "inline",
+                "Keep the payload of a fragment within its list [opposite: --decoupled]",
+            )
+        },
+        Method,
+        Same,
+    ),
     row(
         "page",
         Method,
         Same,
         Values::Whole(1, 8),
         &["1", "2", "4", "8"],
-        "With --storage paged: fragments per page, 1 to 8; of mmrt 1, 2, 4 or 8",
+        "With --storage paged: fragments per page; of mmrt a power of two",
     ),
-    OptionRow {
+    trying(
         // Attributes and normals are those of a scene, which plain triangles lack.
-        tried: &["index", "plane"],
-        ..words(
+        &["index", "plane"],
+        words(
             "payload",
             Method,
             SameForTriangles,
@@ -168,8 +181,8 @@ pub const OPTIONS: &[OptionRow] = &[
                 ("plane", "The plane of its triangle in full, without surface attributes"),
             ],
             "What a fragment carries",
-        )
-    },
+        ),
+    ),
     words(
         "coverage",
         Method,
@@ -211,7 +224,7 @@ pub const OPTIONS: &[OptionRow] = &[
         "thickness",
         Method,
         MayChange,
-        Values::Metres,
+        Values::Number(Unit::Metres, Least::Zero),
         &["0.5"],
         "With --accept thickness: metres behind a fragment that count as its inside",
     ),
@@ -219,7 +232,7 @@ pub const OPTIONS: &[OptionRow] = &[
         "tolerance",
         Method,
         MayChange,
-        Values::Share,
+        Values::Number(Unit::Share, Least::Zero),
         &["0.01"],
         "With --accept tolerance: how far along a view a fragment may be from the ray, a share of the cube's side",
     ),
@@ -242,7 +255,7 @@ pub const OPTIONS: &[OptionRow] = &[
         MayChange,
         Values::Whole(1, 65_535),
         &["5"],
-        "With --march samples: maximum samples per face, or steps per voxel, 1 to 65535",
+        "With --march samples: maximum samples per face, or steps per voxel",
     ),
     switch(
         "jitter",
@@ -339,7 +352,7 @@ pub const OPTIONS: &[OptionRow] = &[
         Same,
         Values::Whole(1, 16),
         &["1", "16"],
-        "With --builder sah: maximum triangles per leaf, 1 to 16",
+        "With --builder sah: maximum triangles per leaf",
     ),
     switch("sort", Speed, Same, "Sort the fragments of a cell by depth"),
     switch("skip", Speed, SameWithoutLoss, "Skip empty space"),
@@ -373,7 +386,7 @@ pub const OPTIONS: &[OptionRow] = &[
         Same,
         Values::Whole(1, 1024),
         &["256", "1024"],
-        "With --build peel: maximum layers, 1 to 1024; a scene with more is an error",
+        "With --build peel: maximum layers; a scene with more is an error",
     ),
     row(
         "capacity",
@@ -393,7 +406,7 @@ pub const OPTIONS: &[OptionRow] = &[
     ),
 ];
 
-/// The row of an option.
-pub fn option(name: &str) -> Option<&'static OptionRow> {
-    OPTIONS.iter().find(|row| row.name == name)
+/// The option of that name.
+pub fn option(name: &str) -> Option<&'static StructureOption> {
+    OPTIONS.iter().find(|option| option.row.name == name)
 }

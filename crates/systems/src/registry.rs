@@ -1,6 +1,8 @@
 //! The registry: every system, found by name.
 
-use crate::{Spec, System, SystemsError, bricks, brute_force, bvh, dirt, grid, hu, ldc, mmrt, selective};
+use crate::{
+    Preset, Spec, System, SystemsError, bricks, brute_force, bvh, dirt, grid, hu, ldc, mmrt, selective,
+};
 
 /// Every system.
 pub static SYSTEMS: &[System] = &[
@@ -36,6 +38,8 @@ impl Spec {
             name: system.to_owned(),
             known: SYSTEMS.iter().map(|row| row.name).collect::<Vec<_>>().join(", "),
         })?;
-        Self::of(row, preset, options)
+        let preset = Preset::named(preset)
+            .ok_or_else(|| SystemsError::UnknownPreset { system: row.name, preset: preset.to_owned() })?;
+        Self::of(row, preset, row.read(options)?.into_iter().collect())
     }
 }

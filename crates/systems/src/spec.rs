@@ -1,13 +1,12 @@
 //! A row of the registry, and a system with everything that was chosen for it.
 
-use std::collections::BTreeMap;
-
 use rasray_ads::{Counters, Geometry, RecordLayout, SceneBinding, Structure, StructureKind};
 use rasray_gpu::{Device, Requirements};
+use rasray_options::{OptionRow, OptionValues, Value};
 
 use crate::SystemsError;
-use crate::option_row::{Group, OptionRow};
-use crate::options::OPTIONS;
+use crate::options::{OPTIONS, option};
+use crate::structure_option::{Group, StructureOption};
 
 /// How closely a system follows its paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -88,9 +87,34 @@ impl Eq for System {}
 
 impl System {
     /// Options it has, in the order of help.
-    pub fn options(&self) -> Vec<&'static OptionRow> {
+    pub fn options(&self) -> Vec<&'static StructureOption> {
         let names = (self.options)();
-        OPTIONS.iter().filter(|row| names.contains(&row.name)).collect()
+        OPTIONS.iter().filter(|option| names.contains(&option.row.name)).collect()
+    }
+
+    /// The row of an option.
+    ///
+    /// # Errors
+    /// It has no such option.
+    pub fn option(&self, name: &str) -> Result<&'static OptionRow, SystemsError> {
+        let known = option(name).filter(|option| self.has(option.row.name)).map(|option| &option.row);
+        known.ok_or_else(|| SystemsError::UnknownOption { system: self.name, option: name.to_owned() })
+    }
+
+    /// Reads options by name.
+    ///
+    /// # Errors
+    /// An option or a value that the system does not have.
+    pub(crate) fn read(
+        &self,
+        options: impl IntoIterator<Item = (String, String)>,
+    ) -> Result<Vec<(&'static str, Value)>, SystemsError> {
+        let read = |(name, text): (String, String)| {
+            let row = self.option(&name)?;
+            let value = row.parse(&text).map_err(|error| SystemsError::Value { system: self.name, error })?;
+            Ok((row.name, value))
+        };
+        options.into_iter().map(read).collect()
     }
 
     /// Whether it has an option.
@@ -100,7 +124,7 @@ impl System {
 
     /// The option that says how many cells there are along a side; absent where there are none.
     pub fn size_option(&self) -> Option<&'static str> {
-        self.options().into_iter().find(|row| row.group == Group::Size).map(|row| row.name)
+        self.options().into_iter().find(|option| option.group == Group::Size).map(|option| option.row.name)
     }
 }
 
@@ -113,32 +137,28 @@ pub(crate) type Create =
 pub struct Spec {
     system: &'static System,
     preset: Preset,
-    options: BTreeMap<String, String>,
+    options: OptionValues,
     counters: Counters,
     work_budget: Option<u32>,
 }
 
 impl Spec {
-    /// Looks up a preset by name and checks options and their values.
+    /// A system with its options, each of which it must have.
     ///
     /// # Errors
-    /// Whatever the system does not have, by name.
-    pub(crate) fn of(
-        row: &'static System,
-        preset: &str,
-        options: impl IntoIterator<Item = (String, String)>,
-    ) -> Result<Self, SystemsError> {
-        let preset = row
-            .presets
-            .iter()
-            .copied()
-            .find(|known| known.name() == preset)
-            .ok_or_else(|| SystemsError::UnknownPreset { system: row.name, preset: preset.to_owned() })?;
-        let options: BTreeMap<_, _> = options.into_iter().collect();
-        if let Some(option) = options.keys().find(|option| !row.has(option)) {
-            return Err(SystemsError::UnknownOption { system: row.name, option: option.clone() });
+    /// A preset, an option or a value that the system does not have.
+    pub fn of(system: &'static System, preset: Preset, options: OptionValues) -> Result<Self, SystemsError> {
+        if !system.presets.contains(&preset) {
+            return Err(SystemsError::UnknownPreset {
+                system: system.name,
+                preset: preset.name().to_owned(),
+            });
         }
-        let spec = Self { system: row, preset, options, counters: Counters::Off, work_budget: None };
+        for (name, value) in options.iter() {
+            let row = system.option(name)?;
+            row.check(value).map_err(|error| SystemsError::Value { system: system.name, error })?;
+        }
+        let spec = Self { system, preset, options, counters: Counters::Off, work_budget: None };
         spec.requirements()?;
         Ok(spec)
     }
@@ -173,8 +193,8 @@ impl Spec {
         &self,
         options: impl IntoIterator<Item = (String, String)>,
     ) -> Result<Self, SystemsError> {
-        let given = self.options.clone().into_iter().chain(options);
-        let spec = Self::of(self.system, self.preset.name(), given)?;
+        let given = self.options.iter().chain(self.system.read(options)?).collect();
+        let spec = Self::of(self.system, self.preset, given)?;
         Ok(Self { counters: self.counters, work_budget: self.work_budget, ..spec })
     }
 
@@ -194,7 +214,7 @@ impl Spec {
     }
 
     /// Options over the preset.
-    pub fn options(&self) -> &BTreeMap<String, String> {
+    pub fn options(&self) -> &OptionValues {
         &self.options
     }
 
@@ -266,9 +286,9 @@ mod tests {
         for system in SYSTEMS {
             assert_eq!(system.options().len(), (system.options)().len(), "{}", system.name);
         }
-        for (place, row) in OPTIONS.iter().enumerate() {
+        for (place, StructureOption { row, .. }) in OPTIONS.iter().enumerate() {
             assert!(SYSTEMS.iter().any(|system| system.has(row.name)), "no system has --{}", row.name);
-            assert!(OPTIONS[..place].iter().all(|other| other.name != row.name), "--{} twice", row.name);
+            assert!(OPTIONS[..place].iter().all(|other| other.row.name != row.name), "--{} twice", row.name);
             assert!(!row.tried().is_empty(), "no value of --{} is tried", row.name);
         }
     }

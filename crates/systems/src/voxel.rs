@@ -7,11 +7,11 @@ use crate::{Spec, SystemsError};
 
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
-    ("resolution", |config, given| given.number().map(|value| config.resolution = value)),
-    ("grid", |config, given| given.number().map(|value| config.grid = Some(value))),
-    ("samples", |config, given| given.number().map(|value| config.samples = value)),
-    ("page", |config, given| given.number().map(|value| config.page = value)),
-    ("capacity", |config, given| given.number().map(|value| config.fragments = Some(value.into()))),
+    ("resolution", |config, given| given.whole().map(|value| config.resolution = value)),
+    ("grid", |config, given| given.whole().map(|value| config.grid = Some(value))),
+    ("samples", |config, given| given.whole().map(|value| config.samples = value)),
+    ("page", |config, given| given.whole().map(|value| config.page = value)),
+    ("capacity", |config, given| given.whole().map(|value| config.fragments = Some(value.into()))),
     ("sort", |config, given| given.switch().map(|value| config.sort = value)),
     ("builder", |config, given| {
         given
@@ -75,8 +75,8 @@ pub(crate) const PUBLISHED_GRID: u32 = 64;
 
 /// A preset with its paper's voxels, where the resolution is the paper's as well.
 pub(crate) fn of_the_paper(spec: &Spec, preset: Config) -> Config {
-    let given = Given::all(spec).any(|given| given.name == "resolution");
-    Config { grid: (!given).then_some(PUBLISHED_GRID), ..preset }
+    let given = spec.options().get("resolution");
+    Config { grid: given.is_none().then_some(PUBLISHED_GRID), ..preset }
 }
 
 /// The configuration that a spec stands for over a preset. `attributes` is the payload of the system's paper.

@@ -7,7 +7,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rasray_gpu::{Feature, Requirements};
-use rasray_systems::{Group, OPTIONS, OptionRow, SYSTEMS, Spec, Values};
+use rasray_options::{Least, OptionRow, Unit, Values};
+use rasray_systems::{Group, OPTIONS, SYSTEMS, Spec};
 
 fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
@@ -21,9 +22,11 @@ fn values(row: &OptionRow) -> String {
         }
         Values::Whole(lowest, u32::MAX) => format!("{lowest} or more"),
         Values::Whole(lowest, highest) => format!("{lowest} to {highest}"),
-        Values::Metres => "metres, not negative".to_owned(),
-        Values::Share => "a share, not negative".to_owned(),
-        Values::Cells => "columns x rows, or one number for both".to_owned(),
+        Values::Number(unit, least) => {
+            let unit = if unit == Unit::Metres { "metres" } else { "a share" };
+            format!("{unit}, {}", if least == Least::Zero { "not negative" } else { "above 0" })
+        }
+        Values::Cells(most) => format!("columns x rows, or one number for both, 1 to {most} each"),
     }
 }
 
@@ -44,7 +47,8 @@ fn page() -> String {
             "\n## {}{rest}\n\n| option | says | values | systems | may change a hit |\n|---|---|---|---|---|\n",
             first.to_uppercase()
         );
-        for row in OPTIONS.iter().filter(|row| row.group == group) {
+        for option in OPTIONS.iter().filter(|option| option.group == group) {
+            let row = &option.row;
             let systems: Vec<_> =
                 SYSTEMS.iter().filter(|system| system.has(row.name)).map(|system| system.name).collect();
             let _ = writeln!(
@@ -54,7 +58,7 @@ fn page() -> String {
                 row.doc,
                 values(row),
                 systems.join(", "),
-                row.hits.describe()
+                option.hits.describe()
             );
         }
     }
@@ -81,7 +85,7 @@ fn the_page_of_a_system_names_its_options() {
             .map(|system| docs().join("systems").join(format!("{}.md", system.name)))
             .map(|path| std::fs::read_to_string(path).expect("every system has a page"))
             .collect();
-        for row in system.options() {
+        for row in system.options().iter().map(|option| &option.row) {
             let named =
                 page.contains(&format!("`{}`", row.name)) || page.contains(&format!("`{}=", row.name));
             assert!(named, "the page of {} does not name the option {}", system.name, row.name);

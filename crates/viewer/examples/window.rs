@@ -2,7 +2,7 @@
 //! saved as .ppm, and how `rasray render` makes them is printed.
 
 use rasray_experiment::{
-    DeviceChoice, Frame, Integrator, LoadedScene, Primary, Sampler, StructureOptions, SystemConfig, load,
+    DeviceChoice, Frame, Integrator, LoadedScene, OptionValues, Primary, Sampler, SystemConfig, load,
     open_device,
 };
 use rasray_scene::default_view as view;
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         back_faces: rasray_scene::BackFaces::Camera,
         shadow_terminator: rasray_scene::ShadowTerminator::None,
     };
-    let options = StructureOptions::default();
+    let options = OptionValues::default();
     let system = SystemConfig { system: &SYSTEMS[0], preset: Preset::Robust, options, variant: None };
     let standpoint = Standpoint::AsGiven;
     let settings =

@@ -58,7 +58,7 @@ pub(crate) fn system_words(config: &SystemConfig) -> Vec<String> {
         "--preset".to_owned(),
         config.preset.name().to_owned(),
     ];
-    words.extend(config.options.texts().map(|(name, value)| format!("--{name}={value}")));
+    words.extend(config.options.iter().map(|(name, value)| format!("--{name}={value}")));
     words
 }
 

@@ -25,7 +25,7 @@ mod worker;
 pub use camera_control::{CameraControl, Rounded};
 pub use command_line::quoted;
 pub use engine::{Engine, SceneSource, Step};
-pub use option_controls::{Control, OptionValues};
+pub use option_controls::{Control, SystemChoice};
 pub use picture::{Legend, Picture, Pixels};
 pub use playback::Playback;
 pub use preview_size::PreviewSize;

@@ -1,8 +1,8 @@
-//! Options of systems as things to click on, made from the rows of the registry: none is named here.
+//! Options as things to click on, made from their rows: none is named here.
 
-use rasray_experiment::{ExperimentError, StructureOptions, SystemConfig, one_system};
-use rasray_systems::{OptionRow, Preset, System, Values, Word};
-use serde_json::Value;
+use rasray_experiment::{ExperimentError, OptionValues, SystemConfig, one_system};
+use rasray_options::{Least, OptionRow, Unit, Values, Word};
+use rasray_systems::{Preset, System};
 
 /// What sets an option.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,8 +13,8 @@ pub enum Control {
     Choice(&'static [Word]),
     /// A whole number from the first to the second.
     Whole(u32, u32),
-    /// A number that is not negative, and what it counts.
-    Number(&'static str),
+    /// A number, what it counts, and whether it may be 0.
+    Number(Unit, Least),
     /// Columns and rows as text, such as `720x480`.
     Cells,
 }
@@ -23,33 +23,28 @@ impl Control {
     /// The control of an option.
     pub fn of(row: &OptionRow) -> Self {
         match row.values {
-            Values::Words(words) if is_switch(words) => Self::Switch,
+            values if values.is_switch() => Self::Switch,
             Values::Words(words) => Self::Choice(words),
             Values::Whole(lowest, highest) => Self::Whole(lowest, highest),
-            Values::Metres => Self::Number("m"),
-            Values::Share => Self::Number(""),
-            Values::Cells => Self::Cells,
+            Values::Number(unit, least) => Self::Number(unit, least),
+            Values::Cells(_) => Self::Cells,
         }
     }
 }
 
-fn is_switch(words: &[Word]) -> bool {
-    let has = |wanted| words.iter().any(|(word, _)| *word == wanted);
-    words.len() == 2 && has("on") && has("off")
-}
-
 /// A system, its preset, and what was set of its options.
 #[derive(Clone, Debug, PartialEq)]
-pub struct OptionValues {
+pub struct SystemChoice {
     system: &'static System,
     preset: Preset,
-    set: StructureOptions,
+    /// What was set of its options; the preset decides what is not.
+    pub options: OptionValues,
 }
 
-impl OptionValues {
+impl SystemChoice {
     /// As a configuration has them.
     pub fn new(config: &SystemConfig) -> Self {
-        Self { system: config.system, preset: config.preset, set: config.options.clone() }
+        Self { system: config.system, preset: config.preset, options: config.options.clone() }
     }
 
     /// The system.
@@ -62,37 +57,12 @@ impl OptionValues {
         self.preset
     }
 
-    /// Whether anything was set.
-    pub fn any_set(&self) -> bool {
-        !self.set.given().is_empty()
-    }
-
-    /// What was set of an option, as it is typed; absent where the preset decides.
-    pub fn text(&self, option: &str) -> Option<String> {
-        self.set.text(option)
-    }
-
-    /// Sets an option.
-    pub fn set(&mut self, option: &str, value: impl Into<Value>) {
-        self.set = std::mem::take(&mut self.set).with(option, value);
-    }
-
-    /// Leaves an option to the preset.
-    pub fn unset(&mut self, option: &str) {
-        self.set = self.set.filtered(|name| name != option);
-    }
-
-    /// Leaves all options to the preset.
-    pub fn unset_all(&mut self) {
-        self.set = StructureOptions::default();
-    }
-
     /// Changes to a system. Options mean something else there, so that all are left to the preset, which is kept where the
     /// system has it.
     pub fn choose_system(&mut self, system: &'static System) {
         if system != self.system {
             let preset = if system.presets.contains(&self.preset) { self.preset } else { system.presets[0] };
-            *self = Self { system, preset, set: StructureOptions::default() };
+            *self = Self { system, preset, options: OptionValues::default() };
         }
     }
 
@@ -106,21 +76,21 @@ impl OptionValues {
     /// # Errors
     /// Values that do not go together, in words.
     pub fn config(&self) -> Result<SystemConfig, ExperimentError> {
-        one_system(self.system, self.preset, &self.set)
+        one_system(self.system, self.preset, &self.options)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasray_systems::{OPTIONS, SYSTEMS};
+    use rasray_systems::{OPTIONS, SYSTEMS, StructureOption};
 
-    fn values(system: &str) -> OptionValues {
+    fn choice(system: &str) -> SystemChoice {
         let system = System::named(system).expect("a system");
-        OptionValues::new(&SystemConfig {
+        SystemChoice::new(&SystemConfig {
             system,
             preset: system.presets[0],
-            options: StructureOptions::default(),
+            options: OptionValues::default(),
             variant: None,
         })
     }
@@ -128,7 +98,7 @@ mod tests {
     #[test]
     fn every_option_has_a_control_and_every_word_is_reachable() {
         let mut kinds = [0; 3];
-        for row in OPTIONS {
+        for StructureOption { row, .. } in OPTIONS {
             match Control::of(row) {
                 Control::Switch => kinds[0] += 1,
                 Control::Choice(words) => {
@@ -139,7 +109,7 @@ mod tests {
                     assert!(lowest < highest, "{}", row.name);
                     kinds[2] += 1;
                 }
-                Control::Number(_) | Control::Cells => (),
+                Control::Number(..) | Control::Cells => (),
             }
         }
         assert!(kinds.iter().all(|count| *count > 0), "{kinds:?}");
@@ -148,40 +118,38 @@ mod tests {
     #[test]
     fn what_is_set_is_in_the_configuration_and_what_is_left_is_not() {
         for system in SYSTEMS {
-            let mut values = values(system.name);
+            let mut choice = choice(system.name);
             let rows = system.options();
-            for row in &rows {
-                values.set(row.name, row.tried()[0]);
+            for StructureOption { row, .. } in &rows {
+                choice.options.set(row.name, row.parse(row.tried()[0]).expect("it is tried"));
             }
-            assert_eq!(values.any_set(), !rows.is_empty());
-            for row in &rows {
-                assert_eq!(values.text(row.name).as_deref(), Some(row.tried()[0]));
-                values.unset(row.name);
+            assert_eq!(choice.options.len(), rows.len());
+            for StructureOption { row, .. } in &rows {
+                choice.options.unset(row.name);
             }
-            assert!(!values.any_set());
-            let config = values.config().expect("a preset is valid");
-            assert_eq!((config.system.name, config.options.given().len()), (system.name, 0));
+            let config = choice.config().expect("a preset is valid");
+            assert_eq!((config.system.name, config.options.len()), (system.name, 0));
         }
     }
 
     #[test]
     fn values_that_do_not_go_together_are_an_error_in_words() {
-        let mut values = values("mmrt");
-        values.choose_preset(Preset::Published);
-        values.set("accept", "plane");
-        assert!(values.config().expect_err("refused").to_string().contains("payload"));
-        values.unset_all();
-        assert!(values.config().is_ok());
+        let mut choice = choice("mmrt");
+        choice.choose_preset(Preset::Published);
+        choice.options.set("accept", "plane");
+        assert!(choice.config().expect_err("refused").to_string().contains("payload"));
+        choice.options = OptionValues::default();
+        assert!(choice.config().is_ok());
     }
 
     #[test]
     fn another_system_keeps_the_preset_where_it_has_it() {
-        let mut values = values("mmrt");
-        values.choose_preset(Preset::Published);
-        values.set("buckets", 2);
-        values.choose_system(System::named("hu").expect("a system"));
-        assert_eq!((values.preset(), values.any_set()), (Preset::Published, false));
-        values.choose_system(System::named("brute-force").expect("a system"));
-        assert_eq!(values.preset(), Preset::Robust);
+        let mut choice = choice("mmrt");
+        choice.choose_preset(Preset::Published);
+        choice.options.set("buckets", 2);
+        choice.choose_system(System::named("hu").expect("a system"));
+        assert_eq!((choice.preset(), choice.options.len()), (Preset::Published, 0));
+        choice.choose_system(System::named("brute-force").expect("a system"));
+        assert_eq!(choice.preset(), Preset::Robust);
     }
 }

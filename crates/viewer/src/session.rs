@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::camera_control::CameraControl;
 use crate::command_line::{frame_words, quoted, system_words};
-use crate::option_controls::OptionValues;
+use crate::option_controls::SystemChoice;
 use crate::picture::Picture;
 use crate::playback::Playback;
 use crate::settings::{Settings, Standpoint};
@@ -55,7 +55,7 @@ pub struct Failure {
 pub struct Session {
     opening: Opening,
     /// The system and what is set of its options; it need not be valid.
-    pub options: OptionValues,
+    pub system: SystemChoice,
     /// The last valid configuration.
     config: SystemConfig,
     /// Integrator, samples, seed; its size is the picture's.
@@ -89,7 +89,7 @@ impl Session {
     pub fn new(opening: Opening) -> Self {
         let Settings { system, frame, shown, seconds, .. } = opening.settings.clone();
         Self {
-            options: OptionValues::new(&system),
+            system: SystemChoice::new(&system),
             config: system,
             frame,
             shown,
@@ -163,7 +163,7 @@ impl Session {
     /// a failure, and the settings stay what they were.
     pub fn changed_settings(&mut self, now: f64) -> Option<Settings> {
         self.invalid = None;
-        match self.options.config() {
+        match self.system.config() {
             Ok(config) => self.config = config,
             Err(error) => {
                 let help = error.help().to_owned();
@@ -351,13 +351,13 @@ mod tests {
     fn options_that_are_not_valid_change_nothing_and_say_why() {
         let mut session = session();
         session.changed_settings(0.0);
-        session.options.set("grid", 9);
+        session.system.options.set("grid", 9);
         assert!(session.changed_settings(0.1).is_some());
-        session.options.set("grid", 0);
+        session.system.options.set("grid", 0);
         assert_eq!(session.changed_settings(0.2), None);
         let failure = session.failure().cloned().expect("a failure");
         assert!(failure.message.contains("grid"), "{failure:?}");
-        session.options.set("grid", 9);
+        session.system.options.set("grid", 9);
         assert!(session.changed_settings(0.3).is_none() && session.failure().is_none());
     }
 

@@ -114,7 +114,7 @@ impl Redo {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use rasray_experiment::{Integrator, Primary, Sampler, StructureOptions};
+    use rasray_experiment::{Integrator, OptionValues, Primary, Sampler};
     use rasray_systems::{Preset, SYSTEMS};
 
     /// Settings that tests start from.
@@ -133,7 +133,7 @@ pub(crate) mod tests {
         let system = SystemConfig {
             system: &SYSTEMS[0],
             preset: Preset::Robust,
-            options: StructureOptions::default(),
+            options: OptionValues::default(),
             variant: None,
         };
         let standpoint = Standpoint::AsGiven;
@@ -176,7 +176,7 @@ pub(crate) mod tests {
     fn an_option_costs_the_structure_and_not_the_film() {
         let structure = Redo { structure: true, samples: true, ..Redo::default() };
         assert_eq!(redo(|new| new.system.system = &SYSTEMS[1]), structure);
-        let options = StructureOptions::default().with("grid", 8);
+        let options = OptionValues::default().with("grid", 8);
         assert_eq!(redo(|new| new.system.options = options), structure);
     }
 

@@ -1,7 +1,7 @@
 //! Structures that follow scene and camera.
 
 use rasray_ads::StructureKind;
-use rasray_experiment::{Built, ExperimentError, Stage, StructureOptions, SystemConfig};
+use rasray_experiment::{Built, ExperimentError, OptionValues, Stage, SystemConfig};
 use rasray_gpu::Device;
 use rasray_scene::needs::Needs;
 use rasray_systems::{Preset, SYSTEMS};
@@ -25,7 +25,7 @@ pub(crate) fn exact_config(shown: &SystemConfig) -> SystemConfig {
     let robust = |system| SystemConfig {
         system,
         preset: Preset::Robust,
-        options: StructureOptions::default(),
+        options: OptionValues::default(),
         variant: None,
     };
     let others = SYSTEMS.iter().filter(|system| *system != shown.system).map(robust);

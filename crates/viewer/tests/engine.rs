@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use glam::{DQuat, DVec3};
 use rasray_experiment::{
-    AovSelection, Backend, DeviceChoice, Frame, Integrator, LoadedScene, Primary, Refresh, RenderJob,
-    Sampler, StructureOptions, SystemConfig, load, open, open_device,
+    AovSelection, Backend, DeviceChoice, Frame, Integrator, LoadedScene, OptionValues, Primary, Refresh,
+    RenderJob, Sampler, SystemConfig, load, open, open_device,
 };
 use rasray_scene::Moment;
 use rasray_scene::animation::{
@@ -23,7 +23,7 @@ const VALIDATED: DeviceChoice = DeviceChoice { device: None, validation: true };
 
 fn system(name: &str) -> SystemConfig {
     let system = System::named(name).expect("a system");
-    SystemConfig { system, preset: Preset::Robust, options: StructureOptions::default(), variant: None }
+    SystemConfig { system, preset: Preset::Robust, options: OptionValues::default(), variant: None }
 }
 
 fn settings() -> Settings {

@@ -1,17 +1,17 @@
-use rasray_systems::OptionRow;
+use rasray_systems::StructureOption;
 
 use super::Subject;
 
 /// Whether a subject takes an option's value, alone or together with a value of one of `others`.
 pub fn takes(
     subject: &Subject,
-    mut others: impl Iterator<Item = &'static OptionRow>,
+    mut others: impl Iterator<Item = &'static StructureOption>,
     chosen: (&str, &str),
 ) -> bool {
     subject.with(&[chosen]).is_some()
         || others.any(|other| {
-            let nearby = |choice: &&str| subject.with(&[(other.name, *choice), chosen]).is_some();
-            other.name != chosen.0 && other.tried().iter().any(nearby)
+            let nearby = |choice: &&str| subject.with(&[(other.row.name, *choice), chosen]).is_some();
+            other.row.name != chosen.0 && other.row.tried().iter().any(nearby)
         })
 }
 
@@ -20,7 +20,7 @@ pub fn takes(
 pub fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)> {
     let mut rows = subject.spec.system().options();
     rows.retain(|row| !row.hits.may_change(subject.kind));
-    let options = rows.iter().filter_map(|row| {
+    let options = rows.iter().filter_map(|StructureOption { row, .. }| {
         let mut values = row.tried();
         values.retain(|value| takes(subject, rows.iter().copied(), (row.name, *value)));
         (!values.is_empty()).then_some((row.name, values))

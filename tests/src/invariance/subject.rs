@@ -96,9 +96,7 @@ impl Subject {
     pub fn name(&self) -> String {
         let (system, preset) = (self.spec.system().name, self.spec.preset().name());
         let given = |(_, _, options): &&Row| {
-            options
-                .iter()
-                .all(|(name, value)| self.spec.options().get(*name).is_some_and(|given| given == value))
+            options.iter().all(|(name, value)| self.spec.options().text(name).as_deref() == Some(*value))
         };
         let more = more().filter(|row| row.0 == system && row.1 == preset).find(given);
         more.map_or_else(

@@ -2,7 +2,7 @@
 
 use super::ray_files::RayFileArguments;
 use super::shared::WorkArguments;
-use super::structure::{StructureArguments, preset_parser, ray_set_parser, system_parser};
+use super::structure::{preset_parser, ray_set_parser, system_parser};
 use super::values;
 use crate::error::AppError;
 use clap::Args;
@@ -98,7 +98,6 @@ impl CompareArguments {
     /// # Errors
     /// A preset or an option that none of the systems has, values that are not taken or do not go together.
     pub fn systems(&self) -> Result<Vec<SystemConfig>, AppError> {
-        let (given, read_value) = (&self.work.structure.0, &StructureArguments::read_value);
-        Ok(several_systems(&self.systems, &self.presets, given, &self.assignments, read_value)?)
+        Ok(several_systems(&self.systems, &self.presets, &self.work.structure.0, &self.assignments)?)
     }
 }

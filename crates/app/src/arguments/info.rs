@@ -70,8 +70,8 @@ impl InfoArguments {
         if self.passes {
             return Ok(Some(one_system(self.system, self.preset, &self.structure.0)?));
         }
-        match self.structure.0.given().keys().next() {
-            Some(option) => Err(AppError::usage(
+        match self.structure.0.iter().next() {
+            Some((option, _)) => Err(AppError::usage(
                 format!("--{option} is an option of a structure, and no structure is asked for"),
                 "add --passes, or leave it out",
             )),

@@ -5,6 +5,7 @@ mod documents;
 mod info;
 mod merge;
 mod mistakes;
+mod options;
 mod ray_files;
 mod render;
 mod shared;

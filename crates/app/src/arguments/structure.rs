@@ -1,14 +1,12 @@
 //! Systems, presets and options of structures on the command line, made from the rows of the registry.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
-use rasray_experiment::{ExperimentError, GlassShadows, Primary, RaySet, Refresh, Sampler, StructureOptions};
+use clap::{ArgMatches, Args, Command, FromArgMatches};
+use rasray_experiment::{GlassShadows, OptionValues, Primary, RaySet, Refresh, Sampler};
 use rasray_scene::{BackFaces, ShadowTerminator};
-use rasray_systems::{Group, OPTIONS, OptionRow, Preset, SYSTEMS, System, Values};
-use serde_json::Value;
+use rasray_systems::{Group, OPTIONS, Preset, SYSTEMS, System};
 
-use super::mistakes::usage_error;
-use super::values;
+use super::options::{arguments, given};
 
 /// Reads one of these values by its name; `told` says its name and its line of help.
 fn choice<T: Copy + Send + Sync + 'static>(
@@ -76,24 +74,8 @@ pub fn shadow_terminator_parser() -> impl TypedValueParser<Value = ShadowTermina
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StructureArguments(
     /// What was given.
-    pub StructureOptions,
+    pub OptionValues,
 );
-
-impl StructureArguments {
-    /// Reads one value of an option of a comparison, as if it were an option of its own.
-    ///
-    /// # Errors
-    /// The option does not take the value.
-    pub fn read_value(option: &str, value: &str) -> Result<StructureOptions, ExperimentError> {
-        let command =
-            Self::augment_args(Command::new("options").no_binary_name(true).disable_help_flag(true));
-        let matches = command.clone().try_get_matches_from([format!("--{option}={value}")]);
-        matches.and_then(|matches| Self::from_arg_matches(&matches)).map(|read| read.0).map_err(|error| {
-            let error = usage_error(&error, Some("compare"), &command);
-            ExperimentError::usage(error.to_string(), error.help())
-        })
-    }
-}
 
 fn heading(group: Group) -> &'static str {
     match group {
@@ -105,59 +87,16 @@ fn heading(group: Group) -> &'static str {
     }
 }
 
-/// A word that stands for the value `off` of an option.
-fn off_argument(row: &'static OptionRow, name: &'static str) -> Arg {
-    Arg::new(name)
-        .long(name)
-        .action(ArgAction::SetTrue)
-        .conflicts_with(row.name)
-        .help(format!("The same as --{}=off", row.name))
-}
-
-/// The argument of an option.
-fn argument(row: &'static OptionRow) -> Arg {
-    let argument = Arg::new(row.name).long(row.name).help(row.doc);
-    let argument = match row.values {
-        Values::Words(words) => {
-            let words = words.iter().map(|(word, doc)| PossibleValue::new(*word).help(*doc));
-            argument.value_name("WORD").value_parser(PossibleValuesParser::new(words))
-        }
-        Values::Whole(lowest, highest) => {
-            argument.value_name("N").value_parser(values::whole(lowest, highest))
-        }
-        Values::Metres => argument.value_name("METRES").value_parser(values::not_negative),
-        Values::Share => argument.value_name("SHARE").value_parser(values::not_negative),
-        Values::Cells => argument.value_name("WxH").value_parser(values::cells),
-    };
-    match row.off_name {
-        Some(_) => argument.num_args(0..=1).require_equals(true).default_missing_value("on"),
-        None => argument,
-    }
-}
-
-/// What was given for an option.
-fn value(row: &OptionRow, matches: &ArgMatches) -> Option<Value> {
-    match row.values {
-        Values::Words(_) | Values::Cells => matches.get_one::<String>(row.name).cloned().map(Value::from),
-        Values::Whole(..) => matches.get_one::<u32>(row.name).copied().map(Value::from),
-        Values::Metres | Values::Share => matches.get_one::<f32>(row.name).map(|number| {
-            // By way of text, which is as short as it can be: 0.1, not 0.10000000149.
-            serde_json::from_str(&number.to_string()).expect("a finite number")
-        }),
-    }
-}
-
 impl Args for StructureArguments {
     fn augment_args(command: Command) -> Command {
         Group::ALL.into_iter().fold(command, |command, group| {
-            let rows = OPTIONS.iter().filter(|row| row.group == group);
-            let arguments = rows.flat_map(|row| {
-                [Some(argument(row)), row.off_name.map(|name| off_argument(row, name))].into_iter().flatten()
-            });
+            let of_group = OPTIONS.iter().filter(|option| option.group == group);
             // Sizes first; what else there is, is shown where everything is asked for.
-            let arguments = arguments
-                .map(|argument| argument.help_heading(heading(group)).hide_short_help(group != Group::Size));
-            command.args(arguments)
+            command.args(
+                of_group.flat_map(|option| arguments(&option.row)).map(|argument| {
+                    argument.help_heading(heading(group)).hide_short_help(group != Group::Size)
+                }),
+            )
         })
     }
 
@@ -174,11 +113,9 @@ impl FromArgMatches for StructureArguments {
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
-        for row in OPTIONS {
-            let given = value(row, matches);
-            let off = row.off_name.is_some_and(|name| matches.get_flag(name)).then(|| Value::from("off"));
-            if let Some(given) = given.or(off) {
-                self.0 = std::mem::take(&mut self.0).with(row.name, given);
+        for option in OPTIONS {
+            if let Some(value) = given(&option.row, matches) {
+                self.0.set(option.row.name, value);
             }
         }
         Ok(())
@@ -188,9 +125,10 @@ impl FromArgMatches for StructureArguments {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasray_options::Value;
     use rasray_systems::Spec;
 
-    fn read(words: &[&str]) -> Result<StructureOptions, clap::Error> {
+    fn read(words: &[&str]) -> Result<OptionValues, clap::Error> {
         let command = StructureArguments::augment_args(Command::new("options").no_binary_name(true));
         Ok(StructureArguments::from_arg_matches(&command.try_get_matches_from(words)?)?.0)
     }
@@ -198,9 +136,8 @@ mod tests {
     #[test]
     fn values_keep_what_was_typed() {
         let given = read(&["--buckets", "8", "--thickness", "0.1", "--sort", "on"]).expect("valid");
-        assert_eq!(given.given().len(), 3);
-        assert_eq!(given.given()["buckets"], 8);
-        assert_eq!(given.given()["thickness"].to_string(), "0.1");
+        assert_eq!((given.len(), given.get("buckets")), (3, Some(Value::Whole(8))));
+        assert_eq!(given.text("thickness").as_deref(), Some("0.1"));
         assert_eq!(given.text("sort").as_deref(), Some("on"));
         let cells = read(&["--camera-resolution", "12"]).expect("valid");
         assert_eq!(cells.text("camera-resolution").as_deref(), Some("12x12"));

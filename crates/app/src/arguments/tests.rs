@@ -211,7 +211,8 @@ fn ranges_in_the_help_are_those_of_the_values() {
             |argument: &&clap::Arg| argument.get_value_names().is_some_and(|names| names == ["N"]);
         for argument in command.get_arguments().filter(is_number) {
             let help = argument.get_help().map(ToString::to_string).unwrap_or_default();
-            let words: Vec<_> = help.split([' ', ',', ';', ')']).filter(|word| !word.is_empty()).collect();
+            let words: Vec<_> =
+                help.split([' ', ',', ';', ')', '[', ']']).filter(|word| !word.is_empty()).collect();
             let range = words.windows(3).find_map(|three| {
                 let is_range = matches!(three[1], "to" | "or");
                 Some((three[0].parse::<u64>().ok()?, three[2].parse::<u64>().ok()?)).filter(|_| is_range)

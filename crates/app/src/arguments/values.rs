@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use rasray_experiment::Shard;
+use rasray_options::Values;
 use std::ops::RangeInclusive;
 
 /// A switch.
@@ -45,31 +46,13 @@ pub fn size(text: &str) -> Result<Size, String> {
     Ok(Size { width: side(width)?, height: side(height)? })
 }
 
-/// Reads `720x480`, or one number for both, and writes it as the first.
-///
-/// # Errors
-/// Says what is allowed.
-pub fn cells(text: &str) -> Result<String, String> {
-    let (columns, rows) = text.split_once(['x', 'X']).unwrap_or((text, text));
-    let side = whole(1, 8192);
-    match (side(columns), side(rows)) {
-        (Ok(columns), Ok(rows)) => Ok(format!("{columns}x{rows}")),
-        _ => {
-            Err("write columns x rows from 1 to 8192 each, such as 720x480, or one number for both"
-                .to_owned())
-        }
-    }
-}
-
 /// A parser of whole numbers from `least` to `most`.
 ///
 /// # Errors
 /// Of the parser: says what is allowed.
 pub fn whole(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
-    move |text| match text.trim().parse() {
-        Ok(value) if (least..=most).contains(&value) => Ok(value),
-        _ => Err(format!("must be a whole number from {least} to {most}")),
-    }
+    let values = Values::Whole(least, most);
+    move |text| values.parse(text)?.whole().ok_or_else(|| values.expected())
 }
 
 /// Reads three numbers, `1,-2.5,0`; those that are not finite are left to the caller.
@@ -95,17 +78,6 @@ pub fn point(text: &str) -> Result<[f64; 3], String> {
         return Err("each number must be from -1e18 to 1e18 metres".to_owned());
     }
     Ok(values)
-}
-
-/// Reads a finite number that is at least 0.
-///
-/// # Errors
-/// Says what is allowed.
-pub fn not_negative(text: &str) -> Result<f32, String> {
-    match text.trim().parse::<f32>() {
-        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
-        _ => Err("must be a finite number of at least 0".to_owned()),
-    }
 }
 
 /// Reads a finite number above 0.
@@ -193,11 +165,6 @@ mod tests {
     #[test]
     fn sizes() {
         assert_eq!(size("640x360"), Ok(Size { width: 640, height: 360 }));
-        assert_eq!(cells("720x480").as_deref(), Ok("720x480"));
-        assert_eq!(cells("64").as_deref(), Ok("64x64"));
-        for wrong in ["", "0", "x", "720x", "8193", "720x480x2", "-1x4"] {
-            assert!(cells(wrong).is_err(), "{wrong}");
-        }
         for bad in ["", "640", "640x", "x360", "0x10", "10x0", "-1x5", "99999x1", "1x2x3", "1.5x2"] {
             assert!(size(bad).is_err(), "{bad}");
         }
@@ -242,7 +209,6 @@ mod tests {
 
     #[test]
     fn ranges_refuse_what_lies_outside() {
-        assert!(not_negative("0").is_ok() && not_negative("-0.1").is_err() && not_negative("nan").is_err());
         assert!(positive("0.1").is_ok() && positive("0").is_err() && positive("inf").is_err());
         assert!(angle_of_view("45").is_ok() && angle_of_view("0").is_err() && angle_of_view("180").is_err());
         assert!(stops("-2").is_ok() && stops("65").is_err() && stops("nan").is_err());

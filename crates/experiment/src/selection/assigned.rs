@@ -1,25 +1,23 @@
 //! Options that address one of the systems of a comparison.
 
+use rasray_options::Value;
 use rasray_systems::{Preset, SYSTEMS, System};
 
 use super::names::{names, who_has};
 use crate::error::ExperimentError;
-use crate::system_config::StructureOptions;
-
-/// Reads a value of an option: first the option's name, then the value as it was typed.
-pub type ReadValue<'a> = dyn Fn(&str, &str) -> Result<StructureOptions, ExperimentError> + 'a;
 
 /// An option of one system, or of one preset of it, with values that it takes in turns.
 pub(super) struct Assigned {
     pub(super) system: &'static System,
     pub(super) preset: Option<Preset>,
-    /// The option with each value, and how both were written.
-    pub(super) values: Vec<(StructureOptions, String)>,
+    pub(super) option: &'static str,
+    /// Each value, and how it was written with the option.
+    pub(super) values: Vec<(Value, String)>,
 }
 
 impl Assigned {
     /// Reads `mmrt.samples=50`, `mmrt.samples=50,100` or `mmrt-published.samples=50`.
-    pub(super) fn read(text: &str, read_value: &ReadValue<'_>) -> Result<Self, ExperimentError> {
+    pub(super) fn read(text: &str) -> Result<Self, ExperimentError> {
         let shape = || {
             ExperimentError::usage(
                 format!("'{text}' is not of the form SYSTEM.OPTION=VALUE or SYSTEM-PRESET.OPTION=VALUE"),
@@ -40,33 +38,33 @@ impl Assigned {
                 format!("the systems: {}", names(&SYSTEMS.iter().collect::<Vec<_>>())),
             )
         })?;
-        if !system.has(option) {
-            return Err(ExperimentError::usage(
-                format!("'{text}': system {} has no option {option}", system.name),
-                who_has(option),
-            ));
-        }
+        let row = system.option(option).map_err(|_| {
+            let message = format!("'{text}': system {} has no option {option}", system.name);
+            ExperimentError::usage(message, who_has(option))
+        })?;
         let parse = |value: &str| {
-            read_value(option, value)
-                .map(|options| (options, format!("{option}={value}")))
-                .map_err(|error| ExperimentError::usage(format!("'{text}': {error}"), error.help()))
+            row.parse(value).map(|read| (read, format!("{option}={value}"))).map_err(|error| {
+                let help = format!("--{}: {}", row.name, row.help());
+                ExperimentError::usage(format!("'{text}': {error}"), help)
+            })
         };
-        Ok(Self { system, preset, values: values.split(',').map(parse).collect::<Result<_, _>>()? })
+        let values = values.split(',').map(parse).collect::<Result<_, _>>()?;
+        Ok(Self { system, preset, option: row.name, values })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::several_systems;
-    use super::super::tests::read_value;
     use super::*;
+    use rasray_options::OptionValues;
 
     #[test]
     fn an_option_may_address_one_preset() {
         let assigned = |text: &str| {
             let presets = [Preset::Robust, Preset::Published];
             let names = ["mmrt", "brute-force"].map(|name| System::named(name).expect("a system"));
-            several_systems(&names, &presets, &StructureOptions::default(), &[text.to_owned()], &read_value)
+            several_systems(&names, &presets, &OptionValues::default(), &[text.to_owned()])
         };
         let configs = assigned("mmrt-robust.accept=interval,plane")
             .expect("published keeps no plane and is left alone");
@@ -88,9 +86,8 @@ mod tests {
         let one = several_systems(
             &[System::named("mmrt").expect("a system")],
             &[Preset::Robust],
-            &StructureOptions::default(),
+            &OptionValues::default(),
             &["mmrt-published.samples=4".to_owned()],
-            &read_value,
         );
         assert!(one.expect_err("not compared").to_string().contains("published"));
     }

@@ -2,16 +2,15 @@ use super::*;
 use rasray_scene::needs::{Integrator, Workload};
 use rasray_scene::{Camera, Projection};
 
-fn options(given: &[(&str, &str)]) -> StructureOptions {
-    given.iter().fold(StructureOptions::default(), |options, (name, word)| options.with(name, *word))
+fn options(given: &[(&str, &str)]) -> OptionValues {
+    let read = |(name, text): &(&str, &str)| {
+        let row = &rasray_systems::option(name).expect("an option").row;
+        (row.name, row.parse(text).expect("a value of it"))
+    };
+    given.iter().map(read).collect()
 }
 
-/// Takes every value; the structure refuses what it does not know.
-pub(super) fn read_value(option: &str, value: &str) -> Result<StructureOptions, ExperimentError> {
-    Ok(options(&[(option, value)]))
-}
-
-fn with_buckets() -> StructureOptions {
+fn with_buckets() -> OptionValues {
     options(&[("buckets", "4")])
 }
 
@@ -23,7 +22,7 @@ fn system(name: &str) -> &'static System {
 fn published_fragments_carry_what_their_paper_keeps_for_occlusion() {
     let occlusion = Workload { integrator: Integrator::AmbientOcclusion, bounces: 1 };
     let path = Workload { integrator: Integrator::Path, bounces: 1 };
-    let plain = StructureOptions::default();
+    let plain = OptionValues::default();
     for system in SYSTEMS {
         let Ok(config) = one_system(system, Preset::Published, &plain) else { continue };
         let payload = config.clone().serving(occlusion).options.text("payload");
@@ -49,7 +48,7 @@ fn published_fragments_carry_what_their_paper_keeps_for_occlusion() {
 fn published_views_are_those_of_the_paper() {
     let eye = glam::DVec3::new(0.0, 0.0, 4.0);
     let camera = rasray_scene::default_view::camera_looking_at("", eye, glam::DVec3::ZERO, 1.0);
-    let plain = StructureOptions::default();
+    let plain = OptionValues::default();
     for system in SYSTEMS {
         for preset in [Preset::Robust, Preset::Published] {
             let Ok(config) = one_system(system, preset, &plain) else { continue };
@@ -92,8 +91,7 @@ fn in_a_comparison_an_option_goes_to_those_who_have_it() {
     let names = [system("mmrt"), system("brute-force"), system("mmrt")];
     let presets = [Preset::Published, Preset::Robust];
     let configs =
-        several_systems(&names, &presets, &with_buckets(), &["mmrt.samples=50".to_owned()], &read_value)
-            .expect("valid");
+        several_systems(&names, &presets, &with_buckets(), &["mmrt.samples=50".to_owned()]).expect("valid");
     let shape: Vec<_> =
         configs.iter().map(|c| (c.system.name, c.preset, c.options.text("buckets"))).collect();
     assert_eq!(
@@ -112,8 +110,7 @@ fn several_values_make_as_many_contestants() {
     let assigned = ["mmrt.samples=50,100".to_owned(), "mmrt.sort=on,off".to_owned()];
     let names = [system("mmrt"), system("brute-force")];
     let configs =
-        several_systems(&names, &[Preset::Robust], &StructureOptions::default(), &assigned, &read_value)
-            .expect("valid");
+        several_systems(&names, &[Preset::Robust], &OptionValues::default(), &assigned).expect("valid");
     let shape: Vec<_> =
         configs.iter().map(|c| (c.system.name, c.options.text("samples"), c.options.text("sort"))).collect();
     assert_eq!(shape.len(), 5);
@@ -132,9 +129,9 @@ fn several_values_make_as_many_contestants() {
 #[test]
 fn in_a_comparison_what_nobody_has_is_refused() {
     let evaluate = [system("brute-force")];
-    let plain = StructureOptions::default();
-    assert!(several_systems(&evaluate, &[Preset::Robust], &with_buckets(), &[], &read_value).is_err());
-    assert!(several_systems(&evaluate, &[Preset::Published], &plain, &[], &read_value).is_err());
+    let plain = OptionValues::default();
+    assert!(several_systems(&evaluate, &[Preset::Robust], &with_buckets(), &[]).is_err());
+    assert!(several_systems(&evaluate, &[Preset::Published], &plain, &[]).is_err());
     for bad in [
         "mmrt.samples=50",
         "mmrt",
@@ -144,8 +141,7 @@ fn in_a_comparison_what_nobody_has_is_refused() {
         "mmrt.sort=on,x",
         "mmrt.sort=on,",
     ] {
-        let error = several_systems(&evaluate, &[Preset::Robust], &plain, &[bad.to_owned()], &read_value)
-            .expect_err(bad);
+        let error = several_systems(&evaluate, &[Preset::Robust], &plain, &[bad.to_owned()]).expect_err(bad);
         assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
     }
 }

@@ -114,7 +114,9 @@ impl Backend for Scripted {
                     system: system.system.name.to_owned(),
                     preset: system.preset.name().to_owned(),
                     ray_set: Some(set.name().to_owned()),
-                    options: system.options.given().clone().into_iter().collect(),
+                    options: rasray_report::options(
+                        system.options.iter().map(|(name, value)| (name, value.to_string())),
+                    ),
                     ..Default::default()
                 });
             }

@@ -1,6 +1,7 @@
-//! What the registry says of an option: what it is for, what it takes, and whether it may change a hit.
+//! What the registry says of an option in addition to its row: what it is for, and whether it may change a hit.
 
 use rasray_ads::StructureKind;
+use rasray_options::OptionRow;
 
 /// What an option is for, the order in which help shows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -31,24 +32,6 @@ impl Group {
             Self::Diagnostic => "diagnostics",
         }
     }
-}
-
-/// A word that an option takes, and what it means.
-pub type Word = (&'static str, &'static str);
-
-/// What an option takes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Values {
-    /// One of these words.
-    Words(&'static [Word]),
-    /// A whole number from the first to the second.
-    Whole(u32, u32),
-    /// A length in metres, not negative.
-    Metres,
-    /// A share, not negative.
-    Share,
-    /// Columns and rows, 1 to 8192 each, such as `720x480`; or one number for both.
-    Cells,
 }
 
 /// Whether an option may change a hit, by what hits are. Where it may not, hits are bit-identical whatever its value.
@@ -86,31 +69,13 @@ impl Hits {
     }
 }
 
-/// An option.
+/// An option of structures.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OptionRow {
-    /// Name, on the command line and in reports.
-    pub name: &'static str,
+pub struct StructureOption {
+    /// Its name, what it takes, and what it says.
+    pub row: OptionRow,
     /// What it is for.
     pub group: Group,
-    /// What it takes.
-    pub values: Values,
-    /// Another name that stands for the value `off`; then the option's own name without a value is `on`.
-    pub off_name: Option<&'static str>,
     /// Whether it may change a hit.
     pub hits: Hits,
-    /// Values that tests try; all words where none are listed.
-    pub tried: &'static [&'static str],
-    /// What it says, for help.
-    pub doc: &'static str,
-}
-
-impl OptionRow {
-    /// Values that tests try.
-    pub fn tried(&self) -> Vec<&'static str> {
-        match self.values {
-            Values::Words(words) if self.tried.is_empty() => words.iter().map(|(word, _)| *word).collect(),
-            _ => self.tried.to_vec(),
-        }
-    }
 }

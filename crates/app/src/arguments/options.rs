@@ -1,0 +1,38 @@
+//! Options on the command line, made from their rows.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Arg, ArgAction, ArgMatches};
+use rasray_options::{OptionRow, Unit, Value, Values};
+
+/// The argument of an option, and the word that stands for its value `off` where there is one.
+pub fn arguments(row: &'static OptionRow) -> impl Iterator<Item = Arg> {
+    let argument = Arg::new(row.name).long(row.name).help(row.help());
+    let read = move |text: &str| row.values.parse(text);
+    let argument = match row.values {
+        Values::Words(words) => {
+            let words = words.iter().map(|(word, doc)| PossibleValue::new(*word).help(*doc));
+            argument
+                .value_name("WORD")
+                .value_parser(PossibleValuesParser::new(words).try_map(move |word| read(&word)))
+        }
+        Values::Whole(..) => argument.value_name("N").value_parser(read),
+        Values::Number(Unit::Metres, _) => argument.value_name("METRES").value_parser(read),
+        Values::Number(Unit::Share, _) => argument.value_name("SHARE").value_parser(read),
+        Values::Cells(_) => argument.value_name("WxH").value_parser(read),
+    };
+    let off = row.off_name.map(|name| {
+        let off = Arg::new(name).long(name).action(ArgAction::SetTrue).conflicts_with(row.name);
+        off.help(format!("The same as --{}=off", row.name))
+    });
+    let argument = match off {
+        Some(_) => argument.num_args(0..=1).require_equals(true).default_missing_value("on"),
+        None => argument,
+    };
+    std::iter::once(argument).chain(off)
+}
+
+/// What was given for an option.
+pub fn given(row: &OptionRow, matches: &ArgMatches) -> Option<Value> {
+    let off = row.off_name.is_some_and(|name| matches.get_flag(name)).then_some(Value::Word("off"));
+    matches.get_one::<Value>(row.name).copied().or(off)
+}

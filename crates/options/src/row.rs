@@ -1,0 +1,122 @@
+//! An option as a row.
+
+use crate::{Value, Values, Word};
+
+/// An option.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OptionRow {
+    /// Name, on the command line and in reports.
+    pub name: &'static str,
+    /// What it takes.
+    pub values: Values,
+    /// What it is for, one line of help without a full stop. Help adds the range and the default.
+    pub doc: &'static str,
+    /// The value where none is given; absent where that depends on more than the option.
+    pub default: Option<Value>,
+    /// Another name that stands for the value `off`; then the option's own name without a value is `on`.
+    pub off_name: Option<&'static str>,
+    /// Values that tests try; all words where none are listed.
+    pub tried: &'static [&'static str],
+}
+
+/// A value that an option does not take.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("--{option} {value} is not possible: {expected}")]
+pub struct ValueError {
+    /// The option.
+    pub option: &'static str,
+    /// What was given.
+    pub value: String,
+    /// What is taken.
+    pub expected: String,
+}
+
+impl OptionRow {
+    /// An option without a default.
+    pub const fn new(name: &'static str, values: Values, doc: &'static str) -> Self {
+        Self { name, values, doc, default: None, off_name: None, tried: &[] }
+    }
+
+    /// One that takes a word.
+    pub const fn words(name: &'static str, words: &'static [Word], doc: &'static str) -> Self {
+        Self::new(name, Values::Words(words), doc)
+    }
+
+    /// One that is on or off.
+    pub const fn switch(name: &'static str, doc: &'static str) -> Self {
+        Self::new(name, Values::SWITCH, doc)
+    }
+
+    /// The same with values that tests try.
+    #[must_use]
+    pub const fn trying(self, tried: &'static [&'static str]) -> Self {
+        Self { tried, ..self }
+    }
+
+    /// Values that tests try.
+    pub fn tried(&self) -> Vec<&'static str> {
+        match self.values {
+            Values::Words(words) if self.tried.is_empty() => words.iter().map(|(word, _)| *word).collect(),
+            _ => self.tried.to_vec(),
+        }
+    }
+
+    /// Reads a value.
+    ///
+    /// # Errors
+    /// The option does not take it.
+    pub fn parse(&self, text: &str) -> Result<Value, ValueError> {
+        self.values.parse(text).map_err(|expected| self.refused(text, expected))
+    }
+
+    /// The value, where the option takes it.
+    ///
+    /// # Errors
+    /// It does not.
+    pub fn check(&self, value: Value) -> Result<Value, ValueError> {
+        let taken = self.values.takes(value).then_some(value);
+        taken.ok_or_else(|| self.refused(value, self.values.expected()))
+    }
+
+    /// The error for a value, and what is expected in place of it.
+    pub fn refused(&self, value: impl ToString, expected: String) -> ValueError {
+        ValueError { option: self.name, value: value.to_string(), expected }
+    }
+
+    /// What it is for, with its range and its default.
+    pub fn help(&self) -> String {
+        let range = self.values.range().map(|range| format!(" [{range}]"));
+        let default = self.default.map(|value| format!(" [default: {value}]"));
+        [Some(self.doc.to_owned()), range, default].into_iter().flatten().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_says_the_range_and_the_default() {
+        let row = OptionRow::new("buckets", Values::Whole(1, 64), "Depth buckets");
+        assert_eq!(row.help(), "Depth buckets [1 to 64]");
+        let row = OptionRow { default: Some(Value::Word("on")), ..OptionRow::switch("sort", "Sort") };
+        assert_eq!(row.help(), "Sort [default: on]");
+        assert_eq!(OptionRow::new("capacity", Values::Whole(0, u32::MAX), "Entries").help(), "Entries");
+    }
+
+    #[test]
+    fn errors_name_the_option() {
+        let row = OptionRow::switch("sort", "Sort");
+        let error = row.parse("maybe").expect_err("no such word");
+        assert_eq!(error.to_string(), "--sort maybe is not possible: must be one of: on, off");
+        assert_eq!(row.check(Value::Whole(1)).expect_err("no word").value, "1");
+        assert_eq!(row.check(Value::Word("on")), Ok(Value::Word("on")));
+    }
+
+    #[test]
+    fn every_word_is_tried_unless_told() {
+        assert_eq!(OptionRow::switch("sort", "Sort").tried(), ["on", "off"]);
+        assert_eq!(OptionRow::switch("sort", "Sort").trying(&["off"]).tried(), ["off"]);
+        assert!(OptionRow::new("page", Values::Whole(1, 8), "Page").tried().is_empty());
+    }
+}

@@ -1,0 +1,170 @@
+//! What an option takes, and how it is read.
+
+use crate::Value;
+
+/// A word that an option takes, and what it means.
+pub type Word = (&'static str, &'static str);
+
+/// What a number counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// Metres.
+    Metres,
+    /// A share of a whole.
+    Share,
+}
+
+/// Where numbers begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Least {
+    /// At 0.
+    Zero,
+    /// Above 0.
+    AboveZero,
+}
+
+/// What an option takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Values {
+    /// One of these words.
+    Words(&'static [Word]),
+    /// A whole number from the first to the second.
+    Whole(u32, u32),
+    /// A finite number.
+    Number(Unit, Least),
+    /// Columns and rows, such as `720x480`, or one number for both: from 1 to this many each.
+    Cells(u32),
+}
+
+impl Values {
+    /// `on` and `off`.
+    pub const SWITCH: Self = Self::Words(&[("on", "Yes"), ("off", "No")]);
+
+    /// Reads a value.
+    ///
+    /// # Errors
+    /// Says what is taken.
+    pub fn parse(self, text: &str) -> Result<Value, String> {
+        let value = match self {
+            Self::Words(words) => {
+                words.iter().find(|(word, _)| *word == text).map(|(word, _)| Value::Word(word))
+            }
+            Self::Whole(..) => text.trim().parse().ok().map(Value::Whole),
+            Self::Number(..) => text.trim().parse().ok().map(Value::Number),
+            Self::Cells(_) => {
+                let (columns, rows) = text.split_once(['x', 'X']).unwrap_or((text, text));
+                let side = |text: &str| text.trim().parse().ok();
+                side(columns).zip(side(rows)).map(|(columns, rows)| Value::Cells([columns, rows]))
+            }
+        };
+        value.filter(|value| self.takes(*value)).ok_or_else(|| self.expected())
+    }
+
+    /// Whether a value is one of these.
+    pub fn takes(self, value: Value) -> bool {
+        match (self, value) {
+            (Self::Words(words), Value::Word(given)) => words.iter().any(|(word, _)| *word == given),
+            (Self::Whole(lowest, highest), Value::Whole(given)) => (lowest..=highest).contains(&given),
+            (Self::Number(_, least), Value::Number(given)) => {
+                given.is_finite() && (given > 0.0 || (given == 0.0 && least == Least::Zero))
+            }
+            (Self::Cells(most), Value::Cells(sides)) => sides.iter().all(|side| (1..=most).contains(side)),
+            _ => false,
+        }
+    }
+
+    /// Whether the words are `on` and `off`.
+    pub fn is_switch(self) -> bool {
+        self == Self::SWITCH
+    }
+
+    /// What a value must be, after its name.
+    pub fn expected(self) -> String {
+        match self {
+            Self::Words(words) => {
+                let words: Vec<_> = words.iter().map(|(word, _)| *word).collect();
+                format!("must be one of: {}", words.join(", "))
+            }
+            Self::Whole(lowest, highest) => format!("must be a whole number from {lowest} to {highest}"),
+            Self::Number(_, Least::Zero) => "must be a finite number of at least 0".to_owned(),
+            Self::Number(_, Least::AboveZero) => "must be a finite number above 0".to_owned(),
+            Self::Cells(most) => {
+                format!("write columns x rows from 1 to {most} each, such as 720x480, or one number for both")
+            }
+        }
+    }
+
+    /// Where the numbers that are taken begin and end, for help; absent where there is no upper end.
+    pub fn range(self) -> Option<String> {
+        match self {
+            Self::Whole(lowest, highest) if highest < u32::MAX => Some(format!("{lowest} to {highest}")),
+            Self::Cells(most) => Some(format!("1 to {most} each")),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WORDS: Values = Values::Words(&[("sah", "A tree"), ("lbvh", "Another")]);
+
+    #[test]
+    fn values_are_read_once_and_written_as_they_are_typed() {
+        for (values, text, value, written) in [
+            (WORDS, "lbvh", Value::Word("lbvh"), "lbvh"),
+            (Values::SWITCH, "off", Value::Word("off"), "off"),
+            (Values::Whole(2, 65_535), " 65535 ", Value::Whole(65_535), "65535"),
+            (Values::Number(Unit::Metres, Least::Zero), "0", Value::Number(0.0), "0"),
+            (Values::Number(Unit::Share, Least::AboveZero), "0.1", Value::Number(0.1), "0.1"),
+            (Values::Cells(8192), "720x480", Value::Cells([720, 480]), "720x480"),
+            (Values::Cells(64), "64", Value::Cells([64, 64]), "64x64"),
+        ] {
+            assert_eq!(values.parse(text), Ok(value), "{text}");
+            assert_eq!(value.to_string(), written);
+            assert_eq!(values.parse(written), Ok(value), "{written}");
+        }
+    }
+
+    #[test]
+    fn what_lies_outside_is_refused_in_words() {
+        let metres = Values::Number(Unit::Metres, Least::Zero);
+        for (values, expected, refused) in [
+            (WORDS, "must be one of: sah, lbvh", &["", "SAH", "sah ", "1"][..]),
+            (
+                Values::Whole(2, 65_535),
+                "must be a whole number from 2 to 65535",
+                &["1", "65536", "-2", "2.5", "", "4294967298", "two"],
+            ),
+            (metres, "must be a finite number of at least 0", &["-0.1", "nan", "inf", "1e39", "", "1m"]),
+            (
+                Values::Number(Unit::Metres, Least::AboveZero),
+                "must be a finite number above 0",
+                &["0", "-0", "-1", "nan", "inf"],
+            ),
+            (
+                Values::Cells(8192),
+                "write columns x rows from 1 to 8192 each, such as 720x480, or one number for both",
+                &["", "0", "x", "720x", "8193", "720x480x2", "-1x4"],
+            ),
+        ] {
+            for text in refused {
+                assert_eq!(values.parse(text), Err(expected.to_owned()), "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_value_of_another_kind_is_not_taken() {
+        let all = [Value::Word("on"), Value::Whole(1), Value::Number(1.0), Value::Cells([1, 1])];
+        let kinds =
+            [Values::SWITCH, Values::Whole(0, 2), Values::Number(Unit::Share, Least::Zero), Values::Cells(2)];
+        for (kind, values) in kinds.iter().enumerate() {
+            for (place, value) in all.iter().enumerate() {
+                assert_eq!(values.takes(*value), kind == place, "{values:?} {value:?}");
+            }
+        }
+        assert!(Values::SWITCH.is_switch() && !WORDS.is_switch());
+    }
+}
