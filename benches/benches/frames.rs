@@ -11,7 +11,7 @@ use std::error::Error;
 use std::ffi::OsStr;
 
 use rasray_ads::{Combined, Counters, Geometry, QueueCounters, Structure};
-use rasray_experiment::{LoadedScene, Stage, load, requirements};
+use rasray_experiment::{DeviceScene, LoadedScene, load, requirements};
 use rasray_gpu::{Device, DeviceDesc, PassTiming};
 use rasray_integrators::{Film, Integrator, IntegratorDesc, Raycast, waves};
 use rasray_metrics::median;
@@ -156,7 +156,7 @@ fn crossover(frame: &Frame, baseline: &Frame) -> String {
 /// What is measured of one system.
 struct Setting<'a> {
     device: &'a Device,
-    stage: Stage,
+    stage: DeviceScene,
     integrator: Raycast,
     loaded: &'a LoadedScene,
 }
@@ -173,7 +173,7 @@ fn frames(
     let camera: Camera =
         scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(scene));
     let workload = Workload { integrator: needs::Integrator::Raycast, bounces: 0 };
-    let stage = Stage::moving(device, scene, &camera, size, 1, &Needs::of(scene, workload))?;
+    let stage = DeviceScene::moving(device, scene, &camera, size, 1, &Needs::of(scene, workload))?;
     let film = Film::new(device, width, height)?;
     let integrator = Raycast::new(&IntegratorDesc::new(device, &stage.scene, &film))?;
     let mut setting = Setting { device, stage, integrator, loaded };

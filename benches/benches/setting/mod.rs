@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use rasray_experiment::{DeviceChoice, Stage, open_device};
+use rasray_experiment::{DeviceChoice, DeviceScene, open_device};
 use rasray_gpu::Device;
 use rasray_scene::needs::{Integrator, Needs, Workload};
 use rasray_scene::{builtin, default_view};
@@ -16,7 +16,7 @@ pub struct Setting {
     pub name: String,
     pub rays: u32,
     pub device: Device,
-    pub stage: Stage,
+    pub stage: DeviceScene,
 }
 
 impl Setting {
@@ -35,7 +35,7 @@ impl Setting {
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(&scene));
         let device = open_device(&DeviceChoice::default())?;
         let needs = Needs::of(&scene, Workload { integrator: Integrator::Raycast, bounces: 0 });
-        let stage = Stage::new(&device, &scene, &camera, [64, 64], SEED, &needs)?;
+        let stage = DeviceScene::new(&device, &scene, &camera, [64, 64], SEED, &needs)?;
         Ok(Self { name, rays, device, stage })
     }
 }

@@ -12,11 +12,11 @@ use rasray_scene::needs::Needs;
 use rasray_tracer::TracerError;
 
 use crate::built::Built;
+use crate::device_scene::{DeviceScene, device_error, image_error, tracer_error};
 use crate::error::ExperimentError;
 use crate::jobs::{Frame, Integrator, Primary};
 use crate::passes::Passes;
 use crate::shard::Shard;
-use crate::stage::{Stage, device_error, image_error, tracer_error};
 use rasray_report::{Pass, PassOf};
 
 /// Makes the integrator of a frame.
@@ -43,7 +43,7 @@ pub(super) fn integrator(
 /// What answers the camera rays of a frame in place of traces; nothing where they are traced.
 pub(super) fn visibility(
     device: &Device,
-    stage: &Stage,
+    stage: &DeviceScene,
     frame: &Frame,
 ) -> Result<Option<Visibility>, ExperimentError> {
     match frame.primary {
@@ -101,7 +101,7 @@ impl Accumulation {
     /// The device fails, or the frame asks for more than the integrator does.
     pub fn new(
         device: &Device,
-        stage: &Stage,
+        stage: &DeviceScene,
         frame: &Frame,
         shard: Option<Shard>,
         needs: &Needs,

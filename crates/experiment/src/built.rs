@@ -10,10 +10,10 @@ use rasray_systems::{Spec, SystemsError};
 use rasray_tracer::{BuildOutcome, FrameStructure, Keeping, TracerError, refresh_until_complete};
 use serde_json::Value;
 
+use crate::device_scene::{DeviceScene, device_error, scene_error, tracer_error};
 use crate::error::ExperimentError;
 use crate::jobs::Refresh;
 use crate::passes::{Passes, median, spread};
-use crate::stage::{Stage, device_error, scene_error, tracer_error};
 use rasray_report::{Counters, Memory, Pass, PassOf, Spread, Times};
 
 /// Why a first build failed.
@@ -139,7 +139,7 @@ impl Built {
         Self::over(device, spec, (scene, None), eye)
     }
 
-    /// The same for a scene that may move, in two parts where [`Refresh::Moving`] asks for them. [`Stage::parts`] was called then
+    /// The same for a scene that may move, in two parts where [`Refresh::Moving`] asks for them. [`DeviceScene::parts`] was called then
     /// before the scene was posed.
     ///
     /// # Errors
@@ -147,7 +147,7 @@ impl Built {
     pub fn refreshed(
         device: &Device,
         spec: &Spec,
-        stage: &mut Stage,
+        stage: &mut DeviceScene,
         refresh: Refresh,
     ) -> Result<Self, ExperimentError> {
         let parts = match refresh {
@@ -355,8 +355,11 @@ mod tests {
                 "{help}"
             );
         }
-        let film =
-            crate::stage::image_error(GpuError::TooLarge { name: "film".to_owned(), size: 9, limit: 8 });
+        let film = crate::device_scene::image_error(GpuError::TooLarge {
+            name: "film".to_owned(),
+            size: 9,
+            limit: 8,
+        });
         assert!(film.help().contains("--size") && !film.to_string().contains("address"), "{film}");
     }
 }

@@ -8,12 +8,12 @@ use rasray_reference::shading::{PosedScene, View};
 
 use crate::backend::{OnProgress, Progress};
 use crate::contestant::Contestant;
+use crate::device_scene::{DeviceScene, device_error};
 use crate::error::ExperimentError;
 use crate::images::{Setting, compare_images};
 use crate::jobs::{CompareJob, Comparison, FILE_SET, Sampler};
 use crate::rays::{RayFlags, RaySource, oracle_ray, triangles};
 use crate::replay::{ReplaySetting, replay_sets};
-use crate::stage::{Stage, device_error};
 use crate::traced_set::{RaysWithTruth, Wanted, compare_set};
 use crate::work_maps::work_maps;
 
@@ -26,8 +26,14 @@ pub(super) fn compare(
     let frame = job.frame;
     let mut says = |task: &str, unit: &str| _ = progress(Progress { task, done: 0, total: 0, unit });
     says("scene", "to the device");
-    let mut stage =
-        Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
+    let mut stage = DeviceScene::new(
+        device,
+        job.scene,
+        &job.camera,
+        [frame.width, frame.height],
+        frame.seed,
+        &job.needs,
+    )?;
     stage.sample_as(&frame)?;
     let (positions, indices) = stage.triangles(device)?;
     let origin = stage.scene.frame_origin();
@@ -121,7 +127,7 @@ pub(super) fn compare(
 
 /// The views' centre of ray sets: a tenth of the way from the camera to the middle of the scene, so
 /// that the camera's rays do not start where the views do.
-fn views_center(stage: &Stage, [lower, upper]: [[f32; 3]; 2]) -> [f32; 3] {
+fn views_center(stage: &DeviceScene, [lower, upper]: [[f32; 3]; 2]) -> [f32; 3] {
     let eye = stage.scene.eye();
     std::array::from_fn(|axis| {
         let middle = 0.5 * (f64::from(lower[axis]) + f64::from(upper[axis]));

@@ -6,8 +6,8 @@ use rasray_systems::Spec;
 
 use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
+use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
-use crate::stage::Stage;
 use crate::system_config::SystemConfig;
 use rasray_report::{Run, Times};
 
@@ -30,7 +30,7 @@ impl<'a> Contestant<'a> {
     /// Options that do not go together, a device that lacks something or fails, a build that does not become complete.
     pub fn all(
         device: &Device,
-        stage: &Stage,
+        stage: &DeviceScene,
         systems: &'a [SystemConfig],
         center: [f32; 3],
         repetitions: u32,

@@ -5,8 +5,8 @@ use rasray_gpu_scene::{TEXEL_BYTES, TexelRuns};
 use rasray_systems::{SYSTEMS, Spec};
 
 use crate::backend::{ChosenPath, DeviceDescription, Feature};
+use crate::device_scene::device_error;
 use crate::error::ExperimentError;
-use crate::stage::device_error;
 
 /// What any system may want of a device; each names what it cannot do without when it is made.
 pub fn requirements() -> Requirements {

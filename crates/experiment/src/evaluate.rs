@@ -4,8 +4,8 @@ use rasray_ads::{Hit, PRIMITIVE_UNKNOWN, StructureKind};
 use rasray_metrics::{DeviceHit, HitConfusion, common_hits};
 use rasray_reference::oracle::Verdict;
 
+use crate::device_scene::device_error;
 use crate::error::ExperimentError;
-use crate::stage::device_error;
 use rasray_report::Accuracy;
 use rasray_report::figures::DepthErrors;
 

@@ -9,6 +9,7 @@ use rasray_scene::needs::Needs;
 
 use crate::backend::{OnProgress, Progress};
 use crate::contestant::Contestant;
+use crate::device_scene::{DeviceScene, device_error};
 use crate::error::ExperimentError;
 use crate::evaluate::device_hits;
 use crate::hard_verdict::hard_record;
@@ -17,7 +18,6 @@ use crate::measured::{Measured, Tolerance};
 use crate::placed::{Placed, case_camera};
 use crate::rays::triangles;
 use crate::replay::replay_case;
-use crate::stage::{Stage, device_error};
 use crate::traced_set::{RaysWithTruth, Wanted, compare_set};
 
 /// Runs all systems on the rays of a case.
@@ -31,7 +31,7 @@ pub(super) fn hard(
     let scene = placed.scene(case);
     let camera = case_camera(case.eye);
     // Relative to the world's own origin, so that positions are those of the case bit for bit.
-    let stage = Stage::around(device, &scene, DVec3::ZERO, &camera, [1, 1], job.seed, &Needs::all())?;
+    let stage = DeviceScene::around(device, &scene, DVec3::ZERO, &camera, [1, 1], job.seed, &Needs::all())?;
     check_positions(device, &stage, case, &placed)?;
     if let Some(index) = job.replay {
         let rays = case.rays.iter().map(|ray| placed.device_ray(ray)).collect();
@@ -92,7 +92,7 @@ pub(super) fn hard(
 /// That the device has the case's triangles and no others, bit for bit.
 fn check_positions(
     device: &Device,
-    stage: &Stage,
+    stage: &DeviceScene,
     case: &HardCase,
     placed: &Placed,
 ) -> Result<(), ExperimentError> {

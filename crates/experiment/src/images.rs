@@ -8,10 +8,10 @@ use rasray_reference::shading::{PosedScene, View};
 use crate::backend::OnProgress;
 use crate::built::Built;
 use crate::contestant::Contestant;
+use crate::device_scene::{DeviceScene, device_error};
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, Frame, GlassShadows, Integrator};
 use crate::render::{Wanted, image_ms, render_pixels, trace_ms, visible_ms};
-use crate::stage::{Stage, device_error};
 use rasray_report::figures::{Images, SystemImage};
 use rasray_report::{ImageError, PassOf, Run};
 
@@ -20,7 +20,7 @@ use rasray_report::{ImageError, PassOf, Run};
 pub(super) struct Setting<'a> {
     pub(super) device: &'a Device,
     pub(super) job: &'a CompareJob<'a>,
-    pub(super) stage: &'a Stage,
+    pub(super) stage: &'a DeviceScene,
     pub(super) posed: &'a PosedScene<'a>,
     pub(super) view: &'a View,
 }

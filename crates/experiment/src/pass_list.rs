@@ -4,9 +4,9 @@ use rasray_ads::{Domain, RayQueue, TraceMode};
 use rasray_gpu::{Device, PassCommands};
 
 use crate::built::Built;
+use crate::device_scene::{DeviceScene, device_error};
 use crate::error::ExperimentError;
 use crate::jobs::RenderJob;
-use crate::stage::{Stage, device_error};
 
 /// Rays of the traces that are listed: as few as there can be, since their number is no matter of the structure.
 const RAYS: u32 = 1;
@@ -15,7 +15,7 @@ const RAYS: u32 = 1;
 /// kinds and the lookup of surfaces.
 pub(super) fn pass_list(device: &Device, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError> {
     let spec = job.system.spec()?;
-    let mut stage = Stage::of_job(device, job)?;
+    let mut stage = DeviceScene::of_job(device, job)?;
     let mut built = Built::refreshed(device, &spec, &mut stage, job.refresh)?;
     let queue = RayQueue::new(device, "listed", RAYS, true).map_err(device_error)?;
     let viewpoint = stage.scene.viewpoint().at(stage.scene.eye());

@@ -12,11 +12,11 @@ use rasray_scene::needs::Needs;
 use crate::accumulation::{Accumulation, count_unfinished, visibility};
 use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
+use crate::device_scene::{DeviceScene, device_error, image_error};
 use crate::error::ExperimentError;
 use crate::jobs::{AovSelection, FilmSums, Frame, GlassShadows, Primary, Refresh, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::shard::Shard;
-use crate::stage::{Stage, device_error, image_error};
 use crate::system_config::SystemConfig;
 use rasray_report::{Counters, PassOf, Times};
 
@@ -45,7 +45,7 @@ pub(super) struct Pixels {
 /// Renders the samples of a frame through a built structure.
 pub(super) fn render_pixels(
     device: &Device,
-    stage: &Stage,
+    stage: &DeviceScene,
     built: &Built,
     wanted: &Wanted<'_>,
     progress: &mut OnProgress<'_>,
@@ -121,7 +121,7 @@ pub(super) fn visible_ms(passes: &Passes, frame: &Frame) -> Option<f64> {
 
 /// What the device has of a job, for one that is the next of it.
 pub(super) struct Made {
-    stage: Stage,
+    stage: DeviceScene,
     built: Built,
     system: SystemConfig,
 }
@@ -147,7 +147,7 @@ fn made_for(
             stage.pose(device, job.scene, moment, Timing::None)?;
             (stage, Some(built).filter(|_| system == job.system))
         }
-        None => (Stage::of_job(device, job)?, None),
+        None => (DeviceScene::of_job(device, job)?, None),
     };
     stage.sample_as(&job.frame)?;
     if let Some(mut built) = kept {
@@ -235,7 +235,7 @@ pub(super) fn render(
 /// Traces the rays through pixel centres and adds the images that are wanted.
 fn add_aovs(
     device: &Device,
-    stage: &Stage,
+    stage: &DeviceScene,
     built: &Built,
     job: &RenderJob<'_>,
     output: &mut RenderOutput,

@@ -10,10 +10,10 @@ use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, Replay};
 
 use crate::built::Built;
+use crate::device_scene::{DeviceScene, device_error, tracer_error};
 use crate::error::ExperimentError;
 use crate::jobs::Comparison;
 use crate::rays::oracle_ray;
-use crate::stage::{Stage, device_error, tracer_error};
 use crate::system_config::SystemConfig;
 
 /// Cells of a view that are listed at most: more do not help a reader.
@@ -22,7 +22,7 @@ const MOST_CELLS: usize = 4096;
 /// What a ray is replayed against.
 pub(super) struct ReplaySetting<'a> {
     pub(super) device: &'a Device,
-    pub(super) stage: &'a Stage,
+    pub(super) stage: &'a DeviceScene,
     pub(super) oracle: &'a Oracle<'a>,
     /// The views' centre relative to the frame origin, metres.
     pub(super) center: [f32; 3],
@@ -80,7 +80,7 @@ pub(super) fn replay_sets(
 /// The ray of a hard case that is replayed, with the ids of triangles that the device has.
 pub(super) fn replay_case(
     device: &Device,
-    stage: &Stage,
+    stage: &DeviceScene,
     systems: &[SystemConfig],
     case: (&str, [f32; 3]),
     rays: Vec<Ray>,

@@ -252,7 +252,7 @@ impl LoadedScene {
     }
 
     /// Says that the scene is shown at a time, as [`Self::pose`] does, and leaves it at rest: whoever puts it on a device poses
-    /// it there ([`crate::Stage::pose`]). A scene whose triangles may be others at every time, as in numbered files, is posed
+    /// it there ([`crate::DeviceScene::pose`]). A scene whose triangles may be others at every time, as in numbered files, is posed
     /// here.
     ///
     /// # Errors

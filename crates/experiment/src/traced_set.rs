@@ -7,11 +7,11 @@ use rasray_reference::oracle::{Outcome, Verdict};
 use rasray_tracer::BatchTracer;
 
 use crate::contestant::Contestant;
+use crate::device_scene::tracer_error;
 use crate::error::ExperimentError;
 use crate::evaluate::{accuracy, depth_errors, device_hits};
 use crate::jobs::{Answers, Comparison, KeptSet};
 use crate::passes::{Passes, median, spread};
-use crate::stage::tracer_error;
 use rasray_ray_files::{HitsFile, TrueHit};
 use rasray_report::{PassOf, Run, Times};
 

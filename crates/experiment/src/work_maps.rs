@@ -10,9 +10,9 @@ use rasray_tracer::BatchTracer;
 
 use crate::built::Built;
 use crate::contestant::Contestant;
+use crate::device_scene::{DeviceScene, tracer_error};
 use crate::error::ExperimentError;
 use crate::rays::{RayFlags, RaySource, from_shading};
-use crate::stage::{Stage, tracer_error};
 use rasray_report::Run;
 use rasray_report::figures::WorkMap;
 
@@ -22,7 +22,7 @@ const BATCH: usize = 131_072;
 /// A map for each system, kept with the system's run of camera rays, or its first.
 pub(super) fn work_maps(
     device: &Device,
-    stage: &Stage,
+    stage: &DeviceScene,
     contestants: &[Contestant<'_>],
     source: &RaySource<'_>,
     runs: &[Run],
@@ -48,7 +48,7 @@ pub(super) fn work_maps(
 /// The device lacks something or fails, or the structure or rays do not become complete.
 pub fn work_per_pixel(
     device: &Device,
-    stage: &Stage,
+    stage: &DeviceScene,
     spec: &Spec,
     eye: [f32; 3],
     camera: &Camera,

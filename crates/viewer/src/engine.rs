@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use rasray_experiment::{
-    Accumulation, Built, ExperimentError, Frame, LoadedScene, Stage, SystemConfig, TexelCapacity, texels,
-    work_per_pixel,
+    Accumulation, Built, DeviceScene, ExperimentError, Frame, LoadedScene, SystemConfig, TexelCapacity,
+    texels, work_per_pixel,
 };
 use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{SceneTables, View};
@@ -49,7 +49,7 @@ pub struct Engine {
     needs_all: bool,
     choose: Box<ChooseCamera>,
     settings: Settings,
-    stage: Option<(Stage, Needs)>,
+    stage: Option<(DeviceScene, Needs)>,
     /// The time at which the stage is, seconds; absent at rest.
     posed: Option<f64>,
     /// Whether the stage has the default light.
@@ -175,7 +175,7 @@ impl Engine {
         let origin = SceneTables::default_frame_origin(&self.scene.loaded().scene, eye);
         let is_posed = self.scene.loaded().moment.is_some();
         let has_default_light = self.scene.loaded().has_default_light();
-        let is_kept = |(stage, _): &(Stage, Needs)| {
+        let is_kept = |(stage, _): &(DeviceScene, Needs)| {
             // Positions far from the eye have too few digits left.
             stage.scene.frame_origin() == origin
                 && self.has_default_light == has_default_light
@@ -197,7 +197,7 @@ impl Engine {
                 tracing::warn!("{text} (smaller-images)");
             }
             let scene = &self.scene.loaded().scene;
-            let make = if is_posed { Stage::moving } else { Stage::new };
+            let make = if is_posed { DeviceScene::moving } else { DeviceScene::new };
             let stage = make(&self.device, scene, &camera, [width, height], seed, &needs)?;
             self.stage = Some((stage, needs));
             self.posed = if is_posed { None } else { seconds };
@@ -353,7 +353,7 @@ impl Engine {
 /// The film that is there, or a new one, whose kernels are compiled before it is timed.
 fn opened<'a>(
     device: &Device,
-    stage: &Stage,
+    stage: &DeviceScene,
     film: &'a mut Option<Accumulation>,
     frame: &Frame,
     needs: &Needs,

@@ -1,7 +1,7 @@
 //! Structures that follow scene and camera.
 
 use rasray_ads::StructureKind;
-use rasray_experiment::{Built, ExperimentError, OptionValues, Stage, SystemConfig};
+use rasray_experiment::{Built, DeviceScene, ExperimentError, OptionValues, SystemConfig};
 use rasray_gpu::Device;
 use rasray_scene::needs::Needs;
 use rasray_systems::{Preset, SYSTEMS};
@@ -36,7 +36,7 @@ pub(crate) fn exact_config(shown: &SystemConfig) -> SystemConfig {
 /// anew where the scene has moved, or the camera has and it depends on that. One whose build fails is dropped.
 pub(crate) fn follow(
     device: &Device,
-    stage: Option<&(Stage, Needs)>,
+    stage: Option<&(DeviceScene, Needs)>,
     seconds: Option<f64>,
     traced: &mut Option<Traced>,
     config: &SystemConfig,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use rasray_experiment::{Built, Stage};
+use rasray_experiment::{Built, DeviceScene};
 use rasray_gpu::Timing;
 use rasray_gpu_scene::{GpuScene, Sampler, Sampling, View};
 use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, Path, PathOptions, Wave};
@@ -47,7 +47,7 @@ pub struct Picture {
 /// Everything that renders one scene.
 pub struct Studio<'a> {
     bench: &'a Bench,
-    stage: Stage,
+    stage: DeviceScene,
     built: Built,
     film: Film,
     view: View,
@@ -61,7 +61,7 @@ impl<'a> Studio<'a> {
     pub fn new(bench: &'a Bench, scene: &Scene, camera: Camera, size: u32, system: System) -> Self {
         let device = bench.device();
         let view = View { camera, width: size, height: size, seed: 1 };
-        let stage = Stage::new(device, scene, &view.camera, [size, size], view.seed, &Needs::all())
+        let stage = DeviceScene::new(device, scene, &view.camera, [size, size], view.seed, &Needs::all())
             .expect("the scene is whole and fits");
         let built =
             Built::new(device, &system.spec(), &stage.scene, stage.scene.eye()).expect("the build completes");

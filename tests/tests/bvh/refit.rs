@@ -35,13 +35,13 @@ fn rays() -> Vec<Ray> {
 }
 
 /// Triangles on the device, with what moves them.
-struct Stage {
+struct Setup {
     bench: Bench,
     geometry: Geometry,
     bounds: BoundsPass,
 }
 
-impl Stage {
+impl Setup {
     fn new(triangles: &[Triangle]) -> Self {
         let bench = Bench::new();
         let geometry = bench.geometry(triangles);
@@ -131,7 +131,7 @@ fn later_builds_find_only_the_boxes_anew() {
     for config in
         [base, Config { addressing: Addressing::Address, ..base }, Config { work_budget: Some(3), ..base }]
     {
-        let stage = Stage::new(&triangles);
+        let stage = Setup::new(&triangles);
         let mut tree = stage.tree(config);
         assert!(!stage.build(&mut tree), "the first build has no order to keep");
         let first = tree.download(stage.bench.device()).expect("readable");
@@ -159,7 +159,7 @@ fn later_builds_find_only_the_boxes_anew() {
 fn small_trees_are_refitted() {
     for count in [0_usize, 1, 2, 3, 4, 5, 17] {
         let triangles: Vec<Triangle> = scene().into_iter().take(count).collect();
-        let stage = Stage::new(&triangles);
+        let stage = Setup::new(&triangles);
         let mut tree = stage.tree(Config::new(Builder::Refit));
         stage.record(&mut tree, 0, true);
         assert!(tree.status(0).expect("readable").complete);
@@ -180,7 +180,7 @@ fn small_trees_are_refitted() {
 #[test]
 fn only_an_order_that_is_known_to_exist_is_kept() {
     let triangles = scene();
-    let stage = Stage::new(&triangles);
+    let stage = Setup::new(&triangles);
     let device = stage.bench.device();
     let mut tree = stage.tree(Config::new(Builder::Refit));
     tree.set_slots(device, 2).expect("two slots");
@@ -212,7 +212,7 @@ fn only_an_order_that_is_known_to_exist_is_kept() {
 #[test]
 fn other_triangles_or_pools_are_ordered_anew() {
     let triangles = scene();
-    let stage = Stage::new(&triangles);
+    let stage = Setup::new(&triangles);
     let device = stage.bench.device();
     let mut tree = stage.tree(Config::new(Builder::Refit));
     tree.set_slots(device, 2).expect("two slots");
@@ -249,7 +249,7 @@ fn other_triangles_or_pools_are_ordered_anew() {
 #[test]
 fn what_the_device_counts_is_ordered_by_every_build() {
     let triangles = scene();
-    let stage = Stage::new(&triangles);
+    let stage = Setup::new(&triangles);
     let device = stage.bench.device();
     let count = |shown: usize| {
         let words = [shown as u32];

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rasray_ads::{Geometry, Structure};
-use rasray_experiment::{Stage, device_hits, incoherent_rays, load, oracle_ray};
+use rasray_experiment::{DeviceScene, device_hits, incoherent_rays, load, oracle_ray};
 use rasray_gpu::Timing;
 use rasray_scene::needs::{Integrator, Needs, Workload};
 use rasray_scene::{Camera, Moment, Motion, Scene, default_view};
@@ -252,7 +252,7 @@ fn hold(bench: &Bench, moving: &'static Moving, scene: &Scene) -> Vec<String> {
     let camera: Camera = default_view::default_camera(scene);
     let needs = Needs::of(scene, Workload { integrator: Integrator::Raycast, bounces: 0 });
     let changes = scene.motion() == Motion::Changing;
-    let make = if changes { Stage::new } else { Stage::moving };
+    let make = if changes { DeviceScene::new } else { DeviceScene::moving };
     let mut shown = make(device, scene, &camera, [16, 16], 1, &needs).expect("it fits");
     let mut structures: Vec<(Row, Box<dyn Structure>)> = rows(moving)
         .map(|row| {
@@ -265,7 +265,7 @@ fn hold(bench: &Bench, moving: &'static Moving, scene: &Scene) -> Vec<String> {
         let moment = Moment { seconds, clips: scene.animation.rig.compatible_clips() };
         if changes {
             let posed = scene.at(&moment).expect("the files are whole");
-            let stage = Stage::new(device, &posed, &camera, [16, 16], 1, &needs).expect("it fits");
+            let stage = DeviceScene::new(device, &posed, &camera, [16, 16], 1, &needs).expect("it fits");
             for (_, structure) in &mut structures {
                 structure.set_geometry(device, stage.scene.geometry()).expect("it fits");
             }

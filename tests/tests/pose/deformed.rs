@@ -10,7 +10,7 @@ use rasray_scene::deforming::{Deformation, Deformer, Shape, Topology};
 use rasray_scene::{Instance, Material, Mesh, Moment, Scene, SceneError};
 use rasray_tests::harness::Bench;
 
-use crate::pose::held::{Figures, Stage};
+use crate::pose::held::{DeviceScene, Figures};
 use crate::pose::shapes::{at, cloud, linear, node, scene, shape};
 
 /// Lets a mesh grow from where it was; `says` makes of the mesh then what the deformer gives.
@@ -64,7 +64,7 @@ pub fn deforming(made: Scene, mesh: usize) -> Scene {
     says(made, mesh, vertices)
 }
 
-fn worst(stage: &Stage<'_>, times: &[f64]) -> Figures {
+fn worst(stage: &DeviceScene<'_>, times: &[f64]) -> Figures {
     let figures = times.iter().map(|&seconds| stage.held(&at(&stage.scene, seconds)));
     figures.fold(Figures::default(), Figures::worst)
 }
@@ -81,7 +81,7 @@ fn the_cloth_is_where_the_host_has_it() {
     for origin in [DVec3::ZERO, DVec3::new(2.3e6, -1.0e6, 0.5)] {
         let mut cloth = builtin("cloth-ball:1k").expect("built in").expect("a cloth");
         cloth.instances.iter_mut().for_each(|instance| instance.world_from_mesh.translation = origin);
-        let stage = Stage::new(&bench, cloth, origin);
+        let stage = DeviceScene::new(&bench, cloth, origin);
         assert_eq!(stage.pass.moving_draws(), [true, false, false]);
         let vertices = stage.scene.meshes[0].positions.len();
         assert_close("cloth", worst(&stage, &[0.0, 0.6, 1.2, 0.3]), vertices, 0);
@@ -109,7 +109,7 @@ fn a_shape_goes_where_its_nodes_go() {
     alone.animation.rig = Rig::default();
     alone.instances[2].world_from_mesh = DAffine3::from_scale(DVec3::new(2.0, -1.0, 1.0));
     for made in [made, alone] {
-        let stage = Stage::new(&bench, made, DVec3::ZERO);
+        let stage = DeviceScene::new(&bench, made, DVec3::ZERO);
         assert_eq!(stage.pass.moving_draws(), [true, false, true]);
         // Fresh tables have no tangents of what is deformed.
         assert_close("lamps", worst(&stage, &[0.0, 1.0, 0.5]), 240, 240);
@@ -133,10 +133,10 @@ fn whole_meshes_are_shapes_where_their_triangles_stay() {
         let rig = Rig { nodes: vec![node(None, DVec3::X)], ..Rig::default() };
         says(scene(vec![cloud(30, [0.0; 3], 73)], rig, Vec::new()), 0, shape)
     };
-    let stage = Stage::new(&bench, made(Shape::Mesh), DVec3::ZERO);
+    let stage = DeviceScene::new(&bench, made(Shape::Mesh), DVec3::ZERO);
     assert_close("meshes", worst(&stage, &[0.5, 0.0]), 90, 90);
     let flat = made(|mesh| Shape::Vertices { positions: mesh.positions, normals: None });
-    let stage = Stage::new(&bench, flat, DVec3::ZERO);
+    let stage = DeviceScene::new(&bench, flat, DVec3::ZERO);
     let figures = stage.held(&at(&stage.scene, 0.5));
     // Fresh tables have no normals, which those on the device, without a direction, stand for.
     assert_eq!((figures.absent, figures.ulps <= 4.0), (90, true), "{figures:?}");
@@ -149,7 +149,7 @@ fn whole_meshes_are_shapes_where_their_triangles_stay() {
         |mesh| Shape::Mesh(Mesh { tangents: Some(vec![[1.0; 4]; mesh.positions.len()]), ..mesh }),
     ];
     for other in others {
-        let stage = Stage::new(&bench, made(other), DVec3::ZERO);
+        let stage = DeviceScene::new(&bench, made(other), DVec3::ZERO);
         let refused = stage.pass.frame(&stage.scene, &at(&stage.scene, 0.5));
         assert!(
             matches!(&refused, Err(GpuSceneError::OtherTriangles { scene, mesh: 0, seconds: 0.5 }) if scene == "made"),
@@ -165,7 +165,7 @@ fn what_a_rig_deforms_as_well_is_refused() {
     let deformed = vec![shape(0, &mesh)];
     let rig = Rig { nodes: vec![node(None, DVec3::X)], deformed, ..Rig::default() };
     let twice = scene(vec![mesh], rig, Vec::new());
-    let stage = Stage::new(&bench, twice.clone(), DVec3::ZERO);
+    let stage = DeviceScene::new(&bench, twice.clone(), DVec3::ZERO);
     let tables = stage.fresh(&at(&twice, 0.0));
     let twice = deforming(twice, 0);
     let refused = PosePass::new(bench.device(), &twice, &tables, &stage.gpu);

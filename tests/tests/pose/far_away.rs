@@ -5,7 +5,7 @@ use rasray_scene::Scene;
 use rasray_scene::animation::{ChannelValues, NodeTransform, Rig, Skin};
 use rasray_tests::harness::Bench;
 
-use crate::pose::held::{Figures, Stage, worst_ulps};
+use crate::pose::held::{DeviceScene, Figures, worst_ulps};
 use crate::pose::shapes::{at, binding, cloud, linear, node, scene, shape, skin};
 
 const FAR: DVec3 = DVec3::new(1.0e6, -3.0e5, 2.0e6);
@@ -39,7 +39,7 @@ fn positions_are_as_exact_as_their_size_allows() {
         ("far from their own", near, FAR, DVec3::ZERO),
         ("far from all of them", FAR + near, -FAR, FAR),
     ] {
-        let stage = Stage::new(&bench, far(place, centre), origin);
+        let stage = DeviceScene::new(&bench, far(place, centre), origin);
         let figures = [0.0, 0.4, 1.0].map(|seconds| stage.held(&at(&stage.scene, seconds)));
         let worst = figures.into_iter().fold(Figures::default(), Figures::worst);
         println!("{what}: {worst:?}");
@@ -90,7 +90,7 @@ fn two_skins(turned: usize, idle: &[(usize, DVec3)]) -> Scene {
 fn a_far_joint_without_weight_costs_no_digits() {
     let bench = Bench::new();
     let far = DVec3::new(1.0e5, -3.0e6, 2.0e5);
-    let plain = Stage::new(&bench, two_skins(0, &[]), DVec3::ZERO);
+    let plain = DeviceScene::new(&bench, two_skins(0, &[]), DVec3::ZERO);
     let times = [0.0, 0.4, 1.0];
     let expected = times.map(|seconds| plain.fresh(&at(&plain.scene, seconds)).posed.positions);
     for (turned, idle) in [
@@ -101,7 +101,7 @@ fn a_far_joint_without_weight_costs_no_digits() {
         (1, vec![(JOINTS, far)]),
         (4, vec![(0, far), (3, -far), (JOINTS, 10.0 * far)]),
     ] {
-        let stage = Stage::new(&bench, two_skins(turned, &idle), DVec3::ZERO);
+        let stage = DeviceScene::new(&bench, two_skins(turned, &idle), DVec3::ZERO);
         for (seconds, expected) in times.into_iter().zip(&expected) {
             let moment = at(&stage.scene, seconds);
             let figures = stage.held(&moment);
@@ -143,7 +143,7 @@ fn meshes_of_a_skin_are_as_exact_as_each_of_them_allows() {
     let skins = vec![Skin { joint_from_mesh: far_nodes, ..skin }];
     let made = scene(meshes.into(), Rig { nodes, skins, deformed, ..Rig::default() }, channels);
     for origin in [DVec3::ZERO, FAR] {
-        let stage = Stage::new(&bench, made.clone(), origin);
+        let stage = DeviceScene::new(&bench, made.clone(), origin);
         for seconds in [0.0, 0.3, 1.0] {
             let figures = stage.held(&at(&stage.scene, seconds));
             println!("from {origin} at {seconds} s: {figures:?}");

@@ -12,7 +12,7 @@ use rasray_tests::harness::Bench;
 const SHARE_ERROR: f32 = 4.0e-7;
 
 /// A scene, its tables at rest on the device, and its pass.
-pub struct Stage<'a> {
+pub struct DeviceScene<'a> {
     pub bench: &'a Bench,
     pub scene: Scene,
     pub gpu: GpuScene,
@@ -57,7 +57,7 @@ pub fn view(eye: DVec3) -> View {
     View { camera, width: 16, height: 8, seed: 4 }
 }
 
-impl<'a> Stage<'a> {
+impl<'a> DeviceScene<'a> {
     pub fn new(bench: &'a Bench, scene: Scene, origin: DVec3) -> Self {
         let tables = SceneTables::new(&scene, origin, &Parts::ALL).expect("the scene is whole");
         let gpu = GpuScene::upload(bench.device(), &tables, &view(origin)).expect("the scene fits");

@@ -6,7 +6,7 @@ use rasray_scene::animation::{ChannelValues, Rig};
 use rasray_scene::{Camera, Environment, Light, Material, Projection, Scene};
 use rasray_tests::harness::Bench;
 
-use crate::pose::held::Stage;
+use crate::pose::held::DeviceScene;
 use crate::pose::shapes::{at, cloud, linear, node, scene};
 
 /// A lamp that shrinks to nothing and grows, another one that stays, and lights and a camera on moving nodes.
@@ -68,7 +68,7 @@ fn lights_and_lamps_are_those_of_fresh_tables() {
         (vec![], [0.1; 3], true),
         (vec![spot, sun, point], [0.1; 3], true),
     ] {
-        let stage = Stage::new(&bench, lamps(lights, environment, others), DVec3::ZERO);
+        let stage = DeviceScene::new(&bench, lamps(lights, environment, others), DVec3::ZERO);
         for seconds in [0.0, 0.6, 0.0, 1.0] {
             // Compares lights, lamps and shares.
             stage.held(&at(&stage.scene, seconds));
@@ -92,7 +92,7 @@ fn lights_move_by_themselves() {
     let moves = ChannelValues::Translation(vec![[0.0; 3], [5.0, 6.0, 7.0]]);
     let mut made = scene(vec![cloud(3, [0.0; 3], 30)], rig, vec![linear(1, moves)]);
     made.lights = vec![Light::Point { position: DVec3::ONE, intensity: [1.0; 3], range: 9.0 }];
-    let stage = Stage::new(&bench, made, DVec3::ZERO);
+    let stage = DeviceScene::new(&bench, made, DVec3::ZERO);
     assert_eq!((stage.pass.moves(), stage.pass.moving_draws()), (true, &[false][..]));
     for seconds in [0.5, 1.0, 0.0] {
         assert_eq!(stage.held(&at(&stage.scene, seconds)).vertices, 0);

@@ -8,13 +8,13 @@ use rasray_tests::harness::Bench;
 use rasray_tests::invariance::Subject;
 use rasray_tests::tier;
 
-use crate::pose::held::{Figures, Stage};
+use crate::pose::held::{DeviceScene, Figures};
 use crate::pose::shapes::{at, binding, cloud, linear, node, scene, shape, skin, target};
 
 /// All times, posed in this order.
 const TIMES: [f64; 6] = [0.0, 1.0, 0.3, 0.5, 0.77, 0.1];
 
-fn worst(stage: &Stage<'_>) -> Figures {
+fn worst(stage: &DeviceScene<'_>) -> Figures {
     let figures = TIMES.map(|seconds| stage.held(&at(&stage.scene, seconds)));
     figures.into_iter().fold(Figures::default(), Figures::worst)
 }
@@ -40,7 +40,7 @@ fn a_scale_that_changes_its_sign_mirrors() {
     let rig = Rig { nodes: vec![child, node(None, DVec3::X), node(None, DVec3::Y)], ..Rig::default() };
     let scale = ChannelValues::Scale(vec![[1.0, 3.0, 0.7], [-0.5, 3.0, 0.7]]);
     let made = scene(vec![cloud(70, [0.5; 3], 1), cloud(5, [0.0; 3], 2)], rig, vec![linear(2, scale)]);
-    let stage = Stage::new(&bench, made, DVec3::ZERO);
+    let stage = DeviceScene::new(&bench, made, DVec3::ZERO);
     assert_eq!(stage.pass.moving_draws(), [true, false]);
     assert_close("mirrored", worst(&stage), 210, 1.0e-5);
     let mirrored = |seconds| {
@@ -76,7 +76,7 @@ fn morph_targets_come_before_eight_joints() {
     let nodes = [vec![node(None, DVec3::ONE), node(None, DVec3::NEG_X)], joint_nodes].concat();
     let rig = Rig { nodes, skins: vec![skin], deformed: vec![skinned, morphed], ..Rig::default() };
     let made = scene(vec![mesh.clone(), mesh], rig, channels);
-    let stage = Stage::new(&bench, made, DVec3::new(0.0, 1.0, 0.0));
+    let stage = DeviceScene::new(&bench, made, DVec3::new(0.0, 1.0, 0.0));
     assert_close("morphed and skinned", worst(&stage), 2 * vertices, 1.0e-5);
     let frame = |seconds| stage.pass.frame(&stage.scene, &at(&stage.scene, seconds)).expect("it is whole");
     let shown = |seconds| frame(seconds).bytes();
@@ -104,7 +104,7 @@ fn splines_of_translation_and_rotation() {
     let channels =
         vec![spline(0, ChannelValues::Translation(moves)), spline(0, ChannelValues::Rotation(turns))];
     let rig = Rig { nodes: vec![node(None, DVec3::ZERO)], ..Rig::default() };
-    let stage = Stage::new(&bench, scene(vec![cloud(50, [0.0; 3], 8)], rig, channels), DVec3::ZERO);
+    let stage = DeviceScene::new(&bench, scene(vec![cloud(50, [0.0; 3], 8)], rig, channels), DVec3::ZERO);
     assert_close("splines", worst(&stage), 150, 1.0e-5);
 }
 
@@ -131,7 +131,7 @@ fn instances_of_a_mesh_have_weights_of_their_own() {
     made.instances = [0, 0, 0, 1, 1].map(|mesh| Instance { mesh, ..made.instances[0].clone() }).into();
     let made = made.at(&Moment::default()).expect("a rig");
     let meshes = made.meshes.len();
-    let stage = Stage::new(&bench, made, DVec3::ZERO);
+    let stage = DeviceScene::new(&bench, made, DVec3::ZERO);
     assert_eq!(stage.pass.moving_draws(), [false, true, true, true, true]);
     assert_close("copies", worst(&stage), 4 * vertices, 1.0e-5);
     let count = |seconds| stage.scene.at(&at(&stage.scene, seconds)).expect("a rig").meshes.len() - meshes;
@@ -145,7 +145,7 @@ fn what_leaves_the_range_of_numbers_is_counted() {
     let rig = Rig { nodes: vec![node(None, DVec3::ZERO), node(None, DVec3::ZERO)], ..Rig::default() };
     let scale = ChannelValues::Scale(vec![[1.0; 3], [1.0e30, 1.0, 1.0]]);
     let made = scene(vec![cloud(20, [0.0; 3], 9), cloud(7, [0.0; 3], 10)], rig, vec![linear(1, scale)]);
-    let stage = Stage::new(&bench, made, DVec3::ZERO);
+    let stage = DeviceScene::new(&bench, made, DVec3::ZERO);
     let quick = |name: &str| ["bricks robust", "bvh robust"].contains(&name);
     for subject in Subject::all() {
         let name = subject.name();
@@ -185,7 +185,7 @@ fn what_is_hidden_at_rest_is_whole_when_it_is_shown() {
     let rig = Rig { nodes, skins: vec![skin], deformed: vec![skinned], ..Rig::default() };
     let made = scene(vec![rigid, mesh], rig, channels);
     assert!(made.meshes.iter().all(|mesh| mesh.normals.is_some() && mesh.tangents.is_some()));
-    let stage = Stage::new(&bench, made, DVec3::ZERO);
+    let stage = DeviceScene::new(&bench, made, DVec3::ZERO);
     for seconds in [1.0, 0.25] {
         assert_close("hidden at rest", stage.held(&at(&stage.scene, seconds)), 2 * vertices, 1.0e-5);
     }

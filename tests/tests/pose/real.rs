@@ -6,7 +6,7 @@ use glam::DVec3;
 use rasray_scene::{Environment, Light, LoadOptions, Moment};
 use rasray_tests::harness::Bench;
 
-use crate::pose::held::Stage;
+use crate::pose::held::DeviceScene;
 
 /// Files, and how many vertices of each move.
 const FILES: [(&str, usize); 12] = [
@@ -42,7 +42,7 @@ fn real_scenes_are_where_the_host_has_them() {
         let durations: Vec<f64> =
             scene.animation.rig.clips.iter().map(|clip| f64::from(clip.duration)).collect();
         for origin in [DVec3::ZERO, DVec3::new(1.0e6, -2.0e6, 3.0e5)] {
-            let stage = Stage::new(&bench, scene.clone(), origin);
+            let stage = DeviceScene::new(&bench, scene.clone(), origin);
             // At rest, where there is no clip.
             let mut worst = stage.held(&Moment::default());
             for (clip, duration) in durations.iter().enumerate() {

@@ -15,7 +15,7 @@ use rasray_tests::random::Random;
 use rasray_tracer::build_until_complete;
 
 use crate::pose::deformed::deforming;
-use crate::pose::held::{Stage, view};
+use crate::pose::held::{DeviceScene, view};
 use crate::pose::shapes::{at, binding, cloud, linear, node, scene, shape, skin};
 
 /// A turning and a skinned mesh beside one that stays, and one that the host deforms.
@@ -41,7 +41,7 @@ fn moving() -> Scene {
 fn pending_recordings_have_poses_and_views_of_their_own() {
     let bench = Bench::new();
     let device = bench.device();
-    let mut stage = Stage::new(&bench, moving(), DVec3::ZERO);
+    let mut stage = DeviceScene::new(&bench, moving(), DVec3::ZERO);
     stage.pass.set_slots(device, 2).expect("it fits");
     let positions = &stage.gpu.geometry().desc().positions.buffer;
     let moments = [at(&stage.scene, 0.25), at(&stage.scene, 0.8)];
@@ -111,7 +111,8 @@ fn what_was_made_for_another_scene_is_refused() {
     let rig = Rig { nodes: vec![node(None, DVec3::ZERO)], ..Rig::default() };
     let moves = ChannelValues::Translation(vec![[0.0; 3], [1.0; 3]]);
     let other = scene(vec![cloud(3, [0.0; 3], 60)], rig, vec![linear(0, moves)]);
-    let (stage, other) = (Stage::new(&bench, moving(), DVec3::ZERO), Stage::new(&bench, other, DVec3::ZERO));
+    let (stage, other) =
+        (DeviceScene::new(&bench, moving(), DVec3::ZERO), DeviceScene::new(&bench, other, DVec3::ZERO));
     let moment = at(&other.scene, 0.5);
     let pose = other.pass.frame(&other.scene, &moment).expect("it is of this scene");
     let submitted = device.submit(|recorder| stage.pass.record(recorder, 0, &pose));
@@ -127,7 +128,7 @@ fn what_was_made_for_another_scene_is_refused() {
 fn structures_are_built_from_what_was_posed() {
     let bench = Bench::new();
     let device = bench.device();
-    let stage = Stage::new(&bench, moving(), DVec3::ZERO);
+    let stage = DeviceScene::new(&bench, moving(), DVec3::ZERO);
     let geometry = stage.gpu.geometry();
     let mut random = Random::new(61);
     let rays: Vec<Ray> = (0..400)

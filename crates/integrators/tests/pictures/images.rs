@@ -13,7 +13,7 @@ fn a_scene_without_triangles_shows_its_environment() {
     let device = device();
     let empty =
         Scene { environment: rasray_scene::Environment::Constant([0.25, 0.5, 2.0]), ..Scene::default() };
-    let stage = Stage::new(&device, &empty, forward_camera(DVec3::new(1.0, 2.0, 3.0)), 5, 3, 1);
+    let stage = Setup::new(&device, &empty, forward_camera(DVec3::new(1.0, 2.0, 3.0)), 5, 3, 1);
     let path = Path::new(&stage.desc(), 2).expect("valid");
     assert_eq!(stage.render(&path, 2), vec![[0.25, 0.5, 2.0]; 15]);
     let raycast = Raycast::new(&stage.desc()).expect("valid");
@@ -38,7 +38,7 @@ fn ambient_occlusion_sees_what_is_within_its_range() {
         -DVec3::Z,
         Projection::Orthographic { half_height: 0.5 },
     );
-    let stage = Stage::new(&device, &scene, down, 8, 8, 3);
+    let stage = Setup::new(&device, &scene, down, 8, 8, 3);
     let image = |range| stage.render(&AmbientOcclusion::new(&stage.desc(), range).expect("valid"), 8);
     assert_eq!(image(1.9), vec![[1.0; 3]; 64]);
     // Nearly everything: only rays within 1/5000 of the horizon escape.
@@ -57,7 +57,7 @@ fn a_closed_emitting_box_gives_the_geometric_series() {
     let device = device();
     let albedo = 0.5f64;
     let scene = scene(box_inside(1.0, 0), vec![lambert(albedo as f32, 1.0)], [0.0; 3]);
-    let stage = Stage::new(&device, &scene, forward_camera(DVec3::new(0.1, -0.2, 0.3)), 16, 16, 5);
+    let stage = Setup::new(&device, &scene, forward_camera(DVec3::new(0.1, -0.2, 0.3)), 16, 16, 5);
     for bounces in [0, 1, 3] {
         let path = Path::new(&stage.desc(), bounces).expect("valid");
         assert_eq!(path.traces_per_wave(), 2 * bounces + 1);
@@ -85,7 +85,7 @@ fn a_point_light_falls_off_with_distance_and_cosine_and_casts_shadows() {
     let projection = Projection::Orthographic { half_height: 1e-3 };
     let above = |x: f64| camera(DVec3::new(x, 1.0, 0.0), DVec3::X, -DVec3::Z, projection);
     for x in [0.0, 1.5] {
-        let stage = Stage::new(&device, &scene, above(x), 2, 2, 0);
+        let stage = Setup::new(&device, &scene, above(x), 2, 2, 0);
         let image = stage.render(&Path::new(&stage.desc(), 1).expect("valid"), 1);
         // I cos / r^2 * albedo / pi
         let squared = x * x + 4.0;
@@ -99,7 +99,7 @@ fn a_point_light_falls_off_with_distance_and_cosine_and_casts_shadows() {
         mesh: 1,
         world_from_mesh: glam::DAffine3::IDENTITY,
     });
-    let stage = Stage::new(&device, &scene, above(0.0), 2, 2, 0);
+    let stage = Setup::new(&device, &scene, above(0.0), 2, 2, 0);
     let image = stage.render(&Path::new(&stage.desc(), 1).expect("valid"), 1);
     assert_eq!(image, vec![[0.0; 3]; 4]);
     assert_silent(&device);
@@ -113,7 +113,7 @@ fn a_polished_metal_of_leaning_normals_is_white_in_a_white_furnace() {
     floor.normals = Some(vec![[0.0, 0.0, 1.0], [-0.8, 0.0, 0.6], [0.6, 0.6, 0.53], [0.0, -0.95, 0.31]]);
     let polished = Material { metallic: 1.0, roughness: 0.0, ..lambert(1.0, 0.0) };
     let scene = scene(vec![floor], vec![polished], [1.0; 3]);
-    let stage = Stage::new(&device, &scene, forward_camera(DVec3::new(0.0, 0.0, 1.5)), 24, 24, 3);
+    let stage = Setup::new(&device, &scene, forward_camera(DVec3::new(0.0, 0.0, 1.5)), 24, 24, 3);
     let image = stage.render(&Path::new(&stage.desc(), 2).expect("valid"), 4);
     let darkest = image.iter().flatten().copied().fold(f32::INFINITY, f32::min);
     assert!(darkest > 0.999, "{darkest}");
@@ -130,7 +130,7 @@ fn a_blended_emitter_shines_with_its_opacity() {
     meshes.push(square(DVec3::new(0.0, 0.0, -0.5), DVec3::X * 0.5, DVec3::Y * 0.5, 1));
     let scene = scene(meshes, vec![veil, lambert(0.5, 0.0)], [0.0; 3]);
     let eye = camera(DVec3::ZERO, DVec3::X, DVec3::Y, Projection::Orthographic { half_height: 0.1 });
-    let stage = Stage::new(&device, &scene, eye, 16, 16, 8);
+    let stage = Setup::new(&device, &scene, eye, 16, 16, 8);
     let found = mean(&stage.render(&Path::new(&stage.desc(), 1).expect("valid"), 16));
     // Every direction shows half of the emission; each sample is 0 or the albedo.
     let deviation = 0.25 / 4096.0f64.sqrt();
@@ -144,7 +144,7 @@ fn ray_casting_lights_from_the_eye() {
     let wall = square(DVec3::new(0.0, 0.0, -2.0), DVec3::X * 9.0, DVec3::Y * 9.0, 0);
     let scene = scene(vec![wall], vec![lambert(0.5, 0.25)], [0.0; 3]);
     let eye = camera(DVec3::ZERO, DVec3::X, DVec3::Y, Projection::Orthographic { half_height: 1.0 });
-    let stage = Stage::new(&device, &scene, eye, 4, 2, 0);
+    let stage = Setup::new(&device, &scene, eye, 4, 2, 0);
     let image = stage.render(&Raycast::new(&stage.desc()).expect("valid"), 2);
     assert_eq!(image, vec![[0.75; 3]; 8]);
     assert_silent(&device);
@@ -166,7 +166,7 @@ fn pixel_centres_know_distance_normal_and_primitive() {
         instance.world_from_mesh = glam::DAffine3::from_translation(place);
     }
     let (width, height) = (6, 4);
-    let stage = Stage::new(&device, &scene, forward_camera(place), width, height, 9);
+    let stage = Setup::new(&device, &scene, forward_camera(place), width, height, 9);
     let aov = AovPass::new(&device, &stage.scene, 10).expect("valid");
     device.submit(|recorder| aov.record_reset(recorder)).expect("the reset runs");
     for wave in waves(width * height, 1, 10) {
@@ -215,7 +215,7 @@ fn busy_scene() -> Scene {
 #[test]
 fn the_picture_does_not_depend_on_how_the_image_is_cut() {
     let device = device();
-    let stage = Stage::new(&device, &busy_scene(), forward_camera(DVec3::new(0.0, 0.0, 0.9)), 12, 9, 17);
+    let stage = Setup::new(&device, &busy_scene(), forward_camera(DVec3::new(0.0, 0.0, 0.9)), 12, 9, 17);
     let whole = Path::new(&stage.desc(), 3).expect("valid");
     let reference = stage.render(&whole, 2);
     assert!(mean(&reference) > 0.05);
@@ -233,7 +233,7 @@ fn code_that_is_left_out_does_not_change_the_picture() {
     let mut scene = busy_scene();
     scene.materials[2].transmission = 0.0;
     scene.materials[3].alpha_mode = rasray_scene::AlphaMode::Opaque;
-    let stage = Stage::new(&device, &scene, forward_camera(DVec3::new(0.0, 0.0, 0.9)), 12, 9, 2);
+    let stage = Setup::new(&device, &scene, forward_camera(DVec3::new(0.0, 0.0, 0.9)), 12, 9, 2);
     let needed = ShadingFeatures {
         textures: false,
         transmission: false,
@@ -259,8 +259,8 @@ fn code_that_is_left_out_does_not_change_the_picture() {
 fn seeds_and_samples_differ_and_repeat() {
     let device = device();
     let view =
-        |seed| Stage::new(&device, &busy_scene(), forward_camera(DVec3::new(0.0, 0.0, 0.9)), 8, 6, seed);
-    let image = |stage: &Stage, samples| stage.render(&Path::new(&stage.desc(), 2).expect("valid"), samples);
+        |seed| Setup::new(&device, &busy_scene(), forward_camera(DVec3::new(0.0, 0.0, 0.9)), 8, 6, seed);
+    let image = |stage: &Setup, samples| stage.render(&Path::new(&stage.desc(), 2).expect("valid"), samples);
     let (one, two) = (view(1), view(2));
     assert_eq!(image(&one, 2), image(&one, 2));
     assert_ne!(image(&one, 2), image(&two, 2));
@@ -272,7 +272,7 @@ fn samples_that_are_not_finite_are_counted_and_left_out() {
     let device = device();
     let mut scene = scene(box_inside(1.0, 0), vec![lambert(0.5, 0.0)], [0.0; 3]);
     scene.materials[0].emission = [f32::INFINITY, 1.0, 1.0];
-    let stage = Stage::new(&device, &scene, forward_camera(DVec3::ZERO), 4, 4, 0);
+    let stage = Setup::new(&device, &scene, forward_camera(DVec3::ZERO), 4, 4, 0);
     let image = stage.render(&Path::new(&stage.desc(), 0).expect("valid"), 3);
     assert_eq!(image, vec![[0.0; 3]; 16]);
     assert_eq!(stage.film.read_faults(&device).expect("readable").non_finite, 48);
@@ -283,7 +283,7 @@ fn samples_that_are_not_finite_are_counted_and_left_out() {
 #[test]
 fn what_does_not_fit_is_refused_before_anything_is_recorded() {
     let device = device();
-    let stage = Stage::new(&device, &Scene::default(), forward_camera(DVec3::ZERO), 4, 4, 0);
+    let stage = Setup::new(&device, &Scene::default(), forward_camera(DVec3::ZERO), 4, 4, 0);
     let raycast = Raycast::new(&stage.desc_with(8, ShadingFeatures::ALL)).expect("valid");
     for (first_pixel, pixel_count) in [(0, 9), (0, 0), (12, 8)] {
         let wave = Wave { first_pixel, pixel_count, sample: 0 };
@@ -304,7 +304,7 @@ fn the_camera_can_move_without_another_upload() {
     let device = device();
     let wall = square(DVec3::new(0.0, 0.0, -2.0), DVec3::X * 9.0, DVec3::Y * 9.0, 0);
     let scene = scene(vec![wall], vec![lambert(0.5, 0.0)], [1.0; 3]);
-    let mut stage = Stage::new(&device, &scene, forward_camera(DVec3::ZERO), 4, 4, 0);
+    let mut stage = Setup::new(&device, &scene, forward_camera(DVec3::ZERO), 4, 4, 0);
     let raycast = Raycast::new(&stage.desc()).expect("valid");
     assert!(stage.render(&raycast, 1).iter().all(|pixel| pixel[0] < 0.6));
     let away =

@@ -19,7 +19,7 @@ fn image(
     parts: &Parts,
 ) -> (u64, Vec<[f32; 3]>) {
     let view = View { camera: camera.clone(), width: 16, height: 12, seed: 5 };
-    let stage = Stage::with(device, scene, view, parts);
+    let stage = Setup::with(device, scene, view, parts);
     let desc = stage.desc();
     let integrator: Box<dyn Integrator> = match workload.integrator {
         needs::Integrator::Raycast => Box::new(Raycast::new(&desc).expect("valid")),

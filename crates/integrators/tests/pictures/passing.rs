@@ -30,9 +30,9 @@ fn behind(layers: u32, apart: f64, material: Material) -> Scene {
     scene
 }
 
-fn stage(device: &rasray_gpu::Device, scene: &Scene) -> Stage {
+fn stage(device: &rasray_gpu::Device, scene: &Scene) -> Setup {
     let eye = camera(DVec3::ZERO, DVec3::X, DVec3::Y, Projection::Orthographic { half_height: 1.0 });
-    Stage::new(device, scene, eye, SIZE, SIZE, 5)
+    Setup::new(device, scene, eye, SIZE, SIZE, 5)
 }
 
 #[test]

@@ -138,7 +138,7 @@ fn a_coarse_ball_is_lit_as_a_ball() {
     let parallel = Projection::Orthographic { half_height: half };
     let eye = camera(DVec3::Z * 4.0, DVec3::X, DVec3::Y, parallel);
     let errors = ShadowTerminator::ALL.map(|shadow_terminator| {
-        let mut stage = Stage::new(&device, &scene, eye.clone(), side, side, 3);
+        let mut stage = Setup::new(&device, &scene, eye.clone(), side, side, 3);
         let samples = 16;
         let sampling = Sampling { samples, ..Sampling::default() };
         stage.scene.set_sampling(sampling).expect("the frame can be written");

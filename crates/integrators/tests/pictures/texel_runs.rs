@@ -1,7 +1,7 @@
 //! Textures whose texels lie in several buffers: the same pictures.
 
 use crate::pictures::common::scenes::textured_room;
-use crate::pictures::common::{Stage, are_same, assert_silent, device, forward_camera, mean};
+use crate::pictures::common::{Setup, are_same, assert_silent, device, forward_camera, mean};
 use glam::DVec3;
 use rasray_ads::BruteForce;
 use rasray_gpu::Device;
@@ -9,17 +9,17 @@ use rasray_gpu_scene::{GpuScene, Parts, SceneTables, ShadingFeatures, TexelRuns,
 use rasray_integrators::{AmbientOcclusion, Film, Integrator, Path, Raycast};
 
 /// Every kind of texture and a mask, with texels in runs.
-fn stage(device: &Device, tables: &SceneTables, runs: TexelRuns) -> Stage {
+fn stage(device: &Device, tables: &SceneTables, runs: TexelRuns) -> Setup {
     let view = View { camera: forward_camera(DVec3::new(0.0, 0.0, 0.5)), width: 24, height: 16, seed: 5 };
     let scene = GpuScene::upload_in_runs(device, tables, &view, runs).expect("the scene fits");
     let structure = BruteForce::new(device, scene.geometry(), Some(scene.binding()), false)
         .expect("the structure can be made");
     let film = Film::new(device, view.width, view.height).expect("the film fits");
-    Stage { device: device.clone(), scene, structure, film }
+    Setup { device: device.clone(), scene, structure, film }
 }
 
 /// Path tracing with bounces, ray casting, and what rays alone see of the mask.
-fn pictures(stage: &Stage, features: ShadingFeatures) -> [Vec<[f32; 3]>; 3] {
+fn pictures(stage: &Setup, features: ShadingFeatures) -> [Vec<[f32; 3]>; 3] {
     let desc = || stage.desc_with(200, features);
     let path = Path::new(&desc(), 3).expect("valid");
     let raycast = Raycast::new(&desc()).expect("valid");

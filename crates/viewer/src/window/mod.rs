@@ -4,8 +4,8 @@ mod device;
 mod options_panel;
 mod painter;
 mod panel;
+mod picture_area;
 mod saving;
-mod stage;
 mod swapchain;
 mod tables;
 

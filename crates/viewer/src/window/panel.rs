@@ -7,8 +7,8 @@ use rasray_experiment::Integrator;
 use rasray_report::colour_scale::{Scale, colour};
 
 use super::options_panel::show_system;
+use super::picture_area::PictureArea;
 use super::saving::{SavePicture, SavedPicture};
-use super::stage::Stage;
 use super::tables::show_tables;
 use crate::picture::{Legend, Pixels};
 use crate::session::Session;
@@ -50,7 +50,7 @@ pub(super) fn set_style(context: &egui::Context) {
 
 /// The panel and what it remembers of a window.
 pub(super) struct Panel {
-    stage: Stage,
+    area: PictureArea,
     is_open: bool,
     /// What was said of the last picture that was saved, and whether it is an error.
     said: Option<(String, bool)>,
@@ -60,7 +60,7 @@ pub(super) struct Panel {
 
 impl Default for Panel {
     fn default() -> Self {
-        Self { stage: Stage::default(), is_open: true, said: None, wants_to_close: false }
+        Self { area: PictureArea::default(), is_open: true, said: None, wants_to_close: false }
     }
 }
 
@@ -82,7 +82,7 @@ impl Panel {
                 });
             });
         }
-        self.stage.show(ui, session, now, elapsed);
+        self.area.show(ui, session, now, elapsed);
     }
 
     fn take_keys(&mut self, context: &egui::Context, session: &mut Session, save: &mut SavePicture<'_>) {

@@ -6,7 +6,7 @@ use rasray_reference::integrators as reference;
 use rasray_reference::shading::{PosedScene, Sampler, View};
 use rasray_scene::{BackFaces, Camera, Scene};
 
-use super::{Stage, assert_silent, device, mean};
+use super::{Setup, assert_silent, device, mean};
 
 pub const WIDTH: u32 = 16;
 pub const HEIGHT: u32 = 12;
@@ -72,7 +72,7 @@ fn made_difference(
         Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
         Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
     };
-    let mut stage = Stage::new(&device, shown, camera.clone(), WIDTH, HEIGHT, SEED);
+    let mut stage = Setup::new(&device, shown, camera.clone(), WIDTH, HEIGHT, SEED);
     stage
         .scene
         .set_sampling(Sampling { sampler: of_device, samples, back_faces: passed })

@@ -88,14 +88,14 @@ pub fn scene(meshes: Vec<Mesh>, materials: Vec<Material>, environment: [f32; 3])
     }
 }
 
-pub struct Stage {
+pub struct Setup {
     pub device: Device,
     pub scene: GpuScene,
     pub structure: BruteForce,
     pub film: Film,
 }
 
-impl Stage {
+impl Setup {
     pub fn new(device: &Device, scene: &Scene, camera: Camera, width: u32, height: u32, seed: u32) -> Self {
         Self::with(device, scene, View { camera, width, height, seed }, &Parts::ALL)
     }

@@ -13,13 +13,13 @@ const SPEED: f64 = 0.5;
 
 /// The picture as a texture.
 #[derive(Default)]
-pub(super) struct Stage {
+pub(super) struct PictureArea {
     texture: Option<TextureHandle>,
     /// Of which picture, by its number, and with which exposure the texture is.
     of: Option<(u64, u32)>,
 }
 
-impl Stage {
+impl PictureArea {
     /// Shows the session's picture in what is left of `ui`, as large as it fits: several pixels of the window per pixel of
     /// the picture where that is a whole number.
     pub(super) fn show(&mut self, ui: &mut egui::Ui, session: &mut Session, now: f64, elapsed: f64) {

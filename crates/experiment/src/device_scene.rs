@@ -62,7 +62,7 @@ pub(super) fn tracer_error(error: &TracerError) -> ExperimentError {
 
 /// A scene on the device.
 #[derive(Debug)]
-pub struct Stage {
+pub struct DeviceScene {
     /// As it is there.
     pub scene: GpuScene,
     /// Triangles that were left out: their coordinates are not finite, or beyond what can be squared.
@@ -71,7 +71,7 @@ pub struct Stage {
     pub(super) pose: Option<PosePass>,
 }
 
-impl Stage {
+impl DeviceScene {
     /// Uploads what of a scene is needed, around a frame origin that suits the camera. The size (pixels) and the seed
     /// are those of images.
     ///
@@ -90,10 +90,10 @@ impl Stage {
         Self::around(device, scene, origin, camera, [width, height], seed, needs)
     }
 
-    /// As [`Stage::new`], with positions relative to `origin` (world, metres).
+    /// As [`DeviceScene::new`], with positions relative to `origin` (world, metres).
     ///
     /// # Errors
-    /// As [`Stage::new`].
+    /// As [`DeviceScene::new`].
     pub fn around(
         device: &Device,
         scene: &Scene,

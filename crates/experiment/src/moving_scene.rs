@@ -8,15 +8,15 @@ use rasray_gpu_scene::{PosePass, SceneTables};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Moment, Scene};
 
+use crate::device_scene::{DeviceScene, device_error, scene_error};
 use crate::error::ExperimentError;
 use crate::jobs::{Frame, Refresh, RenderJob};
-use crate::stage::{Stage, device_error, scene_error};
 
-impl Stage {
-    /// As [`Stage::new`], of a scene at rest that [`Stage::pose`] shows at any moment.
+impl DeviceScene {
+    /// As [`DeviceScene::new`], of a scene at rest that [`DeviceScene::pose`] shows at any moment.
     ///
     /// # Errors
-    /// As [`Stage::new`], and where a scene cannot be posed on the device ([`PosePass::always_poses`]).
+    /// As [`DeviceScene::new`], and where a scene cannot be posed on the device ([`PosePass::always_poses`]).
     pub fn moving(
         device: &Device,
         scene: &Scene,
@@ -34,7 +34,7 @@ impl Stage {
     /// The scene of a job as it is shown.
     ///
     /// # Errors
-    /// As [`Stage::moving`] and [`Stage::pose`].
+    /// As [`DeviceScene::moving`] and [`DeviceScene::pose`].
     pub(super) fn of_job(device: &Device, job: &RenderJob<'_>) -> Result<Self, ExperimentError> {
         let Frame { width, height, seed, .. } = job.frame;
         let Some(moment) = job.moment else {
@@ -49,7 +49,7 @@ impl Stage {
         Ok(stage)
     }
 
-    /// Whether [`Stage::pose`] can show the scene at any moment.
+    /// Whether [`DeviceScene::pose`] can show the scene at any moment.
     pub fn is_moving(&self) -> bool {
         self.pose.is_some()
     }
@@ -68,7 +68,7 @@ impl Stage {
         pass.parts(device).map_err(scene_error)
     }
 
-    /// Shows the scene, which is the one that this was made from ([`Stage::moving`]), at a moment: what moves is posed on the
+    /// Shows the scene, which is the one that this was made from ([`DeviceScene::moving`]), at a moment: what moves is posed on the
     /// device. Structures and pictures of the moment before are stale then. What is on the device does not depend on the
     /// moments that were shown before.
     ///
