@@ -12,7 +12,7 @@ use std::ffi::OsStr;
 
 use rasray_ads::{Combined, Counters, Geometry, QueueCounters, Structure};
 use rasray_experiment::{DeviceScene, LoadedScene, load, requirements};
-use rasray_gpu::{Device, DeviceDesc, PassTiming};
+use rasray_gpu::{Device, DeviceDesc, PassTiming, Stage};
 use rasray_integrators::{Film, Integrator, IntegratorDesc, Raycast, waves};
 use rasray_metrics::median;
 use rasray_scene::needs::{self, Needs, Workload};
@@ -302,18 +302,16 @@ impl Setting<'_> {
         let pose = self.show(number)?;
         let build = self.build(kept)?;
         let (passes, _) = self.trace(kept.structure())?;
-        let is_trace = |label: &str| label.contains("/trace_");
-        let is_surfaces = |label: &str| label.contains("surface");
         Ok(Frame {
             pose,
             build,
-            trace: total(&passes, is_trace),
-            surfaces: total(&passes, is_surfaces),
-            shade: total(&passes, |label| !is_trace(label) && !is_surfaces(label)),
+            trace: total(&passes, |stage| matches!(stage, Stage::Trace(_))),
+            surfaces: total(&passes, |stage| stage == Stage::Surfaces),
+            shade: total(&passes, |stage| matches!(stage, Stage::Shade | Stage::Film)),
         })
     }
 }
 
-fn total(passes: &[PassTiming], is_counted: impl Fn(&str) -> bool) -> f64 {
-    passes.iter().filter(|pass| is_counted(&pass.label)).map(|pass| pass.milliseconds).sum()
+fn total(passes: &[PassTiming], is_counted: impl Fn(Stage) -> bool) -> f64 {
+    passes.iter().filter(|pass| is_counted(pass.stage)).map(|pass| pass.milliseconds).sum()
 }

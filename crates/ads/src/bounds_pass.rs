@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 
-use rasray_gpu::{Access, ComputePipeline, Device, Recorder};
+use rasray_gpu::{Access, ComputePipeline, Device, Recorder, Stage};
 use rasray_shaders_glsl::records::GeometryGatherConstants;
 use rasray_shaders_glsl::{
     ADS_GEOMETRY_BOUNDS, ADS_GEOMETRY_BOUNDS_END, ADS_GEOMETRY_BOUNDS_GATHERED, ADS_GEOMETRY_BOUNDS_UNITE,
@@ -48,7 +48,7 @@ impl BoundsPass {
     /// [`BoundsPass::record`].
     pub fn record_parts(&self, recorder: &mut Recorder<'_>, parts: &GeometryParts) {
         self.record(recorder, parts.moving_part());
-        recorder.begin_pass("ads/geometry_bounds_unite");
+        recorder.begin_pass(Stage::Pose, "ads/geometry_bounds_unite");
         let whole = parts.moving_part().whole();
         whole.record(recorder, &self.unite, Some(parts.headers()), &[], [1; 3]);
         recorder.barrier(Access::COMPUTE_WRITE, Access::ALL);
@@ -62,7 +62,7 @@ impl BoundsPass {
     pub fn record(&self, recorder: &mut Recorder<'_>, geometry: &Geometry) {
         let [lower, upper] = [offset_of!(GeometryHeader, lower_keys), offset_of!(GeometryHeader, upper_keys)]
             .map(|at| at as u64);
-        recorder.begin_pass("ads/geometry_bounds");
+        recorder.begin_pass(Stage::Pose, "ads/geometry_bounds");
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
         recorder.fill(geometry.header(), lower, KEY_BYTES, u32::MAX);
         recorder.fill(geometry.header(), upper, KEY_BYTES, 0);

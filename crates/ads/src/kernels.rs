@@ -1,7 +1,9 @@
 //! The queue kernels: one set of pipelines per structure, recorded the same way for all.
 
 use bytemuck::bytes_of;
-use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout};
+use rasray_gpu::{
+    Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout, Stage,
+};
 use rasray_shaders_glsl::records::{NextRoundConstants, TraceConstants};
 use rasray_shaders_glsl::{Shader, constant_ids::contract::COUNTERS};
 
@@ -158,7 +160,7 @@ impl TraceKernels {
         let constants = self.constants(address, domain, continues);
         let round = std::mem::offset_of!(QueueHeader, round) as u64;
         let after_paused = std::mem::offset_of!(QueueHeader, unfinished) as u64;
-        recorder.begin_pass(kernel.label);
+        recorder.begin_pass(Stage::Trace(mode), kernel.label);
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
         recorder.fill(queue.header(), round, after_paused - round, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
@@ -198,7 +200,7 @@ impl TraceKernels {
             return false;
         };
         let constants = self.constants(address, domain, false);
-        recorder.begin_pass(kernel.label);
+        recorder.begin_pass(Stage::Surfaces, kernel.label);
         self.bind(recorder, kernel, geometry.whole(), structure, queue, constants);
         queue.record_dispatch(recorder, domain);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);

@@ -75,6 +75,7 @@ pub use pools::Pools;
 pub use pyramid::Pyramid;
 pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
 pub use queue_buffers::QueueBuffers;
+pub use rasray_gpu::TraceMode;
 pub use rasray_shaders_glsl::records::{
     Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
 };
@@ -84,7 +85,7 @@ pub use scratch::Scratch;
 pub use sizes::{PoolSize, Sizes};
 pub use status::{BuildStatus, Check, Growth, PoolStatus};
 pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
-pub use structure::{Dependencies, InlineTrace, Structure, StructureKind, StructureReport, TraceMode};
+pub use structure::{Dependencies, InlineTrace, Structure, StructureKind, StructureReport};
 pub use viewpoint::{CameraView, Viewpoint, box_ignores_eye};
 pub use visit::{Builder, LargePass, Visit, Visits, bin_groups};
 

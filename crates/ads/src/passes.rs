@@ -3,7 +3,7 @@
 use bytemuck::bytes_of;
 use rasray_gpu::{
     Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, RasterPipeline, RasterPipelineDesc,
-    Recorder, SetLayout,
+    Recorder, SetLayout, Stage,
 };
 use rasray_shaders_glsl::records::BuildConstants;
 
@@ -121,7 +121,7 @@ impl BuildTarget<'_> {
         cleared: &[impl PoolName],
         readers: Access,
     ) {
-        recorder.begin_pass(label);
+        recorder.begin_pass(Stage::Build, label);
         self.pools.record_header(recorder, self.geometry, cleared, Access::COMPUTE);
         self.dispatch(recorder, self.header_pass, 1, 0);
         recorder.barrier(Access::TRANSFER_WRITE | Access::COMPUTE_WRITE, readers | Access::HOST_READ);
@@ -147,7 +147,7 @@ impl BuildTarget<'_> {
         step: u32,
         readers: Access,
     ) {
-        recorder.begin_pass(label);
+        recorder.begin_pass(Stage::Build, label);
         recorder.bind_compute(pipeline);
         self.bind(recorder, step);
         recorder.dispatch_indirect(self.pools.header_buffer(), offset);
@@ -165,7 +165,7 @@ impl BuildTarget<'_> {
         step: u32,
         readers: Access,
     ) {
-        recorder.begin_pass(label);
+        recorder.begin_pass(Stage::Build, label);
         self.dispatch(recorder, pipeline, groups, step);
         recorder.barrier(Access::COMPUTE, readers);
         recorder.end_pass();
@@ -185,7 +185,7 @@ impl BuildTarget<'_> {
         if groups == 0 {
             return;
         }
-        recorder.begin_pass(label);
+        recorder.begin_pass(Stage::Build, label);
         for round in 0..rounds {
             self.dispatch(recorder, pipeline, groups, round);
             recorder.barrier(Access::COMPUTE, Access::COMPUTE | readers);
@@ -222,7 +222,7 @@ impl BuildTarget<'_> {
         pipeline: &RasterPipeline,
         draws: &[ViewDraw],
     ) {
-        recorder.begin_pass(label);
+        recorder.begin_pass(Stage::Build, label);
         for draw in draws {
             self.draw(recorder, pipeline, draw.side, draw.views, draw.first);
         }
@@ -233,7 +233,7 @@ impl BuildTarget<'_> {
     /// The last pass of every build: one workgroup checks whether everything was stored, and the header is copied to
     /// the host.
     pub fn status_pass(&self, recorder: &mut Recorder<'_>, label: &str, pipeline: &ComputePipeline) {
-        recorder.begin_pass(label);
+        recorder.begin_pass(Stage::Build, label);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE);
         self.dispatch(recorder, pipeline, 1, 0);
         self.pools.record_readback(recorder);

@@ -1,6 +1,6 @@
 //! Depth bounds of blocks of cells on the device: what rays skip blocks by.
 
-use rasray_gpu::{Access, ComputePipeline, Recorder};
+use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::ads::PYRAMID_THREADS;
 
 use crate::{AdsError, BuildPipelines, BuildTarget, ViewDraw};
@@ -36,7 +36,7 @@ impl Pyramid {
         views: &[ViewDraw],
         readers: Access,
     ) {
-        recorder.begin_pass(label);
+        recorder.begin_pass(Stage::Build, label);
         for view in views {
             for level in 1..=levels(view) {
                 let groups = blocks(view, level).div_ceil(PYRAMID_THREADS.into());

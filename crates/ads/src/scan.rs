@@ -1,6 +1,6 @@
 //! Running sums on the device: what turns lengths of lists into places.
 
-use rasray_gpu::{Access, ComputePipeline, Recorder};
+use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::ads::SCAN_BLOCK;
 
 use crate::{AdsError, BuildPipelines, BuildTarget};
@@ -41,7 +41,7 @@ impl Scan {
         readers: Access,
     ) {
         let blocks = Self::sums(numbers);
-        recorder.begin_pass(label);
+        recorder.begin_pass(Stage::Build, label);
         target.dispatch(recorder, &self.blocks, blocks, step);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE);
         target.dispatch(recorder, &self.sums, 1, step);

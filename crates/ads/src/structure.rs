@@ -1,6 +1,6 @@
 //! The contract between structures and everything that traces through them.
 
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout};
+use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout, TraceMode};
 
 use crate::{
     AdsError, BuildStatus, Check, Counters, Domain, Geometry, RayQueue, SceneBinding, Sizes, Viewpoint,
@@ -23,15 +23,6 @@ impl StructureKind {
     pub fn finds_triangles(self) -> bool {
         self != Self::Fragment
     }
-}
-
-/// What a trace answers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TraceMode {
-    /// The nearest hit.
-    Closest,
-    /// Whether there is any hit.
-    Occluded,
 }
 
 /// What a structure reports once built.

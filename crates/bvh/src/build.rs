@@ -1,7 +1,7 @@
 //! The build on the device: pipelines, and the passes in the order they are recorded.
 
 use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan};
-use rasray_gpu::{Access, ComputePipeline, Recorder};
+use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::bvh::{BVH_DIGIT_VALUES, BVH_DIGITS, BVH_GROUP_SIZE, BVH_SORT_CHUNK};
 
 use crate::layout::union_levels;
@@ -55,7 +55,7 @@ impl Build {
     pub(crate) fn record_boxes(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let OfBuilder::Sah { boxes } = &self.of_builder else { return };
         record_header(recorder, target);
-        recorder.begin_pass("bvh/build_1_boxes");
+        recorder.begin_pass(Stage::Build, "bvh/build_1_boxes");
         target.dispatch(recorder, boxes, groups(target.geometry.triangle_count()), 0);
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_READ);
         recorder.end_pass();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use rasray_ads::{AdsError, Combined, GeometryParts, Structure, Viewpoint};
-use rasray_gpu::{Device, Feature, GpuError, Timing};
+use rasray_gpu::{Device, Feature, GpuError, Stage, Timing};
 use rasray_gpu_scene::GpuScene;
 use rasray_systems::{Spec, SystemsError};
 use rasray_tracer::{BuildOutcome, FrameStructure, Keeping, TracerError, refresh_until_complete};
@@ -14,7 +14,7 @@ use crate::device_scene::{DeviceScene, device_error, scene_error, tracer_error};
 use crate::error::ExperimentError;
 use crate::jobs::Refresh;
 use crate::passes::{Passes, median, spread};
-use rasray_report::{Counters, Memory, Pass, PassOf, Spread, Times};
+use rasray_report::{Counters, Memory, Pass, PassOf, Spread, StageTime, Times};
 
 /// Why a first build failed.
 enum FirstBuild {
@@ -182,7 +182,7 @@ impl Built {
         };
         let mut passes = Passes::default();
         if outcome.prepare_milliseconds > 0.0 {
-            passes.add_one(Pass::HOST, outcome.prepare_milliseconds);
+            passes.add_one(Stage::Build, Pass::HOST, outcome.prepare_milliseconds);
         }
         passes.add(&outcome.passes);
         Ok(Self {
@@ -233,6 +233,11 @@ impl Built {
         self.passes.report((!self.whole.is_empty()).then_some(PassOf::Build))
     }
 
+    /// The stage of builds, where they were repeated to be timed, or a frame took one.
+    pub(super) fn stages(&self) -> Vec<StageTime> {
+        if self.whole.is_empty() { Vec::new() } else { self.passes.stages() }
+    }
+
     /// Builds what moves once more, which is everything but in parts, and keeps the times.
     ///
     /// # Errors
@@ -257,10 +262,10 @@ impl Built {
     fn keep_times(&mut self, whole: f64) {
         let BuildOutcome { passes, prepare_milliseconds, .. } = &self.outcome;
         self.passes.repeat();
-        self.passes.add_one(Pass::HOST, *prepare_milliseconds);
+        self.passes.add_one(Stage::Build, Pass::HOST, *prepare_milliseconds);
         self.passes.add(passes);
         let seen = prepare_milliseconds + passes.iter().map(|pass| pass.milliseconds).sum::<f64>();
-        self.passes.add_one(Pass::WAITING, whole - seen);
+        self.passes.add_one(Stage::Build, Pass::WAITING, whole - seen);
         self.whole.push(whole);
         self.prepare.push(*prepare_milliseconds);
     }

@@ -74,6 +74,7 @@ impl<'a> Contestant<'a> {
             paths,
             times,
             spread: self.built.spread().collect(),
+            stages: self.built.stages(),
             passes: self.built.pass_times(),
             memory: Some(self.built.memory(device)?),
             ..Run::default()

@@ -11,7 +11,7 @@ use crate::contestant::Contestant;
 use crate::device_scene::{DeviceScene, device_error};
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, Frame, GlassShadows, Integrator};
-use crate::render::{Wanted, image_ms, render_pixels, trace_ms, visible_ms};
+use crate::render::{Wanted, render_pixels};
 use rasray_report::figures::{Images, SystemImage};
 use rasray_report::{ImageError, PassOf, Run};
 
@@ -127,12 +127,9 @@ pub(super) fn compare_images(
         let of_camera = Contestant { config: contestant.config, spec, built };
         let mut run = of_camera.run(device)?;
         run.seed = Some(frame.seed);
-        run.times.timer = pixels.passes.timer();
-        run.times.first_use_ms = Some(pixels.first_use_ms);
-        run.times.trace_ms = trace_ms(&pixels.passes);
-        run.times.image_ms = image_ms(&pixels.passes);
-        run.times.visible_ms = visible_ms(&pixels.passes, &frame);
+        pixels.write_times(&mut run.times);
         run.primary = Some(frame.primary.name().to_owned());
+        run.stages.extend(pixels.passes.stages());
         run.passes.extend(pixels.passes.report(Some(PassOf::Image)));
         run.counters = Some(pixels.counters);
         add(comparison, run, pixels.beauty)?;

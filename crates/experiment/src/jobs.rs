@@ -7,7 +7,7 @@ use rasray_ads::{Hit, Ray, StructureKind};
 use rasray_hard_cases::HardCase;
 use rasray_ray_files::{HitsFile, RaysFile, TrueHit};
 use rasray_report::figures::Figures;
-use rasray_report::{Counters, Memory, Pass, Run, Spread, Times};
+use rasray_report::{Counters, Memory, Pass, Run, Spread, StageTime, Times};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Moment, Scene};
 use serde_json::Value;
@@ -250,6 +250,8 @@ pub struct RenderOutput {
     pub options: BTreeMap<String, Value>,
     /// Paths taken where the device decides: builder, coverage, atomics.
     pub paths: BTreeMap<String, String>,
+    /// Time of each stage, in the order of a frame.
+    pub stages: Vec<StageTime>,
     /// Time of each pass.
     pub passes: Vec<Pass>,
     /// The four figures and the ray rate.
@@ -280,6 +282,7 @@ impl RenderOutput {
             seed: Some(frame.seed),
             times: self.times,
             spread: self.spread.clone(),
+            stages: self.stages.clone(),
             passes: self.passes.clone(),
             memory: self.memory.clone(),
             counters: self.counters.clone(),

@@ -75,7 +75,7 @@ pub use key_hash::KeyHash;
 pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use moving_scene::Shown;
 pub use placed::{Placed, case_camera};
-pub use rasray_gpu::PassCommands;
+pub use rasray_gpu::{PassCommands, Stage};
 pub use rasray_options::OptionValues;
 pub use rays::{RaySource, incoherent_rays, oracle_ray};
 pub use renderer::{open, open_device};

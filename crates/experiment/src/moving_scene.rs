@@ -3,14 +3,16 @@
 use std::time::Instant;
 
 use rasray_ads::GeometryParts;
-use rasray_gpu::{Device, PassTiming, Timing};
+use rasray_gpu::{Device, PassTiming, Stage, Timing};
 use rasray_gpu_scene::{PosePass, SceneTables};
+use rasray_report::Pass;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Moment, Scene};
 
 use crate::device_scene::{DeviceScene, device_error, scene_error};
 use crate::error::ExperimentError;
 use crate::jobs::{Frame, Refresh, RenderJob};
+use crate::passes::Passes;
 
 impl DeviceScene {
     /// As [`DeviceScene::new`], of a scene at rest that [`DeviceScene::pose`] shows at any moment.
@@ -31,22 +33,23 @@ impl DeviceScene {
         Ok(stage)
     }
 
-    /// The scene of a job as it is shown.
+    /// The scene of a job as it is shown, and what showing it took.
     ///
     /// # Errors
     /// As [`DeviceScene::moving`] and [`DeviceScene::pose`].
-    pub(super) fn of_job(device: &Device, job: &RenderJob<'_>) -> Result<Self, ExperimentError> {
+    pub(super) fn of_job(device: &Device, job: &RenderJob<'_>) -> Result<(Self, Shown), ExperimentError> {
         let Frame { width, height, seed, .. } = job.frame;
         let Some(moment) = job.moment else {
-            return Self::new(device, job.scene, &job.camera, [width, height], seed, &job.needs);
+            let stage = Self::new(device, job.scene, &job.camera, [width, height], seed, &job.needs)?;
+            return Ok((stage, Shown::default()));
         };
         let mut stage = Self::moving(device, job.scene, &job.camera, [width, height], seed, &job.needs)?;
         if job.refresh == Refresh::Moving {
             // The pose measures the bounds of the parts that there are.
             stage.parts(device)?;
         }
-        stage.pose(device, job.scene, moment, Timing::None)?;
-        Ok(stage)
+        let shown = stage.pose(device, job.scene, moment, device.best_timing())?;
+        Ok((stage, shown))
     }
 
     /// Whether [`DeviceScene::pose`] can show the scene at any moment.
@@ -90,6 +93,18 @@ impl DeviceScene {
         let submitted =
             device.submit_passes(timing, |recorder| pass.record(recorder, 0, &pose)).map_err(device_error)?;
         Ok(Shown { host_milliseconds, passes: submitted.passes })
+    }
+}
+
+impl Shown {
+    /// As the times of a stage; none where the device posed nothing.
+    pub(super) fn times(&self) -> Passes {
+        let mut passes = Passes::default();
+        if !self.passes.is_empty() {
+            passes.add_one(Stage::Pose, Pass::HOST, self.host_milliseconds);
+            passes.add(&self.passes);
+        }
+        passes
     }
 }
 

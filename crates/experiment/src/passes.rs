@@ -1,13 +1,14 @@
 //! Times of passes, gathered over repetitions.
 
-use rasray_gpu::{PassTiming, TimerKind};
+use rasray_gpu::{PassTiming, Stage, TimerKind};
 use rasray_metrics::Summary;
 
-use rasray_report::{Pass, PassOf, Spread, Timer};
+use rasray_report::{Pass, PassOf, Spread, StageTime, Timer};
 
 /// What one pass took in each repetition.
 #[derive(Debug)]
 struct Row {
+    stage: Stage,
     label: String,
     /// Milliseconds of all its dispatches, one sum a repetition.
     sums: Vec<f64>,
@@ -37,19 +38,19 @@ impl Passes {
     pub(super) fn add(&mut self, timings: &[PassTiming]) {
         for timing in timings {
             self.timer = Some(timing.timer);
-            self.add_one(&timing.label, timing.milliseconds);
+            self.add_one(timing.stage, &timing.label, timing.milliseconds);
         }
     }
 
     /// Adds a pass, or what the host did, to the repetition.
-    pub(super) fn add_one(&mut self, label: &str, milliseconds: f64) {
+    pub(super) fn add_one(&mut self, stage: Stage, label: &str, milliseconds: f64) {
         if self.repetitions == 0 {
             self.repeat();
         }
-        let known = self.rows.iter().position(|row| row.label == label);
+        let known = self.rows.iter().position(|row| row.stage == stage && row.label == label);
         let place = known.unwrap_or_else(|| {
             let (sums, dispatches) = (vec![0.0; self.repetitions], vec![0; self.repetitions]);
-            self.rows.push(Row { label: label.to_owned(), sums, dispatches });
+            self.rows.push(Row { stage, label: label.to_owned(), sums, dispatches });
             self.rows.len() - 1
         });
         let row = &mut self.rows[place];
@@ -57,19 +58,36 @@ impl Passes {
         row.dispatches[self.repetitions - 1] += 1;
     }
 
-    /// Milliseconds of all passes of each repetition.
-    fn totals(&self) -> Vec<f64> {
-        (0..self.repetitions).map(|index| self.rows.iter().map(|row| row.sums[index]).sum()).collect()
+    /// Milliseconds of the passes of some stages in each repetition; absent where none was recorded.
+    fn sums(&self, of: impl Fn(Stage) -> bool) -> Option<Vec<f64>> {
+        let rows: Vec<_> = self.rows.iter().filter(|row| of(row.stage)).collect();
+        let sum = |index| rows.iter().map(|row| row.sums[index]).sum();
+        (!rows.is_empty()).then(|| (0..self.repetitions).map(sum).collect())
+    }
+
+    /// The median over repetitions of the milliseconds that some stages took together; absent where none was recorded.
+    pub(super) fn median_of(&self, of: impl Fn(Stage) -> bool) -> Option<f64> {
+        self.sums(of).map(|sums| median(&sums))
+    }
+
+    /// What each stage took, in the order of a frame.
+    pub(super) fn stages(&self) -> Vec<StageTime> {
+        let time = |stage: Stage| {
+            let sums = self.sums(|one| one == stage)?;
+            Some(StageTime { stage: stage.to_string(), ms: median(&sums), spread: spread(&sums)? })
+        };
+        Stage::ALL.into_iter().filter_map(time).collect()
     }
 
     /// Share, median and spread of each pass as parts of a figure.
     pub(super) fn report(&self, of: Option<PassOf>) -> Vec<Pass> {
-        let middle = middle(&self.totals());
+        let middle = middle(&self.sums(|_| true).unwrap_or_default());
         let share = |sums: &[f64]| middle.iter().map(|index| sums[*index]).sum::<f64>() / middle.len() as f64;
         let pass = |row: &Row| {
             let summary = Summary::of(&row.sums)?;
             Some(Pass {
                 label: row.label.clone(),
+                stage: Some(row.stage.to_string()),
                 of,
                 ms_share: Some(share(&row.sums)),
                 dispatches: middle.first().map(|index| row.dispatches[*index]),
@@ -82,11 +100,6 @@ impl Passes {
             })
         };
         self.rows.iter().filter_map(pass).collect()
-    }
-
-    /// Milliseconds of all passes whose label passes the filter.
-    pub(super) fn total(&self, keep: impl Fn(&str) -> bool) -> f64 {
-        self.rows.iter().filter(|row| keep(&row.label)).flat_map(|row| &row.sums).sum()
     }
 
     /// What measured them.
@@ -124,10 +137,12 @@ pub(super) fn median(times: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use rasray_gpu::TraceMode;
+
     use super::*;
 
     fn timing(label: &str, milliseconds: f64) -> PassTiming {
-        PassTiming { label: label.to_owned(), milliseconds, timer: TimerKind::Device }
+        PassTiming { stage: Stage::Build, label: label.to_owned(), milliseconds, timer: TimerKind::Device }
     }
 
     fn shares(passes: &Passes) -> Vec<f64> {
@@ -148,7 +163,6 @@ mod tests {
             ("sort", Some(PassOf::Build), Some(3), Some(2))
         );
         assert_eq!((sort.ms_min, sort.ms_median, sort.ms_max), (5.0, 10.0, 15.0));
-        assert_eq!(passes.total(|label| label == "scan"), 60.0);
     }
 
     /// Also where medians of the parts do not.
@@ -162,12 +176,33 @@ mod tests {
                 passes.add(&[timing("a", *a), timing("b", *b), timing("a", *c)]);
             }
             let wholes: Vec<f64> = times[..count].iter().map(|one| one.iter().sum()).collect();
-            assert_eq!(passes.totals(), wholes);
+            assert_eq!(passes.sums(|_| true).as_ref(), Some(&wholes));
             assert!((shares(&passes).iter().sum::<f64>() - median(&wholes)).abs() < 1.0e-12, "{count}");
         }
         // Those of three repetitions are the one that took 11; medians of the parts are 6.5 and 3, or 9.5.
         assert_eq!(middle(&[14.0, 11.0, 9.5]), [1]);
         assert_eq!((middle(&[]), middle(&[2.0, 1.0])), (vec![], vec![1, 0]));
+    }
+
+    /// Also of passes that take turns, whatever their labels are.
+    #[test]
+    fn a_stage_is_all_its_passes_of_a_repetition() {
+        let [closest, occluded] = [TraceMode::Closest, TraceMode::Occluded].map(Stage::Trace);
+        let mut passes = Passes::default();
+        for scale in [3.0, 1.0, 2.0] {
+            passes.repeat();
+            passes.add_one(Stage::Shade, "a", 10.0 * scale);
+            passes.add_one(closest, "b", scale);
+            passes.add_one(occluded, "b", 0.5 * scale);
+            passes.add_one(closest, "c", 6.0 - scale);
+        }
+        let stages = passes.stages();
+        let medians: Vec<_> = stages.iter().map(|time| (time.stage.as_str(), time.ms)).collect();
+        assert_eq!(medians, [("trace-closest", 6.0), ("trace-occluded", 1.0), ("shade", 20.0)]);
+        let spread = &stages[1].spread;
+        assert_eq!((spread.count, spread.min, spread.max), (3, 0.5, 1.5));
+        assert_eq!(passes.median_of(|stage| matches!(stage, Stage::Trace(_))), Some(7.0));
+        assert_eq!(passes.median_of(|stage| stage == Stage::Visible), None);
     }
 
     #[test]

@@ -1,10 +1,9 @@
 //! An image: scene to device, structure, waves of samples, readback.
 
-use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use rasray_gpu::{Device, Timing};
+use rasray_gpu::{Device, Stage};
 use rasray_gpu_scene::{SceneTables, View};
 use rasray_integrators::{AovPass, PATH_LAYER_LIMIT, Traced, Wave, waves};
 use rasray_scene::needs::Needs;
@@ -14,7 +13,7 @@ use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
 use crate::device_scene::{DeviceScene, device_error, image_error};
 use crate::error::ExperimentError;
-use crate::jobs::{AovSelection, FilmSums, Frame, GlassShadows, Primary, Refresh, RenderJob, RenderOutput};
+use crate::jobs::{AovSelection, FilmSums, Frame, GlassShadows, Refresh, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::shard::Shard;
 use crate::system_config::SystemConfig;
@@ -40,6 +39,17 @@ pub(super) struct Pixels {
     pub(super) counters: Counters,
     /// Of the first dispatch of every kernel, milliseconds.
     pub(super) first_use_ms: f64,
+}
+
+impl Pixels {
+    /// Sets the times of the image in a run.
+    pub(super) fn write_times(&self, times: &mut Times) {
+        times.timer = self.passes.timer();
+        times.first_use_ms = Some(self.first_use_ms);
+        times.trace_ms = self.passes.median_of(|stage| matches!(stage, Stage::Trace(_)));
+        times.visible_ms = self.passes.median_of(|stage| stage == Stage::Visible);
+        times.image_ms = self.passes.median_of(|_| true);
+    }
 }
 
 /// Renders the samples of a frame through a built structure.
@@ -104,24 +114,11 @@ fn render_waves(
     Ok(())
 }
 
-/// Milliseconds that traces took; absent where none was recorded.
-pub(super) fn trace_ms(passes: &Passes) -> Option<f64> {
-    Some(passes.total(|label| label.contains("/trace_"))).filter(|ms| *ms > 0.0)
-}
-
-/// Milliseconds of all passes of an image; absent where none was recorded.
-pub(super) fn image_ms(passes: &Passes) -> Option<f64> {
-    Some(passes.total(|_| true)).filter(|ms| *ms > 0.0)
-}
-
-/// Milliseconds that drawing what the camera sees took; absent where camera rays are traced.
-pub(super) fn visible_ms(passes: &Passes, frame: &Frame) -> Option<f64> {
-    (frame.primary == Primary::Raster).then(|| passes.total(|label| label.contains("/visibility")))
-}
-
 /// What the device has of a job, for one that is the next of it.
 pub(super) struct Made {
     stage: DeviceScene,
+    /// Of the pose; nothing where the host posed the scene.
+    posing: Passes,
     built: Built,
     system: SystemConfig,
 }
@@ -140,27 +137,31 @@ fn made_for(
     let is_kept =
         |made: &Made| job.is_next && made.stage.is_moving() && made.stage.scene.frame_origin() == origin;
     let kept = job.moment.zip(before.filter(is_kept));
-    let (mut stage, kept) = match kept {
-        Some((moment, Made { mut stage, built, system })) => {
+    let (mut stage, posing, kept) = match kept {
+        Some((moment, Made { mut stage, built, system, .. })) => {
             let Frame { width, height, seed, .. } = job.frame;
             stage.look(&View { camera: job.camera.clone(), width, height, seed })?;
-            stage.pose(device, job.scene, moment, Timing::None)?;
-            (stage, Some(built).filter(|_| system == job.system))
+            let posing = stage.pose(device, job.scene, moment, device.best_timing())?;
+            (stage, posing, Some(built).filter(|_| system == job.system))
         }
-        None => (DeviceScene::of_job(device, job)?, None),
+        None => {
+            let (stage, posing) = DeviceScene::of_job(device, job)?;
+            (stage, posing, None)
+        }
     };
     stage.sample_as(&job.frame)?;
+    let (posing, system) = (posing.times(), job.system.clone());
     if let Some(mut built) = kept {
         _ = progress(Progress { task: "build", done: 0, total: 0, unit: "of the frame" });
         match built.follow(device, &stage.scene, true) {
-            Ok(()) => return Ok(Made { stage, built, system: job.system.clone() }),
+            Ok(()) => return Ok(Made { stage, posing, built, system }),
             // A pool that it cannot have may be reached by device address.
             Err(error) => tracing::info!("the structure is made anew: {error}"),
         }
     }
     _ = progress(Progress { task: "build", done: 0, total: 0, unit: "first build" });
     let built = Built::refreshed(device, &spec, &mut stage, job.refresh)?;
-    Ok(Made { stage, built, system: job.system.clone() })
+    Ok(Made { stage, posing, built, system })
 }
 
 /// Renders an image with all requested additional images. `kept` is what the device has of the job before, and then of this one.
@@ -173,7 +174,7 @@ pub(super) fn render(
     let started = Instant::now();
     let frame = job.frame;
     let mut made = made_for(device, job, kept.take(), progress)?;
-    let Made { stage, built, .. } = &mut made;
+    let Made { stage, posing, built, .. } = &mut made;
     for _ in 0..job.repetitions {
         if progress(Progress { task: "build", done: 0, total: 0, unit: "timed builds" }).is_break() {
             break;
@@ -195,8 +196,15 @@ pub(super) fn render(
     for (name, bytes) in stage.scene.bytes_by_part() {
         memory.by_part.insert(format!("scene {name}"), *bytes);
     }
-    let mut passes = built.pass_times();
+    let mut stages = posing.stages();
+    stages.extend(built.stages());
+    stages.extend(pixels.passes.stages());
+    let mut passes = posing.report(Some(PassOf::Pose));
+    passes.extend(built.pass_times());
     passes.extend(pixels.passes.report(Some(PassOf::Image)));
+    let mut times = Times { pose_ms: posing.median_of(|_| true), ..Times::default() };
+    pixels.write_times(&mut times);
+    built.write_times(&mut times);
     let mut output = RenderOutput {
         width: frame.width,
         height: frame.height,
@@ -208,21 +216,13 @@ pub(super) fn render(
         samples_done: pixels.samples_done,
         options,
         paths,
+        stages,
         passes,
-        times: Times {
-            timer: pixels.passes.timer(),
-            first_use_ms: Some(pixels.first_use_ms),
-            trace_ms: trace_ms(&pixels.passes),
-            image_ms: image_ms(&pixels.passes),
-            visible_ms: visible_ms(&pixels.passes, &frame),
-            ..Times::default()
-        },
-        spread: BTreeMap::new(),
+        times,
+        spread: built.spread().collect(),
         memory: Some(memory),
         counters: Some(pixels.counters),
     };
-    built.write_times(&mut output.times);
-    output.spread = built.spread().collect();
     if job.aovs != AovSelection::default() {
         _ = progress(Progress { task: "render", done: 0, total: 0, unit: "additional images" });
         add_aovs(device, stage, built, job, &mut output)?;

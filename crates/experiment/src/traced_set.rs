@@ -192,6 +192,7 @@ fn run_of(
         ..run.times
     };
     run.spread.extend(spread(&traced.milliseconds).map(|spread| ("trace_ms".to_owned(), spread)));
+    run.stages.extend(traced.passes.stages());
     run.passes.extend(traced.passes.report(Some(PassOf::Trace)));
     run.counters = Some(counters);
     Ok(run)

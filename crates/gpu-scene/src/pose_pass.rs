@@ -17,7 +17,7 @@ use glam::DVec3;
 use rasray_ads::{BoundsPass, Geometry, GeometryParts, folded};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
-    MemoryLocation, Recorder,
+    MemoryLocation, Recorder, Stage,
 };
 use rasray_scene::deforming::Topology;
 use rasray_scene::{Moment, Scene, pose::Pose};
@@ -252,7 +252,7 @@ impl PosePass {
         if !self.moves() {
             return;
         }
-        recorder.begin_pass(SCENE_POSE_VERTICES.name);
+        recorder.begin_pass(Stage::Pose, SCENE_POSE_VERTICES.name);
         recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
         update(recorder, &self.placements, 0, cast_slice(&pose.placements));
         update(recorder, &self.joints, 0, cast_slice(&pose.joints));

@@ -45,7 +45,7 @@
 //!     location: MemoryLocation::Device,
 //! })?;
 //! device.submit(|recorder| {
-//!     recorder.begin_pass("clear");
+//!     recorder.begin_pass(Stage::Build, "clear");
 //!     recorder.fill(&buffer, 0, buffer.size(), 7);
 //!     recorder.end_pass();
 //! })?;
@@ -81,6 +81,7 @@ mod set_layout;
 mod set_parts;
 mod shader_stage;
 mod spirv;
+mod stage;
 mod timers;
 mod transfer;
 
@@ -106,6 +107,7 @@ pub use recorder::{PassCommands, Recorded, Recorder, RenderArea};
 pub use requirements::Requirements;
 pub use set_layout::SetLayout;
 pub use spirv::storage_buffers_used;
+pub use stage::{Stage, TraceMode};
 pub use timers::{PassTiming, TimerKind, Timers, Timing};
 
 /// What the readme shows compiles.

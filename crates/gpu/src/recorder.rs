@@ -20,6 +20,7 @@ use crate::device::Device;
 use crate::device_core::{Core, c_name};
 use crate::error::{GpuError, Result};
 use crate::one_time::OneTime;
+use crate::stage::Stage;
 use crate::timers::{PassTiming, TimerKind, Timers};
 
 use self::bound::Bound;
@@ -38,7 +39,7 @@ pub struct Recorder<'a> {
     command: vk::CommandBuffer,
     error: Option<GpuError>,
     /// The pass being recorded, with its timer.
-    pass: Option<(String, Option<u32>)>,
+    pass: Option<(Stage, String, Option<u32>)>,
     /// What was recorded in each pass so far.
     passes: Vec<PassCommands>,
     rendering: Option<RenderArea>,
@@ -152,12 +153,12 @@ impl<'a> Recorder<'a> {
         self.misuse(reason);
     }
 
-    /// Begins a pass: a label in tools and a time in reports. Passes do not nest.
-    pub fn begin_pass(&mut self, label: &str) {
+    /// Begins a pass: a label in tools and, as a part of a stage, a time in reports. Passes do not nest.
+    pub fn begin_pass(&mut self, stage: Stage, label: &str) {
         if !self.outside_rendering("begin_pass") {
             return;
         }
-        if let Some((open, _)) = &self.pass {
+        if let Some((_, open, _)) = &self.pass {
             let reason = format!("a pass was begun within the pass `{open}`");
             return self.fail(GpuError::InvalidUse { name: label.to_owned(), reason });
         }
@@ -174,12 +175,13 @@ impl<'a> Recorder<'a> {
             unsafe { labels.cmd_begin_debug_utils_label(self.command, &info) };
         }
         // SAFETY: the command buffer is being recorded, outside of rendering.
-        let timer = self.timers.as_ref().and_then(|timers| unsafe { timers.begin(self.command, label) });
+        let timer =
+            self.timers.as_ref().and_then(|timers| unsafe { timers.begin(self.command, stage, label) });
         if let Some(timers) = &self.timers {
             self.keep(timers.kept());
         }
-        self.passes.push(PassCommands::of(label));
-        self.pass = Some((label.to_owned(), timer));
+        self.passes.push(PassCommands::of(stage, label));
+        self.pass = Some((stage, label.to_owned(), timer));
     }
 
     /// Ends the pass.
@@ -187,7 +189,7 @@ impl<'a> Recorder<'a> {
         if !self.outside_rendering("end_pass") {
             return;
         }
-        let Some((label, timer)) = self.pass.take() else {
+        let Some((stage, label, timer)) = self.pass.take() else {
             return self.misuse("a pass was ended that was not begun");
         };
         if let (Some(timers), Some(index)) = (&self.timers, timer) {
@@ -198,7 +200,7 @@ impl<'a> Recorder<'a> {
             // SAFETY: a label was begun in this command buffer.
             unsafe { labels.cmd_end_debug_utils_label(self.command) };
         }
-        self.split_here(Some(label));
+        self.split_here(Some((stage, label)));
     }
 
     /// Makes `to` wait for `from` and see what it wrote, for all memory.
@@ -255,7 +257,7 @@ impl<'a> Recorder<'a> {
 
     /// The thing a mistake is blamed on: the pass, else the recording.
     fn place(&self) -> String {
-        self.pass.as_ref().map_or_else(|| "recording".to_owned(), |(label, _)| label.clone())
+        self.pass.as_ref().map_or_else(|| "recording".to_owned(), |(_, label, _)| label.clone())
     }
 
     fn misuse(&mut self, reason: &str) {
@@ -329,19 +331,20 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Where passes are submitted one by one: submits what was recorded, waits, notes the time under `label`, and goes
+    /// Where passes are submitted one by one: submits what was recorded, waits, notes the time of `pass`, and goes
     /// on with the same state bound. True if that failed.
-    fn split_here(&mut self, label: Option<String>) -> bool {
+    fn split_here(&mut self, pass: Option<(Stage, String)>) -> bool {
         if !self.submission.as_ref().is_some_and(|submission| submission.split) {
             return false;
         }
         self.emit_host_barrier();
         let Some(submission) = self.submission.as_mut() else { return false };
-        let during = label.clone().unwrap_or_else(|| "work between passes".to_owned());
-        let restarted = submission.work.run(self.device, &during).and_then(|elapsed| {
-            if let Some(label) = label {
+        let during = pass.as_ref().map_or("work between passes", |(_, label)| label);
+        let restarted = submission.work.run(self.device, during).and_then(|elapsed| {
+            if let Some((stage, label)) = &pass {
                 let milliseconds = elapsed.as_secs_f64() * 1e3;
-                submission.timings.push(PassTiming { label, milliseconds, timer: TimerKind::Host });
+                let (stage, label) = (*stage, label.clone());
+                submission.timings.push(PassTiming { stage, label, milliseconds, timer: TimerKind::Host });
             }
             submission.work.begin(self.device)
         });

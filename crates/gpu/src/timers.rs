@@ -7,6 +7,7 @@ use ash::vk;
 use crate::device::Device;
 use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
+use crate::stage::Stage;
 
 /// Passes of a submission that the device times at most.
 pub(crate) const TIMED_PASSES: u32 = 1024;
@@ -35,6 +36,8 @@ pub enum TimerKind {
 /// The time of one pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassTiming {
+    /// What of a frame the pass belongs to.
+    pub stage: Stage,
     /// Label of the pass.
     pub label: String,
     /// Its time in milliseconds.
@@ -53,7 +56,8 @@ struct TimersInner {
     core: Arc<Core>,
     pool: vk::QueryPool,
     capacity: u32,
-    labels: Mutex<Vec<String>>,
+    /// Of the passes recorded so far.
+    passes: Mutex<Vec<(Stage, String)>>,
 }
 
 impl std::fmt::Debug for Timers {
@@ -92,8 +96,8 @@ impl Device {
         let pool =
             unsafe { core.device.create_query_pool(&info, None) }.during("vkCreateQueryPool", "timers")?;
         core.name_object(pool, "timers");
-        let labels = Mutex::new(Vec::new());
-        Ok(Timers { inner: Arc::new(TimersInner { core: core.clone(), pool, capacity, labels }) })
+        let passes = Mutex::new(Vec::new());
+        Ok(Timers { inner: Arc::new(TimersInner { core: core.clone(), pool, capacity, passes }) })
     }
 }
 
@@ -105,11 +109,11 @@ impl Timers {
     /// [`GpuError::Vulkan`] with `NOT_READY` if the commands were not submitted or not waited for.
     pub fn read(&self) -> Result<Vec<PassTiming>> {
         let inner = &self.inner;
-        let mut labels = inner.labels.lock().unwrap_or_else(PoisonError::into_inner);
-        if labels.is_empty() {
+        let mut passes = inner.passes.lock().unwrap_or_else(PoisonError::into_inner);
+        if passes.is_empty() {
             return Ok(Vec::new());
         }
-        let mut ticks = vec![0_u64; 2 * labels.len()];
+        let mut ticks = vec![0_u64; 2 * passes.len()];
         // SAFETY: every query read was recorded; the buffer holds one 64-bit value for each.
         unsafe {
             inner.core.device.get_query_pool_results(inner.pool, 0, &mut ticks, vk::QueryResultFlags::TYPE_64)
@@ -118,19 +122,19 @@ impl Timers {
         let limits = &inner.core.limits;
         let mask =
             if limits.timestamp_valid_bits >= 64 { u64::MAX } else { (1 << limits.timestamp_valid_bits) - 1 };
-        let times = std::mem::take(&mut *labels).into_iter().zip(ticks.chunks_exact(2));
+        let times = std::mem::take(&mut *passes).into_iter().zip(ticks.chunks_exact(2));
         Ok(times
-            .map(|(label, ticks)| {
+            .map(|((stage, label), ticks)| {
                 let elapsed = ticks[1].wrapping_sub(ticks[0]) & mask;
                 let milliseconds = elapsed as f64 * f64::from(limits.timestamp_period) * 1e-6;
-                PassTiming { label, milliseconds, timer: TimerKind::Device }
+                PassTiming { stage, label, milliseconds, timer: TimerKind::Device }
             })
             .collect())
     }
 
     /// Forgets the passes recorded so far, for a recording that will not be submitted.
     pub fn clear(&self) {
-        self.inner.labels.lock().unwrap_or_else(PoisonError::into_inner).clear();
+        self.inner.passes.lock().unwrap_or_else(PoisonError::into_inner).clear();
     }
 
     /// What a submission keeps until the device is done.
@@ -142,11 +146,11 @@ impl Timers {
     ///
     /// # Safety
     /// `command` is being recorded, outside of rendering.
-    pub(crate) unsafe fn begin(&self, command: vk::CommandBuffer, label: &str) -> Option<u32> {
+    pub(crate) unsafe fn begin(&self, command: vk::CommandBuffer, stage: Stage, label: &str) -> Option<u32> {
         let inner = &self.inner;
-        let mut labels = inner.labels.lock().unwrap_or_else(PoisonError::into_inner);
-        let index = u32::try_from(labels.len()).ok().filter(|index| *index < inner.capacity)?;
-        labels.push(label.to_owned());
+        let mut passes = inner.passes.lock().unwrap_or_else(PoisonError::into_inner);
+        let index = u32::try_from(passes.len()).ok().filter(|index| *index < inner.capacity)?;
+        passes.push((stage, label.to_owned()));
         // SAFETY: the caller vouches for the command buffer; the queries lie within the pool.
         unsafe {
             inner.core.device.cmd_reset_query_pool(command, inner.pool, 2 * index, 2);

@@ -39,7 +39,7 @@ impl AovPass {
         let bindings = Bindings::new(device, scene, &storage)?;
         Ok(Self {
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(true))?,
-            store: bindings.kernel(device, &INTEGRATORS_AOV, &[])?,
+            store: bindings.kernel(device, &INTEGRATORS_AOV, &[])?.of_film(),
             pixel_count,
             pixels,
             queue,

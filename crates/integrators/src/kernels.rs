@@ -4,7 +4,7 @@ use bytemuck::bytes_of;
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferUsage, ComputePipeline, ComputePipelineDesc, Device, Recorder,
-    SetLayout,
+    SetLayout, Stage,
 };
 use rasray_gpu_scene::GpuScene;
 pub(crate) use rasray_shaders_glsl::records::WaveConstants;
@@ -30,8 +30,16 @@ impl From<Wave> for WaveConstants {
 /// A pipeline with its label: the shader's path.
 #[derive(Debug)]
 pub(crate) struct Kernel {
+    stage: Stage,
     label: &'static str,
     pipeline: ComputePipeline,
+}
+
+impl Kernel {
+    /// The same as a pass that does nothing but add to an image.
+    pub fn of_film(self) -> Self {
+        Self { stage: Stage::Film, ..self }
+    }
 }
 
 /// The buffers of the integrators' set, in the order of its bindings; absent ones are not used by
@@ -110,7 +118,7 @@ impl Bindings {
             push_constant_bytes: size_of::<WaveConstants>() as u32,
             constants,
         })?;
-        Ok(Kernel { label: shader.name, pipeline })
+        Ok(Kernel { stage: Stage::Shade, label: shader.name, pipeline })
     }
 
     /// Records one pass over the slots of `domain` of a queue; its results are visible to compute shaders and
@@ -125,7 +133,7 @@ impl Bindings {
     ) {
         let [geometry, storage, scene] = &self.sets;
         let constants = WaveConstants { domain: domain.word(), ..*constants };
-        recorder.begin_pass(kernel.label);
+        recorder.begin_pass(kernel.stage, kernel.label);
         recorder.bind_compute(&kernel.pipeline);
         recorder.bind_sets(0, &[geometry, storage, queue.set(), scene]);
         recorder.push_constants(bytes_of(&constants));

@@ -151,7 +151,7 @@ impl Path {
             let pending = buffer("pending radiance", size_of::<[f32; 3]>())?;
             let bindings = bind(Storage { pending: Some(&pending), shadow: Some(&queue), ..storage })?;
             let resolve = bindings.kernel(device, &INTEGRATORS_PATH_RESOLVE, &[])?;
-            let accumulate = bindings.kernel(device, &INTEGRATORS_FILM_ACCUMULATE, &[])?;
+            let accumulate = bindings.kernel(device, &INTEGRATORS_FILM_ACCUMULATE, &[])?.of_film();
             (Shadows::Occluded { queue, pending, resolve, accumulate }, bindings)
         };
         let shader = if passing { &INTEGRATORS_PATH_SHADE_PASSING } else { &INTEGRATORS_PATH_SHADE };

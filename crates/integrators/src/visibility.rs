@@ -4,7 +4,7 @@ use bytemuck::bytes_of;
 use rasray_ads::{AdsError, Counters, Domain, Geometry, RayQueue, SceneBinding};
 use rasray_gpu::{
     Access, BindingSet, Buffer, ComputePipeline, ComputePipelineDesc, Device, Feature, RasterPipeline,
-    RasterPipelineDesc, Recorder, Requirements,
+    RasterPipelineDesc, Recorder, Requirements, Stage,
 };
 use rasray_gpu_scene::GpuScene;
 use rasray_shaders_glsl::{
@@ -109,7 +109,7 @@ impl Visibility {
     /// Records hits and surfaces of the rays of a wave, which are those of its pixels.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, wave: Wave) {
         let hit_bytes = u64::from(wave.pixel_count) * size_of::<Hit>() as u64;
-        recorder.begin_pass("integrators/visibility");
+        recorder.begin_pass(Stage::Visible, "integrators/visibility");
         recorder.fill(queue.hits(), 0, hit_bytes, u32::MAX);
         recorder.barrier(Access::COMPUTE | Access::TRANSFER_WRITE, Access::VERTEX_READ | Access::FRAGMENT);
         for round in [VISIBILITY_NEAREST, VISIBILITY_LOWEST] {
@@ -121,7 +121,7 @@ impl Visibility {
             recorder.barrier(Access::FRAGMENT, Access::FRAGMENT | Access::COMPUTE);
         }
         recorder.end_pass();
-        recorder.begin_pass(INTEGRATORS_VISIBILITY_RESOLVE.name);
+        recorder.begin_pass(Stage::Visible, INTEGRATORS_VISIBILITY_RESOLVE.name);
         recorder.bind_compute(&self.resolve);
         self.bind(recorder, queue, wave, 0);
         queue.record_dispatch(recorder, Domain::First(wave.pixel_count));

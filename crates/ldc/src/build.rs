@@ -6,7 +6,7 @@ use rasray_ads::{
     AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, SceneBinding, ViewDraw, Visit,
     Visits,
 };
-use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
+use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 
 use crate::layout::{cell_count, layer_capacity, scratch};
@@ -127,7 +127,7 @@ fn record_peeling(
     target: BuildTarget<'_>,
 ) {
     let shaders = Access::COMPUTE | Access::FRAGMENT;
-    recorder.begin_pass("ldc/build_5_peel");
+    recorder.begin_pass(Stage::Build, "ldc/build_5_peel");
     recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
     for pool in [Pool::Depths, Pool::Payload].map(|pool| target.pools.pool(pool)) {
         recorder.fill(pool, 0, pool.size(), u32::MAX);

@@ -159,7 +159,8 @@ struct Figure {
     value: fn(&Run) -> Option<f64>,
 }
 
-const FIGURES: [Figure; 4] = [
+const FIGURES: [Figure; 5] = [
+    Figure { of: Some(PassOf::Pose), name: "pose", value: |run| run.times.pose_ms },
     Figure { of: Some(PassOf::Build), name: "build", value: |run| run.times.build_ms },
     Figure { of: Some(PassOf::Trace), name: "trace", value: |run| run.times.trace_ms },
     Figure { of: Some(PassOf::Image), name: "all passes of the image", value: |run| run.times.image_ms },

@@ -95,13 +95,14 @@ fn pass_table(body: &mut Markup, run: &rasray_report::Run) {
         body.element("table", &[], |table| {
             table.fixed(
                 "<caption>Passes, ms: all dispatches together, share of the figure, and over repetitions</caption>\
-                 <thead><tr><th scope=\"col\">pass</th><th scope=\"col\" class=\"number\">share</th>\
+                 <thead><tr><th scope=\"col\">pass</th><th scope=\"col\">stage</th><th scope=\"col\" class=\"number\">share</th>\
                  <th scope=\"col\" class=\"number\">median</th><th scope=\"col\" class=\"number\">shortest</th>\
                  <th scope=\"col\" class=\"number\">longest</th></tr></thead><tbody>",
             );
             for pass in &run.passes {
                 table.element("tr", &[], |row| {
                     row.leaf("th", &[("scope", "row")], &pass.label);
+                    row.leaf("td", &[], pass.stage.as_deref().unwrap_or_default());
                     for value in [pass.ms_share.unwrap_or(pass.ms_median), pass.ms_median, pass.ms_min, pass.ms_max] {
                         row.leaf("td", &[("class", "number")], format_args!("{value:.4}"));
                     }

@@ -72,10 +72,24 @@ pub struct Times {
     pub mrays_per_s: Option<f64>,
 }
 
+/// A stage of a frame: milliseconds of all its passes, and of what the host does for it, in one repetition together.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StageTime {
+    /// `pose`, `build`, `visible`, `trace-closest`, `trace-occluded`, `surfaces`, `shade` or `film`.
+    pub stage: String,
+    /// Median.
+    pub ms: f64,
+    /// How far the times lie apart.
+    pub spread: Spread,
+}
+
 /// The figure of a run that a pass is a part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PassOf {
+    /// [`Times::pose_ms`].
+    Pose,
     /// [`Times::build_ms`], where builds were repeated to be timed.
     Build,
     /// [`Times::trace_ms`] of a set of rays.
@@ -91,6 +105,9 @@ pub enum PassOf {
 pub struct Pass {
     /// The path of its shader, [`Pass::HOST`] or [`Pass::WAITING`].
     pub label: String,
+    /// The stage that it belongs to, as [`StageTime::stage`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stage: Option<String>,
     /// What it is a part of.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub of: Option<PassOf>,
@@ -119,7 +136,8 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// Label of the host's own part of a build, [`Times::build_host_ms`], such as a tree that it builds.
+    /// Label of the host's own part of a build, [`Times::build_host_ms`], such as a tree that it builds, and of a pose,
+    /// such as the matrices of a rig.
     pub const HOST: &'static str = "host, before recording";
     /// Label of what else the host sees of a build: recording, submitting, and waiting beyond the passes.
     pub const WAITING: &'static str = "host, recording and waiting";

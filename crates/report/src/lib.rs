@@ -16,7 +16,7 @@ mod text;
 mod words;
 
 pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
-pub use cost::{Counters, Memory, Pass, PassOf, Spread, Timer, Times};
+pub use cost::{Counters, Memory, Pass, PassOf, Spread, StageTime, Timer, Times};
 pub use schema::{
     CameraRecord, Device, FramesRecord, PoseRecord, Report, Run, SCHEMA, SceneRecord, SmallerImageRecord,
     Statistics,

@@ -1,6 +1,6 @@
 //! A run with every number, as text for people.
 
-use crate::{Bound, HardRecord, RateRecord, Run, bytes, columns, grouped};
+use crate::{Bound, HardRecord, RateRecord, Run, StageTime, bytes, columns, grouped};
 use std::fmt::Write;
 
 fn milliseconds(value: f64) -> String {
@@ -88,6 +88,11 @@ pub(super) fn run_text(run: &Run) -> String {
         Some(row)
     }));
     section(&mut text, " time", rows);
+    let stages = run.stages.iter().map(|StageTime { stage, ms, spread }| {
+        let spread = apart(spread.min, Some((spread.q1, spread.q3)), spread.max);
+        vec![stage.clone(), milliseconds(*ms), spread]
+    });
+    section(&mut text, " stages", stages.collect());
 
     let rate = times.mrays_per_s.map(|rate| format!("{rate:.3} Mrays/s"));
     let mut rows: Vec<_> =

@@ -1,7 +1,7 @@
 //! A report and its runs. A measurement that was not made is an absent field, never 0.
 
 use crate::accuracy::{Accuracy, HardRecord, ImageError};
-use crate::cost::{Counters, Memory, Pass, Spread, Times};
+use crate::cost::{Counters, Memory, Pass, Spread, StageTime, Times};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -217,6 +217,9 @@ pub struct Run {
     /// `trace_ms`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub spread: BTreeMap<String, Spread>,
+    /// Every stage that was timed, in the order of a frame.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<StageTime>,
     /// Every pass that was timed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub passes: Vec<Pass>,

@@ -131,6 +131,20 @@ fn passes_add_up_to_the_figures_of_a_run() {
             );
             often += passes().filter(|pass| pass.dispatches > Some(1)).count();
         }
+        // A stage is what its passes are, whichever figure they belong to.
+        assert!(run.passes.iter().all(|pass| pass.stage.is_some()), "{}", run.contestant());
+        let sum_of = |is_part: fn(&str) -> bool| -> f64 {
+            run.stages.iter().filter(|time| is_part(&time.stage)).map(|time| time.ms).sum()
+        };
+        let rest = if run.ray_set.is_some() { run.times.trace_ms } else { run.times.image_ms };
+        for (sum, figure) in [
+            (sum_of(|stage| stage == "build"), run.times.build_ms),
+            (sum_of(|stage| stage != "build"), rest),
+            (sum_of(|stage| stage.starts_with("trace-")), run.times.trace_ms),
+        ] {
+            let figure = figure.expect("measured");
+            assert!((sum - figure).abs() <= 1.0e-9 * figure, "{}: {sum} of {figure}", run.contestant());
+        }
         let host = run.passes.iter().find(|pass| pass.label == Pass::HOST).expect("its own part");
         assert_eq!(Some(host.ms_median), run.times.build_host_ms);
         by_host += usize::from(host.ms_share > run.times.build_ms.map(|whole| 0.25 * whole));

@@ -85,6 +85,17 @@ fn frames_are_images_of_their_times_and_go_on_where_they_stopped() {
     assert!(frames["key"].is_string());
     assert_eq!(poses[2], json!({ "time_s": 1.25, "clips": ["rise"], "frame": 10, "frames": frames }));
     assert_eq!(poses.len(), 4);
+    // The first build is no frame's.
+    for (report, build) in reports.iter().zip([false, true, true, true]) {
+        let run = &report["runs"][0];
+        let stages: Vec<_> =
+            run["stages"].as_array().expect("a list").iter().map(|time| time["stage"].clone()).collect();
+        let all = ["pose", "build", "trace-closest", "trace-occluded", "surfaces", "shade", "film"];
+        let expected: Vec<_> = all.into_iter().filter(|stage| build || *stage != "build").collect();
+        assert_eq!(stages, expected);
+        assert_eq!(run["pose_ms"], run["stages"][0]["ms"]);
+        assert!(run["pose_ms"].as_f64() > Some(0.0));
+    }
     // What is there stays as it is; what is missing, damaged or of another time is made, and what has no row.
     std::fs::copy(image("011"), image("009")).expect("it is there");
     std::fs::remove_file(image("010")).expect("it is there");

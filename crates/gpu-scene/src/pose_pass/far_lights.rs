@@ -3,7 +3,7 @@
 use bytemuck::bytes_of;
 use rasray_ads::Geometry;
 use rasray_gpu::{
-    Access, BindingSet, Buffer, BufferUsage, ComputePipeline, ComputePipelineDesc, Device, Recorder,
+    Access, BindingSet, Buffer, BufferUsage, ComputePipeline, ComputePipelineDesc, Device, Recorder, Stage,
 };
 use rasray_scene::{Light, Scene};
 use rasray_shaders_glsl::SCENE_POSE_LIGHTS;
@@ -84,7 +84,7 @@ impl FarLights {
             emissive_power: emissive_power.min(1.0e38) as f32,
             ..self.constants
         };
-        recorder.begin_pass(SCENE_POSE_LIGHTS.name);
+        recorder.begin_pass(Stage::Pose, SCENE_POSE_LIGHTS.name);
         recorder.bind_compute(&self.pipeline);
         recorder.bind_sets(0, &[geometry.set(), &self.set]);
         recorder.push_constants(bytes_of(&constants));

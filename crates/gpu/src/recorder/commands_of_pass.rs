@@ -1,8 +1,12 @@
 //! What was recorded, pass by pass.
 
+use crate::stage::Stage;
+
 /// The commands of one pass: how much a device is told to do, without running it.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PassCommands {
+    /// What of a frame the pass belongs to.
+    pub stage: Stage,
     /// Label of the pass.
     pub label: String,
     /// Dispatches whose workgroups the host knows.
@@ -20,7 +24,17 @@ pub struct PassCommands {
 }
 
 impl PassCommands {
-    pub(super) fn of(label: &str) -> Self {
-        Self { label: label.to_owned(), ..Self::default() }
+    /// A pass without commands.
+    pub fn of(stage: Stage, label: &str) -> Self {
+        Self {
+            stage,
+            label: label.to_owned(),
+            dispatches: 0,
+            workgroups: 0,
+            indirect: 0,
+            draws: 0,
+            vertices: 0,
+            transfers: 0,
+        }
     }
 }

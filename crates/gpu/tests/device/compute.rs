@@ -12,11 +12,11 @@ fn a_dispatch_gives_the_same_values_under_every_timing() {
             .submit_passes(timing, |recorder| {
                 // Bound before the passes: the state must survive being split into submissions.
                 scale.bind(recorder, 3);
-                recorder.begin_pass("first");
+                recorder.begin_pass(Stage::Build, "first");
                 scale.dispatch(recorder);
                 recorder.end_pass();
                 recorder.barrier(Access::COMPUTE_WRITE, Access::COMPUTE);
-                recorder.begin_pass("second");
+                recorder.begin_pass(Stage::Shade, "second");
                 scale.dispatch(recorder);
                 recorder.end_pass();
                 recorder.device().name().len()
@@ -25,7 +25,7 @@ fn a_dispatch_gives_the_same_values_under_every_timing() {
         let expected: Vec<u32> = (0..1000).map(|i| (i * 3 + Scale::BIAS) * 3 + Scale::BIAS).collect();
         assert_eq!(scale.values(&device), expected, "{timing:?}");
         assert_eq!(submitted.value, device.name().len());
-        let labels: Vec<_> = submitted.passes.iter().map(|pass| pass.label.as_str()).collect();
+        let labels: Vec<_> = submitted.passes.iter().map(|pass| (pass.stage, pass.label.as_str())).collect();
         let kind = match timing {
             Timing::None => {
                 assert!(labels.is_empty());
@@ -34,7 +34,7 @@ fn a_dispatch_gives_the_same_values_under_every_timing() {
             Timing::Device => TimerKind::Device,
             Timing::Host => TimerKind::Host,
         };
-        assert_eq!(labels, ["first", "second"]);
+        assert_eq!(labels, [(Stage::Build, "first"), (Stage::Shade, "second")]);
         for pass in &submitted.passes {
             assert_eq!(pass.timer, kind);
             assert!(pass.milliseconds >= 0.0 && pass.milliseconds < 60_000.0, "{pass:?}");
@@ -56,22 +56,22 @@ fn a_recorder_says_what_each_pass_is_made_of() {
         .submit(|recorder| {
             recorder.fill(&arguments, 12, 4, 7);
             scale.bind(recorder, 1);
-            recorder.begin_pass("one");
+            recorder.begin_pass(Stage::Build, "one");
             recorder.dispatch([2, 1, 1]);
             recorder.dispatch([1, 1, 1]);
             recorder.end_pass();
             recorder.dispatch([1, 1, 1]);
-            recorder.begin_pass("two");
+            recorder.begin_pass(Stage::Film, "two");
             recorder.fill(&arguments, 12, 4, 7);
             recorder.dispatch_indirect(&arguments, 0);
             recorder.end_pass();
             recorder.passes().to_vec()
         })
         .expect("submission");
-    let pass = |label: &str| PassCommands { label: label.to_owned(), ..PassCommands::default() };
+    let pass = PassCommands::of;
     let expected = [
-        PassCommands { dispatches: 2, workgroups: 3, ..pass("one") },
-        PassCommands { indirect: 1, transfers: 1, ..pass("two") },
+        PassCommands { dispatches: 2, workgroups: 3, ..pass(Stage::Build, "one") },
+        PassCommands { indirect: 1, transfers: 1, ..pass(Stage::Film, "two") },
     ];
     assert_eq!(submitted.value, expected);
     drop((scale, arguments));

@@ -63,7 +63,7 @@ fn an_adopted_device_runs_the_same_work_and_destroys_nothing_of_the_host() {
     device
         .submit_passes(Timing::Host, |recorder| {
             scale.bind(recorder, 4);
-            recorder.begin_pass("scale");
+            recorder.begin_pass(Stage::Build, "scale");
             scale.dispatch(recorder);
             recorder.end_pass();
         })
@@ -157,10 +157,10 @@ fn a_command_buffer_of_the_host_is_recorded_into() {
         recorder.bind_compute(&scale.pipeline);
         recorder.bind_sets(0, &[&set]);
         recorder.push_constants(crate::device::common::bytes_of(&[64, 10]));
-        recorder.begin_pass("timed");
+        recorder.begin_pass(Stage::Build, "timed");
         scale.dispatch(&mut recorder);
         recorder.end_pass();
-        recorder.begin_pass("beyond the capacity");
+        recorder.begin_pass(Stage::Build, "beyond the capacity");
         recorder.end_pass();
         recorder.barrier(Access::COMPUTE_WRITE, Access::TRANSFER_READ | Access::HOST_READ);
         let recorded = recorder.finish().expect("no mistake");

@@ -19,14 +19,14 @@ fn the_order_of_commands_is_checked() {
     for timing in [Timing::None, Timing::Host] {
         let options = SubmitOptions { timing, ..SubmitOptions::default() };
         let error = device.submit_with(&options, |recorder| {
-            recorder.begin_pass("outer");
-            recorder.begin_pass("inner");
+            recorder.begin_pass(Stage::Build, "outer");
+            recorder.begin_pass(Stage::Build, "inner");
         });
         assert!(error.expect_err("nested").to_string().contains("within the pass `outer`"));
     }
     mistake(&device, "without a compute pipeline", |recorder| recorder.dispatch([1, 1, 1]));
     mistake(&device, "sets were bound without a pipeline", |recorder| recorder.bind_sets(0, &[&scale.set]));
-    mistake(&device, "`open`: the pass was not ended", |recorder| recorder.begin_pass("open"));
+    mistake(&device, "`open`: the pass was not ended", |recorder| recorder.begin_pass(Stage::Build, "open"));
     mistake(&device, "a pass was ended that was not begun", |recorder| recorder.end_pass());
     mistake(&device, "rendering was not ended", |recorder| recorder.begin_rendering(4, 4));
     mistake(&device, "rendering was ended that was not begun", |recorder| recorder.end_rendering());
@@ -73,7 +73,7 @@ fn ranges_usages_and_limits_are_checked() {
     let most = device.limits().max_workgroup_count[1];
     if let Some(too_many) = most.checked_add(1) {
         let error = mistake(&device, "`big`: the number of workgroups", |recorder| {
-            recorder.begin_pass("big");
+            recorder.begin_pass(Stage::Build, "big");
             scale.bind(recorder, 1);
             recorder.dispatch([1, too_many, 1]);
             recorder.end_pass();
@@ -197,7 +197,7 @@ fn a_timeout_names_the_pass_and_abandons_the_device() {
         .expect("pipeline");
     let options = SubmitOptions { timeout: Some(Duration::from_millis(1)), ..SubmitOptions::default() };
     let submitted = device.submit_with(&options, |recorder| {
-        recorder.begin_pass("endless");
+        recorder.begin_pass(Stage::Build, "endless");
         recorder.bind_compute(&pipeline);
         recorder.bind_sets(0, &[&set]);
         recorder.dispatch([256, 64, 1]);

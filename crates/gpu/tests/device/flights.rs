@@ -23,7 +23,7 @@ fn frames_in_flight_run_in_the_order_of_their_submission() {
             }
             flights
                 .submit(slot, |recorder| {
-                    recorder.begin_pass("scale");
+                    recorder.begin_pass(Stage::Build, "scale");
                     scale.bind(recorder, 3);
                     scale.dispatch(recorder);
                     recorder.end_pass();

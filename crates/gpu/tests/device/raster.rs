@@ -38,7 +38,7 @@ fn every_pixel_of_the_area_is_shaded_once_per_instance() {
             .submit_passes(timing, |recorder| {
                 recorder.fill(&count.buffer, 0, count.buffer.size(), 0);
                 recorder.barrier(Access::TRANSFER_WRITE, Access::FRAGMENT);
-                recorder.begin_pass("draw");
+                recorder.begin_pass(Stage::Build, "draw");
                 recorder.begin_rendering(WIDTH, HEIGHT);
                 recorder.bind_raster(&count.pipeline);
                 recorder.bind_sets(0, &[&count.set]);

@@ -37,6 +37,7 @@ fn passes(figure: f64, of: PassOf, system: &str) -> Vec<Pass> {
         (PassOf::Build, "bvh") => &[Pass::HOST, "refit", Pass::WAITING],
         (PassOf::Build, "brute-force") => &[Pass::WAITING],
         (PassOf::Build, _) => &["bin", "scan", "scatter", Pass::WAITING],
+        (PassOf::Pose, _) => &[Pass::HOST, "pose_vertices"],
         (PassOf::Trace, _) => &["trace_queue"],
         (PassOf::Image, _) => &["generate", "trace_queue", "shade"],
     };

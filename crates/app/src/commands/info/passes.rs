@@ -8,6 +8,7 @@ pub(super) fn passes_json(passes: &[PassCommands]) -> Value {
     let rows = passes.iter().map(|pass| {
         json!({
             "label": pass.label,
+            "stage": pass.stage.name(),
             "dispatches": pass.dispatches,
             "workgroups": pass.workgroups,
             "indirect": pass.indirect,
@@ -20,7 +21,7 @@ pub(super) fn passes_json(passes: &[PassCommands]) -> Value {
 }
 
 pub(super) fn passes_text(passes: &[PassCommands]) -> String {
-    let head = ["pass", "dispatches", "workgroups", "indirect", "draws", "vertices", "transfers"];
+    let head = ["pass", "stage", "dispatches", "workgroups", "indirect", "draws", "vertices", "transfers"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(passes.iter().map(|pass| {
         let counts = [
@@ -32,7 +33,7 @@ pub(super) fn passes_text(passes: &[PassCommands]) -> String {
             pass.transfers.into(),
         ];
         let shown = counts.iter().map(|count| if *count == 0 { String::new() } else { grouped(*count) });
-        std::iter::once(pass.label.clone()).chain(shown).collect()
+        [pass.label.clone(), pass.stage.to_string()].into_iter().chain(shown).collect()
     }));
     columns(&rows, 1)
 }

@@ -5,7 +5,7 @@
 
 use rasray_experiment::{
     Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, ExperimentError, Feature,
-    FilmSums, HardJob, OnProgress, PassCommands, Progress, RenderJob, RenderOutput, TexelCapacity,
+    FilmSums, HardJob, OnProgress, PassCommands, Progress, RenderJob, RenderOutput, Stage, TexelCapacity,
 };
 use rasray_report::{Counters, Device, HardRecord, Run, Times};
 use std::path::Path;
@@ -86,13 +86,8 @@ impl Backend for Scripted {
 
     fn passes(&mut self, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError> {
         let label = format!("{}/build_0_header", job.system.system.name);
-        Ok(vec![PassCommands {
-            label,
-            dispatches: 2,
-            workgroups: 7,
-            transfers: 1,
-            ..PassCommands::default()
-        }])
+        let pass = PassCommands::of(Stage::Build, &label);
+        Ok(vec![PassCommands { dispatches: 2, workgroups: 7, transfers: 1, ..pass }])
     }
 
     fn compare(
