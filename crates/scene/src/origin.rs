@@ -11,6 +11,8 @@
 //! gaps, and the same holds for each part. So meshes that touch always share an origin, and what is closed stays closed.
 //! Where every coordinate of a part is a single-precision number, the origin is 0: these meshes keep every bit of their file.
 //!
+//! Groups of one mesh may lie far apart, too, and one origin cannot serve both: such a mesh is divided first ([`apart`]).
+//!
 //! On a far axis the difference of two single-precision coordinates is one, too. So placing by an origin never costs
 //! precision, wherever that origin is.
 
@@ -23,6 +25,9 @@ use crate::{Instance, Material, Mesh, Texture, Wrap};
 
 /// See the module's documentation.
 const FAR: f64 = 8.0;
+
+/// How many times as wide as the boxes on either side the gap between groups of a mesh is where they lie apart.
+const APART: f64 = 32.0;
 
 /// How often a file is divided at most: gaps that are nested deeper are no plausible file, and would take long to find.
 const DEPTH: u32 = 32;
@@ -51,7 +56,7 @@ pub(crate) fn settle(meshes: &mut [Mesh], wide: &[Vec<DVec3>], origins: Origins<
         Origins::Own | Origins::First => {
             let parts = meshes.iter().zip(wide).enumerate();
             let mut parts: Vec<Part> =
-                parts.filter_map(|(number, (mesh, wide))| Part::of(number, mesh, wide)).collect();
+                parts.filter_map(|(number, (mesh, wide))| Part::of(number, &mesh.indices, wide)).collect();
             divide(&mut parts, matches!(origins, Origins::Own), DEPTH, &mut found);
         }
     }
@@ -129,10 +134,10 @@ fn is_usable(point: DVec3) -> bool {
     point.to_array().iter().all(|x| x.abs() <= f64::from(MAX_COORDINATE))
 }
 
-/// A mesh as the rule sees it: what its triangles use.
+/// A mesh, or a group of one, as the rules see it: what its triangles use.
 #[derive(Clone, Copy, Debug)]
 struct Part {
-    mesh: usize,
+    number: usize,
     low: DVec3,
     high: DVec3,
     /// Whether every coordinate is a single-precision number.
@@ -140,10 +145,10 @@ struct Part {
 }
 
 impl Part {
-    fn of(number: usize, mesh: &Mesh, wide: &[DVec3]) -> Option<Self> {
-        let mut part = Self { mesh: number, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, is_exact: true };
+    fn of(number: usize, indices: &[u32], wide: &[DVec3]) -> Option<Self> {
+        let mut part = Self { number, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, is_exact: true };
         // Indices are checked with the finished mesh.
-        let corners = mesh.indices.iter().filter_map(|&index| wide.get(index as usize));
+        let corners = indices.iter().filter_map(|&index| wide.get(index as usize));
         for &point in corners.filter(|point| is_usable(**point)) {
             part.low = part.low.min(point);
             part.high = part.high.max(point);
@@ -151,6 +156,57 @@ impl Part {
         }
         (part.low.x <= part.high.x).then_some(part)
     }
+
+    /// The box around both.
+    fn and(self, other: Self) -> Self {
+        let (low, high) = (self.low.min(other.low), self.high.max(other.high));
+        Self { low, high, ..self }
+    }
+
+    fn side(&self) -> f64 {
+        (self.high - self.low).max_element()
+    }
+}
+
+/// Which groups of a mesh lie together, as a number for each: the same on both sides of every gap that is not much wider
+/// than what is on either side. Each group has its part of the indices; all are 0 where single precision loses nothing.
+pub(crate) fn apart<'a>(groups: impl Iterator<Item = &'a [u32]>, wide: &[DVec3]) -> Vec<u32> {
+    let boxes: Vec<Option<Part>> =
+        groups.enumerate().map(|(number, indices)| Part::of(number, indices, wide)).collect();
+    let mut clusters = vec![0; boxes.len()];
+    let mut parts: Vec<Part> = boxes.into_iter().flatten().collect();
+    if !parts.iter().all(|part| part.is_exact) {
+        separate(&mut parts, &mut 0, &mut clusters);
+    }
+    clusters
+}
+
+/// Numbers clusters from `next` on.
+fn separate(parts: &mut [Part], next: &mut u32, clusters: &mut [u32]) {
+    for axis in 0..3 {
+        parts.sort_unstable_by(|a, b| a.low[axis].total_cmp(&b.low[axis]));
+        // Boxes around all that is above a gap.
+        let mut above: Vec<Part> = parts.to_vec();
+        for place in (1..above.len()).rev() {
+            above[place - 1] = above[place - 1].and(above[place]);
+        }
+        let mut below = parts.first().copied();
+        for place in 1..parts.len() {
+            let Some(under) = below else { break };
+            let gap = above[place].low[axis] - under.high[axis];
+            if gap > APART * under.side().max(above[place].side()) {
+                let (low, high) = parts.split_at_mut(place);
+                separate(low, next, clusters);
+                separate(high, next, clusters);
+                return;
+            }
+            below = Some(under.and(parts[place]));
+        }
+    }
+    for part in parts {
+        clusters[part.number] = *next;
+    }
+    *next += 1;
 }
 
 /// Origins of parts by the rule; `spares` leaves those alone that lose nothing.
@@ -177,7 +233,7 @@ fn divide(parts: &mut [Part], spares: bool, depth: u32, origins: &mut [DVec3]) {
         }
     }
     for part in parts {
-        origins[part.mesh] = origin;
+        origins[part.number] = origin;
     }
 }
 

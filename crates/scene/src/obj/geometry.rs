@@ -5,6 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 
+use super::apart::{Group, divide};
 use super::library::Library;
 use super::skipped::Skipped;
 use super::smoothing::Smoothing;
@@ -29,8 +30,13 @@ pub(super) struct Geometry {
     pub vertices: usize,
 }
 
-/// Reads the statements of an OBJ file.
-pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometry, SceneError> {
+/// Reads the statements of an OBJ file. `divides` says whether meshes are divided where their groups lie far apart.
+pub(super) fn read(
+    path: &Path,
+    bytes: &[u8],
+    limits: &Limits,
+    divides: bool,
+) -> Result<Geometry, SceneError> {
     let mut reader = Reader {
         path,
         limits,
@@ -45,6 +51,7 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
         libraries: Vec::new(),
         run: None,
         meshes: Vec::new(),
+        groups: Vec::new(),
         mesh_positions: Vec::new(),
         mesh_uvs: Vec::new(),
         made_normals: Vec::new(),
@@ -73,7 +80,7 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
             return Err(BINARY.refuse(path, "an OBJ file"));
         }
     }
-    Ok(Geometry {
+    let mut geometry = Geometry {
         meshes: reader.meshes,
         positions: reader.mesh_positions,
         uvs: reader.mesh_uvs,
@@ -81,7 +88,20 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
         libraries: reader.libraries,
         skipped: reader.skipped,
         vertices: reader.positions.len(),
-    })
+    };
+    if divides {
+        divide(&mut geometry, &reader.groups);
+    }
+    Ok(geometry)
+}
+
+impl Geometry {
+    /// Adds a mesh, with its positions and texture coordinates as the file has them.
+    pub fn add(&mut self, mesh: Mesh, positions: Vec<DVec3>, uvs: Option<Vec<[f64; 2]>>) {
+        self.meshes.push(mesh);
+        self.positions.push(positions);
+        self.uvs.push(uvs);
+    }
 }
 
 /// A corner of a face: places in the arrays of positions, texture coordinates and normals.
@@ -106,6 +126,7 @@ enum Normals {
 /// Faces in a row with one material and the same attributes.
 struct Run {
     mesh: Mesh,
+    groups: Vec<Group>,
     positions: Vec<DVec3>,
     uvs: Vec<[f64; 2]>,
     /// Of the file.
@@ -131,6 +152,7 @@ struct Reader<'a> {
     libraries: Vec<Library>,
     run: Option<Run>,
     meshes: Vec<Mesh>,
+    groups: Vec<Vec<Group>>,
     mesh_positions: Vec<Vec<DVec3>>,
     mesh_uvs: Vec<Option<Vec<[f64; 2]>>>,
     /// Meshes whose normals are made, and which.
@@ -177,7 +199,16 @@ impl Reader<'_> {
                 }
             }
             b"mtllib" => self.libraries.push(Library { name: statement.name() }),
-            b"o" | b"g" => self.group = statement.name(),
+            b"o" | b"g" => {
+                self.group = statement.name();
+                let name = self.mesh_name();
+                if let Some(run) = &mut self.run {
+                    // A group without faces is none.
+                    let first = run.mesh.indices.len();
+                    run.groups.pop_if(|group| group.first == first);
+                    run.groups.push(Group { name, first });
+                }
+            }
             b"s" => self.smoothing.take(statement),
             b"p" | b"l" => self.skipped.points_and_lines += 1,
             _ => {
@@ -301,12 +332,9 @@ impl Reader<'_> {
             self.material_names.push(self.material.clone());
             self.material_names.len() - 1
         });
-        let name = match (self.group.is_empty(), self.material.is_empty()) {
-            (false, _) => self.group.clone(),
-            (true, false) => self.material.clone(),
-            (true, true) => "mesh".to_owned(),
-        };
+        let name = self.mesh_name();
         Run {
+            groups: vec![Group { name: name.clone(), first: 0 }],
             mesh: Mesh { name, material, ..Mesh::default() },
             positions: Vec::new(),
             uvs: Vec::new(),
@@ -318,9 +346,17 @@ impl Reader<'_> {
         }
     }
 
+    fn mesh_name(&self) -> String {
+        match (self.group.is_empty(), self.material.is_empty()) {
+            (false, _) => self.group.clone(),
+            (true, false) => self.material.clone(),
+            (true, true) => "mesh".to_owned(),
+        }
+    }
+
     fn end_run(&mut self) {
         let Some(run) = self.run.take() else { return };
-        let Run { mut mesh, positions, uvs, file_normals, made_normals, has_uvs, normals, .. } = run;
+        let Run { mut mesh, groups, positions, uvs, file_normals, made_normals, has_uvs, normals, .. } = run;
         self.mesh_uvs.push(has_uvs.then_some(uvs));
         match normals {
             Normals::Absent => {}
@@ -328,6 +364,7 @@ impl Reader<'_> {
             Normals::Made => self.made_normals.push((self.meshes.len(), made_normals)),
         }
         self.meshes.push(mesh);
+        self.groups.push(groups);
         self.mesh_positions.push(positions);
     }
 

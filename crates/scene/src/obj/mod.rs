@@ -5,8 +5,9 @@
 //! are cut along their ears, into as many triangles. Triangles keep the order of the file; a new mesh begins where
 //! the material changes, or where faces begin or cease to have texture coordinates or normals. Each mesh is placed
 //! once, where the file has it: coordinates are read in double precision, and those of a file far from the origin
-//! are kept relative to an origin that the instance carries, so that single precision suffices. Files whose
-//! coordinates are single-precision numbers keep every bit.
+//! are kept relative to an origin that the instance carries, so that single precision suffices; a mesh whose groups
+//! (`g`, `o`) lie too far apart for one origin is divided. Files whose coordinates are single-precision numbers keep
+//! every bit.
 //!
 //! Faces without normals are flat, unless they are in a smoothing group: then the normal of a vertex is the sum of
 //! those of the group's faces there, weighted by area. Lines, points, colours of vertices and free-form surfaces are
@@ -41,6 +42,7 @@
 //! With a black `Tf` it never is. What is no glass is shown by `Kd` and `d`, as with any other `illum`. A glass that has a
 //! `Kd` or a `d` between 0 and 1 all the same has a warning that they are not shown.
 
+mod apart;
 mod geometry;
 mod library;
 mod material;
@@ -97,7 +99,7 @@ pub(crate) fn load_placed(
     }
     let mut remarks = Remarks::default();
     let Geometry { mut meshes, positions, uvs, material_names, libraries, skipped, vertices } =
-        geometry::read(path, &bytes, &options.limits)?;
+        geometry::read(path, &bytes, &options.limits, matches!(origins, Origins::Own))?;
     drop(bytes);
     let origins = settle(&mut meshes, &positions, origins);
     drop(positions);

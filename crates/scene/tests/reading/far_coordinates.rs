@@ -229,6 +229,63 @@ fn parts_of_a_file_stay_together() {
     assert_close(&corners(&scene)[3..], &truth(&values(&far)), 1.0, "the plate");
 }
 
+/// Faces of one material are one mesh, unless groups of it lie so far apart that one origin cannot serve both.
+#[test]
+fn groups_of_one_material_that_lie_apart_have_origins_of_their_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (near, far) = (plate([0.0; 3]), plate(UTM));
+    let file = |vertices: [&[[String; 3]]; 3]| {
+        let mut text = String::from("usemtl m\ns 1\n");
+        for (number, vertices) in vertices.into_iter().enumerate() {
+            // Each group counts its own vertices, backwards from the last.
+            writeln!(text, "g part{number}").expect("text");
+            for [x, y, z] in vertices {
+                writeln!(text, "v {x} {y} {z}\nvt {x} 0.25").expect("text");
+            }
+            for corners in squares() {
+                let back = corners.map(|corner| corner as i32 - (SIDE * SIDE) as i32);
+                let words = back.map(|corner| format!("{corner}/{corner}"));
+                writeln!(text, "f {}", words.join(" ")).expect("text");
+            }
+        }
+        text
+    };
+    let wanted = [&near, &far, &near].map(|vertices| truth(&values(vertices)));
+    let scene = read(folder.path(), "apart.obj", file([&near, &far, &near]));
+    let names: Vec<&str> = scene.meshes.iter().map(|mesh| &*mesh.name).collect();
+    assert_eq!(names, ["part0", "part1", "part2"]);
+    let origins: Vec<DVec3> =
+        scene.instances.iter().map(|placed| placed.world_from_mesh.translation).collect();
+    assert_eq!([origins[0], origins[2]], [DVec3::ZERO; 2]);
+    assert!(origins[1].y > 4.6e6, "{origins:?}");
+    assert_close(&corners(&scene), &wanted.concat(), 1.0, "all parts, in the order of the file");
+    // What is near has the bits that it has alone; the attributes follow the vertices.
+    let alone = read(folder.path(), "alone.obj", file([&near, &near, &near]));
+    assert_eq!((alone.meshes.len(), alone.meshes[0].positions.len()), (1, 3 * SIDE * SIDE));
+    let count = SIDE * SIDE;
+    for mesh in [0, 2] {
+        assert_eq!(scene.meshes[mesh].positions, alone.meshes[0].positions[mesh * count..][..count]);
+        assert_eq!(
+            scene.meshes[mesh].uvs[0].as_deref(),
+            alone.meshes[0].uvs[0].as_ref().map(|uvs| &uvs[mesh * count..][..count])
+        );
+        assert_eq!(
+            scene.meshes[mesh].normals.as_deref(),
+            alone.meshes[0].normals.as_ref().map(|normals| &normals[mesh * count..][..count])
+        );
+    }
+    // Groups that are near one another, as against their size, stay one mesh, wherever they are; so does what is exact.
+    let beside = plate([UTM[0] + 20.0, UTM[1], UTM[2]]);
+    let whole = |vertices: &[[f64; 3]]| -> Vec<[String; 3]> {
+        vertices.iter().map(|vertex| vertex.map(|x| (x * 10.0).round().to_string())).collect()
+    };
+    let (small, large) = (whole(&values(&near)), whole(&values(&plate([50_000.0; 3]))));
+    for (name, parts) in [("together", [&far, &beside, &far]), ("exact", [&small, &large, &small])] {
+        let scene = read(folder.path(), &format!("{name}.obj"), file(parts.map(|part| &part[..])));
+        assert_eq!(scene.meshes.len(), 1, "{name}");
+    }
+}
+
 /// All files of a sequence are placed as the first, whose own coordinates may be whole metres.
 #[test]
 fn numbered_files_share_an_origin() {
