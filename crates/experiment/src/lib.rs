@@ -33,6 +33,7 @@ mod jobs;
 mod kept_files;
 mod key;
 mod key_hash;
+mod lighting;
 mod measured;
 mod moving_scene;
 mod pass_list;
