@@ -1,6 +1,7 @@
 //! Small glTF files made in the test, and the way to the folder of real scenes.
 #![allow(dead_code, reason = "every test file uses its own part of this")]
 
+pub mod moving;
 pub mod rich;
 
 use std::path::{Path, PathBuf};
