@@ -9,16 +9,18 @@
 
 use std::error::Error;
 use std::ffi::OsStr;
+use std::ops::ControlFlow;
 
 use rasray_ads::{Combined, Counters, Geometry, QueueCounters, Structure};
 use rasray_experiment::{DeviceScene, LoadedScene, load, requirements};
+use rasray_frame::{Advance, ImageRenderer};
 use rasray_gpu::{Device, DeviceDesc, PassTiming, Stage};
-use rasray_integrators::{Film, Integrator, IntegratorDesc, Raycast, waves};
+use rasray_integrators::{Film, IntegratorDesc, Raycast};
 use rasray_metrics::median;
 use rasray_scene::needs::{self, Needs, Workload};
 use rasray_scene::{Camera, Moment, default_view};
 use rasray_systems::Spec;
-use rasray_tracer::build_with_headroom;
+use rasray_tracer::{FrameStructure, Keeping, Refresh, refresh_until_complete};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -42,8 +44,8 @@ const SYSTEMS: [(&str, Option<[&str; 2]>, bool); 12] = [
 /// Rays per pixel of the frames in the table.
 const RAYS: [u32; 3] = [1, 4, 16];
 
-/// Percent that pools grow beyond a demand.
-const HEADROOM: u32 = 50;
+/// One frame after the other, in pools with half as much again as they have to hold.
+const KEEPING: Keeping = Keeping { slots: 1, headroom: 50 };
 
 /// Medians over frames, milliseconds.
 #[derive(Clone, Copy)]
@@ -157,7 +159,7 @@ fn crossover(frame: &Frame, baseline: &Frame) -> String {
 struct Setting<'a> {
     device: &'a Device,
     stage: DeviceScene,
-    integrator: Raycast,
+    image: ImageRenderer,
     loaded: &'a LoadedScene,
 }
 
@@ -175,8 +177,9 @@ fn frames(
     let workload = Workload { integrator: needs::Integrator::Raycast, bounces: 0 };
     let stage = DeviceScene::moving(device, scene, &camera, size, 1, &Needs::of(scene, workload))?;
     let film = Film::new(device, width, height)?;
-    let integrator = Raycast::new(&IntegratorDesc::new(device, &stage.scene, &film))?;
-    let mut setting = Setting { device, stage, integrator, loaded };
+    let raycast = Raycast::new(&IntegratorDesc::new(device, &stage.scene, &film))?;
+    let image = ImageRenderer::new(device, Box::new(raycast), 0..1)?;
+    let mut setting = Setting { device, stage, image, loaded };
     let mut structure = setting.create(spec, in_parts)?;
     let mut all = Vec::new();
     // The first compiles kernels and grows pools.
@@ -197,12 +200,16 @@ fn frames(
     // Kernels that count are others. A tree that is refitted has to keep the order of the first frame, as the one that was
     // timed did.
     let mut counting = setting.create(&spec.clone().with_counters(Counters::Sums), in_parts)?;
-    setting.show(0)?;
-    setting.build(&mut counting)?;
-    setting.show(count)?;
-    setting.build(&mut counting)?;
-    let (_, counters) = setting.trace(counting.structure())?;
+    for number in [0, count] {
+        setting.show(number)?;
+        setting.build(&mut counting)?;
+    }
+    setting.trace(counting.structure())?;
     let rays = f64::from(width) * f64::from(height);
+    let mut counters = Vec::new();
+    for queue in setting.image.passes().integrator().queues() {
+        counters.push(queue.download_counters(device)?);
+    }
     let per_ray = |of: fn(&QueueCounters) -> u64| counters.iter().map(of).sum::<u64>() as f64 / rays;
     let work = Work {
         cells: per_ray(|counters| counters.cells),
@@ -212,32 +219,16 @@ fn frames(
     Ok((frame, work))
 }
 
-/// A structure over frames.
-enum Kept {
-    All(Box<dyn Structure>),
-    Parts { combined: Box<Combined>, static_built: bool },
-}
-
-impl Kept {
-    fn structure(&self) -> &dyn Structure {
-        match self {
-            Self::All(structure) => structure.as_ref(),
-            Self::Parts { combined, .. } => combined.as_ref(),
-        }
-    }
-}
-
 impl Setting<'_> {
-    fn create(&mut self, spec: &Spec, in_parts: bool) -> Result<Kept> {
+    fn create(&mut self, spec: &Spec, in_parts: bool) -> Result<FrameStructure> {
         let parts = if in_parts { Some(self.stage.parts(self.device)?) } else { None };
         let scene = &self.stage.scene;
         let create = |geometry: &Geometry| spec.create(self.device, geometry, Some(scene.binding()));
-        Ok(match parts {
-            None => Kept::All(create(scene.geometry())?),
-            Some(parts) => {
-                Kept::Parts { combined: Box::new(Combined::new(&parts, create)?), static_built: false }
-            }
-        })
+        let structure: Refresh = match parts {
+            None => create(scene.geometry())?.into(),
+            Some(parts) => Combined::new(&parts, create)?.into(),
+        };
+        Ok(FrameStructure::new(self.device, structure, KEEPING)?)
     }
 
     /// Poses the scene for a frame: milliseconds.
@@ -248,60 +239,37 @@ impl Setting<'_> {
         Ok(shown.host_milliseconds + total(&shown.passes, |_| true))
     }
 
-    /// Builds what has to be: milliseconds. The camera stands still, so of parts that is the one that moves.
-    fn build(&self, kept: &mut Kept) -> Result<f64> {
-        let (combined, static_built) = match kept {
-            Kept::All(structure) => return self.build_all(structure.as_mut()),
-            Kept::Parts { combined, static_built } => (combined, static_built),
-        };
-        let mut milliseconds = 0.0;
-        for moving in [false, true] {
-            if moving || !*static_built {
-                let mut built = Ok(0.0);
-                combined.change_part(moving, |part| {
-                    built = self.build_all(part);
-                    Ok(())
-                })?;
-                milliseconds += built?;
-            }
-        }
-        *static_built = true;
-        Ok(milliseconds)
-    }
-
-    /// The build that is complete, milliseconds; those before it, in which pools grew, are not counted.
-    fn build_all(&self, structure: &mut dyn Structure) -> Result<f64> {
+    /// Builds what has moved, milliseconds: the build that is complete; those before it, in which pools grew, are not
+    /// counted. The camera stands still.
+    fn build(&self, structure: &mut FrameStructure) -> Result<f64> {
         let (device, viewpoint) = (self.device, self.stage.scene.viewpoint());
-        let built = build_with_headroom(device, structure, viewpoint, device.best_timing(), HEADROOM)?;
+        structure.geometry_moved();
+        let built = refresh_until_complete(device, structure, viewpoint, device.best_timing())?;
         Ok(built.prepare_milliseconds + total(&built.passes, |_| true))
     }
 
-    /// Traces and shades one ray per pixel: times of the passes, and what each wave counted.
-    fn trace(&self, structure: &dyn Structure) -> Result<(Vec<PassTiming>, Vec<QueueCounters>)> {
-        let Self { device, integrator, .. } = self;
-        let (mut passes, mut counters) = (Vec::new(), Vec::new());
-        for wave in waves(integrator.film().pixel_count(), 1, integrator.wave_capacity()) {
-            let traced = device.submit_passes(device.best_timing(), |recorder| {
-                integrator.record_reset(recorder);
-                integrator.record_wave(recorder, structure.into(), wave)
-            })?;
-            traced.value?;
-            passes.extend(traced.passes);
-            for queue in integrator.queues() {
-                counters.push(queue.download_counters(device)?);
+    /// Traces and shades one ray per pixel: times of the passes.
+    fn trace(&mut self, structure: &dyn Structure) -> Result<Vec<PassTiming>> {
+        let mut all = Vec::new();
+        self.image.clear()?;
+        self.image.render(structure, self.device.best_timing(), |_, step| {
+            match step {
+                Advance::Wave { passes } => all.extend(passes),
+                Advance::StartedOver => all.clear(),
             }
-        }
-        if counters.iter().any(|wave| wave.unfinished > 0 || wave.not_ready > 0) {
+            ControlFlow::Continue(())
+        })?;
+        if self.image.unfinished() > 0 {
             return Err(format!("{} left rays without an answer", structure.name()).into());
         }
-        Ok((passes, counters))
+        Ok(all)
     }
 
     /// One frame, each part waited for.
-    fn frame(&mut self, kept: &mut Kept, number: u32) -> Result<Frame> {
+    fn frame(&mut self, structure: &mut FrameStructure, number: u32) -> Result<Frame> {
         let pose = self.show(number)?;
-        let build = self.build(kept)?;
-        let (passes, _) = self.trace(kept.structure())?;
+        let build = self.build(structure)?;
+        let passes = self.trace(structure.structure())?;
         Ok(Frame {
             pose,
             build,

@@ -2,6 +2,7 @@
 
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
+use crate::render::KeptScene;
 use rasray_gpu::PassCommands;
 use rasray_gpu_scene::TexelRuns;
 use rasray_report::Device;
@@ -100,10 +101,12 @@ pub trait Backend {
     /// How many texels the device in use holds.
     fn texel_capacity(&self) -> TexelCapacity;
 
-    /// Renders an image. When `progress` breaks, the samples done so far are the result.
+    /// Renders an image with what was `kept` of the one before, and keeps what the next can use. When `progress` breaks, the
+    /// samples done so far are the result.
     fn render(
         &mut self,
         job: &RenderJob<'_>,
+        kept: &mut KeptScene,
         progress: &mut OnProgress<'_>,
     ) -> Result<RenderOutput, ExperimentError>;
 

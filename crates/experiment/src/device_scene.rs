@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use rasray_ads::AdsError;
+use rasray_frame::FrameError;
 use rasray_gpu::{Device, GpuError};
 use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, PosePass, Sampling, SceneTables, View};
 use rasray_scene::needs::Needs;
@@ -57,6 +58,19 @@ pub(super) fn tracer_error(error: &TracerError) -> ExperimentError {
             "its results are not kept; please report it with the command line",
         ),
         _ => device_error(error),
+    }
+}
+
+/// An image that failed: lost rays are refused.
+pub(super) fn frame_error(error: FrameError) -> ExperimentError {
+    match error {
+        FrameError::Tracer(error) => tracer_error(&error),
+        FrameError::Unfinished { .. } => ExperimentError::refused(
+            error.to_string(),
+            "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, \
+             else please report it with the command line",
+        ),
+        other => device_error(other),
     }
 }
 

@@ -11,7 +11,8 @@ use crate::contestant::Contestant;
 use crate::device_scene::{DeviceScene, device_error};
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, Frame, GlassShadows, Integrator};
-use crate::render::{Wanted, render_pixels};
+use crate::render::render_pixels;
+use crate::rendering::Rendering;
 use rasray_report::figures::{Images, SystemImage};
 use rasray_report::{ImageError, PassOf, Run};
 
@@ -119,8 +120,8 @@ pub(super) fn compare_images(
             built.build_again(device)?;
         }
         let task = format!("image {}", contestant.config.system.name);
-        let wanted = Wanted { frame: &frame, shard: None, needs: &job.needs, task: &task };
-        let pixels = render_pixels(device, stage, &built, &wanted, progress)?;
+        let mut rendering = Rendering::new(device, stage, &frame, None, &job.needs)?;
+        let pixels = render_pixels(device, &mut rendering, &built, (true, &task), progress)?;
         if pixels.samples_done < frame.spp {
             return Ok(());
         }
@@ -128,11 +129,12 @@ pub(super) fn compare_images(
         let mut run = of_camera.run(device)?;
         run.seed = Some(frame.seed);
         pixels.write_times(&mut run.times);
+        let beauty = pixels.means();
         run.primary = Some(frame.primary.name().to_owned());
         run.stages.extend(pixels.passes.stages());
         run.passes.extend(pixels.passes.report(Some(PassOf::Image)));
         run.counters = Some(pixels.counters);
-        add(comparison, run, pixels.beauty)?;
+        add(comparison, run, beauty)?;
     }
     let other = View { seed: frame.seed.wrapping_add(1), ..view.clone() };
     if let Some(noise) = reference_image(posed, &other, &frame)? {

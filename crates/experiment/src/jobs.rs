@@ -31,9 +31,6 @@ pub struct RenderJob<'a> {
     pub scene: &'a Scene,
     /// When it is shown, where the scene is at rest: the device poses it. Absent: as it is.
     pub moment: Option<&'a Moment>,
-    /// Whether scene, size, seed, needs and refresh are those of the job before, which was at another moment: what the device has of
-    /// the scene is kept, and the structure, of the same system.
-    pub is_next: bool,
     /// From where.
     pub camera: Camera,
     /// Through which structure.

@@ -18,7 +18,6 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
     let RenderJob {
         scene: _,
         moment: _,
-        is_next: _,
         camera,
         system,
         // Hits are the same.
@@ -74,7 +73,6 @@ mod tests {
         RenderJob {
             scene: &loaded.scene,
             moment: None,
-            is_next: false,
             camera: default_view(&loaded.scene).camera,
             system: system.expect("the default"),
             refresh: Refresh::All,

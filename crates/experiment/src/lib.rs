@@ -14,7 +14,6 @@
 //! # Ok::<(), rasray_experiment::ExperimentError>(())
 //! ```
 
-mod accumulation;
 mod backend;
 mod built;
 mod camera;
@@ -42,6 +41,7 @@ mod placed;
 mod rays;
 mod render;
 mod renderer;
+mod rendering;
 mod replay;
 mod scene_info;
 mod scene_source;
@@ -53,7 +53,6 @@ mod traced_set;
 mod whole;
 mod work_maps;
 
-pub use accumulation::Accumulation;
 pub use backend::{
     Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OpenBackend, Progress,
     TexelCapacity,
@@ -79,7 +78,9 @@ pub use placed::{Placed, case_camera};
 pub use rasray_gpu::{PassCommands, Stage};
 pub use rasray_options::OptionValues;
 pub use rays::{RaySource, incoherent_rays, oracle_ray};
+pub use render::KeptScene;
 pub use renderer::{open, open_device};
+pub use rendering::Rendering;
 pub use scene_info::SceneInfo;
 pub use scene_source::{LoadedScene, load, load_with};
 pub use selection::{one_system, several_systems};

@@ -1,72 +1,71 @@
 //! An image: scene to device, structure, waves of samples, readback.
 
-use std::ops::ControlFlow;
 use std::time::Instant;
 
 use rasray_gpu::{Device, Stage};
 use rasray_gpu_scene::{SceneTables, View};
-use rasray_integrators::{AovPass, PATH_LAYER_LIMIT, Traced, Wave, waves};
-use rasray_scene::needs::Needs;
+use rasray_integrators::{FilmPixel, PATH_LAYER_LIMIT};
 
-use crate::accumulation::{Accumulation, count_unfinished, visibility};
 use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
-use crate::device_scene::{DeviceScene, device_error, image_error};
+use crate::device_scene::{DeviceScene, device_error, frame_error};
 use crate::error::ExperimentError;
 use crate::jobs::{AovSelection, FilmSums, Frame, GlassShadows, Refresh, RenderJob, RenderOutput};
 use crate::passes::Passes;
-use crate::shard::Shard;
+use crate::rendering::Rendering;
 use crate::system_config::SystemConfig;
 use rasray_report::{Counters, PassOf, Times};
 
-/// Which pixels are made.
-pub(super) struct Wanted<'a> {
-    pub(super) frame: &'a Frame,
-    /// Which samples; absent: all.
-    pub(super) shard: Option<Shard>,
-    pub(super) needs: &'a Needs,
-    /// For progress.
-    pub(super) task: &'a str,
-}
-
 /// Pixels and what they cost.
 pub(super) struct Pixels {
-    pub(super) beauty: Vec<[f32; 3]>,
-    /// Of a share of the samples.
-    pub(super) sums: Option<FilmSums>,
+    film: Vec<FilmPixel>,
     pub(super) samples_done: u32,
     pub(super) passes: Passes,
     pub(super) counters: Counters,
-    /// Of the first dispatch of every kernel, milliseconds.
-    pub(super) first_use_ms: f64,
+    /// Of the first dispatch of every kernel, milliseconds; absent where they had been used.
+    pub(super) first_use_ms: Option<f64>,
 }
 
 impl Pixels {
+    /// Linear Rec. 709, W/(sr m^2).
+    pub(super) fn means(&self) -> Vec<[f32; 3]> {
+        self.film.iter().map(FilmPixel::mean).collect()
+    }
+
+    fn sums(&self) -> FilmSums {
+        FilmSums {
+            sums: self.film.iter().map(|pixel| pixel.sum).collect(),
+            counts: self.film.iter().map(|pixel| pixel.samples).collect(),
+        }
+    }
+
     /// Sets the times of the image in a run.
     pub(super) fn write_times(&self, times: &mut Times) {
         times.timer = self.passes.timer();
-        times.first_use_ms = Some(self.first_use_ms);
+        times.first_use_ms = self.first_use_ms;
         times.trace_ms = self.passes.median_of(|stage| matches!(stage, Stage::Trace(_)));
         times.visible_ms = self.passes.median_of(|stage| stage == Stage::Visible);
         times.image_ms = self.passes.median_of(|_| true);
     }
 }
 
-/// Renders the samples of a frame through a built structure.
+/// Renders the samples of an image through a built structure; kernels that are `new` are used once before.
 pub(super) fn render_pixels(
     device: &Device,
-    stage: &DeviceScene,
+    rendering: &mut Rendering,
     built: &Built,
-    wanted: &Wanted<'_>,
+    (new, task): (bool, &str),
     progress: &mut OnProgress<'_>,
 ) -> Result<Pixels, ExperimentError> {
-    let Wanted { frame, shard, needs, task } = *wanted;
-    let mut accumulation = Accumulation::new(device, stage, frame, shard, needs)?;
-    _ = progress(Progress { task, done: 0, total: 0, unit: "first use of the shaders" });
-    let first_use_ms = accumulation.use_once(device, built)?;
-    render_waves(device, &mut accumulation, built, wanted, progress)?;
-    accumulation.log_visibility(device)?;
-    let faults = accumulation.film.read_faults(device).map_err(device_error)?;
+    let mut first_use_ms = None;
+    if new {
+        _ = progress(Progress { task, done: 0, total: 0, unit: "first use of the shaders" });
+        first_use_ms = Some(rendering.warm_up(built)?);
+    }
+    rendering.render(device, built, task, progress)?;
+    rendering.log_visibility(device)?;
+    let image = rendering.image();
+    let faults = image.film().read_faults(device).map_err(device_error)?;
     if faults.non_finite > 0 {
         tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
     }
@@ -77,112 +76,97 @@ pub(super) fn render_pixels(
         );
     }
     let mut counters = built.counters()?;
-    counters.unfinished = Some(accumulation.unfinished());
+    counters.unfinished = Some(image.unfinished());
     counters.cut = (faults.cut > 0).then(|| faults.cut.into());
-    let film = accumulation.film.read_pixels(device).map_err(device_error)?;
-    let beauty = film.iter().map(|pixel| pixel.mean()).collect();
-    let sums = shard.map(|_| FilmSums {
-        sums: film.iter().map(|pixel| pixel.sum).collect(),
-        counts: film.iter().map(|pixel| pixel.samples).collect(),
-    });
-    let samples_done = accumulation.samples_done();
-    Ok(Pixels { beauty, sums, samples_done, passes: accumulation.passes, counters, first_use_ms })
+    let film = image.film().read_pixels(device).map_err(device_error)?;
+    let samples_done = image.samples_done();
+    Ok(Pixels { film, samples_done, passes: std::mem::take(&mut rendering.passes), counters, first_use_ms })
 }
 
-/// Renders the samples, or those up to an early end, which is taken between samples, so that all pixels have the same
-/// number of them.
-fn render_waves(
-    device: &Device,
-    accumulation: &mut Accumulation,
-    built: &Built,
-    wanted: &Wanted<'_>,
-    progress: &mut OnProgress<'_>,
-) -> Result<(), ExperimentError> {
-    let Wanted { frame, shard, task, .. } = *wanted;
-    let samples = shard.unwrap_or_default().samples(frame.spp).len() as u32;
-    let total = u64::from(accumulation.waves_per_sample()) * u64::from(samples);
-    let mut done = 0;
-    let mut stopping = false;
-    while accumulation.samples_done() < samples && !(stopping && accumulation.is_between_samples()) {
-        if !accumulation.advance(device, built)? {
-            (done, stopping) = (0, false);
-            continue;
-        }
-        done += 1;
-        stopping |= progress(Progress { task, done, total, unit: "waves" }) == ControlFlow::Break(());
-    }
-    Ok(())
-}
+/// What a device has of a scene that is rendered at one moment after the other: the scene, the structure, the image. For
+/// another scene, another size or seed, other needs or another part that is built ([`RenderJob::refresh`]) begin with
+/// nothing.
+#[derive(Default)]
+pub struct KeptScene(Option<OnDevice>);
 
-/// What the device has of a job, for one that is the next of it.
-pub(super) struct Made {
+struct OnDevice {
     stage: DeviceScene,
-    /// Of the pose; nothing where the host posed the scene.
-    posing: Passes,
     built: Built,
+    rendering: Rendering,
     system: SystemConfig,
+    /// Whether every kernel was used.
+    is_warm: bool,
 }
 
-/// The scene of a job, and the structure over it: those of the job before at this moment, where it is the next of it and its eye
-/// is not far from that.
-fn made_for(
+/// Brings a job to the device: what is there stays as far as its eye is not far from that of the job before. With times of
+/// the pose; nothing where the host posed the scene.
+fn on_device(
     device: &Device,
     job: &RenderJob<'_>,
-    before: Option<Made>,
+    kept: Option<OnDevice>,
     progress: &mut OnProgress<'_>,
-) -> Result<Made, ExperimentError> {
+) -> Result<(OnDevice, Passes), ExperimentError> {
     let spec = job.system.spec()?;
-    _ = progress(Progress { task: "scene", done: 0, total: 0, unit: "to the device" });
+    let mut says = |task, unit| _ = progress(Progress { task, done: 0, total: 0, unit });
+    says("scene", "to the device");
     let origin = SceneTables::default_frame_origin(job.scene, job.camera.world_from_camera.translation);
-    let is_kept =
-        |made: &Made| job.is_next && made.stage.is_moving() && made.stage.scene.frame_origin() == origin;
-    let kept = job.moment.zip(before.filter(is_kept));
-    let (mut stage, posing, kept) = match kept {
-        Some((moment, Made { mut stage, built, system, .. })) => {
+    let kept = kept.filter(|kept| kept.stage.scene.frame_origin() == origin);
+    let (mut stage, shown, built, rendering) = match job.moment.zip(kept) {
+        Some((moment, OnDevice { mut stage, built, rendering, system, .. })) => {
             let Frame { width, height, seed, .. } = job.frame;
             stage.look(&View { camera: job.camera.clone(), width, height, seed })?;
-            let posing = stage.pose(device, job.scene, moment, device.best_timing())?;
-            (stage, posing, Some(built).filter(|_| system == job.system))
+            let shown = stage.pose(device, job.scene, moment, device.best_timing())?;
+            (stage, shown, Some(built).filter(|_| system == job.system), Some(rendering))
         }
         None => {
-            let (stage, posing) = DeviceScene::of_job(device, job)?;
-            (stage, posing, None)
+            let (stage, shown) = DeviceScene::of_job(device, job)?;
+            (stage, shown, None, None)
         }
     };
     stage.sample_as(&job.frame)?;
-    let (posing, system) = (posing.times(), job.system.clone());
-    if let Some(mut built) = kept {
-        _ = progress(Progress { task: "build", done: 0, total: 0, unit: "of the frame" });
-        match built.follow(device, &stage.scene, true) {
-            Ok(()) => return Ok(Made { stage, posing, built, system }),
-            // A pool that it cannot have may be reached by device address.
-            Err(error) => tracing::info!("the structure is made anew: {error}"),
+    let followed = built.and_then(|mut built| {
+        says("build", "of the frame");
+        // A pool that it cannot have may be reached by device address.
+        let failed = |error: &_| tracing::info!("the structure is made anew: {error}");
+        built.follow(device, &stage.scene, true).inspect_err(failed).ok().map(|()| built)
+    });
+    let is_warm = followed.is_some() && rendering.is_some();
+    let built = match followed {
+        Some(built) => built,
+        None => {
+            says("build", "first build");
+            Built::refreshed(device, &spec, &mut stage, job.refresh)?
         }
-    }
-    _ = progress(Progress { task: "build", done: 0, total: 0, unit: "first build" });
-    let built = Built::refreshed(device, &spec, &mut stage, job.refresh)?;
-    Ok(Made { stage, posing, built, system })
+    };
+    let rendering = match rendering {
+        Some(mut rendering) => {
+            rendering.clear()?;
+            rendering
+        }
+        None => Rendering::new(device, &stage, &job.frame, job.shard, &job.needs)?,
+    };
+    let system = job.system.clone();
+    Ok((OnDevice { stage, built, rendering, system, is_warm }, shown.times()))
 }
 
-/// Renders an image with all requested additional images. `kept` is what the device has of the job before, and then of this one.
+/// Renders an image with all requested additional images.
 pub(super) fn render(
     device: &Device,
     job: &RenderJob<'_>,
-    kept: &mut Option<Made>,
+    kept: &mut KeptScene,
     progress: &mut OnProgress<'_>,
 ) -> Result<RenderOutput, ExperimentError> {
     let started = Instant::now();
     let frame = job.frame;
-    let mut made = made_for(device, job, kept.take(), progress)?;
-    let Made { stage, posing, built, .. } = &mut made;
+    let (mut on_device, posing) = on_device(device, job, kept.0.take(), progress)?;
+    let OnDevice { stage, built, rendering, is_warm, .. } = &mut on_device;
     for _ in 0..job.repetitions {
         if progress(Progress { task: "build", done: 0, total: 0, unit: "timed builds" }).is_break() {
             break;
         }
         built.build_again(device)?;
     }
-    let wanted = Wanted { frame: &frame, shard: job.shard, needs: &job.needs, task: "render" };
-    let pixels = render_pixels(device, stage, built, &wanted, progress)?;
+    let pixels = render_pixels(device, rendering, built, (!*is_warm, "render"), progress)?;
     let (options, mut paths) = built.resolved()?;
     if job.refresh != Refresh::All {
         paths.insert("refresh".to_owned(), job.refresh.name().to_owned());
@@ -208,8 +192,8 @@ pub(super) fn render(
     let mut output = RenderOutput {
         width: frame.width,
         height: frame.height,
-        beauty: pixels.beauty,
-        sums: pixels.sums,
+        beauty: pixels.means(),
+        sums: job.shard.map(|_| pixels.sums()),
         depth: None,
         normal: None,
         primitive: None,
@@ -225,48 +209,12 @@ pub(super) fn render(
     };
     if job.aovs != AovSelection::default() {
         _ = progress(Progress { task: "render", done: 0, total: 0, unit: "additional images" });
-        add_aovs(device, stage, built, job, &mut output)?;
+        let found = rendering.image().aovs(&stage.scene, built.structure()).map_err(frame_error)?;
+        output.depth = job.aovs.depth.then(|| found.iter().map(|pixel| pixel.distance).collect());
+        output.normal = job.aovs.normal.then(|| found.iter().map(|pixel| pixel.normal).collect());
+        output.primitive = job.aovs.primitive.then(|| found.iter().map(|pixel| pixel.primitive).collect());
     }
     output.times.frame_ms = Some(started.elapsed().as_secs_f64() * 1.0e3);
-    *kept = Some(made).filter(|made| made.stage.is_moving());
+    *kept = KeptScene(Some(on_device).filter(|on_device| on_device.stage.is_moving()));
     Ok(output)
-}
-
-/// Traces the rays through pixel centres and adds the images that are wanted.
-fn add_aovs(
-    device: &Device,
-    stage: &DeviceScene,
-    built: &Built,
-    job: &RenderJob<'_>,
-    output: &mut RenderOutput,
-) -> Result<(), ExperimentError> {
-    let pixels = job.frame.width * job.frame.height;
-    let capacity = rasray_integrators::wave_capacity(device).min(pixels);
-    let aov = AovPass::new(device, &stage.scene, capacity).map_err(image_error)?;
-    let visibility = visibility(device, stage, &job.frame)?;
-    let traced = Traced::from(built.structure()).with_primary(visibility.as_ref());
-    loop {
-        device.submit(|recorder| aov.record_reset(recorder)).map_err(device_error)?;
-        for wave in waves(pixels, 1, capacity) {
-            let wave = Wave { sample: 0, ..wave };
-            let submitted =
-                device.submit(|recorder| aov.record_wave(recorder, traced, wave)).map_err(device_error)?;
-            submitted.value.map_err(device_error)?;
-        }
-        if count_unfinished(device, built, &[aov.queue()])? == 0 {
-            break;
-        }
-        if !built.structure().allow_more_rounds() {
-            return Err(ExperimentError::refused(
-                "rays through pixel centres did not finish",
-                "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, \
-                 else please report it with the command line",
-            ));
-        }
-    }
-    let found = aov.read(device).map_err(device_error)?;
-    output.depth = job.aovs.depth.then(|| found.iter().map(|pixel| pixel.distance).collect());
-    output.normal = job.aovs.normal.then(|| found.iter().map(|pixel| pixel.normal).collect());
-    output.primitive = job.aovs.primitive.then(|| found.iter().map(|pixel| pixel.primitive).collect());
-    Ok(())
 }

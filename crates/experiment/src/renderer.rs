@@ -6,17 +6,15 @@ use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, Texel
 use crate::describe::requirements;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
-use crate::render::Made;
+use crate::render::KeptScene;
 use rasray_report::Device;
 
 /// Pipelines kept for structures that are made again: those of hard cases, of variants, and of frames with other triangles.
 const KEPT_PIPELINES: usize = 256;
 
-/// A device; everything made for a job goes with the job, but for the scene of a render that moves and its structure.
+/// A device; everything made for a job goes with the job, but for what its caller keeps.
 struct Renderer {
     device: GpuDevice,
-    /// Of the last render.
-    made: Option<Made>,
     validation: bool,
 }
 
@@ -24,7 +22,7 @@ impl Renderer {
     /// Opens the wanted device.
     fn open(choice: &DeviceChoice) -> Result<Self, ExperimentError> {
         let device = open_device(choice)?;
-        Ok(Self { device, made: None, validation: choice.validation })
+        Ok(Self { device, validation: choice.validation })
     }
 
     /// Messages of the validation layer are errors.
@@ -55,9 +53,10 @@ impl Backend for Renderer {
     fn render(
         &mut self,
         job: &RenderJob<'_>,
+        kept: &mut KeptScene,
         progress: &mut OnProgress<'_>,
     ) -> Result<RenderOutput, ExperimentError> {
-        let output = crate::render::render(&self.device, job, &mut self.made, progress)?;
+        let output = crate::render::render(&self.device, job, kept, progress)?;
         self.check_validation()?;
         Ok(output)
     }

@@ -1,8 +1,8 @@
 //! A share of work that several processes divide among themselves.
 
 use std::fmt;
-use std::iter::StepBy;
-use std::ops::Range;
+
+use rasray_frame::Samples;
 
 /// One of several shares, dealt out in turns: things are counted from 0, and share i of n gets those whose number leaves
 /// i - 1 when it is divided by n.
@@ -41,14 +41,9 @@ impl Shard {
         place % self.of == self.number - 1
     }
 
-    /// The sample of this share at a place from 0, where samples have no end; the last index there is beyond it.
-    pub fn sample(self, place: u32) -> u32 {
-        (self.number - 1).saturating_add(place.saturating_mul(self.of))
-    }
-
     /// Those of the samples from 0 to `count` - 1 that are part of the share, in their order.
-    pub fn samples(self, count: u32) -> StepBy<Range<u32>> {
-        ((self.number - 1).min(count)..count).step_by(self.of as usize)
+    pub fn samples(self, count: u32) -> Samples {
+        Samples::from(self.number - 1..count).step_by(self.of)
     }
 }
 
@@ -67,13 +62,17 @@ mod tests {
         for (count, of) in [(7, 3), (3, 7), (8, 1), (0, 2)] {
             let shares: Vec<_> = (1..=of).map(|number| Shard::new(number, of).expect("a share")).collect();
             let mut samples: Vec<u32> = shares.iter().flat_map(|share| share.samples(count)).collect();
-            assert!(shares.iter().all(|share| share.samples(count).all(|sample| share.holds(sample))));
+            assert!(
+                shares.iter().all(|share| share.samples(count).into_iter().all(|sample| share.holds(sample)))
+            );
             samples.sort_unstable();
             assert_eq!(samples, (0..count).collect::<Vec<_>>());
         }
         let share = Shard::new(2, 3).expect("a share");
-        assert_eq!(share.samples(8).collect::<Vec<_>>(), [1, 4, 7]);
-        assert_eq!([0, 1, 2, u32::MAX].map(|place| share.sample(place)), [1, 4, 7, u32::MAX]);
+        let samples = share.samples(8);
+        assert_eq!(samples.into_iter().collect::<Vec<_>>(), [1, 4, 7]);
+        assert_eq!([0, 1, 2, u32::MAX].map(|place| samples.index(place)), [1, 4, 7, u32::MAX]);
+        assert_eq!((samples.count(), share.samples(1).count()), (3, 0));
     }
 
     #[test]

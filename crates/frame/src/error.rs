@@ -26,22 +26,10 @@ pub enum FrameError {
     #[error(transparent)]
     Ads(#[from] AdsError),
     /// Rays had no answer, and more rounds change nothing.
-    #[error("{rays} rays of frame {frame} did not finish")]
+    #[error("{rays} rays did not finish")]
     Unfinished {
-        /// Number of the frame, in the order of submission.
-        frame: u64,
         /// Number of rays.
         rays: u64,
-    },
-    /// Rays met entries with an invalid index.
-    #[error("{entries} list entries of {structure} had an invalid index in frame {frame}")]
-    Corrupted {
-        /// Name of the structure.
-        structure: &'static str,
-        /// Number of the frame, in the order of submission.
-        frame: u64,
-        /// Number of such entries.
-        entries: u64,
     },
     /// A frame was not complete however often it was repeated.
     #[error("a frame through {structure} was not complete after {repeats} repeats; its demand is not stable")]

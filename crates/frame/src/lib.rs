@@ -5,20 +5,29 @@
 //! rays did not all finish, is never a picture. [`render_in_order`] repeats such frames: for images that are written.
 //! Interactive programs leave them out, and keep showing the last picture.
 //!
+//! [`ImageRenderer`] makes an image wave by wave, with the same passes ([`ImagePasses`]): where a submission must not last as
+//! long as an image, or somebody wants to look at it in between.
+//!
 //! Where triangles change in number, a frame brings another [`FrameScene`].
 //!
 //! Structures alone, with a host's own frames: `rasray_tracer::FrameStructure`.
 
 mod error;
+mod image_passes;
+mod image_renderer;
 mod in_order;
 mod readback;
 mod renderer;
+mod samples;
 mod scene;
 
 pub use error::FrameError;
+pub use image_passes::ImagePasses;
+pub use image_renderer::{Advance, ImageRenderer};
 pub use in_order::{InOrder, render_in_order};
 pub use readback::FilmCopy;
 pub use renderer::{FrameInput, FrameRenderer, Picture, Shown};
+pub use samples::Samples;
 pub use scene::FrameScene;
 
 /// What the readme shows compiles.

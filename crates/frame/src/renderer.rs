@@ -1,16 +1,16 @@
 //! Frames of a scene.
 
 use std::collections::VecDeque;
-use std::ops::Range;
 
 use rasray_ads::{AdsError, QueueCounters, Structure};
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, ShadingFeatures, View};
-use rasray_integrators::{Integrator, IntegratorError, Traced, Visibility, check_features, waves_of};
+use rasray_integrators::{Integrator, IntegratorError, Visibility, check_features};
 use rasray_tracer::{FrameOutcome, FrameStructure, Frames, Keeping, Refresh, TracerError};
 
+use crate::image_passes::{ImagePasses, unanswered};
 use crate::readback::{FilmCopy, Readback};
-use crate::{FrameError, FrameScene};
+use crate::{FrameError, FrameScene, Samples};
 
 /// What one frame shows.
 #[derive(Clone, Debug)]
@@ -24,8 +24,8 @@ pub struct FrameInput {
     pub scene: Option<FrameScene>,
     /// Where everything is that moves; absent: where the last frame of the same scene has it, at first where the tables do.
     pub pose: Option<FramePose>,
-    /// Samples of each pixel: their indices.
-    pub samples: Range<u32>,
+    /// Samples of each pixel.
+    pub samples: Samples,
     /// Whether samples are added to those of the frame before, in place of a new image.
     pub continues: bool,
 }
@@ -78,9 +78,7 @@ pub struct FrameRenderer {
     scene: FrameScene,
     /// What the kernels have code for.
     features: ShadingFeatures,
-    integrator: Box<dyn Integrator>,
-    /// What answers camera rays in place of traces.
-    visibility: Option<Visibility>,
+    image: ImagePasses,
     frames: Frames,
     readbacks: Vec<Readback>,
     /// What the device was told last of this scene.
@@ -103,19 +101,19 @@ impl FrameRenderer {
         device: &Device,
         (scene, pose): (GpuScene, Option<PosePass>),
         structure: impl Into<Refresh>,
-        integrator: Box<dyn Integrator>,
+        image: impl Into<ImagePasses>,
         (keeping, timing, reads_films): (Keeping, Timing, bool),
     ) -> Result<Self, FrameError> {
         let frames = Frames::new(device, structure, keeping, timing)?;
         let features = scene.features();
         let scene = FrameScene::new(device, scene, pose, frames.slots())?;
-        let readback = |_| Readback::new(device, integrator.as_ref(), reads_films);
+        let image = image.into();
+        let readback = |_| Readback::new(device, image.integrator(), reads_films);
         let readbacks = (0..frames.slots()).map(readback).collect::<Result<_, _>>()?;
         Ok(Self {
             scene,
             features,
-            integrator,
-            visibility: None,
+            image,
             frames,
             readbacks,
             posed: None,
@@ -127,7 +125,7 @@ impl FrameRenderer {
     /// The same with camera rays answered by drawing, which was made for the same scene.
     #[must_use]
     pub fn with_visibility(self, visibility: Visibility) -> Self {
-        Self { visibility: Some(visibility), ..self }
+        Self { image: self.image.with_visibility(Some(visibility)), ..self }
     }
 
     /// The scene of the frame that was submitted last, at first the one that this was made with.
@@ -147,7 +145,7 @@ impl FrameRenderer {
 
     /// The integrator, with the film.
     pub fn integrator(&self) -> &dyn Integrator {
-        self.integrator.as_ref()
+        self.image.integrator()
     }
 
     /// The structure, and what was counted of it.
@@ -160,14 +158,11 @@ impl FrameRenderer {
         self.frames.free_slot().is_some()
     }
 
-    /// Structure, integrator and visibility read another scene from the next recording on.
+    /// Structure and image read another scene from the next recording on.
     fn bind(&mut self, scene: &FrameScene) -> Result<(), FrameError> {
         // Kernels have more code than the scene needs.
         let gpu = scene.gpu().clone().allowing(self.features);
-        self.integrator.set_scene(&gpu)?;
-        if let Some(visibility) = &mut self.visibility {
-            visibility.set_scene(&gpu)?;
-        }
+        self.image.set_scene(&gpu)?;
         self.frames.set_scene(gpu.binding())?;
         if !self.structure().is_in_parts() {
             return Ok(self.frames.set_geometry(gpu.geometry())?);
@@ -205,7 +200,7 @@ impl FrameRenderer {
         if self.frames.free_slot().is_none() {
             return Err(TracerError::Busy { slots: self.frames.slots() }.into());
         }
-        let film = self.integrator.film();
+        let film = self.image.film();
         let (film, view) = ([film.width(), film.height()], [input.view.width, input.view.height]);
         if film != view {
             return Err(IntegratorError::SizesDiffer { film, view }.into());
@@ -213,7 +208,7 @@ impl FrameRenderer {
         if let Some(scene) = input.scene.as_ref().filter(|scene| !scene.is(&self.scene)) {
             self.set_scene(scene)?;
         }
-        let Self { scene, integrator, visibility, frames, readbacks, .. } = self;
+        let Self { scene, image, frames, readbacks, .. } = self;
         let moved = input.pose.as_ref().filter(|&wanted| self.posed.as_ref() != Some(wanted));
         let pass = scene.pose().filter(|pass| pass.moves());
         if moved.is_some() && pass.is_some_and(|pass| !pass.moving_triangles().is_empty()) {
@@ -228,23 +223,16 @@ impl FrameRenderer {
         };
         let after = |recorder: &mut Recorder<'_>, slot: u32, structure: &dyn Structure| {
             if !input.continues {
-                integrator.record_reset(recorder);
+                image.record_reset(recorder);
             }
-            let traced = Traced::from(structure).with_primary(visibility.as_ref());
-            if let Some(visibility) = &visibility {
-                visibility.record_reset(recorder);
-            }
-            let film = integrator.film();
-            for wave in waves_of(film.pixel_count(), input.samples.clone(), integrator.wave_capacity()) {
-                integrator.record_wave(recorder, traced, wave)?;
-            }
-            readbacks[slot as usize].record(recorder, integrator.as_ref());
+            image.record(recorder, structure, input.samples)?;
+            readbacks[slot as usize].record(recorder, image.integrator());
             Ok(())
         };
         let viewpoint = scene.gpu().viewpoint_of(&input.view);
         match frames.submit::<FrameError>(viewpoint, before, after) {
             Ok(number) => {
-                let (rounds, traces) = (frames.structure().rounds(), integrator.traces_per_wave());
+                let (rounds, traces) = (frames.structure().rounds(), image.integrator().traces_per_wave());
                 self.pending.push_back(Pending { continues: input.continues, rounds, traces });
                 scene.gpu().end_staging();
                 if let Some(moved) = moved {
@@ -286,26 +274,20 @@ impl FrameRenderer {
         self.film_is_right |= !pending.continues;
         let (film, counters) = self.readbacks[ended.slot as usize].read()?;
         let structure = self.frames.structure().structure();
-        let sum =
-            |of: fn(&QueueCounters) -> u32| counters.iter().map(|queue| u64::from(of(queue))).sum::<u64>();
-        let entries = sum(|queue| queue.corrupted);
-        if entries > 0 {
-            return Err(FrameError::Corrupted { structure: structure.name(), frame: ended.number, entries });
-        }
-        let unanswered = sum(|queue| queue.unfinished) + sum(|queue| queue.not_ready);
+        let unanswered = unanswered(structure, &counters)?;
         // Frames before it may have allowed more rounds after it was recorded.
         let has_more_rounds =
             || self.frames.structure().rounds() > pending.rounds || structure.allow_more_rounds();
         if ended.outcome == FrameOutcome::Complete && unanswered > 0 && !has_more_rounds() {
-            return Err(FrameError::Unfinished { frame: ended.number, rays: unanswered });
+            return Err(FrameError::Unfinished { rays: unanswered });
         }
         // The same of surfaces that paths pass.
         let unended = u64::from(film.faults.unended);
-        let integrator = self.integrator.as_ref();
+        let integrator = self.image.integrator();
         let has_more_traces =
             || integrator.traces_per_wave() > pending.traces || integrator.allow_more_rounds();
         if ended.outcome == FrameOutcome::Complete && unended > 0 && !has_more_traces() {
-            return Err(FrameError::Unfinished { frame: ended.number, rays: unended });
+            return Err(FrameError::Unfinished { rays: unended });
         }
         self.film_is_right &= ended.outcome == FrameOutcome::Complete && unanswered + unended == 0;
         if !self.film_is_right {
@@ -320,7 +302,7 @@ impl std::fmt::Debug for FrameRenderer {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter
             .debug_struct("FrameRenderer")
-            .field("integrator", &self.integrator.name())
+            .field("image", &self.image)
             .field("frames", &self.frames)
             .finish_non_exhaustive()
     }

@@ -49,7 +49,7 @@ pub struct Times {
     #[serde(default, skip_serializing_if = "absent")]
     pub first_build_ms: Option<f64>,
     /// The first dispatch of every kernel of an image, with one pixel: what the driver compiles on first use. In no
-    /// other figure but `frame_ms`.
+    /// other figure but `frame_ms`. Absent where they had been used, for the picture before.
     #[serde(default, skip_serializing_if = "absent")]
     pub first_use_ms: Option<f64>,
     /// Rays in to hits out.

@@ -38,22 +38,7 @@ pub fn build_until_complete(
     viewpoint: impl Into<Viewpoint>,
     timing: Timing,
 ) -> Result<BuildOutcome, TracerError> {
-    build_with_headroom(device, structure, viewpoint, timing, 0)
-}
-
-/// The same, with pools that grow by `headroom` percent beyond their demand, so that a build with a little more demand is
-/// complete at once.
-///
-/// # Errors
-/// As [`build_until_complete`].
-pub fn build_with_headroom(
-    device: &Device,
-    structure: &mut dyn Structure,
-    viewpoint: impl Into<Viewpoint>,
-    timing: Timing,
-    headroom: u32,
-) -> Result<BuildOutcome, TracerError> {
-    until_complete(device, &mut Whole { structure, headroom }, viewpoint.into(), timing)
+    until_complete(device, &mut Whole { structure }, viewpoint.into(), timing)
 }
 
 /// Builds what of a structure over frames is stale from a viewpoint, in its first slot, until all of it is complete. A frame of it
@@ -94,7 +79,6 @@ trait Builds {
 /// A structure that every build builds anew.
 struct Whole<'a> {
     structure: &'a mut dyn Structure,
-    headroom: u32,
 }
 
 impl Builds for Whole<'_> {
@@ -108,7 +92,7 @@ impl Builds for Whole<'_> {
 
     fn finish(&mut self, device: &Device, may_grow: bool) -> Result<Step, AdsError> {
         let status = self.structure.status(0)?;
-        match self.structure.check(&status, self.headroom)? {
+        match self.structure.check(&status, 0)? {
             Check::Complete if status.complete => Ok(Step::Complete),
             Check::Grow(sizes) if may_grow => {
                 tracing::debug!(

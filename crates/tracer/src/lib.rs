@@ -14,7 +14,7 @@ mod replay;
 mod share;
 
 pub use batch::{BatchTracer, TraceOutcome};
-pub use build::{BuildOutcome, build_until_complete, build_with_headroom, refresh_until_complete};
+pub use build::{BuildOutcome, build_until_complete, refresh_until_complete};
 pub use error::TracerError;
 pub use frame_structure::{FrameOutcome, FrameStructure, Keeping, StructureCounts};
 pub use frames::{Ended, Frames};

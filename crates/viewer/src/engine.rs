@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use rasray_experiment::{
-    Accumulation, Built, DeviceScene, ExperimentError, Frame, LoadedScene, SystemConfig, TexelCapacity,
-    texels, work_per_pixel,
+    Built, DeviceScene, ExperimentError, Frame, LoadedScene, Rendering, SystemConfig, TexelCapacity, texels,
+    work_per_pixel,
 };
 use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{SceneTables, View};
@@ -57,10 +57,10 @@ pub struct Engine {
     traced: Option<Traced>,
     exact: Option<Traced>,
     /// Of the whole picture.
-    film: Option<Accumulation>,
-    exact_film: Option<Accumulation>,
+    film: Option<Rendering>,
+    exact_film: Option<Rendering>,
     /// Of pictures while something moves, and its size.
-    preview: Option<([u32; 2], Accumulation)>,
+    preview: Option<([u32; 2], Rendering)>,
     preview_size: PreviewSize,
     /// Whether films hold samples of other settings.
     stale: bool,
@@ -148,10 +148,10 @@ impl Engine {
         follow(&self.device, self.stage.as_ref(), self.posed, &mut self.traced, &config, say)?;
         if self.stale {
             for film in [&mut self.film, &mut self.exact_film].into_iter().flatten() {
-                film.clear(&self.device)?;
+                film.clear()?;
             }
             if let Some((_, film)) = &mut self.preview {
-                film.clear(&self.device)?;
+                film.clear()?;
             }
             self.stale = false;
         }
@@ -238,9 +238,9 @@ impl Engine {
         if !advance(device, film, traced, &mut self.sample_ms)? {
             return Ok(Step::Working);
         }
-        self.done = film.samples_done() >= settings.frame.spp;
+        self.done = film.image().samples_done() >= settings.frame.spp;
         let pixels = Pixels::Radiance(film.read(device)?);
-        let (samples, passes) = (film.samples_done(), film.pass_times());
+        let (samples, passes) = (film.image().samples_done(), film.pass_times());
         self.picture(camera, pixels, samples, passes)
     }
 
@@ -264,9 +264,9 @@ impl Engine {
         if !advance(device, film, traced, &mut self.sample_ms)? {
             return Ok(Step::Working);
         }
-        self.done = film.samples_done() >= frame.spp;
+        self.done = film.image().samples_done() >= frame.spp;
         let pixels = Pixels::Radiance(film.read(device)?);
-        let (samples, passes) = (film.samples_done(), film.pass_times());
+        let (samples, passes) = (film.image().samples_done(), film.pass_times());
         let full = [settings.frame.width, settings.frame.height];
         self.preview_size.took(self.sample_ms, full, width * height);
         self.picture(camera, pixels, samples, passes)
@@ -282,18 +282,19 @@ impl Engine {
         };
         let film = opened(device, stage, film, &settings.frame, needs, &traced.built, say)?;
         let exact_film = opened(device, stage, exact_film, &settings.frame, needs, &exact.built, say)?;
-        if film.samples_done() <= exact_film.samples_done() {
+        if film.image().samples_done() <= exact_film.image().samples_done() {
             advance(device, film, traced, &mut self.sample_ms)?;
             return Ok(Step::Working);
         }
-        if !advance(device, exact_film, exact, &mut 0.0)? || film.samples_done() != exact_film.samples_done()
+        if !advance(device, exact_film, exact, &mut 0.0)?
+            || film.image().samples_done() != exact_film.image().samples_done()
         {
             return Ok(Step::Working);
         }
-        self.done = film.samples_done() >= settings.frame.spp;
+        self.done = film.image().samples_done() >= settings.frame.spp;
         let name = exact.config.system.name;
         let pixels = Pixels::of_difference(&film.read(device)?, &exact_film.read(device)?, name);
-        let (samples, passes) = (film.samples_done(), film.pass_times());
+        let (samples, passes) = (film.image().samples_done(), film.pass_times());
         self.picture(camera, pixels, samples, passes)
     }
 
@@ -354,16 +355,16 @@ impl Engine {
 fn opened<'a>(
     device: &Device,
     stage: &DeviceScene,
-    film: &'a mut Option<Accumulation>,
+    film: &'a mut Option<Rendering>,
     frame: &Frame,
     needs: &Needs,
     built: &Built,
     say: &mut dyn FnMut(&str),
-) -> Result<&'a mut Accumulation, ExperimentError> {
+) -> Result<&'a mut Rendering, ExperimentError> {
     if film.is_none() {
         say("first use of the shaders");
-        let mut made = Accumulation::new(device, stage, frame, None, needs)?;
-        made.use_once(device, built)?;
+        let mut made = Rendering::new(device, stage, frame, None, needs)?;
+        made.warm_up(built)?;
         *film = Some(made);
     }
     Ok(film.as_mut().expect("it was made just now"))
@@ -372,25 +373,25 @@ fn opened<'a>(
 /// One wave; whether a sample is whole after it. Rays without an answer are an error.
 fn advance(
     device: &Device,
-    film: &mut Accumulation,
+    film: &mut Rendering,
     traced: &Traced,
     sample_ms: &mut f64,
 ) -> Result<bool, ExperimentError> {
     let started = Instant::now();
-    if film.is_between_samples() {
+    if film.image().is_between_samples() {
         *sample_ms = 0.0;
     }
     let advanced = film.advance(device, &traced.built)?;
     *sample_ms += started.elapsed().as_secs_f64() * 1.0e3;
-    if film.unfinished() > 0 {
+    if film.image().unfinished() > 0 {
         return Err(ExperimentError::refused(
             format!(
                 "{}: {} rays had no answer after the last round",
                 traced.config.system.name,
-                film.unfinished()
+                film.image().unfinished()
             ),
             "the picture is not shown; where very many triangles lie in one place --system bvh has shorter work",
         ));
     }
-    Ok(advanced && film.is_between_samples())
+    Ok(advanced && film.image().is_between_samples())
 }

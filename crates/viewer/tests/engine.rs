@@ -1,13 +1,14 @@
 //! Pictures of an engine on a device, without a window: those of a render, bit by bit, after every kind of change.
 
 use std::ffi::OsStr;
+use std::ops::ControlFlow;
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use glam::{DQuat, DVec3};
 use rasray_experiment::{
-    AovSelection, Backend, DeviceChoice, Frame, Integrator, LoadedScene, OptionValues, Primary, Refresh,
-    RenderJob, Sampler, SystemConfig, load, open, open_device,
+    AovSelection, Backend, DeviceChoice, Frame, Integrator, KeptScene, LoadedScene, OptionValues, Primary,
+    Progress, Refresh, RenderJob, Sampler, SystemConfig, load, open, open_device,
 };
 use rasray_scene::Moment;
 use rasray_scene::animation::{
@@ -123,7 +124,6 @@ fn rendered_with(mut loaded: LoadedScene, backend: &mut dyn Backend, settings: &
         shard: None,
         scene: &loaded.scene,
         moment: loaded.moment.as_ref(),
-        is_next: false,
         camera,
         system: settings.system.clone(),
         refresh: Refresh::All,
@@ -132,7 +132,8 @@ fn rendered_with(mut loaded: LoadedScene, backend: &mut dyn Backend, settings: &
         needs: Needs::of(&loaded.scene, settings.frame.workload()),
         repetitions: 0,
     };
-    backend.render(&job, &mut |_| std::ops::ControlFlow::Continue(())).expect("a picture").beauty
+    let (mut kept, mut progress) = (KeptScene::default(), |_: Progress<'_>| ControlFlow::Continue(()));
+    backend.render(&job, &mut kept, &mut progress).expect("a picture").beauty
 }
 
 #[test]

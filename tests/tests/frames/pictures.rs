@@ -3,10 +3,10 @@
 use std::ops::{ControlFlow, Range};
 
 use glam::{DAffine3, DQuat, DVec3};
-use rasray_frame::{FrameInput, FrameRenderer, Picture, Shown, render_in_order};
+use rasray_frame::{FrameInput, FrameRenderer, ImageRenderer, Picture, Shown, render_in_order};
 use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, Parts, PosePass, Sampling, SceneTables, View};
-use rasray_integrators::{Film, Integrator, IntegratorDesc, Path, Visibility, waves};
+use rasray_integrators::{Film, IntegratorDesc, Path, Visibility};
 use rasray_metrics::{Image, ImageError};
 use rasray_scene::animation::{
     Channel, ChannelValues, Clip, Interpolation, NodeTransform, Placement, Rig, RigNode,
@@ -87,7 +87,7 @@ fn renderer(device: &Device, scene: &Scene, spec: &Spec, slots: u32) -> FrameRen
 }
 
 pub fn input(view: View, pose: Option<FramePose>, samples: Range<u32>, continues: bool) -> FrameInput {
-    FrameInput { view, sampling: sampling(), scene: None, pose, samples, continues }
+    FrameInput { view, sampling: sampling(), scene: None, pose, samples: samples.into(), continues }
 }
 
 /// The inputs of frames a quarter of a second apart, with a camera that moves as well.
@@ -118,15 +118,16 @@ pub fn still(
                 pose.record(recorder, 0, at);
             }
             gpu.record_frame(recorder, &input.view, input.sampling);
-            path.record_reset(recorder);
         })
         .expect("the device works");
     let viewpoint = gpu.viewpoint_of(&input.view);
     build_until_complete(device, structure.as_mut(), viewpoint, Timing::None).expect("it is built");
-    for wave in waves(SIZE[0] * SIZE[1], input.samples.end, path.wave_capacity()) {
-        path.render_wave(device, Timing::None, (&*structure).into(), wave).expect("the wave fits");
-    }
-    path.film().read(device).expect("the device works")
+    let samples = 0..input.samples.index(input.samples.count());
+    let mut image = ImageRenderer::new(device, Box::new(path), samples).expect("the device works");
+    let go_on = |_: &ImageRenderer, _| ControlFlow::Continue(());
+    image.render(&*structure, Timing::None, go_on).expect("the waves fit");
+    assert_eq!((image.unfinished(), image.waves_done()), (0, image.waves()));
+    image.film().read(device).expect("the device works")
 }
 
 pub fn pictures(renderer: &mut FrameRenderer, inputs: Vec<FrameInput>) -> (Vec<Picture>, u64) {
@@ -260,7 +261,7 @@ fn a_frame_that_is_not_complete_is_no_picture() {
     let mut renderer = renderer(device, &scene, &spec, 2);
     let all = inputs(&renderer, &scene, 2);
     renderer.submit(&all[0]).expect("a slot is free");
-    let continued = FrameInput { samples: 2..3, continues: true, ..all[0].clone() };
+    let continued = FrameInput { samples: (2..3).into(), continues: true, ..all[0].clone() };
     renderer.submit(&continued).expect("a slot is free");
     let mut shown = 0;
     while let Some(one) = renderer.take().expect("the device works") {

@@ -205,7 +205,14 @@ fn pictures_are_the_same() {
             let posed = pass.frame(&scene, &moment(0.2 * f64::from(frame.min(4)))).expect("the same scene");
             let view = view(&scene, size, 0.02 * f64::from(frame));
             let sampling = Sampling { samples: 2, ..Sampling::default() };
-            FrameInput { view, sampling, scene: None, pose: Some(posed), samples: 0..2, continues: false }
+            FrameInput {
+                view,
+                sampling,
+                scene: None,
+                pose: Some(posed),
+                samples: (0..2).into(),
+                continues: false,
+            }
         };
         let inputs: Vec<FrameInput> = (0..7).map(input).collect();
         let keeping = Keeping { slots: 3, ..Keeping::default() };

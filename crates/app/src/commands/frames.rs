@@ -77,7 +77,6 @@ impl Pictures<'_> {
             }
         }
         self.render(&targets, key, false)?;
-        self.is_next = true;
         Ok(found)
     }
 }

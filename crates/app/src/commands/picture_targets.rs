@@ -155,7 +155,7 @@ pub(super) fn check_format(
 pub(super) fn samples_shard(given: &RenderArguments) -> Result<Option<Shard>, AppError> {
     let Some(shard) = given.shard.filter(|_| given.frames.is_none()) else { return Ok(None) };
     let spp = given.frame()?.spp;
-    if shard.samples(spp).len() == 0 {
+    if shard.samples(spp).count() == 0 {
         return Err(AppError::usage(
             format!("--shard {shard} has none of {spp} samples per pixel"),
             "make no more shares than there are samples",

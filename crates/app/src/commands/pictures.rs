@@ -10,7 +10,7 @@ use crate::output::{Destination, Metadata, PartOf, Row, Rows, image_key};
 use crate::terminal::{self, Talk};
 use crate::version::{origin, version_text};
 use rasray_experiment::{
-    AovSelection, Backend, Chosen, Frame, LoadedScene, Progress, RenderJob, RenderOutput, Shard,
+    AovSelection, Backend, Chosen, Frame, KeptScene, LoadedScene, Progress, RenderJob, RenderOutput, Shard,
     SystemConfig, check_run, picture_key,
 };
 use rasray_report::{FramesRecord, Report, json_shown, table_within};
@@ -32,8 +32,8 @@ pub(super) struct Pictures<'a> {
     pub(super) loaded: LoadedScene,
     pub(super) chosen: Chosen,
     pub(super) backend: Box<dyn Backend>,
-    /// Whether a picture of the scene at another time was made before.
-    pub(super) is_next: bool,
+    /// What the device has of the picture of the scene at another time.
+    pub(super) kept: KeptScene,
 }
 
 impl Pictures<'_> {
@@ -43,7 +43,6 @@ impl Pictures<'_> {
         RenderJob {
             scene: &loaded.scene,
             moment: loaded.moment.as_ref(),
-            is_next: self.is_next,
             camera: chosen.camera.clone(),
             system: self.system.clone().seen_by(&chosen.camera, frame.width, frame.height),
             refresh: given.refresh,
@@ -76,13 +75,13 @@ impl Pictures<'_> {
             // They come with the first sample.
             job.aovs = AovSelection::default();
         }
-        let samples = shard.unwrap_or_default().samples(frame.spp).len() as u32;
+        let samples = shard.unwrap_or_default().samples(frame.spp).count();
         // A sample takes several waves; an early end keeps whole ones.
         let is_kept = |progress: &Progress<'_>| {
             keeps_part && progress.total > 0 && progress.done.saturating_mul(samples.into()) >= progress.total
         };
-        let backend = &mut self.backend;
-        let output = with_progress(interrupt, is_kept, |progress| backend.render(&job, progress))?;
+        let (backend, kept) = (&mut self.backend, &mut self.kept);
+        let output = with_progress(interrupt, is_kept, |progress| backend.render(&job, kept, progress))?;
         check_samples(&output, samples, keeps_part)?;
 
         let mut run = output.run(&job.system, &frame);

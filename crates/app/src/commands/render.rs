@@ -8,7 +8,7 @@ use crate::arguments::RenderArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::terminal;
-use rasray_experiment::{KeyHash, OpenBackend};
+use rasray_experiment::{KeptScene, KeyHash, OpenBackend};
 use rasray_report::FramesRecord;
 
 /// Renders a scene, or frames of it, and writes what was asked for; `line` is the command as it was typed.
@@ -58,7 +58,7 @@ pub(crate) fn render(
         loaded,
         chosen,
         backend,
-        is_next: false,
+        kept: KeptScene::default(),
     };
     match numbers {
         None => pictures.render_one(&targets),

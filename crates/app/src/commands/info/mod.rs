@@ -60,7 +60,6 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             fit_images(&mut loaded, &needs, backend.as_ref())?;
             let job = RenderJob {
                 moment: None,
-                is_next: false,
                 scene: &loaded.scene,
                 camera: view.camera,
                 system,

@@ -5,7 +5,8 @@
 
 use rasray_experiment::{
     Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, ExperimentError, Feature,
-    FilmSums, HardJob, OnProgress, PassCommands, Progress, RenderJob, RenderOutput, Stage, TexelCapacity,
+    FilmSums, HardJob, KeptScene, OnProgress, PassCommands, Progress, RenderJob, RenderOutput, Stage,
+    TexelCapacity,
 };
 use rasray_report::{Counters, Device, HardRecord, Run, Times};
 use std::path::Path;
@@ -38,6 +39,7 @@ impl Backend for Scripted {
     fn render(
         &mut self,
         job: &RenderJob<'_>,
+        _kept: &mut KeptScene,
         progress: &mut OnProgress<'_>,
     ) -> Result<RenderOutput, ExperimentError> {
         if self.device == "broken" {
@@ -49,7 +51,7 @@ impl Backend for Scripted {
         if self.device == "stuck" {
             std::thread::sleep(Duration::from_secs(60));
         }
-        let wanted = job.shard.unwrap_or_default().samples(job.frame.spp).len() as u32;
+        let wanted = job.shard.unwrap_or_default().samples(job.frame.spp).count();
         let mut samples_done = 0;
         while samples_done < wanted {
             let (done, total) = (samples_done.into(), wanted.into());

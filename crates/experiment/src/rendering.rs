@@ -1,0 +1,180 @@
+//! The image of a job, wave by wave.
+
+use std::ops::ControlFlow;
+
+use rasray_frame::{Advance, ImagePasses, ImageRenderer};
+use rasray_gpu::Device;
+use rasray_integrators::{
+    AmbientOcclusion, Film, IntegratorDesc, IntegratorError, Path, PathOptions, Raycast, Visibility,
+};
+use rasray_scene::needs::Needs;
+
+use crate::backend::{OnProgress, Progress};
+use crate::built::Built;
+use crate::device_scene::{DeviceScene, device_error, frame_error, image_error};
+use crate::error::ExperimentError;
+use crate::jobs::{Frame, Integrator, Primary};
+use crate::passes::Passes;
+use crate::shard::Shard;
+use rasray_report::{Pass, PassOf};
+
+/// Makes the integrator of a frame.
+fn integrator(
+    frame: &Frame,
+    desc: &IntegratorDesc<'_>,
+) -> Result<Box<dyn rasray_integrators::Integrator>, ExperimentError> {
+    let made: Result<Box<dyn rasray_integrators::Integrator>, _> = match frame.integrator {
+        Integrator::Path { bounces, glass_shadows } => {
+            let options = PathOptions { bounces, glass_shadows, shadow_terminator: frame.shadow_terminator };
+            Path::new(desc, options).map(|i| Box::new(i) as _)
+        }
+        Integrator::AmbientOcclusion { distance } => {
+            AmbientOcclusion::new(desc, distance.unwrap_or(f32::INFINITY)).map(|i| Box::new(i) as _)
+        }
+        Integrator::Raycast => Raycast::new(desc).map(|i| Box::new(i) as _),
+    };
+    made.map_err(|error| match error {
+        IntegratorError::Option { .. } => ExperimentError::usage(error.to_string(), ""),
+        other => image_error(other),
+    })
+}
+
+/// What answers the camera rays of a frame in place of traces; nothing where they are traced.
+fn visibility(
+    device: &Device,
+    stage: &DeviceScene,
+    frame: &Frame,
+) -> Result<Option<Visibility>, ExperimentError> {
+    match frame.primary {
+        Primary::Trace => Ok(None),
+        Primary::Raster => {
+            Visibility::new(device, &stage.scene, false).map(Some).map_err(|error| match error {
+                IntegratorError::CannotDraw { .. } => {
+                    ExperimentError::device(error, "choose --primary trace, or another --device")
+                }
+                other => device_error(other),
+            })
+        }
+    }
+}
+
+/// The image of a job in the making, with the times of its passes. Every call submits and waits.
+pub struct Rendering {
+    /// What is on the film.
+    pub(super) image: ImageRenderer,
+    pub(super) passes: Passes,
+}
+
+impl Rendering {
+    /// Allocates the film of a frame and makes its integrator; nothing is rendered. The scene's view has the size of the
+    /// frame. With a shard only its samples are made.
+    ///
+    /// # Errors
+    /// The device fails, or the frame asks for more than the integrator does.
+    pub fn new(
+        device: &Device,
+        stage: &DeviceScene,
+        frame: &Frame,
+        shard: Option<Shard>,
+        needs: &Needs,
+    ) -> Result<Self, ExperimentError> {
+        let film = Film::new(device, frame.width, frame.height).map_err(image_error)?;
+        let mut desc = IntegratorDesc::new(device, &stage.scene, &film);
+        if *needs == Needs::all() {
+            desc.features = rasray_gpu_scene::ShadingFeatures::ALL;
+        }
+        let passes = ImagePasses::from(integrator(frame, &desc)?);
+        let passes = passes.with_visibility(visibility(device, stage, frame)?);
+        let samples = shard.unwrap_or_default().samples(frame.spp);
+        let image = ImageRenderer::new(device, passes, samples).map_err(frame_error)?;
+        Ok(Self { image, passes: Passes::default() })
+    }
+
+    /// What is on the film.
+    pub fn image(&self) -> &ImageRenderer {
+        &self.image
+    }
+
+    /// Film, counters and times start at 0 again.
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn clear(&mut self) -> Result<(), ExperimentError> {
+        self.passes = Passes::default();
+        self.image.clear().map_err(frame_error)
+    }
+
+    /// As [`ImageRenderer::warm_up`].
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn warm_up(&mut self, built: &Built) -> Result<f64, ExperimentError> {
+        self.image.warm_up(built.structure()).map_err(frame_error)
+    }
+
+    /// Renders the next wave. False where rays need more rounds than they had: then all starts at 0 again, and the
+    /// structure allows more from now on.
+    ///
+    /// # Errors
+    /// The device fails, or rays met list entries that name nothing.
+    pub fn advance(&mut self, device: &Device, built: &Built) -> Result<bool, ExperimentError> {
+        let step = self.image.advance(built.structure(), device.best_timing()).map_err(frame_error)?;
+        Ok(keep_times(&mut self.passes, &step))
+    }
+
+    /// Renders the samples, or those up to an early end that `progress` asks for.
+    ///
+    /// # Errors
+    /// As [`Rendering::advance`].
+    pub(super) fn render(
+        &mut self,
+        device: &Device,
+        built: &Built,
+        task: &str,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<(), ExperimentError> {
+        let Self { image, passes } = self;
+        let after = |image: &ImageRenderer, step: Advance| {
+            if !keep_times(passes, &step) {
+                return ControlFlow::Continue(());
+            }
+            let (done, total) = (image.waves_done(), image.waves());
+            progress(Progress { task, done, total, unit: "waves" })
+        };
+        image.render(built.structure(), device.best_timing(), after).map_err(frame_error)
+    }
+
+    /// Says how many triangles were drawn over all pixels, where camera rays are drawn.
+    pub(super) fn log_visibility(&self, device: &Device) -> Result<(), ExperimentError> {
+        if let Some(visibility) = self.image.passes().visibility() {
+            let covering = visibility.read_counts(device).map_err(device_error)?.covering;
+            tracing::info!(
+                covering,
+                "triangles drawn over all pixels, of all waves: they reach behind the eye"
+            );
+        }
+        Ok(())
+    }
+
+    /// Means of all pixels, row by row from the top left; linear Rec. 709, W/(sr m^2).
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn read(&self, device: &Device) -> Result<Vec<[f32; 3]>, ExperimentError> {
+        self.image.film().read(device).map_err(device_error)
+    }
+
+    /// Times of the passes since the film was clear, all waves together.
+    pub fn pass_times(&self) -> Vec<Pass> {
+        self.passes.report(Some(PassOf::Image))
+    }
+}
+
+/// Adds the times of a wave; drops all, and is false, where the image starts over.
+fn keep_times(passes: &mut Passes, step: &Advance) -> bool {
+    match step {
+        Advance::Wave { passes: timings } => passes.add(timings),
+        Advance::StartedOver => *passes = Passes::default(),
+    }
+    matches!(step, Advance::Wave { .. })
+}

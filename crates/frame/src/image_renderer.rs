@@ -1,0 +1,202 @@
+//! An image that is made wave by wave.
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use rasray_ads::{RayQueue, Structure};
+use rasray_gpu::{Device, PassTiming, Timing};
+use rasray_gpu_scene::GpuScene;
+use rasray_integrators::{AovPass, AovPixel, Film, Wave, wave_capacity, waves};
+
+use crate::image_passes::{ImagePasses, unanswered};
+use crate::{FrameError, Samples};
+
+/// What a call of [`ImageRenderer::advance`] did.
+#[derive(Clone, Debug)]
+pub enum Advance {
+    /// A wave was added to the film.
+    Wave {
+        /// Times of its passes, where they are timed.
+        passes: Vec<PassTiming>,
+    },
+    /// Rays needed more rounds than they had: all starts at 0 again, and the structure allows more from now on.
+    StartedOver,
+}
+
+/// An image in the making: sample after sample, and wave after wave within a sample. Each call submits and waits, so that
+/// no submission is longer than a wave, and a picture can be looked at or given up in between.
+///
+/// What it is made of a structure that is complete ([`rasray_tracer::build_until_complete`]); pictures are those of
+/// [`FrameRenderer`](crate::FrameRenderer), bit for bit.
+#[derive(Debug)]
+pub struct ImageRenderer {
+    device: Device,
+    passes: ImagePasses,
+    samples: Samples,
+    /// The first pixel of the next wave.
+    next_pixel: u32,
+    samples_done: u32,
+    unfinished: u64,
+}
+
+impl ImageRenderer {
+    /// Nothing is rendered yet.
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn new(
+        device: &Device,
+        passes: impl Into<ImagePasses>,
+        samples: impl Into<Samples>,
+    ) -> Result<Self, FrameError> {
+        let (device, passes, samples) = (device.clone(), passes.into(), samples.into());
+        let mut made = Self { device, passes, samples, next_pixel: 0, samples_done: 0, unfinished: 0 };
+        made.clear()?;
+        Ok(made)
+    }
+
+    /// Film and counters start at 0 again.
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn clear(&mut self) -> Result<(), FrameError> {
+        self.device.submit(|recorder| self.passes.record_reset(recorder))?;
+        (self.next_pixel, self.samples_done, self.unfinished) = (0, 0, 0);
+        Ok(())
+    }
+
+    /// Renders one pixel and forgets it: software drivers compile a kernel at its first dispatch, which is no trace.
+    /// Returns milliseconds. All starts at 0 after it.
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn warm_up(&mut self, structure: &dyn Structure) -> Result<f64, FrameError> {
+        let started = Instant::now();
+        let one = Wave { first_pixel: 0, pixel_count: 1, sample: 0 };
+        let (integrator, traced) = (self.passes.integrator(), self.passes.traced(structure));
+        let submitted = self.device.submit(|recorder| integrator.record_wave(recorder, traced, one))?;
+        submitted.value?;
+        self.clear()?;
+        Ok(started.elapsed().as_secs_f64() * 1.0e3)
+    }
+
+    /// Renders the next wave, of the samples that were asked for or beyond them.
+    ///
+    /// # Errors
+    /// The device fails, or rays met list entries with an invalid index.
+    pub fn advance(&mut self, structure: &dyn Structure, timing: Timing) -> Result<Advance, FrameError> {
+        let (pixels, integrator) = (self.film().pixel_count(), self.passes.integrator());
+        let wave = Wave {
+            first_pixel: self.next_pixel,
+            pixel_count: integrator.wave_capacity().min(pixels - self.next_pixel),
+            sample: self.samples.index(self.samples_done),
+        };
+        let passes = integrator.render_wave(&self.device, timing, self.passes.traced(structure), wave)?;
+        // What is on the film lacks light where a ray had no answer, so it is found now and not after the last wave.
+        // Queues count on from wave to wave.
+        self.unfinished = self.count_unfinished(structure, &integrator.queues())?;
+        if self.unfinished > 0 && structure.allow_more_rounds() {
+            self.clear()?;
+            return Ok(Advance::StartedOver);
+        }
+        self.next_pixel += wave.pixel_count;
+        if self.next_pixel == pixels {
+            self.next_pixel = 0;
+            self.samples_done += 1;
+        }
+        Ok(Advance::Wave { passes })
+    }
+
+    /// Renders all samples that were asked for, and tells `after` of each step. Where that breaks, ends early, between
+    /// samples, so that all pixels have the same number of them.
+    ///
+    /// # Errors
+    /// As [`ImageRenderer::advance`]. Rays without an answer are none: [`ImageRenderer::unfinished`].
+    pub fn render(
+        &mut self,
+        structure: &dyn Structure,
+        timing: Timing,
+        mut after: impl FnMut(&Self, Advance) -> ControlFlow<()>,
+    ) -> Result<(), FrameError> {
+        let mut stopping = false;
+        while self.samples_done < self.samples.count() && !(stopping && self.next_pixel == 0) {
+            let step = self.advance(structure, timing)?;
+            stopping &= matches!(step, Advance::Wave { .. });
+            stopping |= after(self, step).is_break();
+        }
+        Ok(())
+    }
+
+    /// Traces the rays through the pixels' centres, of the scene as it is shown, and returns what they hit, row by row from
+    /// the top left.
+    ///
+    /// # Errors
+    /// The device fails, sizes do not fit, rays met list entries with an invalid index, or did not finish in as many rounds
+    /// as there can be ([`FrameError::Unfinished`]).
+    pub fn aovs(&self, scene: &GpuScene, structure: &dyn Structure) -> Result<Vec<AovPixel>, FrameError> {
+        let pixels = self.film().pixel_count();
+        let capacity = wave_capacity(&self.device).min(pixels);
+        let aov = AovPass::new(&self.device, scene, capacity)?;
+        loop {
+            self.device.submit(|recorder| aov.record_reset(recorder))?;
+            for wave in waves(pixels, 1, capacity) {
+                let traced = self.passes.traced(structure);
+                self.device.submit(|recorder| aov.record_wave(recorder, traced, wave))?.value?;
+            }
+            let rays = self.count_unfinished(structure, &[aov.queue()])?;
+            if rays == 0 {
+                break;
+            }
+            if !structure.allow_more_rounds() {
+                return Err(FrameError::Unfinished { rays });
+            }
+        }
+        Ok(aov.read(&self.device)?)
+    }
+
+    /// Downloads the counters of queues.
+    fn count_unfinished(&self, structure: &dyn Structure, queues: &[&RayQueue]) -> Result<u64, FrameError> {
+        let counters = queues.iter().map(|queue| queue.download_counters(&self.device));
+        unanswered(structure, &counters.collect::<Result<Vec<_>, _>>()?)
+    }
+
+    /// What is recorded of each wave.
+    pub fn passes(&self) -> &ImagePasses {
+        &self.passes
+    }
+
+    /// Where samples are added.
+    pub fn film(&self) -> &Film {
+        self.passes.film()
+    }
+
+    /// Waves of all samples that were asked for.
+    pub fn waves(&self) -> u64 {
+        u64::from(self.waves_per_sample()) * u64::from(self.samples.count())
+    }
+
+    /// Waves that are on the film.
+    pub fn waves_done(&self) -> u64 {
+        let of_sample = self.next_pixel.div_ceil(self.passes.integrator().wave_capacity());
+        u64::from(self.waves_per_sample()) * u64::from(self.samples_done) + u64::from(of_sample)
+    }
+
+    fn waves_per_sample(&self) -> u32 {
+        self.film().pixel_count().div_ceil(self.passes.integrator().wave_capacity())
+    }
+
+    /// Samples that all pixels have.
+    pub fn samples_done(&self) -> u32 {
+        self.samples_done
+    }
+
+    /// Whether no pixel has more samples than another.
+    pub fn is_between_samples(&self) -> bool {
+        self.next_pixel == 0
+    }
+
+    /// Rays without an answer: where there are any, the image is not what was asked for.
+    pub fn unfinished(&self) -> u64 {
+        self.unfinished
+    }
+}
