@@ -29,5 +29,6 @@ mod pose;
 mod primitive;
 #[path = "shared/main.rs"]
 mod shared;
+mod tools;
 #[path = "voxel/main.rs"]
 mod voxel;
