@@ -7,6 +7,9 @@
 
 // Stamps of a geometry whose triangles the device counts: another one after each change of their number, in turns.
 #define GEOMETRY_COUNT_STAMPS 1024u
+// Set in a stamp, among the bits of STATUS_FLAGS, from the count of other triangles until their indices are gathered:
+// then no status is that of a build of these triangles.
+#define GEOMETRY_NOT_GATHERED 1u
 
 // Numbers that one workgroup of a scan adds up, and its threads.
 #define SCAN_BLOCK 1024u

@@ -30,8 +30,8 @@ struct GeometryHeader {
     uint run_count;      // of a part in several runs: how many; 0 elsewhere
     vec3 around_lower;   // of a part: lower corner of the whole, from all of which rays may start; its own elsewhere
     vec3 around_upper;   // upper corner of the same
-    // tells these triangles from all others, in the bits of a status above STATUS_FLAGS; 0 until what is counted or
-    // gathered can be read
+    // tells these triangles from all others, in the bits of a status above STATUS_FLAGS; 0, or with
+    // GEOMETRY_NOT_GATHERED, until what is counted or gathered can be read
     uint stamp;
 };
 

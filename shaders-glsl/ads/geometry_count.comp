@@ -11,11 +11,12 @@ layout(local_size_x = 1) in;
 #define GEOMETRY_WRITTEN
 #include "ads/geometry.glsl"
 
-// Where the count lies, and its maximum. 12 bytes.
+// Where the count lies, and its maximum. 16 bytes.
 layout(push_constant, scalar) uniform GeometryCountConstants {
     uint count_word;     // of the count, in what is bound
     uint most_triangles; // the maximum
     uint first_stamp;    // of GEOMETRY_COUNT_STAMPS stamps that no other geometry has
+    uint stamp_flags;    // of a new stamp: GEOMETRY_NOT_GATHERED where indices are gathered, else 0
 } pushed;
 layout(set = 1, binding = 0, scalar) readonly buffer GeometryCountBuffer {
     uint geometry_counts[];
@@ -30,7 +31,7 @@ void main() {
     if (geometry_header.stamp == 0u || triangles != geometry_header.triangle_count) {
         uint step = STATUS_FLAGS + 1u;
         uint taken = geometry_header.stamp == 0u ? 0u : (geometry_header.stamp - pushed.first_stamp) / step + 1u;
-        geometry_header.stamp = pushed.first_stamp + step * (taken % GEOMETRY_COUNT_STAMPS);
+        geometry_header.stamp = (pushed.first_stamp + step * (taken % GEOMETRY_COUNT_STAMPS)) | pushed.stamp_flags;
     }
     geometry_header.triangle_count = triangles;
     geometry_header.outside = geometry_counts[pushed.count_word] - triangles;

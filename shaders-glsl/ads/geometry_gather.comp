@@ -1,17 +1,23 @@
 // What: turns indices of an engine (u16 or u32, per draw a first index and a base vertex) into absolute u32 indices in
 // the order of the triangles, or picks those of a part: one invocation per triangle.
-// Reads: draws of GEOMETRY_SET, indices in a buffer of the embedder's. Writes: indices of GEOMETRY_SET.
+// Reads: draws of GEOMETRY_SET, indices in a buffer of the embedder's. Writes: indices of GEOMETRY_SET,
+// and GEOMETRY_NOT_GATHERED of its stamp.
 #version 460
 #include "contract/extensions.glsl"
+#include "ads/constants.glsl"
 
 layout(local_size_x = 64) in;
 
 #define GEOMETRY_GATHERED
+#define GEOMETRY_WRITTEN
 #include "ads/gathered.glsl"
 
 void main() {
     uint primitive = gl_LocalInvocationIndex
                    + gl_WorkGroupSize.x * (gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y);
+    if (primitive == 0u) {
+        geometry_header.stamp &= ~GEOMETRY_NOT_GATHERED;
+    }
     if (primitive >= geometry_triangle_count()) {
         return;
     }

@@ -5,6 +5,7 @@
 #define BRUTE_TRACE_GLSL
 
 #include "contract/trace_functions.glsl"
+#include "ads/constants.glsl"
 #include "ads/evaluate.glsl"
 #include "brute/types.glsl"
 
@@ -30,7 +31,8 @@ uint brute_trace(BruteRef s, Ray ray, inout TraceState state, bool any_hit) {
 
 // There is nothing to build, but indices may have to be gathered and triangles to be counted.
 uint brute_status(BruteRef s) {
-    return geometry_header.stamp == 0u ? 0u : geometry_header.stamp | STATUS_COMPLETE;
+    bool is_readable = geometry_header.stamp != 0u && (geometry_header.stamp & GEOMETRY_NOT_GATHERED) == 0u;
+    return is_readable ? geometry_header.stamp | STATUS_COMPLETE : 0u;
 }
 
 Hit brute_hit(BruteRef s, Hit best) {

@@ -141,7 +141,9 @@ impl Geometry {
         };
         let stamp = new_stamps(if desc.count.is_some() { GEOMETRY_COUNT_STAMPS } else { 1 });
         let count = match bindings.get(3) {
-            Some((range, before)) => Some(Count::new(device, &layout, &desc, (*range, *before), stamp)?),
+            Some((range, before)) => {
+                Some(Count::new(device, &layout, &desc, (*range, *before), stamp, gather.is_some())?)
+            }
             None => None,
         };
         let is_in_place = count.is_none() && !gathers(gather.as_ref(), part.map(|(whole, _)| whole));

@@ -6,7 +6,7 @@ use rasray_gpu::{
     GpuError, MemoryLocation, SetLayout,
 };
 use rasray_shaders_glsl::Shader;
-use rasray_shaders_glsl::constants::ads::GEOMETRY_DRAW_VIEWS;
+use rasray_shaders_glsl::constants::ads::{GEOMETRY_DRAW_VIEWS, GEOMETRY_NOT_GATHERED};
 use rasray_shaders_glsl::records::{GeometryCountConstants, GeometryGatherConstants};
 
 use crate::{AdsError, GeometryDesc, Indexing};
@@ -47,6 +47,7 @@ impl Count {
         desc: &GeometryDesc,
         (range, before): (BufferRange<'_>, u64),
         first_stamp: u32,
+        gathers: bool,
     ) -> Result<Self, AdsError> {
         // Until triangles are counted there is none to draw.
         let draw_arguments = device.create_buffer_of_zeros(
@@ -63,6 +64,8 @@ impl Count {
             count_word: (before / 4) as u32,
             most_triangles: desc.triangle_count,
             first_stamp,
+            // Without triangles there is no pass that gathers.
+            stamp_flags: if gathers && desc.triangle_count > 0 { GEOMETRY_NOT_GATHERED } else { 0 },
         };
         Ok(Self { pipeline, set, constants, draw_arguments })
     }

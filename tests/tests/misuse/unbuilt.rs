@@ -2,8 +2,8 @@
 //! recorded.
 
 use rasray_ads::{
-    AdsError, BruteForce, BufferOffset, Combined, Geometry, GeometryDesc, Hit, IndexFormat, Ray, Structure,
-    TraceMode,
+    AdsError, BoundsPass, BruteForce, BufferOffset, Combined, Geometry, GeometryDesc, Hit, IndexFormat, Ray,
+    Structure, TraceMode,
 };
 use rasray_gpu::{BufferUsage, Timing};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
@@ -222,6 +222,45 @@ fn brute_force_waits_for_indices_that_are_gathered_and_triangles_that_are_counte
             assert!(!is_whole || hits.iter().all(Hit::is_hit), "{hits:?}");
         }
     }
+}
+
+/// The bounds of triangles that are counted need no gathered indices, and leave them as they were.
+#[test]
+fn brute_force_waits_for_indices_of_triangles_that_were_counted_for_their_bounds_alone() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let packed = bench.geometry(&closed_box([-2.0; 3], [2.0; 3]));
+    let short: Vec<u16> = (0..36).collect();
+    let short = device.create_buffer_with("short", BufferUsage::ALL, &short).expect("it fits");
+    let count = device.create_buffer_with("count", BufferUsage::ALL, &[6_u32]).expect("it fits");
+    let mut desc = packed.desc().clone();
+    desc.indices.buffer = short;
+    desc.indices.format = IndexFormat::U16;
+    desc.count = Some(BufferOffset { buffer: count.clone(), offset: 0 });
+    dirty_memory(&bench);
+    let geometry = Geometry::new(device, desc).expect("the buffers hold it");
+    let bounds = BoundsPass::new(device).expect("pipelines");
+    let measure = || {
+        device.submit(|recorder| bounds.record(recorder, &geometry)).expect("the device works");
+    };
+    let tracer = BatchTracer::new(device, 64).expect("a queue fits");
+    let trace = |brute: &BruteForce| tracer.trace(brute, &rays(), TraceMode::Closest, Timing::None);
+    let mut brute = BruteForce::new(device, &geometry, None, false).expect("kernels");
+    measure();
+    assert_no_answers(&bench, &brute, "counted, not gathered");
+    assert!(bench.build_once(&mut brute, EYE).complete);
+    let six = trace(&brute).expect("it is built").hits;
+    // Bounds of the same triangles leave what is built as it is.
+    measure();
+    assert_eq!(trace(&brute).expect("it is built").hits, six);
+    // There are more of them, of which the indices are missing.
+    device.upload_slice(&count, 0, &[12_u32]).expect("the device works");
+    measure();
+    let traced = trace(&brute);
+    assert!(matches!(traced, Err(TracerError::NotReady { rays: 64 })), "{traced:?}");
+    assert!(bench.build_once(&mut brute, EYE).complete);
+    let hits = trace(&brute).expect("it is built").hits;
+    assert!(hits.iter().all(Hit::is_hit) && !six.iter().all(Hit::is_hit), "{hits:?}");
 }
 
 /// Structures of fragments hold what the scene was when they were built: its masks and what they keep of its surfaces.
