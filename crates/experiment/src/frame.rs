@@ -1,6 +1,7 @@
 //! An image to make, as plain data.
 
 pub use rasray_integrators::GlassShadows;
+use rasray_report::Run;
 use rasray_scene::needs::{self, Workload};
 use rasray_scene::{BackFaces, ShadowTerminator};
 
@@ -42,6 +43,14 @@ impl Integrator {
     pub fn bounces(&self) -> Option<u32> {
         match self {
             Self::Path { bounces, .. } => Some(*bounces),
+            _ => None,
+        }
+    }
+
+    /// Metres within which something occludes, where the integrator has such a distance.
+    pub fn ao_distance(&self) -> Option<f32> {
+        match self {
+            Self::AmbientOcclusion { distance } => *distance,
             _ => None,
         }
     }
@@ -180,6 +189,23 @@ impl Sampler {
 }
 
 impl Frame {
+    /// Adds to a run what was asked for.
+    pub(crate) fn describe(&self, run: &mut Run) {
+        let paths = matches!(self.integrator, Integrator::Path { .. });
+        run.integrator = Some(self.integrator.name().to_owned());
+        run.width = Some(self.width);
+        run.height = Some(self.height);
+        run.spp = Some(self.spp);
+        run.bounces = self.integrator.bounces();
+        run.primary = Some(self.primary.name().to_owned());
+        run.seed = Some(self.seed);
+        run.sampler = Some(self.sampler.name().to_owned());
+        run.back_faces = Some(self.back_faces.name().to_owned());
+        run.glass_shadows = self.integrator.glass_shadows().map(|chosen| chosen.name().to_owned());
+        run.shadow_terminator = paths.then(|| self.shadow_terminator.name().to_owned());
+        run.ao_distance_m = self.integrator.ao_distance();
+    }
+
     /// What an image like this one looks at in a scene.
     pub fn workload(&self) -> Workload {
         match self.integrator {

@@ -10,7 +10,7 @@ use crate::built::Built;
 use crate::contestant::Contestant;
 use crate::device_scene::{DeviceScene, device_error};
 use crate::error::ExperimentError;
-use crate::jobs::{CompareJob, Comparison, Frame, GlassShadows, Integrator};
+use crate::jobs::{CompareJob, Comparison, Frame, GlassShadows, Integrator, Primary};
 use crate::render::render_pixels;
 use crate::rendering::Rendering;
 use rasray_report::figures::{Images, SystemImage};
@@ -99,11 +99,6 @@ pub(super) fn compare_images(
     }
     let add =
         |comparison: &mut Comparison, mut run: Run, pixels: Vec<[f32; 3]>| -> Result<(), ExperimentError> {
-            run.integrator = Some(frame.integrator.name().to_owned());
-            run.width = Some(frame.width);
-            run.height = Some(frame.height);
-            run.spp = Some(frame.spp);
-            run.bounces = frame.integrator.bounces();
             let (error, flip) = image_error(&frame, &pixels, &reference, job.figures)?;
             run.image = Some(error);
             if let Some(images) = &mut comparison.figures.images {
@@ -127,10 +122,9 @@ pub(super) fn compare_images(
         }
         let of_camera = Contestant { config: contestant.config, spec, built };
         let mut run = of_camera.run(device)?;
-        run.seed = Some(frame.seed);
+        frame.describe(&mut run);
         pixels.write_times(&mut run.times);
         let beauty = pixels.means();
-        run.primary = Some(frame.primary.name().to_owned());
         run.stages.extend(pixels.passes.stages());
         run.passes.extend(pixels.passes.report(Some(PassOf::Image)));
         run.counters = Some(pixels.counters);
@@ -138,13 +132,14 @@ pub(super) fn compare_images(
     }
     let other = View { seed: frame.seed.wrapping_add(1), ..view.clone() };
     if let Some(noise) = reference_image(posed, &other, &frame)? {
-        let run = Run {
+        let mut run = Run {
             system: "reference".to_owned(),
             structure: "oracle".to_owned(),
             preset: "another-seed".to_owned(),
-            seed: Some(other.seed),
             ..Run::default()
         };
+        // What it sees first, it traces.
+        Frame { seed: other.seed, primary: Primary::Trace, ..frame }.describe(&mut run);
         add(comparison, run, noise.pixels)?;
     }
     Ok(())

@@ -264,19 +264,12 @@ pub struct RenderOutput {
 impl RenderOutput {
     /// What a report says of the render.
     pub fn run(&self, system: &SystemConfig, frame: &Frame) -> Run {
-        Run {
+        let mut run = Run {
             system: system.system.name.to_owned(),
             structure: system.system.structure.to_owned(),
             preset: system.preset.name().to_owned(),
             options: self.options.clone(),
             paths: self.paths.clone(),
-            integrator: Some(frame.integrator.name().to_owned()),
-            width: Some(self.width),
-            height: Some(self.height),
-            spp: Some(self.samples_done),
-            bounces: frame.integrator.bounces(),
-            primary: Some(frame.primary.name().to_owned()),
-            seed: Some(frame.seed),
             times: self.times,
             spread: self.spread.clone(),
             stages: self.stages.clone(),
@@ -284,6 +277,9 @@ impl RenderOutput {
             memory: self.memory.clone(),
             counters: self.counters.clone(),
             ..Run::default()
-        }
+        };
+        frame.describe(&mut run);
+        run.spp = Some(self.samples_done);
+        run
     }
 }

@@ -17,6 +17,17 @@ pub(crate) enum Lighting {
     Default(Environment),
 }
 
+impl Lighting {
+    /// Its name in reports.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Self::Own => "scene",
+            Self::Given => "given",
+            Self::Default(_) => "default",
+        }
+    }
+}
+
 impl LoadedScene {
     /// Lights the scene. An environment that is given takes the place of the scene's and stays as it is, a black one
     /// too; else a scene that nothing lights as it is shown gets [`view::default_light`], with a warning.

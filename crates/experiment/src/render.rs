@@ -10,7 +10,7 @@ use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
 use crate::device_scene::{DeviceScene, device_error, frame_error};
 use crate::error::ExperimentError;
-use crate::jobs::{AovSelection, FilmSums, Frame, GlassShadows, Refresh, RenderJob, RenderOutput};
+use crate::jobs::{AovSelection, FilmSums, Frame, Refresh, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::rendering::Rendering;
 use crate::system_config::SystemConfig;
@@ -170,11 +170,6 @@ pub(super) fn render(
     let (options, mut paths) = built.resolved()?;
     if job.refresh != Refresh::All {
         paths.insert("refresh".to_owned(), job.refresh.name().to_owned());
-    }
-    if let Some(shadows) =
-        frame.integrator.glass_shadows().filter(|chosen| *chosen != GlassShadows::default())
-    {
-        paths.insert("glass-shadows".to_owned(), shadows.name().to_owned());
     }
     let mut memory = built.memory(device)?;
     for (name, bytes) in stage.scene.bytes_by_part() {

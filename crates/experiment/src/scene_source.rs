@@ -38,6 +38,8 @@ pub struct LoadedScene {
     pub pose: Option<PoseRecord>,
     /// Images that were made smaller for the device.
     pub smaller_images: Vec<SmallerImageRecord>,
+    /// Whether every surface was made opaque.
+    pub(crate) holes_closed: bool,
     /// What lights it.
     pub(crate) lighting: Lighting,
 }
@@ -51,6 +53,8 @@ impl LoadedScene {
             sha256: self.sha256.clone(),
             not_uploaded_bytes: self.not_uploaded_bytes,
             pose: self.pose.clone(),
+            environment: Some(self.lighting.name().to_owned()),
+            alpha: self.holes_closed.then(|| "off".to_owned()),
             smaller_images: self.smaller_images.clone(),
         }
     }
@@ -122,6 +126,7 @@ fn loaded(scene: Scene, sha256: Option<String>, content: KeyHash) -> LoadedScene
         not_uploaded_bytes: None,
         pose: None,
         smaller_images: Vec::new(),
+        holes_closed: false,
         lighting: Lighting::default(),
     }
 }
@@ -268,6 +273,7 @@ impl LoadedScene {
 
     /// Makes every surface opaque.
     pub fn close_holes(&mut self) {
+        self.holes_closed = true;
         self.content = KeyHash::default().with("scene", &self.content).with("holes", "closed").finish();
         for material in &mut self.scene.materials {
             material.alpha_mode = AlphaMode::Opaque;

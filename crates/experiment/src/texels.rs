@@ -145,22 +145,12 @@ impl TexelInfo {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasray_scene::builtin;
+    use crate::scene_source::load;
     use rasray_scene::needs::{Integrator, Workload};
+    use std::ffi::OsStr;
 
     fn loaded() -> LoadedScene {
-        let scene = builtin::builtin("atrium").expect("a name").expect("no parameters");
-        LoadedScene {
-            moment: None,
-            scene,
-            triangles: 0,
-            sha256: None,
-            content: String::new(),
-            not_uploaded_bytes: None,
-            pose: None,
-            smaller_images: Vec::new(),
-            lighting: Default::default(),
-        }
+        load(OsStr::new("atrium")).expect("built in")
     }
 
     #[test]
@@ -224,7 +214,7 @@ mod tests {
 
     #[test]
     fn the_device_is_asked_only_where_it_matters() {
-        let scene = builtin::builtin("atrium").expect("a name").expect("no parameters");
+        let scene = rasray_scene::builtin::builtin("atrium").expect("a name").expect("no parameters");
         let info = TexelInfo::of(&scene, &Needs::all(), || panic!("every device holds so few texels"));
         let info = info.expect("the scene is whole");
         assert!(info.bytes > 0 && info.device.is_none());

@@ -81,6 +81,13 @@ pub struct SceneRecord {
     /// When it was shown; absent at rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<PoseRecord>,
+    /// The light from outside: `scene` for the scene's own, `given` for one that was asked for, `default` for the light of a
+    /// scene that nothing lights; absent for hard cases.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub environment: Option<String>,
+    /// `off` where every surface was made opaque; absent otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub alpha: Option<String>,
     /// Images that were made smaller, because the device does not hold the texels of all; absent where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub smaller_images: Vec<SmallerImageRecord>,
@@ -210,6 +217,21 @@ pub struct Run {
     /// Seed of all random numbers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<u32>,
+    /// Where random numbers of an image come from, such as `sobol`; absent for ray sets.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sampler: Option<String>,
+    /// Which rays pass the backs of single-sided surfaces, such as `camera`; absent for ray sets.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub back_faces: Option<String>,
+    /// Light and shadow through smooth panes, such as `tint`; absent unless paths are traced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub glass_shadows: Option<String>,
+    /// Where shadow rays of smooth surfaces start, such as `none`; absent unless paths are traced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shadow_terminator: Option<String>,
+    /// Metres within which something occludes; absent unless ambient occlusion has such a distance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ao_distance_m: Option<f32>,
     /// Times and rate.
     #[serde(flatten)]
     pub times: Times,

@@ -213,7 +213,30 @@ fn reports_that_are_not_of_all_frames_of_a_command_are_refused_by_name() {
     run(&format!("{line} 3-9 --shard 2/3 --fps 12 --report fps.jsonl"));
     run(&format!("{line} 10-11 --report more.jsonl"));
     run(&format!("{line} 10-11 --report spp.jsonl").replace("--spp 1", "--spp 2"));
+    // Every option that changes pictures is in their reports.
+    const OPTIONS: [(&str, &str); 8] = [
+        ("--sampler pcg", r#""sampler":"pcg""#),
+        ("--primary raster", r#""primary":"raster""#),
+        ("--back-faces none", r#""back_faces":"none""#),
+        ("--shadow-terminator offset", r#""shadow_terminator":"offset""#),
+        ("--glass-shadows opaque", r#""glass_shadows":"opaque""#),
+        ("--integrator ao --ao-distance 2", r#""ao_distance_m":2.0"#),
+        ("--environment 1,1,1", r#""environment":"given""#),
+        ("--alpha off", r#""alpha":"off""#),
+    ];
+    for (number, (option, _)) in OPTIONS.into_iter().enumerate() {
+        run(&format!("{line} 10-11 {option} --report option{number}.jsonl"));
+    }
     let text = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect("a report");
+    for (number, (option, field)) in OPTIONS.into_iter().enumerate() {
+        let row = text(&format!("option{number}.jsonl"));
+        assert!(row.contains(field) && !text("more.jsonl").contains(field), "{option}: {row}");
+        let output =
+            scripted(folder.path(), &format!("merge out.jsonl 1.jsonl 2.jsonl 3.jsonl option{number}.jsonl"));
+        assert_eq!(output.status.code(), Some(2), "{option}: {}", stderr(&output));
+        let says = format!("option{number}.jsonl: has frame 10 of another command");
+        assert!(stderr(&output).contains(&says), "{option}: {}", stderr(&output));
+    }
     let rows = text("1.jsonl").lines().count();
     assert_eq!(rows, 3);
     let cut: String = text("1.jsonl").lines().take(2).flat_map(|line| [line, "\n"]).collect();
