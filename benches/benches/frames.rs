@@ -17,7 +17,7 @@ use rasray_frame::{Advance, ImageRenderer};
 use rasray_gpu::{Device, DeviceDesc, PassTiming, Stage};
 use rasray_integrators::{Film, IntegratorDesc, Raycast};
 use rasray_metrics::median;
-use rasray_scene::needs::{self, Needs, Workload};
+use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Camera, Moment, default_view};
 use rasray_systems::Spec;
 use rasray_tracer::{FrameStructure, Keeping, Refresh, refresh_until_complete};
@@ -174,7 +174,7 @@ fn frames(
     let scene = &loaded.scene;
     let camera: Camera =
         scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(scene));
-    let workload = Workload { integrator: needs::Integrator::Raycast, bounces: 0 };
+    let workload = Workload { emission: true, shades: true, ..Workload::VISIBILITY };
     let stage = DeviceScene::moving(device, scene, &camera, size, 1, &Needs::of(scene, workload))?;
     let film = Film::new(device, width, height)?;
     let raycast = Raycast::new(&IntegratorDesc::new(device, &stage.scene, &film))?;

@@ -4,7 +4,7 @@ use std::error::Error;
 
 use rasray_experiment::{DeviceChoice, DeviceScene, open_device};
 use rasray_gpu::Device;
-use rasray_scene::needs::{Integrator, Needs, Workload};
+use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{builtin, default_view};
 
 /// Of all random numbers.
@@ -34,7 +34,7 @@ impl Setting {
             builtin::builtin(&name).ok_or_else(|| format!("there is no built-in scene `{name}`"))??;
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(&scene));
         let device = open_device(&DeviceChoice::default())?;
-        let needs = Needs::of(&scene, Workload { integrator: Integrator::Raycast, bounces: 0 });
+        let needs = Needs::of(&scene, Workload { emission: true, shades: true, ..Workload::VISIBILITY });
         let stage = DeviceScene::new(&device, &scene, &camera, [64, 64], SEED, &needs)?;
         Ok(Self { name, rays, device, stage })
     }

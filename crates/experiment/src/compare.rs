@@ -23,7 +23,7 @@ pub(super) fn compare(
     job: &CompareJob<'_>,
     progress: &mut OnProgress<'_>,
 ) -> Result<Comparison, ExperimentError> {
-    let frame = job.frame;
+    let frame = &job.frame;
     let mut says = |task: &str, unit: &str| _ = progress(Progress { task, done: 0, total: 0, unit });
     says("scene", "to the device");
     let mut stage = DeviceScene::new(
@@ -34,13 +34,12 @@ pub(super) fn compare(
         frame.seed,
         &job.needs,
     )?;
-    stage.sample_as(&frame)?;
+    stage.sample_as(frame)?;
     let (positions, indices) = stage.triangles(device)?;
     let origin = stage.scene.frame_origin();
     let posed = PosedScene::with_positions(job.scene, origin, positions.clone())
         .map_err(|error| ExperimentError::usage(error.to_string(), ""))?
-        .with_back_faces(frame.back_faces)
-        .with_shadow_terminator(frame.shadow_terminator);
+        .with_back_faces(frame.back_faces);
     let accept = |primitive: u32, barycentrics: [f64; 2]| posed.alpha_accepts(primitive, barycentrics);
     says("oracle", "building");
     let masked = posed.has_alpha_masks() && stage.dropped_triangles == 0;

@@ -1,74 +1,16 @@
 //! An image to make, as plain data.
 
-pub use rasray_integrators::GlassShadows;
+use rasray_integrators::IntegratorSpec;
+use rasray_options::Value;
 use rasray_report::Run;
-use rasray_scene::needs::{self, Workload};
-use rasray_scene::{BackFaces, ShadowTerminator};
-
-/// What light does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Integrator {
-    /// Path tracing with light sampling.
-    Path {
-        /// At most this many scatterings; 0 is emission alone, 1 is direct light.
-        bounces: u32,
-        /// What smooth thin panes do to light.
-        glass_shadows: GlassShadows,
-    },
-    /// Cosine-weighted visibility of a white environment.
-    AmbientOcclusion {
-        /// Metres within which something occludes; absent: any distance.
-        distance: Option<f32>,
-    },
-    /// What the camera sees, unlit.
-    Raycast,
-}
-
-impl Integrator {
-    /// Paths of at most this many scatterings, with everything else at its default.
-    pub const fn path(bounces: u32) -> Self {
-        Self::Path { bounces, glass_shadows: GlassShadows::Tint }
-    }
-
-    /// Its name in reports and images.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Path { .. } => "path",
-            Self::AmbientOcclusion { .. } => "ao",
-            Self::Raycast => "raycast",
-        }
-    }
-
-    /// Bounces, where it has them.
-    pub fn bounces(&self) -> Option<u32> {
-        match self {
-            Self::Path { bounces, .. } => Some(*bounces),
-            _ => None,
-        }
-    }
-
-    /// Metres within which something occludes, where the integrator has such a distance.
-    pub fn ao_distance(&self) -> Option<f32> {
-        match self {
-            Self::AmbientOcclusion { distance } => *distance,
-            _ => None,
-        }
-    }
-
-    /// What smooth thin panes do to light, where the integrator asks.
-    pub fn glass_shadows(&self) -> Option<GlassShadows> {
-        match self {
-            Self::Path { glass_shadows, .. } => Some(*glass_shadows),
-            _ => None,
-        }
-    }
-}
+use rasray_scene::BackFaces;
+use rasray_scene::needs::Workload;
 
 /// An image to make.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// What light does.
-    pub integrator: Integrator,
+    /// The integrator with its options.
+    pub integrator: IntegratorSpec,
     /// Pixels a row, at least 1.
     pub width: u32,
     /// Rows, at least 1.
@@ -83,8 +25,6 @@ pub struct Frame {
     pub primary: Primary,
     /// Which rays pass the backs of single-sided surfaces.
     pub back_faces: BackFaces,
-    /// Where shadow rays of smooth surfaces start, of paths.
-    pub shadow_terminator: ShadowTerminator,
 }
 
 /// How what camera rays hit is found.
@@ -191,29 +131,24 @@ impl Sampler {
 impl Frame {
     /// Adds to a run what was asked for.
     pub(crate) fn describe(&self, run: &mut Run) {
-        let paths = matches!(self.integrator, Integrator::Path { .. });
+        let value = |option| self.integrator.get(option);
+        let word = |option| value(option).map(|value| value.to_string());
         run.integrator = Some(self.integrator.name().to_owned());
         run.width = Some(self.width);
         run.height = Some(self.height);
         run.spp = Some(self.spp);
-        run.bounces = self.integrator.bounces();
+        run.bounces = value("bounces").and_then(Value::whole);
         run.primary = Some(self.primary.name().to_owned());
         run.seed = Some(self.seed);
         run.sampler = Some(self.sampler.name().to_owned());
         run.back_faces = Some(self.back_faces.name().to_owned());
-        run.glass_shadows = self.integrator.glass_shadows().map(|chosen| chosen.name().to_owned());
-        run.shadow_terminator = paths.then(|| self.shadow_terminator.name().to_owned());
-        run.ao_distance_m = self.integrator.ao_distance();
+        run.glass_shadows = word("glass-shadows");
+        run.shadow_terminator = word("shadow-terminator");
+        run.ao_distance_m = value("ao-distance").and_then(Value::number);
     }
 
     /// What an image like this one looks at in a scene.
     pub fn workload(&self) -> Workload {
-        match self.integrator {
-            Integrator::Path { bounces, .. } => Workload { integrator: needs::Integrator::Path, bounces },
-            Integrator::AmbientOcclusion { .. } => {
-                Workload { integrator: needs::Integrator::AmbientOcclusion, bounces: 1 }
-            }
-            Integrator::Raycast => Workload { integrator: needs::Integrator::Raycast, bounces: 0 },
-        }
+        self.integrator.workload()
     }
 }

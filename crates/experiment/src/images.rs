@@ -2,7 +2,7 @@
 
 use rasray_gpu::Device;
 use rasray_metrics as metrics;
-use rasray_reference::integrators::{Image, PathOptions};
+use rasray_reference::integrators::{INTEGRATORS, Image, NaiveIntegrator};
 use rasray_reference::shading::{PosedScene, View};
 
 use crate::backend::OnProgress;
@@ -10,7 +10,7 @@ use crate::built::Built;
 use crate::contestant::Contestant;
 use crate::device_scene::{DeviceScene, device_error};
 use crate::error::ExperimentError;
-use crate::jobs::{CompareJob, Comparison, Frame, GlassShadows, Integrator, Primary};
+use crate::jobs::{CompareJob, Comparison, Frame, Primary};
 use crate::render::render_pixels;
 use crate::rendering::Rendering;
 use rasray_report::figures::{Images, SystemImage};
@@ -32,16 +32,8 @@ fn reference_image(
     view: &View,
     frame: &Frame,
 ) -> Result<Option<Image>, ExperimentError> {
-    let image = match frame.integrator {
-        Integrator::Path { bounces, glass_shadows } => {
-            let passes_panes = glass_shadows == GlassShadows::Tint;
-            scene.render_path(view, PathOptions { bounces, passes_panes })
-        }
-        Integrator::AmbientOcclusion { distance } => {
-            scene.render_ambient_occlusion(view, distance.unwrap_or(f32::INFINITY))
-        }
-        Integrator::Raycast => return Ok(None),
-    };
+    let Some(naive) = NaiveIntegrator::named(frame.integrator.name()) else { return Ok(None) };
+    let image = naive.render(scene, view, &frame.integrator.values());
     image.map(Some).map_err(|error| ExperimentError::usage(error.to_string(), ""))
 }
 
@@ -82,11 +74,12 @@ pub(super) fn compare_images(
     progress: &mut OnProgress<'_>,
 ) -> Result<(), ExperimentError> {
     let Setting { device, job, stage, posed, view } = *setting;
-    let frame = job.frame;
-    let Some(reference) = reference_image(posed, view, &frame)? else {
+    let frame = &job.frame;
+    let Some(reference) = reference_image(posed, view, frame)? else {
+        let known: Vec<_> = INTEGRATORS.iter().map(|row| row.name).collect();
         return Err(ExperimentError::usage(
-            "--image compares with the reference, which has the integrators path and ao",
-            "choose --integrator path or ao, or leave --image out",
+            format!("--image compares with the reference, which has the integrators {}", known.join(", ")),
+            "choose one of these with --integrator, or leave --image out",
         ));
     };
     if job.figures {
@@ -99,7 +92,7 @@ pub(super) fn compare_images(
     }
     let add =
         |comparison: &mut Comparison, mut run: Run, pixels: Vec<[f32; 3]>| -> Result<(), ExperimentError> {
-            let (error, flip) = image_error(&frame, &pixels, &reference, job.figures)?;
+            let (error, flip) = image_error(frame, &pixels, &reference, job.figures)?;
             run.image = Some(error);
             if let Some(images) = &mut comparison.figures.images {
                 images.systems.push(SystemImage { run: comparison.runs.len(), pixels, flip });
@@ -115,7 +108,7 @@ pub(super) fn compare_images(
             built.build_again(device)?;
         }
         let task = format!("image {}", contestant.config.system.name);
-        let mut rendering = Rendering::new(device, stage, &frame, None, &job.needs)?;
+        let mut rendering = Rendering::new(device, stage, frame, None, &job.needs)?;
         let pixels = render_pixels(device, &mut rendering, &built, (true, &task), progress)?;
         if pixels.samples_done < frame.spp {
             return Ok(());
@@ -131,7 +124,7 @@ pub(super) fn compare_images(
         add(comparison, run, beauty)?;
     }
     let other = View { seed: frame.seed.wrapping_add(1), ..view.clone() };
-    if let Some(noise) = reference_image(posed, &other, &frame)? {
+    if let Some(noise) = reference_image(posed, &other, frame)? {
         let mut run = Run {
             system: "reference".to_owned(),
             structure: "oracle".to_owned(),
@@ -139,7 +132,7 @@ pub(super) fn compare_images(
             ..Run::default()
         };
         // What it sees first, it traces.
-        Frame { seed: other.seed, primary: Primary::Trace, ..frame }.describe(&mut run);
+        Frame { seed: other.seed, primary: Primary::Trace, ..frame.clone() }.describe(&mut run);
         add(comparison, run, noise.pixels)?;
     }
     Ok(())

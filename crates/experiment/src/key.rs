@@ -1,8 +1,9 @@
 //! What a picture is known by: where two keys are equal, the same program makes the same picture.
 
-use crate::jobs::RenderJob;
+use crate::jobs::{Frame, RenderJob};
 use crate::key_hash::KeyHash;
 use crate::scene_source::LoadedScene;
+use rasray_options::OptionValues;
 use rasray_scene::Camera;
 
 /// The key of the picture that a job makes of a scene, 64 hexadecimal digits: a hash of everything that decides its
@@ -29,7 +30,12 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         repetitions: _,
     } = job;
     let Camera { name: _, world_from_camera, projection, aspect_ratio } = camera;
-    let options: Vec<_> = system.options.iter().map(|(name, value)| (name, value.to_string())).collect();
+    let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces } = frame;
+    let size = [width, height];
+    let texts = |values: &OptionValues| -> Vec<(&str, String)> {
+        values.iter().map(|(name, value)| (name, value.to_string())).collect()
+    };
+    let options = texts(&system.options);
     // Numbers are written so that each reads back as the same.
     KeyHash::default()
         .with("program", program)
@@ -39,7 +45,8 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         .with("smaller images", format!("{:?}", loaded.smaller_images))
         .with("camera", format!("{world_from_camera:?} {projection:?} {aspect_ratio:?}"))
         .with("system", format!("{} {} {options:?}", system.system.name, system.preset.name()))
-        .with("frame", format!("{frame:?}"))
+        .with("integrator", format!("{} {:?}", integrator.name(), texts(&integrator.values())))
+        .with("frame", format!("{size:?} {spp} {seed} {sampler:?} {primary:?} {back_faces:?}"))
         .with("aovs", format!("{aovs:?}"))
         .finish()
 }
@@ -47,26 +54,32 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::jobs::{AovSelection, Frame, GlassShadows, Integrator, Primary, Refresh, Sampler};
-    use crate::{OptionValues, Shard, default_view, load, one_system};
+    use crate::jobs::{AovSelection, Primary, Refresh, Sampler};
+    use crate::{IntegratorRow, IntegratorSpec, Shard, default_view, load, one_system};
+    use rasray_options::Value;
     use rasray_scene::needs::Needs;
-    use rasray_scene::{BackFaces, Environment, ShadowTerminator};
+    use rasray_scene::{BackFaces, Environment};
     use rasray_systems::{Preset, SYSTEMS};
     use std::collections::BTreeSet;
     use std::ffi::OsStr;
     use std::path::Path;
 
-    const FRAME: Frame = Frame {
-        integrator: Integrator::path(2),
-        width: 4,
-        height: 3,
-        spp: 8,
-        seed: 1,
-        sampler: Sampler::Sobol,
-        primary: Primary::Trace,
-        back_faces: BackFaces::Camera,
-        shadow_terminator: ShadowTerminator::None,
-    };
+    fn integrator(name: &str) -> IntegratorSpec {
+        IntegratorRow::named(name).expect("it is registered").into()
+    }
+
+    fn frame() -> Frame {
+        Frame {
+            integrator: integrator("path"),
+            width: 4,
+            height: 3,
+            spp: 8,
+            seed: 1,
+            sampler: Sampler::Sobol,
+            primary: Primary::Trace,
+            back_faces: BackFaces::Camera,
+        }
+    }
 
     fn job(loaded: &LoadedScene) -> RenderJob<'_> {
         let system = one_system(&SYSTEMS[0], Preset::Robust, &OptionValues::default());
@@ -76,7 +89,7 @@ mod tests {
             camera: default_view(&loaded.scene).camera,
             system: system.expect("the default"),
             refresh: Refresh::All,
-            frame: FRAME,
+            frame: frame(),
             shard: None,
             aovs: AovSelection::default(),
             needs: Needs::all(),
@@ -93,18 +106,23 @@ mod tests {
             picture_key("1", &loaded, &job)
         };
         let first = key(&|_| ());
-        let changes: [&dyn Fn(&mut RenderJob<'_>); 12] = [
+        let set = |job: &mut RenderJob<'_>, option, value: Value| {
+            job.frame.integrator = job.frame.integrator.with(option, value).expect("valid");
+        };
+        let changes: [&dyn Fn(&mut RenderJob<'_>); 13] = [
             &|job| job.frame.spp = 4,
             &|job| job.frame.seed = 2,
             &|job| job.frame.width = 5,
             &|job| job.frame.sampler = Sampler::Pcg,
             &|job| job.frame.back_faces = BackFaces::None,
-            &|job| job.frame.shadow_terminator = ShadowTerminator::Offset,
-            &|job| job.frame.integrator = Integrator::path(3),
+            &|job| set(job, "shadow-terminator", "offset".into()),
+            &|job| set(job, "bounces", 3.into()),
+            &|job| set(job, "glass-shadows", "opaque".into()),
+            &|job| job.frame.integrator = integrator("ao"),
             &|job| {
-                job.frame.integrator = Integrator::Path { bounces: 2, glass_shadows: GlassShadows::Opaque };
+                job.frame.integrator = integrator("ao");
+                set(job, "ao-distance", 1.0e-30.into());
             },
-            &|job| job.frame.integrator = Integrator::AmbientOcclusion { distance: Some(1.0e-30) },
             &|job| job.aovs.depth = true,
             &|job| job.camera.world_from_camera.translation.x = 1.0e-300,
             &|job| job.system.options = OptionValues::default().with("tile", 4),
@@ -112,7 +130,8 @@ mod tests {
         let keys: BTreeSet<_> = changes.iter().map(|change| key(change)).chain([first.clone()]).collect();
         assert_eq!(keys.len(), changes.len() + 1);
         assert_ne!(picture_key("2", &loaded, &job(&loaded)), first, "another program");
-        let same: [&dyn Fn(&mut RenderJob<'_>); 4] = [
+        let same: [&dyn Fn(&mut RenderJob<'_>); 5] = [
+            &|job| set(job, "bounces", 8.into()),
             &|job| job.repetitions = 3,
             &|job| job.refresh = Refresh::Moving,
             &|job| job.shard = Shard::new(2, 4),

@@ -66,8 +66,8 @@ pub use error::ExperimentError;
 pub use evaluate::device_hits;
 pub use hard_file::compare_file;
 pub use jobs::{
-    Answers, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, GlassShadows, HardJob,
-    Integrator, Kept, KeptSet, Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler,
+    Answers, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, HardJob, Kept, KeptSet,
+    Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler,
 };
 pub use kept_files::NamedBytes;
 pub use key::picture_key;
@@ -76,6 +76,7 @@ pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use moving_scene::Shown;
 pub use placed::{Placed, case_camera};
 pub use rasray_gpu::{PassCommands, Stage};
+pub use rasray_integrators::{INTEGRATORS, IntegratorRow, IntegratorSpec, integrator_options};
 pub use rasray_options::OptionValues;
 pub use rays::{RaySource, incoherent_rays, oracle_ray};
 pub use render::KeptScene;

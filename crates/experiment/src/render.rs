@@ -157,7 +157,7 @@ pub(super) fn render(
     progress: &mut OnProgress<'_>,
 ) -> Result<RenderOutput, ExperimentError> {
     let started = Instant::now();
-    let frame = job.frame;
+    let frame = &job.frame;
     let (mut on_device, posing) = on_device(device, job, kept.0.take(), progress)?;
     let OnDevice { stage, built, rendering, is_warm, .. } = &mut on_device;
     for _ in 0..job.repetitions {

@@ -4,37 +4,22 @@ use std::ops::ControlFlow;
 
 use rasray_frame::{Advance, ImagePasses, ImageRenderer};
 use rasray_gpu::Device;
-use rasray_integrators::{
-    AmbientOcclusion, Film, IntegratorDesc, IntegratorError, Path, PathOptions, Raycast, Visibility,
-};
+use rasray_integrators::{Film, Integrator, IntegratorDesc, IntegratorError, Visibility};
 use rasray_scene::needs::Needs;
 
 use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
 use crate::device_scene::{DeviceScene, device_error, frame_error, image_error};
 use crate::error::ExperimentError;
-use crate::jobs::{Frame, Integrator, Primary};
+use crate::jobs::{Frame, Primary};
 use crate::passes::Passes;
 use crate::shard::Shard;
 use rasray_report::{Pass, PassOf};
 
 /// Makes the integrator of a frame.
-fn integrator(
-    frame: &Frame,
-    desc: &IntegratorDesc<'_>,
-) -> Result<Box<dyn rasray_integrators::Integrator>, ExperimentError> {
-    let made: Result<Box<dyn rasray_integrators::Integrator>, _> = match frame.integrator {
-        Integrator::Path { bounces, glass_shadows } => {
-            let options = PathOptions { bounces, glass_shadows, shadow_terminator: frame.shadow_terminator };
-            Path::new(desc, options).map(|i| Box::new(i) as _)
-        }
-        Integrator::AmbientOcclusion { distance } => {
-            AmbientOcclusion::new(desc, distance.unwrap_or(f32::INFINITY)).map(|i| Box::new(i) as _)
-        }
-        Integrator::Raycast => Raycast::new(desc).map(|i| Box::new(i) as _),
-    };
-    made.map_err(|error| match error {
-        IntegratorError::Option { .. } => ExperimentError::usage(error.to_string(), ""),
+fn integrator(frame: &Frame, desc: &IntegratorDesc<'_>) -> Result<Box<dyn Integrator>, ExperimentError> {
+    frame.integrator.make(desc).map_err(|error| match error {
+        IntegratorError::Value(_) => ExperimentError::usage(error.to_string(), ""),
         other => image_error(other),
     })
 }

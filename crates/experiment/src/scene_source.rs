@@ -311,7 +311,7 @@ fn digest(path: &Path) -> Result<String, ExperimentError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasray_scene::needs::{Integrator, Workload};
+    use rasray_scene::needs::Workload;
 
     #[test]
     fn the_digest_is_sha256() {
@@ -334,7 +334,7 @@ mod tests {
         let camera = loaded.scene.cameras[0].clone();
         loaded.count_not_uploaded(&camera, &Needs::all());
         assert_eq!(loaded.record().not_uploaded_bytes, Some(0));
-        let occlusion = Workload { integrator: Integrator::AmbientOcclusion, bounces: 1 };
+        let occlusion = Workload::VISIBILITY;
         let needs = Needs::of(&loaded.scene, occlusion);
         loaded.count_not_uploaded(&camera, &needs);
         let normals: usize = loaded

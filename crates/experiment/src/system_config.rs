@@ -2,7 +2,7 @@
 
 use crate::error::ExperimentError;
 use rasray_options::{OptionValues, Value};
-use rasray_scene::needs::{Integrator, Workload};
+use rasray_scene::needs::Workload;
 use rasray_scene::{Camera, Projection};
 use rasray_systems::{Preset, Spec, System, VIEW_LIMIT};
 
@@ -25,8 +25,7 @@ impl SystemConfig {
     /// are compared in addition to the image.
     #[must_use]
     pub fn serving(mut self, workload: Workload) -> Self {
-        let occlusion = workload.integrator == Integrator::AmbientOcclusion;
-        if occlusion
+        if workload.is_visibility()
             && self.preset == Preset::Published
             && self.options.get("payload").is_none()
             && let Some(word) = self.system.occlusion_payload
@@ -59,7 +58,7 @@ impl SystemConfig {
     pub fn shortcoming(&self, workload: Workload) -> Option<String> {
         let payload = self.options.get("payload").and_then(Value::word);
         let payload = payload.filter(|payload| ["normal", "plane"].contains(payload))?;
-        (workload.integrator != Integrator::AmbientOcclusion).then(|| {
+        (!workload.is_visibility()).then(|| {
             let system = self.system.name;
             format!("{system}: fragments with --payload {payload} carry nothing to shade by, so that surfaces are white")
         })

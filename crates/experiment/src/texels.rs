@@ -146,7 +146,7 @@ impl TexelInfo {
 mod tests {
     use super::*;
     use crate::scene_source::load;
-    use rasray_scene::needs::{Integrator, Workload};
+    use rasray_scene::needs::Workload;
     use std::ffi::OsStr;
 
     fn loaded() -> LoadedScene {
@@ -155,9 +155,7 @@ mod tests {
 
     #[test]
     fn what_fits_stays_and_what_does_not_is_named() {
-        let needs = |loaded: &LoadedScene| {
-            Needs::of(&loaded.scene, Workload { integrator: Integrator::Path, bounces: 8 })
-        };
+        let needs = |loaded: &LoadedScene| Needs::of(&loaded.scene, Workload::ALL);
         let mut whole = loaded();
         let asked = demand(&whole.scene, &needs(&whole)).expect("whole");
         assert!(asked.texels() > 100);

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_experiment::{
-    CompareJob, Comparison, DeviceChoice, Frame, HardJob, Integrator, LoadedScene, OptionValues, Primary,
+    CompareJob, Comparison, DeviceChoice, Frame, HardJob, IntegratorRow, LoadedScene, OptionValues, Primary,
     RaySet, Sampler, SystemConfig, default_view, load, open,
 };
 use rasray_hard_cases::Scale;
@@ -29,7 +29,7 @@ fn systems(names: &[&str]) -> Vec<SystemConfig> {
 
 fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> CompareJob<'a> {
     let frame = Frame {
-        integrator: Integrator::Raycast,
+        integrator: IntegratorRow::named("raycast").expect("registered").into(),
         width: 32,
         height: 32,
         spp: 1,
@@ -37,8 +37,8 @@ fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> Comp
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
         back_faces: rasray_scene::BackFaces::Camera,
-        shadow_terminator: rasray_scene::ShadowTerminator::None,
     };
+    let needs = Needs::of(&loaded.scene, frame.workload());
     CompareJob {
         scene: &loaded.scene,
         camera: default_view(&loaded.scene).camera,
@@ -53,7 +53,7 @@ fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> Comp
         hits_files: Vec::new(),
         keep: true,
         replay: None,
-        needs: Needs::of(&loaded.scene, frame.workload()),
+        needs,
     }
 }
 

@@ -9,7 +9,7 @@ use crate::{
     IntegratorError, Traced, Wave,
     film::pixel_count,
     integrator::{check_capacity, check_wave},
-    kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer},
+    kernels::{Bindings, Kernel, WaveConstants, binding, camera_constants, device_buffer},
 };
 
 /// Traces the rays of pixel centres and keeps what they hit. One trace per wave; `Wave::sample` is
@@ -35,8 +35,7 @@ impl AovPass {
         let capacity = check_capacity(wave_capacity)?;
         let pixels = device_buffer(device, "aov", u64::from(pixel_count) * size_of::<AovPixel>() as u64)?;
         let queue = RayQueue::new(device, "pixel centre rays", capacity, true)?;
-        let storage = Storage { aov: Some(&pixels), ..Storage::default() };
-        let bindings = Bindings::new(device, scene, &storage)?;
+        let bindings = Bindings::new(device, scene, &[(binding::AOV, &pixels)])?;
         Ok(Self {
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(true))?,
             store: bindings.kernel(device, &INTEGRATORS_AOV, &[])?.of_film(),

@@ -1,6 +1,8 @@
 //! What can go wrong in integrators.
 
-use crate::Wave;
+use rasray_options::ValueError;
+
+use crate::{WAVE_LIMIT, Wave};
 
 /// Errors of this crate.
 #[derive(Debug, thiserror::Error)]
@@ -42,16 +44,23 @@ pub enum IntegratorError {
         /// Width and height of the scene's view.
         view: [u32; 2],
     },
-    /// An option has a value outside its range.
-    #[error("{option} is {value}: {expected}")]
-    Option {
-        /// Name of the option.
-        option: &'static str,
-        /// What was given.
-        value: String,
-        /// What is possible.
-        expected: &'static str,
+    /// Waves without rays, or with more than there can be.
+    #[error("a wave of up to {capacity} rays cannot be made: from 1 to {WAVE_LIMIT} are possible")]
+    WaveCapacity {
+        /// Slots asked for.
+        capacity: u32,
     },
+    /// An integrator has no such option.
+    #[error("integrator {integrator} has no option `{option}`")]
+    UnknownOption {
+        /// The integrator.
+        integrator: &'static str,
+        /// The option.
+        option: &'static str,
+    },
+    /// An option of an integrator has no such value.
+    #[error(transparent)]
+    Value(#[from] ValueError),
     /// A scene that is to take the place of the one that kernels were made for can reach code that they leave out.
     #[error(
         "kernels were made without code for {missing}: make them for a scene that allows it (`GpuScene::allowing`)"

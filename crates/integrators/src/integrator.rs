@@ -47,11 +47,7 @@ pub(crate) fn check_capacity(wave_capacity: u32) -> Result<u32, IntegratorError>
     if (1..=WAVE_LIMIT).contains(&wave_capacity) {
         Ok(wave_capacity)
     } else {
-        Err(IntegratorError::Option {
-            option: "wave capacity",
-            value: wave_capacity.to_string(),
-            expected: "from 1 to 1048576 rays",
-        })
+        Err(IntegratorError::WaveCapacity { capacity: wave_capacity })
     }
 }
 

@@ -10,10 +10,37 @@ use rasray_gpu_scene::GpuScene;
 pub(crate) use rasray_shaders_glsl::records::WaveConstants;
 use rasray_shaders_glsl::{Shader, constant_ids::integrators::PIXEL_CENTRES};
 
-use crate::{IntegratorError, Wave};
+use crate::{Film, IntegratorError, Wave};
 
-/// Buffers in the integrators' set.
-const BINDINGS: u32 = 9;
+/// Bindings of the integrators' set, as `integrators/storage.glsl` declares them.
+pub(crate) mod binding {
+    pub const FILM: u32 = 0;
+    pub const FILM_FAULTS: u32 = 1;
+    pub const PATH_STATES: u32 = 2;
+    pub const PENDING: u32 = 3;
+    pub const SHADOW_RAYS: u32 = 4;
+    pub const SHADOW_HEADER: u32 = 5;
+    pub const SHADOW_LIST: u32 = 6;
+    pub const AOV: u32 = 7;
+    pub const WAITING: u32 = 8;
+}
+
+/// A binding of the integrators' set with its buffer.
+pub(crate) type Bound<'a> = (u32, &'a Buffer);
+
+/// The film, as kernels bind it.
+pub(crate) fn film(film: &Film) -> [Bound<'_>; 2] {
+    [(binding::FILM, film.pixels()), (binding::FILM_FAULTS, film.faults())]
+}
+
+/// A second queue, as the passes that fill it bind it.
+pub(crate) fn shadow_queue(queue: &RayQueue) -> [Bound<'_>; 3] {
+    [
+        (binding::SHADOW_RAYS, queue.rays()),
+        (binding::SHADOW_HEADER, queue.header()),
+        (binding::SHADOW_LIST, queue.list()),
+    ]
+}
 
 /// Constants of the camera rays: through random points of their pixels, or through the centres.
 pub(crate) fn camera_constants(pixel_centres: bool) -> [(u32, u32); 1] {
@@ -42,19 +69,6 @@ impl Kernel {
     }
 }
 
-/// The buffers of the integrators' set, in the order of its bindings; absent ones are not used by
-/// the kernels that the set is bound for.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Storage<'a> {
-    pub film: Option<&'a Buffer>,
-    pub film_faults: Option<&'a Buffer>,
-    pub path_states: Option<&'a Buffer>,
-    pub pending: Option<&'a Buffer>,
-    pub shadow: Option<&'a RayQueue>,
-    pub aov: Option<&'a Buffer>,
-    pub waiting: Option<&'a Buffer>,
-}
-
 /// The sets that the kernels of one integrator are bound to.
 #[derive(Debug)]
 pub(crate) struct Bindings {
@@ -64,25 +78,17 @@ pub(crate) struct Bindings {
 }
 
 impl Bindings {
-    /// Sets 0 to 3: geometry, storage, queue, scene. The queue is given when a pass is recorded.
+    /// Sets 0 to 3: geometry, storage, queue, scene. The queue is given when a pass is recorded. Kernels use no bindings of
+    /// the storage but those that are `bound`.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
-    pub fn new(device: &Device, scene: &GpuScene, storage: &Storage<'_>) -> Result<Self, IntegratorError> {
+    pub fn new(device: &Device, scene: &GpuScene, bound: &[Bound<'_>]) -> Result<Self, IntegratorError> {
         let placeholder = device_buffer(device, "unused binding", 16)?;
-        let slots = [
-            storage.film,
-            storage.film_faults,
-            storage.path_states,
-            storage.pending,
-            storage.shadow.map(RayQueue::rays),
-            storage.shadow.map(RayQueue::header),
-            storage.shadow.map(RayQueue::list),
-            storage.aov,
-            storage.waiting,
-        ];
-        let buffers = slots.map(|buffer| buffer.unwrap_or(&placeholder));
-        let layout = device.create_set_layout("integrator", BINDINGS)?;
+        let count = bound.iter().map(|(binding, _)| binding + 1).max().unwrap_or(0);
+        let buffer = |binding| bound.iter().find(|(known, _)| *known == binding).map(|(_, buffer)| *buffer);
+        let buffers: Vec<_> = (0..count).map(|binding| buffer(binding).unwrap_or(&placeholder)).collect();
+        let layout = device.create_set_layout("integrator", count)?;
         let set = device.create_binding_set(&layout, "integrator", &buffers)?;
         Ok(Self {
             layouts: [

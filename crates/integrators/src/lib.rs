@@ -36,27 +36,23 @@
 //! # Ok(()) }
 //! ```
 
-mod ambient_occlusion;
 mod aov;
 mod error;
 mod film;
 mod integrator;
 mod kernels;
-mod path;
-mod raycast;
+mod registry;
 mod traced;
 mod visibility;
 mod wave;
 
-pub use ambient_occlusion::AmbientOcclusion;
 pub use aov::AovPass;
 pub use error::IntegratorError;
 pub use film::{Film, PIXEL_LIMIT};
 pub use integrator::{Integrator, IntegratorDesc, check_features};
-pub use path::{BOUNCE_LIMIT, GlassShadows, Path, PathOptions};
 pub use rasray_shaders_glsl::constants::scene::PATH_LAYER_LIMIT;
 pub use rasray_shaders_glsl::records::{AovPixel, FilmFaults, FilmPixel, PathState, VisibilityCounts};
-pub use raycast::Raycast;
+pub use registry::*;
 pub use traced::Traced;
 pub use visibility::Visibility;
 pub use wave::{WAVE_LIMIT, Wave, wave_capacity, waves, waves_of};

@@ -47,6 +47,12 @@ impl OptionRow {
         Self::new(name, Values::SWITCH, doc)
     }
 
+    /// The same with a default.
+    #[must_use]
+    pub const fn by_default(self, default: Value) -> Self {
+        Self { default: Some(default), ..self }
+    }
+
     /// The same with values that tests try.
     #[must_use]
     pub const fn trying(self, tried: &'static [&'static str]) -> Self {
@@ -99,7 +105,7 @@ mod tests {
     fn help_says_the_range_and_the_default() {
         let row = OptionRow::new("buckets", Values::Whole(1, 64), "Depth buckets");
         assert_eq!(row.help(), "Depth buckets [1 to 64]");
-        let row = OptionRow { default: Some(Value::Word("on")), ..OptionRow::switch("sort", "Sort") };
+        let row = OptionRow::switch("sort", "Sort").by_default(Value::Word("on"));
         assert_eq!(row.help(), "Sort [default: on]");
         assert_eq!(OptionRow::new("capacity", Values::Whole(0, u32::MAX), "Entries").help(), "Entries");
     }

@@ -94,6 +94,23 @@ impl Values {
         }
     }
 
+    /// What is taken, as a cell of a table in Markdown.
+    pub fn in_markdown(self) -> String {
+        match self {
+            Self::Words(words) => {
+                let words: Vec<_> = words.iter().map(|(word, doc)| format!("`{word}`: {doc}")).collect();
+                words.join("<br>")
+            }
+            Self::Whole(lowest, u32::MAX) => format!("{lowest} or more"),
+            Self::Whole(lowest, highest) => format!("{lowest} to {highest}"),
+            Self::Number(unit, least) => {
+                let unit = if unit == Unit::Metres { "metres" } else { "a share" };
+                format!("{unit}, {}", if least == Least::Zero { "not negative" } else { "above 0" })
+            }
+            Self::Cells(most) => format!("columns x rows, or one number for both, 1 to {most} each"),
+        }
+    }
+
     /// Where the numbers that are taken begin and end, for help; absent where there is no upper end.
     pub fn range(self) -> Option<String> {
         match self {

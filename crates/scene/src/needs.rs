@@ -1,7 +1,7 @@
 //! What of a scene a render can observe; the rest need not be uploaded, stored, compiled in or traced.
 //!
 //! Two things decide whether a [`Term`] is needed: the scene must have it where a ray can hit it,
-//! and the integrator must look at it. Every verdict comes with a sentence that says why.
+//! and the workload must look at it. Every verdict comes with a sentence that says why.
 //!
 //! Positions, indices and the table of draws are always needed and have no term.
 
@@ -13,7 +13,7 @@ mod workload;
 
 pub use moving::moving_instances;
 pub use term::Term;
-pub use workload::{Integrator, Workload};
+pub use workload::Workload;
 
 use crate::Scene;
 

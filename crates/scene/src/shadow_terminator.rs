@@ -13,7 +13,7 @@ impl ShadowTerminator {
     pub const ALL: [Self; 2] = [Self::None, Self::Offset];
 
     /// Its name on the command line.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::None => "none",
             Self::Offset => "offset",
@@ -21,7 +21,7 @@ impl ShadowTerminator {
     }
 
     /// What it is, in one line of help.
-    pub fn doc(self) -> &'static str {
+    pub const fn doc(self) -> &'static str {
         match self {
             Self::None => "On the triangle: true to the mesh, whose edges show where light grazes it",
             Self::Offset => {

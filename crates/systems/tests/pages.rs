@@ -7,27 +7,10 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rasray_gpu::{Feature, Requirements};
-use rasray_options::{Least, OptionRow, Unit, Values};
 use rasray_systems::{Group, OPTIONS, SYSTEMS, Spec};
 
 fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
-}
-
-fn values(row: &OptionRow) -> String {
-    match row.values {
-        Values::Words(words) => {
-            let words: Vec<_> = words.iter().map(|(word, doc)| format!("`{word}`: {doc}")).collect();
-            words.join("<br>")
-        }
-        Values::Whole(lowest, u32::MAX) => format!("{lowest} or more"),
-        Values::Whole(lowest, highest) => format!("{lowest} to {highest}"),
-        Values::Number(unit, least) => {
-            let unit = if unit == Unit::Metres { "metres" } else { "a share" };
-            format!("{unit}, {}", if least == Least::Zero { "not negative" } else { "above 0" })
-        }
-        Values::Cells(most) => format!("columns x rows, or one number for both, 1 to {most} each"),
-    }
 }
 
 fn page() -> String {
@@ -56,7 +39,7 @@ fn page() -> String {
                 "| `{}` | {} | {} | {} | {} |",
                 row.name,
                 row.doc,
-                values(row),
+                row.values.in_markdown(),
                 systems.join(", "),
                 option.hits.describe()
             );

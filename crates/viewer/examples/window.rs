@@ -2,8 +2,8 @@
 //! saved as .ppm, and how `rasray render` makes them is printed.
 
 use rasray_experiment::{
-    DeviceChoice, Frame, Integrator, LoadedScene, OptionValues, Primary, Sampler, SystemConfig, load,
-    open_device,
+    DeviceChoice, Frame, INTEGRATORS, IntegratorSpec, LoadedScene, OptionValues, Primary, Sampler,
+    SystemConfig, load, open_device,
 };
 use rasray_scene::default_view as view;
 use rasray_systems::{Preset, SYSTEMS};
@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut loaded = load(&name)?;
     loaded.light(None);
     let frame = Frame {
-        integrator: Integrator::path(3),
+        integrator: IntegratorSpec::from(&INTEGRATORS[0]),
         width: 320,
         height: 180,
         spp: 16,
@@ -25,7 +25,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
         back_faces: rasray_scene::BackFaces::Camera,
-        shadow_terminator: rasray_scene::ShadowTerminator::None,
     };
     let options = OptionValues::default();
     let system = SystemConfig { system: &SYSTEMS[0], preset: Preset::Robust, options, variant: None };

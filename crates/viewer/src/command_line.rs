@@ -1,7 +1,7 @@
 //! The command line that makes a picture again.
 
-use rasray_experiment::{Frame, GlassShadows, Integrator, Primary, SystemConfig};
-use rasray_scene::{BackFaces, ShadowTerminator};
+use rasray_experiment::{Frame, Primary, SystemConfig};
+use rasray_scene::BackFaces;
 
 /// A word as a shell reads it back.
 pub fn quoted(word: &str) -> String {
@@ -15,8 +15,7 @@ pub fn quoted(word: &str) -> String {
 
 /// The words that make a frame.
 pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
-    let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces, shadow_terminator } =
-        frame;
+    let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces } = frame;
     let mut words = vec![
         "--size".to_owned(),
         format!("{width}x{height}"),
@@ -25,17 +24,8 @@ pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
         "--integrator".to_owned(),
         integrator.name().to_owned(),
     ];
-    match integrator {
-        Integrator::Path { bounces, glass_shadows } => {
-            words.extend(["--bounces".to_owned(), bounces.to_string()]);
-            if *glass_shadows != GlassShadows::default() {
-                words.extend(["--glass-shadows".to_owned(), glass_shadows.name().to_owned()]);
-            }
-        }
-        Integrator::AmbientOcclusion { distance: Some(metres) } => {
-            words.extend(["--ao-distance".to_owned(), metres.to_string()]);
-        }
-        Integrator::AmbientOcclusion { distance: None } | Integrator::Raycast => (),
+    for (option, value) in integrator.options().iter() {
+        words.extend([format!("--{option}"), value.to_string()]);
     }
     words.extend(["--seed".to_owned(), seed.to_string(), "--sampler".to_owned(), sampler.name().to_owned()]);
     if *primary != Primary::default() {
@@ -43,9 +33,6 @@ pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
     }
     if *back_faces != BackFaces::default() {
         words.extend(["--back-faces".to_owned(), back_faces.name().to_owned()]);
-    }
-    if *shadow_terminator != ShadowTerminator::default() {
-        words.extend(["--shadow-terminator".to_owned(), shadow_terminator.name().to_owned()]);
     }
     words
 }
@@ -65,7 +52,7 @@ pub(crate) fn system_words(config: &SystemConfig) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::tests::some;
+    use crate::settings::tests::{integrator, some};
 
     #[test]
     fn words_with_blanks_and_quotes_are_quoted() {
@@ -79,10 +66,11 @@ mod tests {
     #[test]
     fn everything_that_a_picture_depends_on_is_named() {
         let mut settings = some();
-        settings.frame.integrator = Integrator::AmbientOcclusion { distance: Some(0.5) };
+        settings.frame.integrator = integrator("ao").with("ao-distance", 0.5).expect("valid");
         let words = frame_words(&settings.frame).join(" ");
         assert_eq!(words, "--size 40x30 --spp 4 --integrator ao --ao-distance 0.5 --seed 1 --sampler sobol");
-        settings.frame.integrator = Integrator::Path { bounces: 2, glass_shadows: GlassShadows::Opaque };
+        let opaque = integrator("path").with("glass-shadows", "opaque").expect("valid");
+        settings.frame.integrator = opaque.with("bounces", 2).expect("valid");
         let words = frame_words(&settings.frame).join(" ");
         assert!(words.contains("--integrator path --bounces 2 --glass-shadows opaque "), "{words}");
         settings.frame.back_faces = BackFaces::None;

@@ -254,7 +254,7 @@ impl Engine {
         let Self { device, stage, traced, preview, settings, .. } = self;
         let (Some((stage, needs)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
         let [width, height] = size;
-        let frame = Frame { width, height, ..settings.frame };
+        let frame = Frame { width, height, ..settings.frame.clone() };
         let mut film = match preview.take() {
             Some((own, film)) if own == size => Some(film),
             _ => None,

@@ -184,7 +184,7 @@ impl Session {
             standpoint,
             seconds,
             system: self.config.clone(),
-            frame: self.frame,
+            frame: self.frame.clone(),
             shown: self.shown,
             moving: self.playback.playing || now < self.moving_until,
         };

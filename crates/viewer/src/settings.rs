@@ -114,13 +114,18 @@ impl Redo {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use rasray_experiment::{Integrator, OptionValues, Primary, Sampler};
+    use rasray_experiment::{IntegratorRow, IntegratorSpec, OptionValues, Primary, Sampler};
     use rasray_systems::{Preset, SYSTEMS};
+
+    /// An integrator with its defaults.
+    pub(crate) fn integrator(name: &str) -> IntegratorSpec {
+        IntegratorRow::named(name).expect("it is registered").into()
+    }
 
     /// Settings that tests start from.
     pub(crate) fn some() -> Settings {
         let frame = Frame {
-            integrator: Integrator::path(3),
+            integrator: integrator("path").with("bounces", 3).expect("valid"),
             width: 40,
             height: 30,
             spp: 4,
@@ -128,7 +133,6 @@ pub(crate) mod tests {
             sampler: Sampler::Sobol,
             primary: Primary::Trace,
             back_faces: rasray_scene::BackFaces::Camera,
-            shadow_terminator: rasray_scene::ShadowTerminator::None,
         };
         let system = SystemConfig {
             system: &SYSTEMS[0],
@@ -188,6 +192,6 @@ pub(crate) mod tests {
 
     #[test]
     fn another_light_costs_everything() {
-        assert_eq!(redo(|new| new.frame.integrator = Integrator::Raycast), Redo::ALL);
+        assert_eq!(redo(|new| new.frame.integrator = integrator("raycast")), Redo::ALL);
     }
 }

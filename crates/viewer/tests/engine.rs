@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use glam::{DQuat, DVec3};
 use rasray_experiment::{
-    AovSelection, Backend, DeviceChoice, Frame, Integrator, KeptScene, LoadedScene, OptionValues, Primary,
-    Progress, Refresh, RenderJob, Sampler, SystemConfig, load, open, open_device,
+    AovSelection, Backend, DeviceChoice, Frame, IntegratorRow, IntegratorSpec, KeptScene, LoadedScene,
+    OptionValues, Primary, Progress, Refresh, RenderJob, Sampler, SystemConfig, load, open, open_device,
 };
 use rasray_scene::Moment;
 use rasray_scene::animation::{
@@ -27,9 +27,13 @@ fn system(name: &str) -> SystemConfig {
     SystemConfig { system, preset: Preset::Robust, options: OptionValues::default(), variant: None }
 }
 
+fn integrator(name: &str) -> IntegratorSpec {
+    IntegratorRow::named(name).expect("it is registered").into()
+}
+
 fn settings() -> Settings {
     let frame = Frame {
-        integrator: Integrator::AmbientOcclusion { distance: None },
+        integrator: integrator("ao"),
         width: 33,
         height: 20,
         spp: 2,
@@ -37,7 +41,6 @@ fn settings() -> Settings {
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
         back_faces: rasray_scene::BackFaces::Camera,
-        shadow_terminator: rasray_scene::ShadowTerminator::None,
     };
     let system = system("bricks");
     Settings {
@@ -127,7 +130,7 @@ fn rendered_with(mut loaded: LoadedScene, backend: &mut dyn Backend, settings: &
         camera,
         system: settings.system.clone(),
         refresh: Refresh::All,
-        frame: settings.frame,
+        frame: settings.frame.clone(),
         aovs: AovSelection::default(),
         needs: Needs::of(&loaded.scene, settings.frame.workload()),
         repetitions: 0,
@@ -162,7 +165,7 @@ fn pictures_are_those_of_a_render_after_every_change() {
     check(&mut engine, &settings, "another seed");
     settings.system = system("bvh");
     check(&mut engine, &settings, "another system");
-    settings.frame.integrator = Integrator::Raycast;
+    settings.frame.integrator = integrator("raycast");
     check(&mut engine, &settings, "another integrator");
     // While something moves there are fewer pixels, and afterwards all of them.
     settings.moving = true;
@@ -290,7 +293,7 @@ fn the_sky_comes_and_goes_as_in_renders() {
 #[test]
 fn exact_systems_have_no_difference_and_work_is_counted() {
     let mut settings = settings();
-    settings.frame.integrator = Integrator::Raycast;
+    settings.frame.integrator = integrator("raycast");
     settings.shown = Shown::Difference;
     let mut engine = engine(&settings);
     let picture = finished(&mut engine);

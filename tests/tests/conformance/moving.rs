@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use rasray_ads::{Geometry, Structure};
 use rasray_experiment::{DeviceScene, device_hits, incoherent_rays, load, oracle_ray};
 use rasray_gpu::Timing;
-use rasray_scene::needs::{Integrator, Needs, Workload};
+use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Camera, Moment, Motion, Scene, default_view};
 use rasray_systems::Preset;
 use rasray_tests::conformance::{
@@ -250,7 +250,7 @@ fn prepared(bench: &Bench, moving: &Moving, geometry: &Geometry, number: usize) 
 fn hold(bench: &Bench, moving: &'static Moving, scene: &Scene) -> Vec<String> {
     let device = bench.device();
     let camera: Camera = default_view::default_camera(scene);
-    let needs = Needs::of(scene, Workload { integrator: Integrator::Raycast, bounces: 0 });
+    let needs = Needs::of(scene, Workload { emission: true, shades: true, ..Workload::VISIBILITY });
     let changes = scene.motion() == Motion::Changing;
     let make = if changes { DeviceScene::new } else { DeviceScene::moving };
     let mut shown = make(device, scene, &camera, [16, 16], 1, &needs).expect("it fits");

@@ -1,11 +1,12 @@
 //! Options of `rasray info`.
 
-use super::shared::{DeviceArguments, IntegratorName};
+use super::integrator::integrator_parser;
+use super::shared::DeviceArguments;
 use super::structure::{StructureArguments, preset_parser, system_parser};
 use super::values;
 use crate::error::AppError;
 use clap::Args;
-use rasray_experiment::{SystemConfig, one_system};
+use rasray_experiment::{INTEGRATORS, IntegratorRow, SystemConfig, one_system};
 use rasray_systems::{Preset, SYSTEMS, System};
 use std::ffi::OsString;
 
@@ -38,8 +39,8 @@ pub struct InfoArguments {
     #[arg(long, value_name = "NAME", requires = "time")]
     pub clip: Option<String>,
     /// With a scene: the integrator whose needs are shown
-    #[arg(long, value_enum, default_value_t = IntegratorName::Path)]
-    pub integrator: IntegratorName,
+    #[arg(long, value_parser = integrator_parser(), default_value = INTEGRATORS[0].name)]
+    pub integrator: &'static IntegratorRow,
     /// With a scene: the passes of a structure and how many dispatches and draws each records
     #[arg(long, requires = "scene")]
     pub passes: bool,

@@ -3,6 +3,7 @@
 mod compare;
 mod documents;
 mod info;
+mod integrator;
 mod merge;
 mod mistakes;
 mod options;
@@ -20,8 +21,7 @@ pub use merge::MergeArguments;
 pub use ray_files::{NamedFile, RayFileArguments};
 pub use render::{Aov, RenderArguments};
 pub use shared::{
-    DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, TalkArguments, ViewArguments,
-    WorkArguments,
+    DeviceArguments, FrameArguments, NeedsName, SceneArguments, TalkArguments, ViewArguments, WorkArguments,
 };
 pub use structure::StructureArguments;
 pub use view::ViewerArguments;

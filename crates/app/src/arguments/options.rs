@@ -4,9 +4,26 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches};
 use rasray_options::{OptionRow, Unit, Value, Values};
 
-/// The argument of an option, and the word that stands for its value `off` where there is one.
-pub fn arguments(row: &'static OptionRow) -> impl Iterator<Item = Arg> {
-    let argument = Arg::new(row.name).long(row.name).help(row.help());
+/// Reads one of these values by its name; `told` says its name and its line of help.
+pub fn choice<T: Copy + Send + Sync + 'static>(
+    values: impl IntoIterator<Item = T>,
+    told: fn(T) -> (&'static str, &'static str),
+) -> impl TypedValueParser<Value = T> {
+    let values: Vec<T> = values.into_iter().collect();
+    let names: Vec<_> = values
+        .iter()
+        .map(|value| told(*value))
+        .map(|(name, doc)| PossibleValue::new(name).help(doc))
+        .collect();
+    PossibleValuesParser::new(names).map(move |given| {
+        let named = |value: &T| told(*value).0 == given;
+        values.iter().copied().find(named).expect("only names of values are possible")
+    })
+}
+
+/// The argument of an option with its help, and the word that stands for its value `off` where there is one.
+pub fn arguments(row: &'static OptionRow, help: String) -> impl Iterator<Item = Arg> {
+    let argument = Arg::new(row.name).long(row.name).help(help);
     let read = move |text: &str| row.values.parse(text);
     let argument = match row.values {
         Values::Words(words) => {

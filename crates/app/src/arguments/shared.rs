@@ -1,53 +1,23 @@
 //! Groups of options that several commands take.
 
-use super::structure::{
-    StructureArguments, back_faces_parser, glass_shadows_parser, primary_parser, sampler_parser,
-    shadow_terminator_parser,
-};
+use super::integrator::{IntegratorArguments, integrator_parser};
+use super::structure::{StructureArguments, back_faces_parser, primary_parser, sampler_parser};
 use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
 use rasray_experiment::{
-    Chosen, DeviceChoice, ExperimentError, Frame, GlassShadows, Integrator, LoadedScene, Primary, Sampler,
+    Chosen, DeviceChoice, ExperimentError, Frame, INTEGRATORS, IntegratorRow, LoadedScene, Primary, Sampler,
     placed_view,
 };
 use rasray_scene::needs::{Needs, Workload};
-use rasray_scene::{
-    BackFaces, Environment, LoadOptions, Scene, SceneError, ShadowTerminator, load_environment,
-};
+use rasray_scene::{BackFaces, Environment, LoadOptions, Scene, SceneError, load_environment};
 use std::path::Path;
-
-/// Integrators by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum IntegratorName {
-    /// Path tracing with light sampling
-    Path,
-    /// Ambient occlusion: cosine-weighted visibility of a white environment
-    Ao,
-    /// What the camera sees, unlit
-    Raycast,
-}
-
-impl IntegratorName {
-    /// The integrator where its options are left out.
-    pub fn by_default(self) -> Integrator {
-        match self {
-            Self::Path => Integrator::path(DEFAULT_BOUNCES),
-            Self::Ao => Integrator::AmbientOcclusion { distance: None },
-            Self::Raycast => Integrator::Raycast,
-        }
-    }
-}
 
 /// Pixels of an image unless told.
 const DEFAULT_SIZE: Size = Size { width: 640, height: 360 };
 
 /// Samples per pixel unless told.
 const DEFAULT_SAMPLES: u32 = 16;
-
-/// Bounces of a path unless told: light that enters and leaves a glass with two walls has scattered four times
-/// before it is seen on what stands behind, eight times where two such glasses stand in a row.
-const DEFAULT_BOUNCES: u32 = 8;
 
 /// How much is said in addition to results and errors.
 #[derive(Clone, Copy, Debug, Default, Args)]
@@ -66,29 +36,22 @@ pub struct TalkArguments {
     pub help_all: Option<bool>,
 }
 
-/// The image and what light does.
+/// The image and its integrator.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Image")]
 pub struct FrameArguments {
-    /// What light does
-    #[arg(long, value_enum, default_value_t = IntegratorName::Path)]
-    pub integrator: IntegratorName,
+    /// Integrator
+    #[arg(long, value_parser = integrator_parser(), default_value = INTEGRATORS[0].name)]
+    pub integrator: &'static IntegratorRow,
     /// Pixels [default: 640x360; pictures of cornell: 256x256]
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     pub size: Option<Size>,
     /// Samples per pixel, 1 to 1048576 [default: 16; pictures of cornell: 32]
     #[arg(long, value_name = "N", value_parser = values::whole(1, 1_048_576))]
     pub spp: Option<u32>,
-    /// With --integrator path: at most this many scatterings (0: emission alone, 1: direct light; through
-    /// thick or rough glass each surface is one), 0 to 64 [default: 8]
-    #[arg(long, value_name = "N", value_parser = values::whole(0, 64))]
-    pub bounces: Option<u32>,
-    /// With --integrator path: what smooth thin panes of glass do to light [default: tint]
-    #[arg(long, value_name = "HOW", value_parser = glass_shadows_parser())]
-    pub glass_shadows: Option<GlassShadows>,
-    /// With --integrator ao: metres within which something occludes [default: any distance]
-    #[arg(long, value_name = "METRES", value_parser = values::positive)]
-    pub ao_distance: Option<f32>,
+    /// Options of integrators.
+    #[command(flatten)]
+    pub options: IntegratorArguments,
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u32,
@@ -101,9 +64,6 @@ pub struct FrameArguments {
     /// Which rays pass the backs of single-sided surfaces, as glTF has them (doubleSided: false)
     #[arg(long, value_parser = back_faces_parser(), default_value = BackFaces::Camera.name())]
     pub back_faces: BackFaces,
-    /// With --integrator path: where shadow rays of smooth surfaces start [default: none]
-    #[arg(long, value_parser = shadow_terminator_parser())]
-    pub shadow_terminator: Option<ShadowTerminator>,
 }
 
 impl FrameArguments {
@@ -112,39 +72,11 @@ impl FrameArguments {
     /// # Errors
     /// An option of an integrator that was not chosen.
     pub fn frame(&self) -> Result<Frame, AppError> {
-        let belongs = |option: &str, name: &str| {
-            AppError::usage(
-                format!("{option} is an option of --integrator {name}"),
-                format!("leave it out, or say --integrator {name}"),
-            )
-        };
-        if self.bounces.is_some() && self.integrator != IntegratorName::Path {
-            return Err(belongs("--bounces", "path"));
-        }
-        if self.glass_shadows.is_some() && self.integrator != IntegratorName::Path {
-            return Err(belongs("--glass-shadows", "path"));
-        }
-        if self.shadow_terminator.is_some() && self.integrator != IntegratorName::Path {
-            return Err(belongs("--shadow-terminator", "path"));
-        }
-        if self.ao_distance.is_some() && self.integrator != IntegratorName::Ao {
-            return Err(belongs("--ao-distance", "ao"));
-        }
-        let integrator = match self.integrator.by_default() {
-            Integrator::Path { bounces, glass_shadows } => Integrator::Path {
-                bounces: self.bounces.unwrap_or(bounces),
-                glass_shadows: self.glass_shadows.unwrap_or(glass_shadows),
-            },
-            Integrator::AmbientOcclusion { .. } => {
-                Integrator::AmbientOcclusion { distance: self.ao_distance }
-            }
-            Integrator::Raycast => Integrator::Raycast,
-        };
+        let integrator = self.options.of(self.integrator)?;
         let Size { width, height } = self.size.unwrap_or(DEFAULT_SIZE);
         let spp = self.spp.unwrap_or(DEFAULT_SAMPLES);
         let Self { seed, sampler, primary, back_faces, .. } = *self;
-        let shadow_terminator = self.shadow_terminator.unwrap_or_default();
-        Ok(Frame { integrator, width, height, spp, seed, sampler, primary, back_faces, shadow_terminator })
+        Ok(Frame { integrator, width, height, spp, seed, sampler, primary, back_faces })
     }
 }
 
@@ -274,7 +206,7 @@ fn unreadable_map(path: &Path, error: &SceneError) -> AppError {
 /// What every command takes that shows a scene: groups of options, in the order of its help.
 #[derive(Debug, Args)]
 pub struct WorkArguments {
-    /// The image and what light does; where rays are compared the size also shapes those of the camera.
+    /// The image and its integrator; where rays are compared the size also shapes those of the camera.
     #[command(flatten)]
     pub frame: FrameArguments,
     /// From where.

@@ -1,29 +1,12 @@
 //! Systems, presets and options of structures on the command line, made from the rows of the registry.
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::TypedValueParser;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
-use rasray_experiment::{GlassShadows, OptionValues, Primary, RaySet, Refresh, Sampler};
-use rasray_scene::{BackFaces, ShadowTerminator};
+use rasray_experiment::{OptionValues, Primary, RaySet, Refresh, Sampler};
+use rasray_scene::BackFaces;
 use rasray_systems::{Group, OPTIONS, Preset, SYSTEMS, System};
 
-use super::options::{arguments, given};
-
-/// Reads one of these values by its name; `told` says its name and its line of help.
-fn choice<T: Copy + Send + Sync + 'static>(
-    values: impl IntoIterator<Item = T>,
-    told: fn(T) -> (&'static str, &'static str),
-) -> impl TypedValueParser<Value = T> {
-    let values: Vec<T> = values.into_iter().collect();
-    let names: Vec<_> = values
-        .iter()
-        .map(|value| told(*value))
-        .map(|(name, doc)| PossibleValue::new(name).help(doc))
-        .collect();
-    PossibleValuesParser::new(names).map(move |given| {
-        let named = |value: &T| told(*value).0 == given;
-        values.iter().copied().find(named).expect("only names of values are possible")
-    })
-}
+use super::options::{arguments, choice, given};
 
 /// Reads the name of a system.
 pub fn system_parser() -> impl TypedValueParser<Value = &'static System> {
@@ -55,19 +38,9 @@ pub fn primary_parser() -> impl TypedValueParser<Value = Primary> {
     choice(Primary::ALL, |primary| (primary.name(), primary.doc()))
 }
 
-/// Reads what smooth thin panes do to light.
-pub fn glass_shadows_parser() -> impl TypedValueParser<Value = GlassShadows> {
-    choice(GlassShadows::ALL, |shadows| (shadows.name(), shadows.doc()))
-}
-
 /// Reads which rays pass the backs of surfaces.
 pub fn back_faces_parser() -> impl TypedValueParser<Value = BackFaces> {
     choice(BackFaces::ALL, |back_faces| (back_faces.name(), back_faces.doc()))
-}
-
-/// Reads where shadow rays of smooth surfaces start.
-pub fn shadow_terminator_parser() -> impl TypedValueParser<Value = ShadowTerminator> {
-    choice(ShadowTerminator::ALL, |terminator| (terminator.name(), terminator.doc()))
 }
 
 /// The options of a structure on the command line.
@@ -93,7 +66,7 @@ impl Args for StructureArguments {
             let of_group = OPTIONS.iter().filter(|option| option.group == group);
             // Sizes first; what else there is, is shown where everything is asked for.
             command.args(
-                of_group.flat_map(|option| arguments(&option.row)).map(|argument| {
+                of_group.flat_map(|option| arguments(&option.row, option.row.help())).map(|argument| {
                     argument.help_heading(heading(group)).hide_short_help(group != Group::Size)
                 }),
             )

@@ -2,7 +2,8 @@
 
 use super::*;
 use clap::CommandFactory;
-use rasray_experiment::{Integrator, RaySet};
+use rasray_experiment::{INTEGRATORS, IntegratorSpec, RaySet};
+use rasray_options::Value;
 use rasray_scene::Environment;
 use rasray_systems::Preset;
 
@@ -44,7 +45,8 @@ fn defaults_are_the_documented_ones() {
     assert_eq!((system.system.name, system.preset), ("bricks", Preset::Robust));
     assert_eq!(system.spec().expect("known").structure(), "bricks");
     assert_eq!((frame.width, frame.height, frame.spp, frame.seed), (640, 360, 16, 1));
-    assert_eq!(frame.integrator, Integrator::path(8));
+    assert_eq!(frame.integrator, IntegratorSpec::from(&INTEGRATORS[0]));
+    assert_eq!((frame.integrator.name(), frame.integrator.get("bounces")), ("path", Some(Value::Whole(8))));
     assert_eq!(given.work.structure, StructureArguments::default());
 }
 

@@ -80,17 +80,6 @@ pub fn point(text: &str) -> Result<[f64; 3], String> {
     Ok(values)
 }
 
-/// Reads a finite number above 0.
-///
-/// # Errors
-/// Says what is allowed.
-pub fn positive(text: &str) -> Result<f32, String> {
-    match text.trim().parse::<f32>() {
-        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
-        _ => Err("must be a finite number above 0".to_owned()),
-    }
-}
-
 /// Reads numbers of frames, `7` or `0-99`, both ends included.
 ///
 /// # Errors
@@ -209,7 +198,6 @@ mod tests {
 
     #[test]
     fn ranges_refuse_what_lies_outside() {
-        assert!(positive("0.1").is_ok() && positive("0").is_err() && positive("inf").is_err());
         assert!(angle_of_view("45").is_ok() && angle_of_view("0").is_err() && angle_of_view("180").is_err());
         assert!(stops("-2").is_ok() && stops("65").is_err() && stops("nan").is_err());
     }

@@ -8,7 +8,9 @@ use crate::interrupt::Interrupt;
 use crate::output;
 use crate::terminal::{self, Talk};
 use crate::version::origin;
-use rasray_experiment::{Backend, Comparison, HardJob, OpenBackend, SystemConfig, check_run, compare_file};
+use rasray_experiment::{
+    Backend, Comparison, HardJob, OpenBackend, SystemConfig, check_run, compare_file, integrator_options,
+};
 use rasray_hard_cases::Scale;
 use rasray_ray_files::{HitsFile, load_hits};
 use rasray_report::{Report, Run, SceneRecord, columns, table_within};
@@ -141,7 +143,7 @@ fn ids(id: &str) -> Result<Vec<&'static str>, AppError> {
 
 /// Refuses what is about scenes, images and generated rays.
 fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
-    const UNFIT: [&str; 23] = [
+    const UNFIT: [&str; 19] = [
         "time",
         "clip",
         "fps",
@@ -160,13 +162,10 @@ fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
         "integrator",
         "size",
         "spp",
-        "bounces",
-        "glass-shadows",
         "back-faces",
-        "shadow-terminator",
-        "ao-distance",
     ];
-    match given.typed.iter().find(|typed| UNFIT.contains(&typed.as_str())) {
+    let of_images = |option: &str| integrator_options().iter().any(|row| row.name == option);
+    match given.typed.iter().find(|typed| UNFIT.contains(&typed.as_str()) || of_images(typed)) {
         Some(option) => Err(AppError::usage(
             format!("--{option} does not go with a hard case, which has its own triangles, rays and eye"),
             "leave it out; --rays and --seed choose the rays of generated cases",

@@ -46,7 +46,7 @@ impl Pictures<'_> {
             camera: chosen.camera.clone(),
             system: self.system.clone().seen_by(&chosen.camera, frame.width, frame.height),
             refresh: given.refresh,
-            frame: *frame,
+            frame: frame.clone(),
             shard: *shard,
             aovs: *aovs,
             needs: given.work.reading.needs(&loaded.scene, frame.workload()),
@@ -67,7 +67,8 @@ impl Pictures<'_> {
         key: String,
         keeps_part: bool,
     ) -> Result<(), AppError> {
-        let Self { given, line, interrupt, frame, shard, .. } = *self;
+        let Self { given, line, interrupt, shard, .. } = *self;
+        let frame = self.frame.clone();
         let needs = given.work.reading.needs(&self.loaded.scene, frame.workload());
         self.loaded.count_not_uploaded(&self.chosen.camera, &needs);
         let mut job = self.job(&self.loaded);

@@ -1,5 +1,5 @@
 use super::*;
-use rasray_scene::needs::{Integrator, Workload};
+use rasray_scene::needs::Workload;
 use rasray_scene::{Camera, Projection};
 
 fn options(given: &[(&str, &str)]) -> OptionValues {
@@ -20,8 +20,7 @@ fn system(name: &str) -> &'static System {
 
 #[test]
 fn published_fragments_carry_what_their_paper_keeps_for_occlusion() {
-    let occlusion = Workload { integrator: Integrator::AmbientOcclusion, bounces: 1 };
-    let path = Workload { integrator: Integrator::Path, bounces: 1 };
+    let (occlusion, path) = (Workload::VISIBILITY, Workload::ALL);
     let plain = OptionValues::default();
     for system in SYSTEMS {
         let Ok(config) = one_system(system, Preset::Published, &plain) else { continue };

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use crate::pictures::common::difference::{Kind, difference};
+use crate::pictures::common::difference::{difference, path};
 use rasray_scene::{Environment, LoadOptions, default_view::default_camera};
 
 /// Instances, mirrored normal maps, texture settings, vertex colours, lights, blending.
@@ -52,7 +52,7 @@ fn real_scenes_look_the_same_on_device_and_cpu() {
         // Whatever else shines: some emit too little to be compared.
         scene.environment = Environment::Constant([0.6, 0.7, 0.8]);
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(&scene));
-        let found = difference(&scene, &scene, &camera, 1, &Kind::Path(2));
+        let found = difference(&scene, &scene, &camera, 1, &path(2));
         eprintln!("{file}: {found:?} {:?}", start.elapsed());
         if found.share > 0.02 {
             failed.push((file, found));

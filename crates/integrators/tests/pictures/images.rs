@@ -47,8 +47,8 @@ fn ambient_occlusion_sees_what_is_within_its_range() {
     let visible = mean(&image(4.0));
     let deviation = (0.25 * 0.75 / 512.0f64).sqrt();
     assert!((visible - 0.25).abs() < 5.0 * deviation, "{visible}");
-    assert!(matches!(AmbientOcclusion::new(&stage.desc(), 0.0), Err(IntegratorError::Option { .. })));
-    assert!(matches!(AmbientOcclusion::new(&stage.desc(), f32::NAN), Err(IntegratorError::Option { .. })));
+    assert!(matches!(AmbientOcclusion::new(&stage.desc(), 0.0), Err(IntegratorError::Value(_))));
+    assert!(matches!(AmbientOcclusion::new(&stage.desc(), f32::NAN), Err(IntegratorError::Value(_))));
     assert_silent(&device);
 }
 
@@ -294,7 +294,7 @@ fn what_does_not_fit_is_refused_before_anything_is_recorded() {
     let other = Film::new(&device, 5, 4).expect("valid");
     let desc = rasray_integrators::IntegratorDesc::new(&device, &stage.scene, &other);
     assert!(matches!(Raycast::new(&desc), Err(IntegratorError::SizesDiffer { .. })));
-    assert!(matches!(Path::new(&stage.desc(), 5000), Err(IntegratorError::Option { .. })));
+    assert!(matches!(Path::new(&stage.desc(), 5000), Err(IntegratorError::Value(_))));
     assert!(matches!(Film::new(&device, 0, 4), Err(IntegratorError::ImageSize { .. })));
     assert_silent(&device);
 }

@@ -6,4 +6,5 @@ mod images;
 mod needs;
 mod passing;
 mod reference;
+mod registry;
 mod texel_runs;

@@ -7,7 +7,7 @@
 use crate::pictures::common::{difference::*, scenes::*, *};
 use glam::DVec3;
 use rasray_gpu_scene::Sampling;
-use rasray_integrators::{Path, PathOptions};
+use rasray_integrators::{IntegratorSpec, Path, PathOptions};
 use rasray_reference::shading::PosedScene;
 use rasray_reference::shading::Sampler;
 use rasray_scene::{
@@ -15,8 +15,8 @@ use rasray_scene::{
 };
 
 /// At most `deviating` of the pixels may differ.
-fn compare(scene: &Scene, camera: &Camera, samples: u32, kind: &Kind, deviating: f64) {
-    let found = difference(scene, scene, camera, samples, kind);
+fn compare(scene: &Scene, camera: &Camera, samples: u32, integrator: &IntegratorSpec, deviating: f64) {
+    let found = difference(scene, scene, camera, samples, integrator);
     eprintln!("{}: {found:?}", scene.name);
     assert!(found.share <= deviating && found.mean <= 0.01, "{}: {found:?}", scene.name);
 }
@@ -24,14 +24,14 @@ fn compare(scene: &Scene, camera: &Camera, samples: u32, kind: &Kind, deviating:
 #[test]
 fn cornell_box() {
     let (scene, camera) = cornell();
-    compare(&scene, &camera, 4, &Kind::Path(4), 0.01);
-    compare(&scene, &camera, 4, &Kind::Occlusion(0.2), 0.01);
+    compare(&scene, &camera, 4, &path(4), 0.01);
+    compare(&scene, &camera, 4, &occlusion(0.2), 0.01);
 }
 
 #[test]
 fn independent_numbers_are_the_same_ones_too() {
     let (scene, camera) = cornell();
-    let found = sampled_difference(&scene, &scene, &camera, 4, &Kind::Path(4), Sampler::Pcg);
+    let found = sampled_difference(&scene, &scene, &camera, 4, &path(4), Sampler::Pcg);
     assert!(found.share <= 0.01 && found.mean <= 0.01, "{found:?}");
 }
 
@@ -42,34 +42,34 @@ fn a_wrong_scene_is_noticed() {
     for material in &mut brighter.materials {
         material.base_color[0] *= 1.01;
     }
-    let found = difference(&brighter, &scene, &camera, 4, &Kind::Path(4));
+    let found = difference(&brighter, &scene, &camera, 4, &path(4));
     assert!(found.share > 0.5, "{found:?}");
     let mut lower = scene.clone();
     for instance in &mut lower.instances {
         instance.world_from_mesh.translation.y -= 0.01;
     }
-    let found = difference(&lower, &scene, &camera, 8, &Kind::Occlusion(0.2));
+    let found = difference(&lower, &scene, &camera, 8, &occlusion(0.2));
     assert!(found.share > 0.1, "{found:?}");
 }
 
 #[test]
 fn textures_masks_lights_and_an_environment_map() {
     let eye = forward_camera(DVec3::new(0.0, 0.2, 1.0));
-    compare(&textured_room(), &eye, 4, &Kind::Path(3), 0.01);
-    compare(&textured_room(), &eye, 4, &Kind::Occlusion(1.0), 0.01);
+    compare(&textured_room(), &eye, 4, &path(3), 0.01);
+    compare(&textured_room(), &eye, 4, &occlusion(1.0), 0.01);
 }
 
 #[test]
 fn glass_mirrors_and_blended_surfaces() {
     let eye = forward_camera(DVec3::new(0.0, 0.0, 0.9));
-    compare(&glass_room(), &eye, 4, &Kind::Path(5), 0.01);
+    compare(&glass_room(), &eye, 4, &path(5), 0.01);
 }
 
 #[test]
 fn light_through_veils_and_panes() {
     let eye = forward_camera(DVec3::new(0.0, 0.0, 0.9));
-    compare(&veiled_room(), &eye, 4, &Kind::Path(3), 0.01);
-    compare(&veiled_room(), &eye, 4, &Kind::OpaquePanes(3), 0.01);
+    compare(&veiled_room(), &eye, 4, &path(3), 0.01);
+    compare(&veiled_room(), &eye, 4, &opaque_panes(3), 0.01);
 }
 
 /// Rooms that are looked into from outside, through walls without an outside and behind blended surfaces.
@@ -92,7 +92,7 @@ fn backs_are_passed_by_the_rays_that_are_asked_to() {
             instance.world_from_mesh = mirror * instance.world_from_mesh;
         }
         for back_faces in BackFaces::ALL {
-            for kind in [Kind::Path(4), Kind::Occlusion(1.0)] {
+            for kind in [path(4), occlusion(1.0)] {
                 let found = passing_difference([back_faces; 2], &scene, &eye, 4, &kind);
                 eprintln!("{back_faces:?}: {found:?}");
                 assert!(found.share <= 0.01 && found.mean <= 0.01, "{back_faces:?}: {found:?}");
@@ -101,7 +101,7 @@ fn backs_are_passed_by_the_rays_that_are_asked_to() {
             let differs = |other: &&BackFaces| **other != back_faces && scene.name.contains("veil");
             let others = BackFaces::ALL.iter().filter(differs);
             for other in others {
-                let found = passing_difference([*other, back_faces], &scene, &eye, 4, &Kind::Path(4));
+                let found = passing_difference([*other, back_faces], &scene, &eye, 4, &path(4));
                 assert!(found.share > 0.1, "{other:?} in place of {back_faces:?} is noticed: {found:?}");
             }
         }
@@ -153,7 +153,11 @@ fn a_coarse_ball_is_lit_as_a_ball() {
             sampler: Sampler::default(),
         };
         let posed = PosedScene::new(&scene, stage.scene.frame_origin()).expect("well formed");
-        let reference = posed.with_shadow_terminator(shadow_terminator).render_path(&view, 1).expect("valid");
+        let naive = rasray_reference::integrators::PathOptions {
+            shadow_terminator,
+            ..rasray_reference::integrators::PathOptions::from(1)
+        };
+        let reference = posed.render_path(&view, naive).expect("valid");
         let differ = |(a, b): (&[f32; 3], &[f32; 3])| (a[0] - b[0]).abs() > 1.0e-3 * (b[0] + 1.0e-2);
         let differing = image.iter().zip(&reference.pixels).filter(|&pair| differ(pair)).count();
         assert!(differing * 100 <= image.len(), "{shadow_terminator:?}: {differing} pixels differ");

@@ -1,10 +1,21 @@
 use glam::{Vec2, Vec3};
 
-use super::Tracer;
+use rasray_options::Value;
+use rasray_scene::{Camera, Scene};
+
+use super::{Image, NaiveIntegrator, Tracer, eye};
 use crate::shading::{
-    View, basis_around, cosine_hemisphere,
+    PosedScene, ReferenceError, Sampler, View, basis_around, cosine_hemisphere,
     random::{Numbers, RANDOM_BSDF_U, RANDOM_BSDF_V, random_dimension},
     spawn_ray,
+};
+
+pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
+    name: "ao",
+    render: |posed, view, values| {
+        let distance = values.get("ao-distance").and_then(Value::number).unwrap_or(f32::INFINITY);
+        posed.render_ambient_occlusion(view, distance)
+    },
 };
 
 impl Tracer<'_> {
@@ -19,4 +30,31 @@ impl Tracer<'_> {
         let direction = (basis_around(surface.geometric_normal) * cosine_hemisphere(place)).normalize();
         if self.occluded(&spawn_ray(&surface, direction, distance)) { Vec3::ZERO } else { Vec3::ONE }
     }
+}
+
+impl PosedScene<'_> {
+    /// Cosine-weighted visibility of a white environment within `distance` metres; background 1.
+    ///
+    /// # Errors
+    /// If the image is empty or the scene has more triangles than ids.
+    pub fn render_ambient_occlusion(&self, view: &View, distance: f32) -> Result<Image, ReferenceError> {
+        self.render(view, false, |tracer, random| tracer.ambient_occlusion(view, distance, random))
+    }
+}
+
+/// [`PosedScene::render_ambient_occlusion`] with the frame origin at the eye.
+///
+/// # Errors
+/// If the scene names what it does not have, or the image is empty.
+pub fn render_ambient_occlusion(
+    scene: &Scene,
+    camera: &Camera,
+    width: u32,
+    height: u32,
+    samples: u32,
+    seed: u32,
+    distance: f32,
+) -> Result<Image, ReferenceError> {
+    let view = View { camera: camera.clone(), width, height, samples, seed, sampler: Sampler::default() };
+    PosedScene::new(scene, eye(camera))?.render_ambient_occlusion(&view, distance)
 }

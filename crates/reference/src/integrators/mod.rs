@@ -11,37 +11,58 @@
 mod ambient_occlusion;
 mod image;
 mod path;
+mod raycast;
 
 #[cfg(test)]
 mod tests;
 
+pub use ambient_occlusion::render_ambient_occlusion;
 pub use image::Image;
+pub use path::{PathOptions, render_path};
 
 use glam::{DVec3, Vec2};
-use rasray_scene::{Camera, Scene};
+use rasray_options::OptionValues;
+use rasray_scene::Camera;
 
 use crate::{
     oracle::{Oracle, Outcome},
     shading::{
-        PosedScene, Ray, ReferenceError, Sampler, Surface, View, bsdf::SMOOTH_ROUGHNESS, camera_ray,
-        pixel_position, random::Numbers,
+        PosedScene, Ray, ReferenceError, Surface, View, bsdf::SMOOTH_ROUGHNESS, camera_ray, pixel_position,
+        random::Numbers,
     },
 };
 
-/// What paths do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PathOptions {
-    /// At most this many scatterings.
-    pub bounces: u32,
-    /// Whether light goes straight through smooth thin panes and takes their tint, unless there are no bounces; else panes
-    /// stop shadow rays, and going through is a scattering.
-    pub passes_panes: bool,
+/// Renders a view with the values of an integrator's options; those that have none are absent.
+type Render = fn(&PosedScene<'_>, &View, &OptionValues) -> Result<Image, ReferenceError>;
+
+/// A naive integrator: one that is written down as it is defined.
+#[derive(Clone, Copy, Debug)]
+pub struct NaiveIntegrator {
+    /// The name of the integrator of devices that it is the reference of.
+    pub name: &'static str,
+    render: Render,
 }
 
-impl From<u32> for PathOptions {
-    /// This many bounces; light passes panes.
-    fn from(bounces: u32) -> Self {
-        Self { bounces, passes_panes: true }
+/// Every naive integrator.
+pub static INTEGRATORS: &[NaiveIntegrator] = &[path::ROW, ambient_occlusion::ROW, raycast::ROW];
+
+impl NaiveIntegrator {
+    /// The one of that name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        INTEGRATORS.iter().find(|row| row.name == name)
+    }
+
+    /// Renders a view with the values of the integrator's options.
+    ///
+    /// # Errors
+    /// If the image is empty or the scene has more triangles than ids.
+    pub fn render(
+        &self,
+        posed: &PosedScene<'_>,
+        view: &View,
+        values: &OptionValues,
+    ) -> Result<Image, ReferenceError> {
+        (self.render)(posed, view, values)
     }
 }
 
@@ -86,23 +107,6 @@ impl Tracer<'_> {
 }
 
 impl PosedScene<'_> {
-    /// Cosine-weighted visibility of a white environment within `distance` metres; background 1.
-    ///
-    /// # Errors
-    /// If the image is empty or the scene has more triangles than ids.
-    pub fn render_ambient_occlusion(&self, view: &View, distance: f32) -> Result<Image, ReferenceError> {
-        self.render(view, false, |tracer, random| tracer.ambient_occlusion(view, distance, random))
-    }
-
-    /// Path tracing; W/(sr m^2). A number of bounces will do for the options.
-    ///
-    /// # Errors
-    /// If the image is empty or the scene has more triangles than ids.
-    pub fn render_path(&self, view: &View, options: impl Into<PathOptions>) -> Result<Image, ReferenceError> {
-        let PathOptions { bounces, passes_panes } = options.into();
-        self.render(view, passes_panes && bounces > 0, |tracer, random| tracer.path(view, bounces, random))
-    }
-
     fn render(
         &self,
         view: &View,
@@ -117,40 +121,6 @@ impl PosedScene<'_> {
         let tracer = Tracer { posed: self, oracle, passes_panes };
         Ok(Image::render(view, |random| sample(&tracer, random)))
     }
-}
-
-/// [`PosedScene::render_ambient_occlusion`] with the frame origin at the eye.
-///
-/// # Errors
-/// If the scene names what it does not have, or the image is empty.
-pub fn render_ambient_occlusion(
-    scene: &Scene,
-    camera: &Camera,
-    width: u32,
-    height: u32,
-    samples: u32,
-    seed: u32,
-    distance: f32,
-) -> Result<Image, ReferenceError> {
-    let view = View { camera: camera.clone(), width, height, samples, seed, sampler: Sampler::default() };
-    PosedScene::new(scene, eye(camera))?.render_ambient_occlusion(&view, distance)
-}
-
-/// [`PosedScene::render_path`] with the frame origin at the eye.
-///
-/// # Errors
-/// If the scene names what it does not have, or the image is empty.
-pub fn render_path(
-    scene: &Scene,
-    camera: &Camera,
-    width: u32,
-    height: u32,
-    samples: u32,
-    seed: u32,
-    options: impl Into<PathOptions>,
-) -> Result<Image, ReferenceError> {
-    let view = View { camera: camera.clone(), width, height, samples, seed, sampler: Sampler::default() };
-    PosedScene::new(scene, eye(camera))?.render_path(&view, options)
 }
 
 fn eye(camera: &Camera) -> DVec3 {

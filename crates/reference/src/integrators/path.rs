@@ -1,15 +1,56 @@
 //! Path tracing with light sampling, in the order of `docs/shading.md`, "Paths".
 
 use glam::Vec3;
+use rasray_options::{OptionValues, Value};
+use rasray_scene::{Camera, Scene, ShadowTerminator};
 
-use super::Tracer;
+use super::{Image, NaiveIntegrator, Tracer, eye};
 use crate::shading::{
-    LightSample, Ray, Surface, View, bsdf_pdf, bsdf_sample, bsdf_straight, bsdf_times_cosine,
+    LightSample, PosedScene, Ray, ReferenceError, Sampler, Surface, View, bsdf_pdf, bsdf_sample,
+    bsdf_straight, bsdf_times_cosine,
     random::{
         Numbers, RANDOM_BSDF_LOBE, RANDOM_LIGHT_KIND, RANDOM_OPACITY_FIRST, RANDOM_ROULETTE, random_dimension,
     },
     spawn_ray, spawn_segment,
 };
+
+pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
+    name: "path",
+    render: |posed, view, values| posed.render_path(view, path_options(values)),
+};
+
+/// What paths do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathOptions {
+    /// At most this many scatterings.
+    pub bounces: u32,
+    /// Whether light goes straight through smooth thin panes and takes their tint, unless there are no bounces; else panes
+    /// stop shadow rays, and going through is a scattering.
+    pub passes_panes: bool,
+    /// Where shadow rays of smooth surfaces start.
+    pub shadow_terminator: ShadowTerminator,
+}
+
+impl From<u32> for PathOptions {
+    /// This many bounces, and the usual of everything else.
+    fn from(bounces: u32) -> Self {
+        Self { bounces, passes_panes: true, shadow_terminator: ShadowTerminator::None }
+    }
+}
+
+fn path_options(values: &OptionValues) -> PathOptions {
+    let is = |option, word: &str| values.get(option).and_then(Value::word) == Some(word);
+    let offset = ShadowTerminator::Offset;
+    PathOptions {
+        passes_panes: !is("glass-shadows", "opaque"),
+        shadow_terminator: if is("shadow-terminator", offset.name()) {
+            offset
+        } else {
+            ShadowTerminator::None
+        },
+        ..PathOptions::from(values.get("bounces").and_then(Value::whole).unwrap_or_default())
+    }
+}
 
 /// A path may be ended at random from this scattering on.
 const ROULETTE_BOUNCE: u32 = 3;
@@ -32,6 +73,7 @@ struct PathState {
     passed: u32,
     /// Where the last scattering was.
     origin: Vec3,
+    shadow_terminator: ShadowTerminator,
 }
 
 /// Weight of the technique with density `used` against one with density `other`.
@@ -70,7 +112,8 @@ impl PathState {
 
 impl Tracer<'_> {
     /// One sample, W/(sr m^2).
-    pub(super) fn path(&self, view: &View, max_bounces: u32, random: Numbers) -> Vec3 {
+    pub(super) fn path(&self, view: &View, options: PathOptions, random: Numbers) -> Vec3 {
+        let PathOptions { bounces, shadow_terminator, .. } = options;
         let mut state = PathState {
             random,
             throughput: Vec3::ONE,
@@ -81,11 +124,12 @@ impl Tracer<'_> {
             choices: 0,
             passed: 0,
             origin: Vec3::ZERO,
+            shadow_terminator,
         };
         let mut next = Some(self.camera_ray(view, random));
         while let Some(ray) = next {
             next = match self.closest(&ray) {
-                Some(surface) => self.step(&mut state, &ray, &surface, max_bounces),
+                Some(surface) => self.step(&mut state, &ray, &surface, bounces),
                 None => {
                     let weight = state.emission_weight(|| self.posed.environment_pdf(ray.direction));
                     state.radiance +=
@@ -130,7 +174,10 @@ impl Tracer<'_> {
     /// One light sample, seen from the surface.
     fn direct_light(&self, state: &PathState, surface: &Surface, o: Vec3) -> Vec3 {
         let random = state.random.four(random_dimension(state.bounce, RANDOM_LIGHT_KIND));
-        let smooth = self.posed.terminator_surface(surface, o);
+        let smooth = match state.shadow_terminator {
+            ShadowTerminator::None => *surface,
+            ShadowTerminator::Offset => self.posed.terminator_surface(surface, o),
+        };
         let Some(light) = self.posed.light_sample(&smooth, random) else { return Vec3::ZERO };
         // Scattered rays do not leave below the triangle, so nothing else finds the light there.
         let above = |normal: Vec3| light.direction.dot(normal) > 0.0;
@@ -197,4 +244,33 @@ fn scatter(state: &mut PathState, ray: &Ray, surface: &Surface, footprint: f32) 
     let ahead = spawn_ray(surface, chosen.direction, f32::INFINITY);
     state.origin = ahead.origin;
     Some(Ray { cone_width: footprint, cone_spread, ..ahead })
+}
+
+impl PosedScene<'_> {
+    /// Path tracing; W/(sr m^2). A number of bounces will do for the options.
+    ///
+    /// # Errors
+    /// If the image is empty or the scene has more triangles than ids.
+    pub fn render_path(&self, view: &View, options: impl Into<PathOptions>) -> Result<Image, ReferenceError> {
+        let options = options.into();
+        let passes_panes = options.passes_panes && options.bounces > 0;
+        self.render(view, passes_panes, |tracer, random| tracer.path(view, options, random))
+    }
+}
+
+/// [`PosedScene::render_path`] with the frame origin at the eye.
+///
+/// # Errors
+/// If the scene names what it does not have, or the image is empty.
+pub fn render_path(
+    scene: &Scene,
+    camera: &Camera,
+    width: u32,
+    height: u32,
+    samples: u32,
+    seed: u32,
+    options: impl Into<PathOptions>,
+) -> Result<Image, ReferenceError> {
+    let view = View { camera: camera.clone(), width, height, samples, seed, sampler: Sampler::default() };
+    PosedScene::new(scene, eye(camera))?.render_path(&view, options)
 }

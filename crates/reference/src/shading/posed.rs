@@ -1,7 +1,7 @@
 //! A scene with every instance in place, ready to be asked for surfaces and lights.
 
 use glam::{DMat3, DVec3, Vec3, Vec4};
-use rasray_scene::{AlphaMode, BackFaces, Environment, Material, Mesh, Scene, ShadowTerminator, TextureRef};
+use rasray_scene::{AlphaMode, BackFaces, Environment, Material, Mesh, Scene, TextureRef};
 
 use crate::oracle::Side;
 
@@ -35,7 +35,6 @@ pub struct PosedScene<'a> {
     pub(super) lights: LightTable,
     pub(super) environment: EnvironmentTable,
     back_faces: BackFaces,
-    pub(super) shadow_terminator: ShadowTerminator,
     draw_of_triangle: Vec<u32>,
     frame_origin: DVec3,
     positions: Vec<[f32; 3]>,
@@ -93,7 +92,6 @@ impl<'a> PosedScene<'a> {
             lights: LightTable::default(),
             environment: EnvironmentTable::new(&scene.environment),
             back_faces: BackFaces::default(),
-            shadow_terminator: ShadowTerminator::default(),
             draw_of_triangle,
             frame_origin,
             positions,
@@ -105,12 +103,6 @@ impl<'a> PosedScene<'a> {
     #[must_use]
     pub fn with_back_faces(self, back_faces: BackFaces) -> Self {
         Self { back_faces, ..self }
-    }
-
-    /// With shadow rays of smooth surfaces that start elsewhere.
-    #[must_use]
-    pub fn with_shadow_terminator(self, shadow_terminator: ShadowTerminator) -> Self {
-        Self { shadow_terminator, ..self }
     }
 
     /// Which rays pass the backs of single-sided surfaces.

@@ -1,18 +1,16 @@
 //! What light samples see of smooth triangles.
 
 use glam::Vec3;
-use rasray_scene::ShadowTerminator;
 
 use super::{Surface, posed::PosedScene, triangle::barycentric_weights};
 
 impl PosedScene<'_> {
     /// The surface on the smooth shape that the normals of its triangle's vertices suggest, as `o` sees it; the same one where
-    /// there is none, or nothing is asked for.
+    /// there is none.
     pub(crate) fn terminator_surface(&self, surface: &Surface, o: Vec3) -> Surface {
-        let known = surface
-            .primitive
-            .filter(|_| self.shadow_terminator == ShadowTerminator::Offset && !(surface.transmission > 0.0));
-        let Some(primitive) = known else { return *surface };
+        let Some(primitive) = surface.primitive.filter(|_| !(surface.transmission > 0.0)) else {
+            return *surface;
+        };
         let draw = self.draw_of(primitive);
         let Some(normals) = &draw.normals else { return *surface };
         let corners = self.vertices(primitive);

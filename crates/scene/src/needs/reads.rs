@@ -1,6 +1,6 @@
 //! Which textures of a material a workload reads.
 
-use super::workload::{Integrator, Workload};
+use super::workload::Workload;
 use crate::{AlphaMode, Material, TextureRef};
 
 /// What a material's textures are read for.
@@ -18,8 +18,8 @@ pub(super) struct Reads<'a> {
 
 impl<'a> Reads<'a> {
     pub fn of(material: &'a Material, workload: Workload) -> Self {
-        let shaded = workload.shades() && !material.unlit;
-        let scattered = workload.scatters() && !material.unlit;
+        let shaded = workload.shades && !material.unlit;
+        let scattered = workload.scatters && !material.unlit;
         let mut reads = Self::default();
         if reads_base_color(material, workload) {
             reads.base_color = material.base_color_texture.as_ref();
@@ -36,10 +36,7 @@ impl<'a> Reads<'a> {
         if scattered && material.transmission > 0.0 {
             reads.transmission = material.transmission_texture.as_ref();
         }
-        if workload.integrator != Integrator::AmbientOcclusion
-            && !material.unlit
-            && is_lit(&material.emission)
-        {
+        if workload.emission && !material.unlit && is_lit(&material.emission) {
             reads.emission = material.emission_texture.as_ref();
         }
         reads
@@ -54,16 +51,12 @@ impl<'a> Reads<'a> {
 
 /// Whether the base colour, of material, texture or vertices, changes what the workload shows.
 pub(super) fn reads_base_color(material: &Material, workload: Workload) -> bool {
-    if workload.integrator == Integrator::AmbientOcclusion {
-        return false;
-    }
-    workload.shades() || material.unlit || blends(material, workload)
+    workload.shades || (workload.emission && material.unlit) || blends(material, workload)
 }
 
 /// Whether the workload lets light through where a material blends.
 pub(super) fn blends(material: &Material, workload: Workload) -> bool {
-    let follows = matches!(workload.integrator, Integrator::Whitted | Integrator::Path);
-    follows && material.alpha_mode == AlphaMode::Blend
+    workload.blends && material.alpha_mode == AlphaMode::Blend
 }
 
 /// Whether a colour is not black.

@@ -3,7 +3,7 @@
 use super::moving::moving_instances;
 use super::reads::{Reads, blends, is_lit, reads_base_color};
 use super::term::Term;
-use super::workload::{Integrator, Workload};
+use super::workload::Workload;
 use crate::{AlphaMode, Environment, Light, Material, Mesh, Scene, TextureRef};
 
 /// Materials that triangles in the world have, each once, in the order of the scene.
@@ -93,34 +93,24 @@ fn words(term: Term) -> ((&'static str, &'static str), &'static str, &'static st
 
 /// Why a workload cannot see a term in any scene; `None` if it can.
 pub(super) fn unseen(term: Term, workload: Workload) -> Option<&'static str> {
-    if matches!(term, Term::Motion | Term::AlphaMask | Term::Uv0 | Term::Uv1 | Term::Colors) {
-        return None;
-    }
-    match workload.integrator {
-        Integrator::AmbientOcclusion => return Some("ambient occlusion asks only what is visible"),
-        Integrator::Raycast => {
-            return match term {
-                Term::Normals
-                | Term::Tangents
-                | Term::NormalTextures
-                | Term::BaseColorTextures
-                | Term::EmissionTextures
-                | Term::Emission
-                | Term::Environment => None,
-                _ => Some("ray casting shows colour and emission alone, lit from the eye"),
-            };
-        }
-        Integrator::Whitted | Integrator::Path => {}
-    }
-    let always = matches!(
-        term,
-        Term::Emission
-            | Term::EmissionTextures
-            | Term::BaseColorTextures
-            | Term::AlphaBlend
-            | Term::Environment
-    );
-    (!always && workload.bounces == 0).then_some("with 0 bounces no light is scattered")
+    let seen = match term {
+        Term::Motion | Term::AlphaMask | Term::Uv0 | Term::Uv1 | Term::Colors => true,
+        Term::Emission | Term::EmissionTextures | Term::Environment => workload.emission,
+        // What is not lit shows it as emission.
+        Term::BaseColorTextures => workload.emission || workload.shades || workload.blends,
+        Term::AlphaBlend => workload.blends,
+        Term::Normals | Term::Tangents | Term::NormalTextures => workload.shades,
+        Term::MetallicRoughnessTextures
+        | Term::TransmissionTextures
+        | Term::Specular
+        | Term::Transmission
+        | Term::Volume
+        | Term::PointLights
+        | Term::DirectionalLights
+        | Term::SpotLights
+        | Term::AreaLights => workload.scatters,
+    };
+    (!seen).then_some(workload.why)
 }
 
 /// Counts of everything that has a term.
@@ -204,7 +194,7 @@ impl Survey {
     fn mesh(&mut self, mesh: &Mesh, material: &Material, workload: Workload) {
         let name = &mesh.name;
         let reads = Reads::of(material, workload);
-        let shaded = workload.shades() && !material.unlit;
+        let shaded = workload.shades && !material.unlit;
         self.add_if(mesh.normals.is_some() && shaded, Term::Normals, name);
         self.add_if(mesh.tangents.is_some() && reads.normal.is_some(), Term::Tangents, name);
         for (set, term) in [Term::Uv0, Term::Uv1].into_iter().enumerate() {

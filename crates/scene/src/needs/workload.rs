@@ -1,36 +1,36 @@
-//! What is done with a scene.
+//! What is looked at of a scene.
 
-/// What is done with the hits of rays.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Integrator {
-    /// Emission and base colour of what camera rays hit, lit from the eye.
-    Raycast,
-    /// Visibility of a white environment; sees no material but alpha masks.
-    AmbientOcclusion,
-    /// Direct light, perfect reflection and refraction.
-    Whitted,
-    /// All paths of light.
-    Path,
-}
-
-/// An integrator and how far it follows light.
+/// What is looked at of what rays hit. Alpha masks, motion, and what these read are looked at by all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Workload {
-    /// The integrator.
-    pub integrator: Integrator,
-    /// Scatterings of a path at most: 0 is emission alone, 1 direct light. Only Whitted and path
-    /// tracing look at it.
-    pub bounces: u32,
+    /// Light that surfaces and the environment emit is seen.
+    pub emission: bool,
+    /// Base colours and shading normals are shown, lit in whatever way.
+    pub shades: bool,
+    /// Materials scatter light, and lights are sampled.
+    pub scatters: bool,
+    /// Rays go on through surfaces of partial opacity.
+    pub blends: bool,
+    /// Why nothing else is looked at: one sentence without a full stop.
+    pub why: &'static str,
 }
 
 impl Workload {
-    /// Whether light is scattered by materials.
-    pub(crate) fn scatters(self) -> bool {
-        matches!(self.integrator, Integrator::Whitted | Integrator::Path) && self.bounces > 0
-    }
+    /// Only what is visible: no material is looked at.
+    pub const VISIBILITY: Self = Self {
+        emission: false,
+        shades: false,
+        scatters: false,
+        blends: false,
+        why: "only visibility is asked for",
+    };
 
-    /// Whether base colours are shown, lit in whatever way.
-    pub(crate) fn shades(self) -> bool {
-        self.integrator == Integrator::Raycast || self.scatters()
+    /// Everything that light does.
+    pub const ALL: Self =
+        Self { emission: true, shades: true, scatters: true, blends: true, why: "it is not looked at" };
+
+    /// Whether only visibility is asked for, and nothing of what is hit.
+    pub fn is_visibility(self) -> bool {
+        !(self.emission || self.shades || self.scatters || self.blends)
     }
 }

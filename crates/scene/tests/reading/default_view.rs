@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use glam::{DAffine3, DVec3};
 use rasray_scene::default_view::{bounds, default_camera, default_light, ensure_lit, is_lit};
-use rasray_scene::needs::{Integrator, Needs, Term, Workload};
+use rasray_scene::needs::{Needs, Term, Workload};
 use rasray_scene::{
     Camera, Environment, Filter, Image, Instance, Light, LoadOptions, Material, Mesh, Projection, Scene,
     Texture, TextureRef, Wrap,
@@ -347,15 +347,14 @@ fn emission_is_what_its_texture_leaves_of_it() {
     mirrored.images.clear();
     assert!(is_lit(&mirrored));
 
-    let workload = Workload { integrator: Integrator::Path, bounces: 2 };
     let mut scene = next_to(with(identity), black);
-    assert!(!Needs::of(&scene, workload).requires(Term::Environment));
+    assert!(!Needs::of(&scene, Workload::ALL).requires(Term::Environment));
     assert!(ensure_lit(&mut scene));
     assert!(matches!(scene.environment, Environment::LatLong { .. }));
     assert_eq!(scene.warnings.len(), 1);
     assert_eq!(scene.warnings[0].kind, "default-light");
     assert!(scene.warnings[0].message.contains("too little"), "{}", scene.warnings[0].message);
-    let needs = Needs::of(&scene, workload);
+    let needs = Needs::of(&scene, Workload::ALL);
     assert!(needs.requires(Term::Environment), "it is a light now");
     assert!(needs.requires(Term::Emission), "and what glows still does");
 

@@ -5,15 +5,17 @@ use rasray_scene::animation::{
     Channel, ChannelValues, Clip, Interpolation, NodeTransform, Placement, RigNode,
 };
 use rasray_scene::builtin::builtin;
-use rasray_scene::needs::{Integrator, Needs, Term, Workload, moving_instances};
+use rasray_scene::needs::{Needs, Term, Workload, moving_instances};
 use rasray_scene::{
     AlphaMode, Environment, Filter, Image, Instance, Light, Material, Mesh, Scene, Texture, TextureRef, Wrap,
 };
 
-const OCCLUSION: Workload = Workload { integrator: Integrator::AmbientOcclusion, bounces: 0 };
-const RAYCAST: Workload = Workload { integrator: Integrator::Raycast, bounces: 0 };
-const PATH: Workload = Workload { integrator: Integrator::Path, bounces: 3 };
-const EMISSION_ONLY: Workload = Workload { integrator: Integrator::Path, bounces: 0 };
+const OCCLUSION: Workload = Workload::VISIBILITY;
+const RAYCAST: Workload =
+    Workload { emission: true, shades: true, why: "it is lit from the eye", ..OCCLUSION };
+const PATH: Workload = Workload::ALL;
+const EMISSION_ONLY: Workload =
+    Workload { emission: true, blends: true, why: "no light is scattered", ..OCCLUSION };
 
 fn texture(index: usize, uv_set: u32) -> Option<TextureRef> {
     Some(TextureRef { texture: index, uv_set, uv_transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] })
@@ -211,10 +213,7 @@ fn verdicts_say_why() {
     );
     assert_eq!(why(&path, Term::SpotLights).as_deref(), Some("one spot light is in the scene"));
     let occlusion = Needs::of(&scene, OCCLUSION);
-    assert_eq!(
-        why(&occlusion, Term::Normals).as_deref(),
-        Some("ambient occlusion asks only what is visible")
-    );
+    assert_eq!(why(&occlusion, Term::Normals).as_deref(), Some("only visibility is asked for"));
     assert_eq!(
         why(&occlusion, Term::Uv0).as_deref(),
         Some("no mesh has texture coordinates 0 that a texture is read at")

@@ -1,6 +1,7 @@
 //! Systems, presets and options, as their rows say them.
 
 use egui::{DragValue, RichText};
+use rasray_experiment::IntegratorSpec;
 use rasray_options::{Least, OptionRow, OptionValues, Unit, Value};
 use rasray_systems::{Group, SYSTEMS};
 
@@ -40,23 +41,11 @@ pub(super) fn show_system(ui: &mut egui::Ui, session: &mut Session) {
         if of_group.is_empty() {
             continue;
         }
-        let set = of_group.iter().filter(|row| choice.options.get(row.name).is_some()).count();
-        let title = match set {
-            0 => format!("Options: {}", group.title()),
-            set => format!("Options: {} ({set} set)", group.title()),
-        };
-        egui::CollapsingHeader::new(title).id_salt(group.title()).show(ui, |ui| {
-            egui::Grid::new(group.title()).num_columns(3).show(ui, |ui| {
-                for row in of_group {
-                    let text = |value: &serde_json::Value| {
-                        value.as_str().map_or_else(|| value.to_string(), str::to_owned)
-                    };
-                    let resolved = resolved.get(row.name).map(text);
-                    let by_default = resolved.and_then(|text| row.parse(&text).ok());
-                    show_option(ui, row, &mut choice.options, by_default);
-                    ui.end_row();
-                }
-            });
+        let header = format!("Options: {}", group.title());
+        show_options(ui, &header, false, &of_group, &mut choice.options, |row| {
+            let text =
+                |value: &serde_json::Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+            row.parse(&resolved.get(row.name).map(text)?).ok()
         });
     }
     if !choice.options.is_empty() && ui.button("Leave all options to the preset").clicked() {
@@ -64,13 +53,45 @@ pub(super) fn show_system(ui: &mut egui::Ui, session: &mut Session) {
     }
 }
 
-/// An option: its name, what sets it, and what leaves it to its default.
-pub(super) fn show_option(
+/// Shows the options of the integrator.
+pub(super) fn show_integrator_options(ui: &mut egui::Ui, session: &mut Session) {
+    let integrator = &mut session.frame.integrator;
+    let row = integrator.row();
+    if row.options.is_empty() {
+        return;
+    }
+    let mut options = integrator.options().clone();
+    let header = format!("Options: {}", row.name);
+    show_options(ui, &header, true, row.options, &mut options, |row| row.default);
+    // Controls give only values that their options take.
+    if let Ok(changed) = IntegratorSpec::new(row, &options) {
+        *integrator = changed;
+    }
+}
+
+/// Shows options under a header, which says how many are set; `by_default` is what one is that is not.
+fn show_options(
     ui: &mut egui::Ui,
-    row: &OptionRow,
+    header: &str,
+    is_open: bool,
+    rows: &[&OptionRow],
     options: &mut OptionValues,
-    by_default: Option<Value>,
+    by_default: impl Fn(&OptionRow) -> Option<Value>,
 ) {
+    let set = rows.iter().filter(|row| options.get(row.name).is_some()).count();
+    let title = if set == 0 { header.to_owned() } else { format!("{header} ({set} set)") };
+    egui::CollapsingHeader::new(title).id_salt(header).default_open(is_open).show(ui, |ui| {
+        egui::Grid::new(header).num_columns(3).show(ui, |ui| {
+            for row in rows {
+                show_option(ui, row, options, by_default(row));
+                ui.end_row();
+            }
+        });
+    });
+}
+
+/// An option: its name, what sets it, and what leaves it to its default.
+fn show_option(ui: &mut egui::Ui, row: &OptionRow, options: &mut OptionValues, by_default: Option<Value>) {
     let set = options.get(row.name);
     let name = RichText::new(row.name);
     let name = if set.is_some() { name.strong() } else { name };

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use egui::{Color32, DragValue, Key, Modifiers, RichText, Slider};
-use rasray_experiment::Integrator;
+use rasray_experiment::INTEGRATORS;
 use rasray_report::colour_scale::{Scale, colour};
 
-use super::options_panel::show_system;
+use super::options_panel::{show_integrator_options, show_system};
 use super::picture_area::PictureArea;
 use super::saving::{SavePicture, SavedPicture};
 use super::tables::show_tables;
@@ -125,6 +125,7 @@ impl Panel {
         }
         ui.separator();
         show_system(ui, session);
+        show_integrator_options(ui, session);
         ui.separator();
         self.show_saving(ui, session, save);
         ui.separator();
@@ -303,35 +304,17 @@ fn show_colours(ui: &mut egui::Ui, scale: &Scale) {
 
 fn show_integrator(ui: &mut egui::Ui, session: &mut Session) {
     let integrator = &mut session.frame.integrator;
-    let kinds = [Integrator::path(8), Integrator::AmbientOcclusion { distance: None }, Integrator::Raycast];
-    ui.horizontal(|ui| {
-        egui::ComboBox::from_id_salt("integrator").width(70.0).selected_text(integrator.name()).show_ui(
-            ui,
-            |ui| {
-                for kind in kinds {
-                    let is_chosen = kind.name() == integrator.name();
-                    if ui.selectable_label(is_chosen, kind.name()).clicked() && !is_chosen {
-                        *integrator = kind;
-                    }
-                }
-            },
-        );
-        match integrator {
-            Integrator::Path { bounces, .. } => {
-                ui.add(DragValue::new(bounces).range(0..=64).speed(0.1).suffix(" bounces"));
-            }
-            Integrator::AmbientOcclusion { distance } => {
-                let mut is_limited = distance.is_some();
-                if ui.checkbox(&mut is_limited, "within").changed() {
-                    *distance = is_limited.then_some(1.0);
-                }
-                if let Some(metres) = distance {
-                    ui.add(DragValue::new(metres).range(0.001..=1.0e6).speed(0.01).suffix(" m"));
+    egui::ComboBox::from_id_salt("integrator").width(70.0).selected_text(integrator.name()).show_ui(
+        ui,
+        |ui| {
+            for row in INTEGRATORS {
+                let is_chosen = row == integrator.row();
+                if ui.selectable_label(is_chosen, row.name).on_hover_text(row.doc).clicked() && !is_chosen {
+                    *integrator = row.into();
                 }
             }
-            Integrator::Raycast => (),
-        }
-    });
+        },
+    );
 }
 
 fn show_time(ui: &mut egui::Ui, session: &mut Session, now: f64) {

@@ -13,8 +13,8 @@ use rasray_experiment::{
     AovSelection, Frame, OpenBackend, Primary, Refresh, RenderJob, Sampler, SceneInfo, default_view,
 };
 use rasray_report::json_shown;
+use rasray_scene::BackFaces;
 use rasray_scene::needs::Needs;
-use rasray_scene::{BackFaces, ShadowTerminator};
 use serde_json::Value;
 
 use super::steps::{fit_images, load_scene, open_device};
@@ -40,7 +40,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             during("scene", "posing", || loaded.pose(seconds, given.clip.as_deref()))?;
         }
         let frame = Frame {
-            integrator: given.integrator.by_default(),
+            integrator: given.integrator.into(),
             width: 1,
             height: 1,
             spp: 1,
@@ -48,7 +48,6 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             sampler: Sampler::Sobol,
             primary: Primary::Trace,
             back_faces: BackFaces::Camera,
-            shadow_terminator: ShadowTerminator::None,
         };
         let view = during("scene", "looking for a view", || default_view(&loaded.scene));
         if let Some(system) = system {

@@ -1,8 +1,8 @@
 //! A device image held against the one of the CPU.
 
 use rasray_gpu_scene::Sampling;
-use rasray_integrators::{AmbientOcclusion, GlassShadows, Path, PathOptions};
-use rasray_reference::integrators as reference;
+use rasray_integrators::{IntegratorRow, IntegratorSpec};
+use rasray_reference::integrators::NaiveIntegrator;
 use rasray_reference::shading::{PosedScene, Sampler, View};
 use rasray_scene::{BackFaces, Camera, Scene};
 
@@ -12,14 +12,28 @@ pub const WIDTH: u32 = 16;
 pub const HEIGHT: u32 = 12;
 const SEED: u32 = 11;
 
-/// What is rendered.
-pub enum Kind {
-    /// With this number of bounces.
-    Path(u32),
-    /// With this number of bounces, and panes that stop shadow rays.
-    OpaquePanes(u32),
-    /// Within this number of metres.
-    Occlusion(f32),
+fn integrator(name: &str) -> IntegratorSpec {
+    IntegratorRow::named(name).expect("it is registered").into()
+}
+
+/// Paths of at most so many bounces.
+pub fn path(bounces: u32) -> IntegratorSpec {
+    integrator("path").with("bounces", bounces).expect("valid")
+}
+
+/// The same with panes that stop shadow rays.
+pub fn opaque_panes(bounces: u32) -> IntegratorSpec {
+    path(bounces).with("glass-shadows", "opaque").expect("valid")
+}
+
+/// Occlusion within so many metres.
+pub fn occlusion(range: f32) -> IntegratorSpec {
+    integrator("ao").with("ao-distance", range).expect("valid")
+}
+
+/// What the camera sees.
+pub fn raycast() -> IntegratorSpec {
+    integrator("raycast")
 }
 
 /// How far an image is from its reference.
@@ -32,8 +46,14 @@ pub struct Difference {
 }
 
 /// Renders `shown` on the device and `scene` on the CPU.
-pub fn difference(shown: &Scene, scene: &Scene, camera: &Camera, samples: u32, kind: &Kind) -> Difference {
-    sampled_difference(shown, scene, camera, samples, kind, Sampler::default())
+pub fn difference(
+    shown: &Scene,
+    scene: &Scene,
+    camera: &Camera,
+    samples: u32,
+    integrator: &IntegratorSpec,
+) -> Difference {
+    sampled_difference(shown, scene, camera, samples, integrator, Sampler::default())
 }
 
 /// The same with rays that pass backs: on the device `shown`, on the CPU `back_faces`.
@@ -42,9 +62,9 @@ pub fn passing_difference(
     scene: &Scene,
     camera: &Camera,
     samples: u32,
-    kind: &Kind,
+    integrator: &IntegratorSpec,
 ) -> Difference {
-    made_difference([scene, scene], camera, samples, kind, Sampler::default(), [shown, back_faces])
+    made_difference([scene, scene], camera, samples, integrator, Sampler::default(), [shown, back_faces])
 }
 
 /// The same with the numbers of a sampler.
@@ -53,17 +73,17 @@ pub fn sampled_difference(
     scene: &Scene,
     camera: &Camera,
     samples: u32,
-    kind: &Kind,
+    integrator: &IntegratorSpec,
     sampler: Sampler,
 ) -> Difference {
-    made_difference([shown, scene], camera, samples, kind, sampler, [BackFaces::default(); 2])
+    made_difference([shown, scene], camera, samples, integrator, sampler, [BackFaces::default(); 2])
 }
 
 fn made_difference(
     [shown, scene]: [&Scene; 2],
     camera: &Camera,
     samples: u32,
-    kind: &Kind,
+    integrator: &IntegratorSpec,
     sampler: Sampler,
     [passed, back_faces]: [BackFaces; 2],
 ) -> Difference {
@@ -79,25 +99,10 @@ fn made_difference(
         .expect("the frame can be written");
     let view = View { camera: camera.clone(), width: WIDTH, height: HEIGHT, samples, seed: SEED, sampler };
     let posed = PosedScene::new(scene, stage.scene.frame_origin()).expect("the scene is well formed");
-    let opaque = |bounces| PathOptions { glass_shadows: GlassShadows::Opaque, ..PathOptions::from(bounces) };
     let posed = posed.with_back_faces(back_faces);
-    let (image, reference) = match *kind {
-        Kind::OpaquePanes(bounces) => (
-            stage.render(&Path::new(&stage.desc(), opaque(bounces)).expect("valid"), samples),
-            posed
-                .render_path(&view, reference::PathOptions { bounces, passes_panes: false })
-                .expect("valid")
-                .pixels,
-        ),
-        Kind::Path(bounces) => (
-            stage.render(&Path::new(&stage.desc(), bounces).expect("valid"), samples),
-            posed.render_path(&view, bounces).expect("valid").pixels,
-        ),
-        Kind::Occlusion(range) => (
-            stage.render(&AmbientOcclusion::new(&stage.desc(), range).expect("valid"), samples),
-            posed.render_ambient_occlusion(&view, range).expect("valid").pixels,
-        ),
-    };
+    let image = stage.render(integrator.make(&stage.desc()).expect("valid").as_ref(), samples);
+    let naive = NaiveIntegrator::named(integrator.name()).expect("every integrator has a reference");
+    let reference = naive.render(&posed, &view, &integrator.values()).expect("valid").pixels;
     let faults = stage.film.read_faults(&device).expect("readable");
     assert_eq!((faults.non_finite, faults.unended, faults.cut), (0, 0, 0));
     let differs = |(a, b): (&[f32; 3], &[f32; 3])| {

@@ -103,7 +103,7 @@ fn the_sun_shines_through_what_lets_it_pass() {
             assert!((value - lit * tint).abs() < 1.0e-6, "{pixel:?}");
         }
     }
-    let opaque = PathOptions { bounces: 4, passes_panes: false };
+    let opaque = PathOptions { passes_panes: false, ..PathOptions::from(4) };
     let image = posed.render_path(&eye, opaque).expect("rendered");
     assert!(image.pixels.iter().all(|pixel| *pixel == [0.0; 3]));
 }

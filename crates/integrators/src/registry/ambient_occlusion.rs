@@ -3,15 +3,37 @@
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::Recorder;
 use rasray_gpu_scene::GpuScene;
+use rasray_options::{Least, OptionRow, Unit, Value, Values};
+use rasray_scene::needs::Workload;
 use rasray_shaders_glsl::{
     INTEGRATORS_AMBIENT_OCCLUSION_RESOLVE, INTEGRATORS_AMBIENT_OCCLUSION_SPAWN, INTEGRATORS_PRIMARY,
 };
 
 use crate::{
-    Film, Integrator, IntegratorDesc, IntegratorError, Traced, Wave,
+    Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
     integrator::check_wave,
-    kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants},
+    kernels::{self, Bindings, Kernel, WaveConstants, camera_constants, film},
 };
+
+/// The registry's row.
+pub(super) const ROW: IntegratorRow = IntegratorRow {
+    name: "ao",
+    doc: "Ambient occlusion: cosine-weighted visibility of a white environment",
+    options: &[&DISTANCE],
+    rays: &[RayKind::Camera, RayKind::Shadow],
+    workload: |_| Workload { why: "ambient occlusion asks only what is visible", ..Workload::VISIBILITY },
+    make: |desc, spec| {
+        let range = spec.get(DISTANCE.name).and_then(Value::number).unwrap_or(f32::INFINITY);
+        Ok(Box::new(AmbientOcclusion::new(desc, range)?))
+    },
+};
+
+const DISTANCE: OptionRow = OptionRow::new(
+    "ao-distance",
+    Values::Number(Unit::Metres, Least::AboveZero),
+    "Metres within which something occludes; any distance if not given",
+)
+.trying(&["0.5", "2"]);
 
 /// One occlusion ray per sample from the surface that the camera ray hits; the background is 1. Two traces per wave.
 #[derive(Debug)]
@@ -34,24 +56,15 @@ impl AmbientOcclusion {
     /// A range that is not above 0, sizes that do not fit, out of memory, or the device refuses a
     /// pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, range: f32) -> Result<Self, IntegratorError> {
-        if range.is_nan() || range <= 0.0 {
-            return Err(IntegratorError::Option {
-                option: "ambient occlusion distance",
-                value: range.to_string(),
-                expected: "metres above 0, or infinity",
-            });
+        if range != f32::INFINITY {
+            DISTANCE.check(Value::Number(range))?;
         }
         let capacity = desc.check()?;
         let device = desc.device;
         let queue = RayQueue::new(device, "camera rays", capacity, true)?;
         let shadow_queue = RayQueue::new(device, "occlusion rays", capacity, false)?;
-        let storage = Storage {
-            film: Some(desc.film.pixels()),
-            film_faults: Some(desc.film.faults()),
-            shadow: Some(&shadow_queue),
-            ..Storage::default()
-        };
-        let bindings = Bindings::new(device, desc.scene, &storage)?;
+        let bound = [&film(desc.film)[..], &kernels::shadow_queue(&shadow_queue)].concat();
+        let bindings = Bindings::new(device, desc.scene, &bound)?;
         Ok(Self {
             range,
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
@@ -67,7 +80,7 @@ impl AmbientOcclusion {
 
 impl Integrator for AmbientOcclusion {
     fn name(&self) -> &'static str {
-        "ao"
+        ROW.name
     }
 
     fn record_wave(

@@ -5,7 +5,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Device, Recorder};
 use rasray_gpu_scene::{GpuScene, ShadingFeatures};
+use rasray_options::Value;
 use rasray_scene::ShadowTerminator;
+use rasray_scene::needs::Workload;
 use rasray_shaders_glsl::{
     INTEGRATORS_FILM_ACCUMULATE, INTEGRATORS_PATH_RESOLVE, INTEGRATORS_PATH_SHADE,
     INTEGRATORS_PATH_SHADE_PASSING, INTEGRATORS_PRIMARY,
@@ -16,70 +18,41 @@ use rasray_shaders_glsl::{
 };
 
 use crate::{
-    Film, Integrator, IntegratorDesc, IntegratorError, Traced, Wave,
+    Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
     integrator::{check_features, check_wave},
-    kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer},
+    kernels::{
+        Bindings, Bound, Kernel, WaveConstants, binding, camera_constants, device_buffer, film, shadow_queue,
+    },
 };
 
-/// Maximum number of scatterings of a path. A wave records up to this number of rounds.
-pub const BOUNCE_LIMIT: u32 = 1024;
+mod options;
+
+pub use options::{BOUNCE_LIMIT, GlassShadows, PathOptions};
+use options::{BOUNCES, GLASS_SHADOWS, SHADOW_TERMINATOR};
+
+/// The registry's row.
+pub(super) const ROW: IntegratorRow = IntegratorRow {
+    name: "path",
+    doc: "Path tracing with light sampling",
+    options: &[&BOUNCES, &GLASS_SHADOWS, &SHADOW_TERMINATOR],
+    rays: &[RayKind::Camera, RayKind::Scattered, RayKind::Shadow],
+    workload: |spec| match PathOptions::of(spec).bounces {
+        0 => Workload {
+            emission: true,
+            blends: true,
+            why: "with 0 bounces no light is scattered",
+            ..Workload::VISIBILITY
+        },
+        _ => Workload::ALL,
+    },
+    make: |desc, spec| Ok(Box::new(Path::new(desc, PathOptions::of(spec))?)),
+};
 
 /// Surfaces passed in a straight line that the rounds of a wave allow for at first.
 const USUAL_LAYERS: u32 = 8;
 
 /// Most rounds that one recording of a wave has; more are recorded as its rest.
 const ROUND_LIMIT: u32 = 2 * BOUNCE_LIMIT + 1 + 2 * PATH_LAYER_LIMIT;
-
-/// What smooth thin panes of glass do to light from lamps, the sun and the sky. Thin walls whose transmission is rough,
-/// and glass with a thickness, scatter light either way, and stop shadow rays.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum GlassShadows {
-    /// Light goes straight through them and takes their tint. Going through is no scattering, and so no bounce.
-    #[default]
-    Tint,
-    /// They stop shadow rays, and going through is a scattering: what is behind them is lit by what scattered rays find,
-    /// which are never lights without extent.
-    Opaque,
-}
-
-impl GlassShadows {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Tint, Self::Opaque];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tint => "tint",
-            Self::Opaque => "opaque",
-        }
-    }
-
-    /// What it is, in one line of help.
-    pub fn doc(self) -> &'static str {
-        match self {
-            Self::Tint => "Light goes straight through smooth thin panes and takes their tint",
-            Self::Opaque => "Panes stop it; what scattered rays meet behind them counts alone",
-        }
-    }
-}
-
-/// What paths do.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PathOptions {
-    /// At most this many scatterings, up to [`BOUNCE_LIMIT`]: 1 is direct light only, 0 emission only.
-    pub bounces: u32,
-    /// What smooth thin panes do to light; without bounces they are opaque.
-    pub glass_shadows: GlassShadows,
-    /// What light samples see of coarse smooth meshes.
-    pub shadow_terminator: ShadowTerminator,
-}
-
-impl From<u32> for PathOptions {
-    /// This many bounces, and the default of everything else.
-    fn from(bounces: u32) -> Self {
-        Self { bounces, ..Self::default() }
-    }
-}
 
 /// Paths of at most so many scatterings. In every round each path that goes on traces one
 /// closest-hit ray and at most one shadow ray; paths that have ended take part in no pass.
@@ -120,13 +93,7 @@ impl Path {
     /// refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, options: impl Into<PathOptions>) -> Result<Self, IntegratorError> {
         let PathOptions { bounces, glass_shadows, shadow_terminator } = options.into();
-        if bounces > BOUNCE_LIMIT {
-            return Err(IntegratorError::Option {
-                option: "bounces",
-                value: bounces.to_string(),
-                expected: "at most 1024",
-            });
-        }
+        BOUNCES.check(Value::Whole(bounces))?;
         let panes = desc.features.panes && bounces > 0 && glass_shadows == GlassShadows::Tint;
         let passing = desc.features.blend || panes;
         let capacity = desc.check()?;
@@ -135,21 +102,18 @@ impl Path {
         let slots = u64::from(capacity);
         let buffer = |name, bytes: usize| device_buffer(device, name, slots * bytes as u64);
         let states = buffer("path states", size_of::<PathState>())?;
-        let storage = Storage {
-            film: Some(desc.film.pixels()),
-            film_faults: Some(desc.film.faults()),
-            path_states: Some(&states),
-            ..Storage::default()
-        };
-        let bind = |storage| Bindings::new(device, desc.scene, &storage);
+        let [pixels, faults] = film(desc.film);
+        let own = [pixels, faults, (binding::PATH_STATES, &states)];
+        let bind = |more: &[Bound<'_>]| Bindings::new(device, desc.scene, &[&own, more].concat());
         let (shadows, bindings) = if passing {
             let waiting = buffer("waiting paths", size_of::<PathWaiting>())?;
-            let bindings = bind(Storage { waiting: Some(&waiting), ..storage })?;
+            let bindings = bind(&[(binding::WAITING, &waiting)])?;
             (Shadows::Passing { waiting }, bindings)
         } else {
             let queue = RayQueue::new(device, "shadow rays", capacity, false)?;
             let pending = buffer("pending radiance", size_of::<[f32; 3]>())?;
-            let bindings = bind(Storage { pending: Some(&pending), shadow: Some(&queue), ..storage })?;
+            let [rays, header, list] = shadow_queue(&queue);
+            let bindings = bind(&[(binding::PENDING, &pending), rays, header, list])?;
             let resolve = bindings.kernel(device, &INTEGRATORS_PATH_RESOLVE, &[])?;
             let accumulate = bindings.kernel(device, &INTEGRATORS_FILM_ACCUMULATE, &[])?.of_film();
             (Shadows::Occluded { queue, pending, resolve, accumulate }, bindings)
@@ -251,7 +215,7 @@ impl Path {
 
 impl Integrator for Path {
     fn name(&self) -> &'static str {
-        "path"
+        ROW.name
     }
 
     fn record_wave(

@@ -3,12 +3,28 @@
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::Recorder;
 use rasray_gpu_scene::GpuScene;
+use rasray_scene::needs::Workload;
 use rasray_shaders_glsl::{INTEGRATORS_PRIMARY, INTEGRATORS_RAYCAST_SHADE};
 
 use crate::{
-    Film, Integrator, IntegratorDesc, IntegratorError, Traced, Wave,
+    Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
     integrator::check_wave,
-    kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants},
+    kernels::{Bindings, Kernel, WaveConstants, camera_constants, film},
+};
+
+/// The registry's row.
+pub(super) const ROW: IntegratorRow = IntegratorRow {
+    name: "raycast",
+    doc: "What the camera sees, unlit",
+    options: &[],
+    rays: &[RayKind::Camera],
+    workload: |_| Workload {
+        emission: true,
+        shades: true,
+        why: "ray casting shows colour and emission alone, lit from the eye",
+        ..Workload::VISIBILITY
+    },
+    make: |desc, _| Ok(Box::new(Raycast::new(desc)?)),
 };
 
 /// Emission plus base colour times the cosine between shading normal and ray; the environment where nothing is hit. One
@@ -31,12 +47,7 @@ impl Raycast {
         let capacity = desc.check()?;
         let device = desc.device;
         let queue = RayQueue::new(device, "camera rays", capacity, true)?;
-        let storage = Storage {
-            film: Some(desc.film.pixels()),
-            film_faults: Some(desc.film.faults()),
-            ..Storage::default()
-        };
-        let bindings = Bindings::new(device, desc.scene, &storage)?;
+        let bindings = Bindings::new(device, desc.scene, &film(desc.film))?;
         Ok(Self {
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
             shade: bindings.kernel(device, &INTEGRATORS_RAYCAST_SHADE, &[])?,
@@ -49,7 +60,7 @@ impl Raycast {
 
 impl Integrator for Raycast {
     fn name(&self) -> &'static str {
-        "raycast"
+        ROW.name
     }
 
     fn record_wave(

@@ -1,0 +1,107 @@
+//! What paths do, and the rows of their options.
+
+use rasray_options::{OptionRow, Value, Values, Word};
+use rasray_scene::ShadowTerminator;
+
+use crate::IntegratorSpec;
+
+/// Maximum number of scatterings of a path. A wave records up to this number of rounds.
+pub const BOUNCE_LIMIT: u32 = 64;
+
+/// By default so many that light, which enters and leaves a glass with two walls and so has scattered four times before it is
+/// seen on what stands behind, can go through two such glasses in a row.
+pub(super) const BOUNCES: OptionRow = OptionRow::new(
+    "bounces",
+    Values::Whole(0, BOUNCE_LIMIT),
+    "At most this many scatterings (0: emission alone, 1: direct light; through thick or rough glass each surface is one)",
+)
+.by_default(Value::Whole(8))
+.trying(&["0", "2", "8"]);
+
+pub(super) const GLASS_SHADOWS: OptionRow = OptionRow::words(
+    "glass-shadows",
+    &[GlassShadows::Tint.word(), GlassShadows::Opaque.word()],
+    "What smooth thin panes of glass do to light",
+)
+.by_default(Value::Word(GlassShadows::Tint.name()));
+
+pub(super) const SHADOW_TERMINATOR: OptionRow = OptionRow::words(
+    "shadow-terminator",
+    &[terminator_word(ShadowTerminator::None), terminator_word(ShadowTerminator::Offset)],
+    "Where shadow rays of smooth surfaces start",
+)
+.by_default(Value::Word(ShadowTerminator::None.name()));
+
+const fn terminator_word(terminator: ShadowTerminator) -> Word {
+    (terminator.name(), terminator.doc())
+}
+
+/// What smooth thin panes of glass do to light from lamps, the sun and the sky. Thin walls whose transmission is rough,
+/// and glass with a thickness, scatter light either way, and stop shadow rays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GlassShadows {
+    /// Light goes straight through them and takes their tint. Going through is no scattering, and so no bounce.
+    #[default]
+    Tint,
+    /// They stop shadow rays, and going through is a scattering: what is behind them is lit by what scattered rays find,
+    /// which are never lights without extent.
+    Opaque,
+}
+
+impl GlassShadows {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Tint, Self::Opaque];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Tint => "tint",
+            Self::Opaque => "opaque",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub const fn doc(self) -> &'static str {
+        match self {
+            Self::Tint => "Light goes straight through smooth thin panes and takes their tint",
+            Self::Opaque => "Panes stop it; what scattered rays meet behind them counts alone",
+        }
+    }
+
+    const fn word(self) -> Word {
+        (self.name(), self.doc())
+    }
+}
+
+/// What paths do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PathOptions {
+    /// At most this many scatterings, up to [`BOUNCE_LIMIT`]: 1 is direct light only, 0 emission only.
+    pub bounces: u32,
+    /// What smooth thin panes do to light; without bounces they are opaque.
+    pub glass_shadows: GlassShadows,
+    /// What light samples see of coarse smooth meshes.
+    pub shadow_terminator: ShadowTerminator,
+}
+
+impl PathOptions {
+    /// As a spec has them.
+    pub(super) fn of(spec: &IntegratorSpec) -> Self {
+        Self {
+            bounces: spec.get(BOUNCES.name).and_then(Value::whole).unwrap_or_default(),
+            glass_shadows: spec.choice(&GLASS_SHADOWS, &GlassShadows::ALL, GlassShadows::name),
+            shadow_terminator: spec.choice(
+                &SHADOW_TERMINATOR,
+                &ShadowTerminator::ALL,
+                ShadowTerminator::name,
+            ),
+        }
+    }
+}
+
+impl From<u32> for PathOptions {
+    /// This many bounces, and the default of everything else.
+    fn from(bounces: u32) -> Self {
+        Self { bounces, ..Self::default() }
+    }
+}

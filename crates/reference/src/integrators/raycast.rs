@@ -1,0 +1,28 @@
+use glam::Vec3;
+
+use super::{Image, NaiveIntegrator, Tracer};
+use crate::shading::{PosedScene, ReferenceError, View, random::Numbers};
+
+pub(super) const ROW: NaiveIntegrator =
+    NaiveIntegrator { name: "raycast", render: |posed, view, _| posed.render_raycast(view) };
+
+impl Tracer<'_> {
+    /// One sample: emission plus base colour times the cosine between shading normal and ray, or the environment.
+    pub(super) fn raycast(&self, view: &View, random: Numbers) -> Vec3 {
+        let ray = self.camera_ray(view, random);
+        match self.closest(&ray) {
+            Some(surface) => surface.emission + surface.base_color * surface.normal.dot(ray.direction).abs(),
+            None => self.posed.environment_radiance(ray.direction),
+        }
+    }
+}
+
+impl PosedScene<'_> {
+    /// What camera rays hit, lit from the eye; W/(sr m^2), with a light of 1 there.
+    ///
+    /// # Errors
+    /// If the image is empty or the scene has more triangles than ids.
+    pub fn render_raycast(&self, view: &View) -> Result<Image, ReferenceError> {
+        self.render(view, false, |tracer, random| tracer.raycast(view, random))
+    }
+}
