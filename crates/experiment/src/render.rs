@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use rasray_gpu::{Device, Stage};
 use rasray_gpu_scene::{SceneTables, View};
-use rasray_integrators::{FilmPixel, PATH_LAYER_LIMIT};
+use rasray_integrators::FilmPixel;
 
 use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
@@ -64,17 +64,8 @@ pub(super) fn render_pixels(
     }
     rendering.render(device, built, task, progress)?;
     rendering.log_visibility(device)?;
+    let faults = rendering.warn_of_faults(device)?;
     let image = rendering.image();
-    let faults = image.film().read_faults(device).map_err(device_error)?;
-    if faults.non_finite > 0 {
-        tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
-    }
-    if faults.cut > 0 {
-        tracing::warn!(
-            "{} rays would have passed more than {PATH_LAYER_LIMIT} transparent surfaces: what lies behind those is left out",
-            faults.cut
-        );
-    }
     let mut counters = built.counters()?;
     counters.unfinished = Some(image.unfinished());
     counters.cut = (faults.cut > 0).then(|| faults.cut.into());

@@ -4,7 +4,9 @@ use std::ops::ControlFlow;
 
 use rasray_frame::{Advance, ImagePasses, ImageRenderer};
 use rasray_gpu::Device;
-use rasray_integrators::{Film, Integrator, IntegratorDesc, IntegratorError, Visibility};
+use rasray_integrators::{
+    Film, FilmFaults, Integrator, IntegratorDesc, IntegratorError, PATH_LAYER_LIMIT, Visibility,
+};
 use rasray_scene::needs::Needs;
 
 use crate::backend::{OnProgress, Progress};
@@ -127,6 +129,24 @@ impl Rendering {
             progress(Progress { task, done, total, unit: "waves" })
         };
         image.render(built.structure(), device.best_timing(), after).map_err(frame_error)
+    }
+
+    /// Warns of what the picture lacks: samples that are no numbers, and light behind too many surfaces.
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn warn_of_faults(&self, device: &Device) -> Result<FilmFaults, ExperimentError> {
+        let faults = self.image.film().read_faults(device).map_err(device_error)?;
+        if faults.non_finite > 0 {
+            tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
+        }
+        if faults.cut > 0 {
+            tracing::warn!(
+                "{} rays would have passed more than {PATH_LAYER_LIMIT} transparent surfaces: what lies behind those is left out",
+                faults.cut
+            );
+        }
+        Ok(faults)
     }
 
     /// Says how many triangles were drawn over all pixels, where camera rays are drawn.

@@ -239,9 +239,15 @@ impl Engine {
             return Ok(Step::Working);
         }
         self.done = film.image().samples_done() >= settings.frame.spp;
+        // Once, as a render does.
+        let cut_rays = if self.done { film.warn_of_faults(device)?.cut } else { 0 };
         let pixels = Pixels::Radiance(film.read(device)?);
         let (samples, passes) = (film.image().samples_done(), film.pass_times());
-        self.picture(camera, pixels, samples, passes)
+        let mut step = self.picture(camera, pixels, samples, passes)?;
+        if let Step::Picture(picture) = &mut step {
+            picture.cut_rays = cut_rays;
+        }
+        Ok(step)
     }
 
     /// One wave with as few pixels as it takes to follow.
@@ -342,6 +348,7 @@ impl Engine {
             pixels,
             settings: self.settings.clone(),
             samples,
+            cut_rays: 0,
             camera,
             sample_ms: self.sample_ms,
             passes,

@@ -103,6 +103,9 @@ pub struct Picture {
     pub settings: Settings,
     /// Samples per pixel in it.
     pub samples: u32,
+    /// Rays that would have passed more transparent surfaces than a ray may, once refinement has ended: what lies behind
+    /// is left out.
+    pub cut_rays: u32,
     /// From where.
     pub camera: Camera,
     /// Milliseconds of the last sample, as the host saw it.

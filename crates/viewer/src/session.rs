@@ -295,6 +295,7 @@ mod tests {
             pixels: Pixels::Radiance(vec![[0.0; 3]]),
             settings,
             samples: 1,
+            cut_rays: 0,
             camera: camera_looking_at("", DVec3::new(0.0, 0.0, 4.0), DVec3::ZERO, 0.7),
             sample_ms: 1.0,
             passes: Vec::new(),

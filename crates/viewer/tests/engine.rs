@@ -308,6 +308,31 @@ fn exact_systems_have_no_difference_and_work_is_counted() {
     }
 }
 
+/// A stack of clear sheets before the eye, two more than a ray may pass: the picture says how many rays were cut.
+#[test]
+fn cut_rays_are_told_when_refinement_has_ended() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("sheets.obj");
+    let mut text = String::from("mtllib sheets.mtl\nusemtl clear\n");
+    // Rays pass at most 4,096.
+    for sheet in 0..4098_u32 {
+        let z = f64::from(sheet) / 4096.0;
+        text += &format!("v -9 -9 {z}\nv 9 -9 {z}\nv 0 9 {z}\nf -3 -2 -1\n");
+    }
+    std::fs::write(&path, text).expect("a scene");
+    std::fs::write(folder.path().join("sheets.mtl"), "newmtl clear\nKd 0 0 0\nd 0.000001\n")
+        .expect("materials");
+    let mut settings = settings();
+    let camera = Rounded { eye: "0,0,4".to_owned(), target: "0,0,0".to_owned(), fov: "10".to_owned() };
+    settings.standpoint = Standpoint::Placed(camera);
+    settings.system = system("brute-force");
+    settings.frame = Frame { integrator: Integrator::path(1), width: 2, height: 1, spp: 1, ..settings.frame };
+    let picture = finished(&mut engine_of(path.as_os_str(), &settings));
+    assert!(picture.cut_rays >= 2, "{}", picture.cut_rays);
+    settings.frame.integrator = Integrator::Raycast;
+    assert_eq!(finished(&mut engine_of(path.as_os_str(), &settings)).cut_rays, 0);
+}
+
 #[test]
 fn a_failure_is_told_and_the_next_settings_go_on() {
     let good = settings();

@@ -234,6 +234,11 @@ fn show_state(ui: &mut egui::Ui, session: &Session) {
             };
         }
     });
+    if let Some(picture) = session.picture.as_ref().filter(|picture| picture.cut_rays > 0) {
+        let text =
+            format!("{} rays passed too many transparent surfaces: light is missing", picture.cut_rays);
+        ui.colored_label(ui.visuals().warn_fg_color, text);
+    }
 }
 
 fn show_view(ui: &mut egui::Ui, session: &mut Session) {
