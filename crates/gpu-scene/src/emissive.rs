@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use rasray_scene::{AlphaMode, Image, Mesh, Scene, Texture, TextureRef, Wrap};
+use rasray_scene::{AlphaMode, Image, Material, Mesh, Scene, Texture, TextureRef, Wrap};
 
 use crate::{
     Posed,
@@ -34,9 +34,10 @@ impl EmissiveSources {
         let mut first_of_draw = Vec::new();
         for (draw, shading) in posed.draws.iter().zip(draw_shadings.iter()) {
             let material = &scene.materials[shading.material as usize];
-            let radiosity = PI * luminance(material.emission) * if material.double_sided { 2.0 } else { 1.0 };
-            // Unlit materials are not lights; scattered rays hit what blends, as often as its opacity says.
-            if material.unlit || material.alpha_mode == AlphaMode::Blend || radiosity == 0.0 {
+            let sides = if material.double_sided { 2.0 } else { 1.0 };
+            let radiosity = PI * luminance(material.emission) * sides * opacity(material);
+            // Unlit materials are not lights.
+            if material.unlit || radiosity == 0.0 {
                 first_of_draw.push(None);
                 continue;
             }
@@ -81,6 +82,15 @@ impl EmissiveSources {
             area([0, 1, 2].map(|place| corner(posed.indices[first + place])))
         };
         self.primitives.iter().map(|&primitive| of(primitive)).collect()
+    }
+}
+
+/// Share of the emission that a surface sends, as far as its material alone says it: what blends emits in proportion to its
+/// opacity.
+fn opacity(material: &Material) -> f64 {
+    match material.alpha_mode {
+        AlphaMode::Blend => f64::from(material.base_color[3].clamp(0.0, 1.0)),
+        AlphaMode::Opaque | AlphaMode::Mask { .. } => 1.0,
     }
 }
 

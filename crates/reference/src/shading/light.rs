@@ -52,9 +52,13 @@ impl LightTable {
         for draw in &posed.draws {
             let material = posed.material(draw);
             let sides = if material.double_sided { 2.0 } else { 1.0 };
-            let radiosity = PI * f64::from(luminance(Vec3::from(material.emission)).max(0.0)) * sides;
-            // Scattered rays alone hit what blends, as often as its opacity says.
-            if material.unlit || material.alpha_mode == AlphaMode::Blend || !(radiosity > 0.0) {
+            let opacity = match material.alpha_mode {
+                AlphaMode::Blend => f64::from(material.base_color[3].clamp(0.0, 1.0)),
+                AlphaMode::Opaque | AlphaMode::Mask { .. } => 1.0,
+            };
+            let radiosity =
+                PI * f64::from(luminance(Vec3::from(material.emission)).max(0.0)) * sides * opacity;
+            if material.unlit || !(radiosity > 0.0) {
                 first_of_draw.push(None);
                 continue;
             }

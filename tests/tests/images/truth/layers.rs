@@ -208,6 +208,29 @@ fn blended_emitters_shine_through_each_other() {
     }
 }
 
+/// A small lamp, half of it there, far away: light samples find it, where scattered rays would meet it once in ten thousand.
+#[test]
+fn a_blended_lamp_shines_as_its_opacity_says() {
+    let bench = Bench::new();
+    let lamp = || square(DVec3::new(0.5, 4.0, 0.3), DVec3::X * 0.05, DVec3::Z * 0.05, 1);
+    let floor = || square(DVec3::ZERO, DVec3::Z * 0.01, DVec3::X * 0.01, 0);
+    let corners: Vec<_> = lamp().positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
+    let irradiance = 1000.0 * polygon_irradiance(DVec3::ZERO, DVec3::Y, &corners);
+    for (alpha, share) in [(1.0, 1.0), (0.5, 0.5), (0.0, 0.0)] {
+        let material = Material { emission: [1000.0; 3], ..veil(alpha) };
+        let scene = scene_of(vec![floor(), lamp()], vec![diffuse([ALBEDO; 3]), material]);
+        let studio = Studio::new(&bench, &scene, at_the_floor(), SIZE, System::BruteForce);
+        let found = studio.estimate(&studio.path(1), samples(&bench, 16));
+        let truth = f64::from(ALBEDO) / PI * irradiance * share;
+        let name = format!("a lamp of opacity {alpha}");
+        // The lamp shines on a point; the view shows a spot.
+        assert_truth(&name, &found, grey(truth), 2e-4);
+        if share > 0.0 {
+            assert_refused(&name, &found, grey(1.01 * truth), 2e-4);
+        }
+    }
+}
+
 /// A white wall in a white world is white behind any number of clear layers, and lit as if they were not there.
 #[test]
 fn clear_layers_change_nothing() {

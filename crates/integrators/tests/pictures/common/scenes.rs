@@ -155,8 +155,11 @@ pub fn veiled_room() -> Scene {
     let mut holed = pane.clone();
     holed.base_color[3] = 0.6;
     holed.alpha_mode = AlphaMode::Blend;
+    let mut glowing = lambert(0.2, 3.0);
+    glowing.base_color[3] = 0.3;
+    glowing.alpha_mode = AlphaMode::Blend;
     let first = scene.materials.len();
-    scene.materials.extend([pane, milky, holed]);
+    scene.materials.extend([pane, milky, holed, glowing]);
     let under_lamp = |y: f64| DVec3::new(0.1, y, 0.0);
     for (place, u, v, material) in [
         (under_lamp(0.8), DVec3::X * 0.5, DVec3::Z * 0.5, first),
@@ -164,6 +167,7 @@ pub fn veiled_room() -> Scene {
         (under_lamp(0.6), DVec3::X * 0.4, DVec3::Z * 0.4, first + 2),
         (under_lamp(0.5), DVec3::X * 0.6, DVec3::Z * 0.3, 5),
         (DVec3::new(0.0, 0.2, 0.5), DVec3::X * 0.2, DVec3::Y * 0.2, first),
+        (DVec3::new(-0.6, 0.4, 0.3), DVec3::Z * 0.1, DVec3::Y * 0.15, first + 3),
     ] {
         let mesh = scene.meshes.len();
         scene.meshes.push(square(place, u, v, material));
