@@ -11,17 +11,22 @@ bool ray_culls_back_faces(Ray ray) {
     return (ray.flags & RAY_CULL_BACK_FACES) != 0u;
 }
 
-// DRAW_* bits of a triangle of the geometry that is bound; none where it has no draw.
-uint back_face_draw_flags(uint primitive) {
-    return geometry_header.draw_count == 0u ? 0u : geometry_draws[geometry_draw(primitive)].flags;
+// DRAW_* bits of the triangle with an id; none where it has no draw.
+uint back_face_draw_flags_of_id(uint id) {
+    return geometry_header.draw_count == 0u ? 0u : geometry_draws[geometry_draw_of_id(id)].flags;
 }
 
-// Whether the ray passes a triangle that it meets on this side.
-bool back_face_is_passed(Ray ray, uint primitive, bool counter_clockwise) {
+// The same of a triangle of the geometry that is bound.
+uint back_face_draw_flags(uint primitive) {
+    return back_face_draw_flags_of_id(geometry_id(primitive));
+}
+
+// Whether the ray passes the triangle with an id, which it meets on this side.
+bool back_face_is_passed(Ray ray, uint id, bool counter_clockwise) {
     if (!ray_culls_back_faces(ray)) {
         return false;
     }
-    uint flags = back_face_draw_flags(primitive);
+    uint flags = back_face_draw_flags_of_id(id);
     return (flags & DRAW_SINGLE_SIDED) != 0u && counter_clockwise == ((flags & DRAW_MIRRORED) != 0u);
 }
 
@@ -34,7 +39,7 @@ bool back_face_is_passed_by_plane(Ray ray, uint primitive) {
     vec3 b;
     vec3 c;
     geometry_vertices(primitive, a, b, c);
-    return back_face_is_passed(ray, primitive, dot(cross(b - a, c - a), ray.direction) < 0.0);
+    return back_face_is_passed(ray, geometry_id(primitive), dot(cross(b - a, c - a), ray.direction) < 0.0);
 }
 
 #endif

@@ -78,8 +78,9 @@ uint evaluate_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_l
     if (!proper && !(t >= t_low && t <= t_high)) {
         return TEST_OUTSIDE_CELL;
     }
-    if (inside ? back_face_is_passed(ray, primitive, counter_clockwise)
-        : back_face_is_passed_by_plane(ray, primitive)) {
+    // Beyond its triangle the ray meets the side that it meets of the plane.
+    bool side = inside ? counter_clockwise : dot(cross(b - a, c - a), ray.direction) < 0.0;
+    if (back_face_is_passed(ray, primitive, side)) {
         return TEST_BACK_FACE;
     }
     if (!inside) {
@@ -118,7 +119,7 @@ void test_listed(Ray ray, uint primitive, float t_low, float t_high, bool with_p
     if (with_planes) {
         rival = plane_rival(best);
     }
-    uint verdict = evaluate_triangle(ray, rival, primitive, t_low, t_high, t, barycentrics, t_error);
+    uint verdict = evaluate_triangle(ray, rival, primitive, primitive, t_low, t_high, t, barycentrics, t_error);
     if (with_planes && verdict == TEST_ACCEPTED && !plane_is_better(best, t, primitive, barycentrics)) {
         verdict = TEST_NOT_BETTER;
     }

@@ -92,12 +92,16 @@ uvec3 geometry_triangle(uint primitive) {
     return uvec3(geometry_indices[first], geometry_indices[first + 1u], geometry_indices[first + 2u]);
 }
 
-// The three posed corners of a triangle.
-void geometry_vertices(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
-    uvec3 vertices = geometry_triangle(primitive);
+// The posed positions of three vertices.
+void geometry_corners(uvec3 vertices, out vec3 a, out vec3 b, out vec3 c) {
     a = geometry_position(vertices.x);
     b = geometry_position(vertices.y);
     c = geometry_position(vertices.z);
+}
+
+// The three posed corners of a triangle.
+void geometry_vertices(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
+    geometry_corners(geometry_triangle(primitive), a, b, c);
 }
 
 // The global id of a triangle, which hits have. A part of a geometry numbers its triangles from 0, in the order of their
@@ -113,20 +117,25 @@ uint geometry_id(uint primitive) {
         if (geometry_runs[middle].x > primitive) end = middle;
         else run = middle;
     }
-    return geometry_runs[run].y + (primitive - geometry_runs[run].x);
+    uvec2 found = geometry_runs[run];
+    return found.y + (primitive - found.x);
 }
 
-// The draw of a triangle, in O(log draws): draws lie in the order of their triangles. 0 where there is none.
-uint geometry_draw(uint primitive) {
-    primitive = geometry_id(primitive);
+// The draw of the triangle with an id, in O(log draws): draws lie in the order of their triangles. 0 where there is none.
+uint geometry_draw_of_id(uint id) {
     uint draw = 0u;
     uint end = geometry_header.draw_count;
     while (end > draw + 1u) {
         uint middle = draw + (end - draw) / 2u;
-        if (geometry_draws[middle].first_triangle > primitive) end = middle;
+        if (geometry_draws[middle].first_triangle > id) end = middle;
         else draw = middle;
     }
     return draw;
+}
+
+// The same of a triangle by its number.
+uint geometry_draw(uint primitive) {
+    return geometry_draw_of_id(geometry_id(primitive));
 }
 
 #endif

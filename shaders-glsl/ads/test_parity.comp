@@ -13,6 +13,7 @@ uint trace_first(uvec2 header, Ray ray, inout TraceState state, out Hit hit) {
 #undef STRUCTURE_SET
 #undef StructureRef
 #undef STRUCTURE_NAME
+#undef STRUCTURE_CURSOR_WORDS
 
 #define STRUCTURE_SET 2
 #include "second/names.glsl"

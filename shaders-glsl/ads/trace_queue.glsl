@@ -1,5 +1,4 @@
-// What: traces the ray of one queue slot and stores the answer; shared by the closest and the occluded
-// kernel of every structure.
+// What: traces the ray of one queue slot and stores the answer, in the kernel of every structure.
 // Reads: rays, states, the list of paused rays. Writes: hits, states, list, header, work, steps.
 #ifndef ADS_TRACE_QUEUE_GLSL
 #define ADS_TRACE_QUEUE_GLSL
@@ -31,6 +30,36 @@ void queue_store_work(uint slot, TraceState state) {
     queue_work[slot] = work;
 }
 
+// The state that a ray paused with. What its structure does not use of the cursor, and work where nobody counts it, is not
+// kept.
+TraceState queue_state(uint slot, Ray ray) {
+    TraceState state = trace_state_begin(ray);
+    state.best = queue_states[slot].best;
+    for (uint word = 0u; word < STRUCTURE_CURSOR_WORDS; word++) {
+        state.cursor[word] = queue_states[slot].cursor[word];
+    }
+    if (COUNTERS >= COUNTERS_SUMS) {
+        state.cells = queue_states[slot].cells;
+        state.entries = queue_states[slot].entries;
+        state.tests = queue_states[slot].tests;
+        state.rounds = queue_states[slot].rounds;
+    }
+    return state;
+}
+
+void queue_set_state(uint slot, TraceState state) {
+    queue_states[slot].best = state.best;
+    for (uint word = 0u; word < STRUCTURE_CURSOR_WORDS; word++) {
+        queue_states[slot].cursor[word] = state.cursor[word];
+    }
+    if (COUNTERS >= COUNTERS_SUMS) {
+        queue_states[slot].cells = state.cells;
+        queue_states[slot].entries = state.entries;
+        queue_states[slot].tests = state.tests;
+        queue_states[slot].rounds = state.rounds;
+    }
+}
+
 // The slot of this invocation; false where there is none.
 bool trace_slot(uint invocation, out uint slot) {
     work_budget = trace.work_budget;
@@ -52,7 +81,7 @@ bool trace_slot(uint invocation, out uint slot) {
 bool trace_begin(uint slot, Ray ray, out TraceState state) {
     state = trace_state_begin(ray);
     if (queue_header.round > 0u) {
-        state = queue_states[slot];
+        state = queue_state(slot, ray);
     } else if (trace.continues != 0u) {
         Hit before = queue_hit(slot);
         if (before.primitive == PRIMITIVE_NONE) {
@@ -68,7 +97,7 @@ void trace_store(uint slot, uint result, TraceState state, Hit hit) {
     queue_store_work(slot, state);
     if (result == TRACE_PAUSED) {
         trace_log(STEP_PAUSE, 0u, 0u, 0u, 0.0, 0.0);
-        queue_states[slot] = state;
+        queue_set_state(slot, state);
         LIST_APPEND(queue_header.paused, queue_header.capacity, queue_list,
             queue_paused_at(queue_header.round, queue_header.capacity), slot)
         return;

@@ -9,10 +9,9 @@
 //
 // cursor: 0 flags and face
 //         1 t
-//         3 column and row
-//         4 slice
-//         6 next entry
-//         7 place in the triangles that are tested one by one
+//         2 column and row
+//         3 slice
+//         4 next entry
 #ifndef BRICKS_TRACE_GLSL
 #define BRICKS_TRACE_GLSL
 
@@ -24,11 +23,6 @@
 #include "ads/constants.glsl"
 #include "ads/march_cube.glsl"
 
-#define ListedRef BrickRef
-#define LISTED_HEADER(s) BRICK_HEADER(s)
-#define LISTED_NEAR(s) BRICK_NEAR_LIST(s)
-#include "ads/listed.glsl"
-
 // Fields of the flags.
 #define BRICK_CURSOR_STARTED 0, 1
 #define BRICK_CURSOR_LISTED 1, 1
@@ -36,10 +30,23 @@
 // The list of the cell has not been begun.
 #define BRICK_LIST_BEGIN 0xFFFFFFFFu
 
-// Follows the ray from `t` to `t_last`, over the near region if it crosses that. `resumed`: as the cursor says.
-// True if the budget ended first.
-bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, vec2 near, float slack, bool any_hit,
-    bool resumed, inout TraceState state, inout uint work) {
+// What is tested one by one before the ray is followed.
+#define BRICK_ALONE_NONE 0u
+#define BRICK_ALONE_NEAR 1u
+#define BRICK_ALONE_ALL 2u
+
+// How many of these there are.
+uint brick_alone(BrickRef s, uint alone) {
+    return alone == BRICK_ALONE_ALL ? geometry_triangle_count()
+        : min(BRICK_HEADER(s).near_demand, BRICK_HEADER(s).near_capacity);
+}
+
+// Tests what is tested one by one, then follows the ray from `t` to `t_last`, over the near region if it crosses that; a ray
+// that tests all triangles is not followed. Either reads its candidates by the same code, which is most of the kernel.
+// `resumed`: as the cursor says. True if the budget ended first.
+bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, vec2 near, float slack, uint alone,
+    bool any_hit, bool resumed, inout TraceState state) {
+    uint work = 0u;
     BrickTraversal traversal;
     const bool axes = BRICK_VIEWS == BRICK_VIEWS_AXES;
     traversal.shift = 2 * ivec3(brick_divisions(s, BRICK_DEPTH));
@@ -62,12 +69,14 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
     uint face = 0u;
     ivec3 cell = ivec3(0);
     uint entry = BRICK_LIST_BEGIN;
-    bool begins = !resumed;
+    bool begins = !resumed || alone != BRICK_ALONE_NONE;
     if (resumed) {
+        entry = state.cursor[4];
+    }
+    if (!begins) {
         face = bits_get(state.cursor[0], BRICK_CURSOR_FACE);
         t = uintBitsToFloat(state.cursor[1]);
-        cell = ivec3(cell_of_bits(state.cursor[3]), state.cursor[4]);
-        entry = state.cursor[6];
+        cell = ivec3(cell_of_bits(state.cursor[2]), state.cursor[3]);
     } else if (near.x <= t && t <= near.y) {
         t = near.y;
     }
@@ -81,9 +90,10 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
     bvec3 up;
     // The two triangles tested last: large ones are in many consecutive cells.
     uvec2 tested = uvec2(PRIMITIVE_NONE);
-    // Each iteration crosses a cell or the empty cells around it, and stays below the budget.
-    while (t <= t_last && !(t > state.best.t + slack)) {
-        if (turns) {
+    // Each iteration crosses a cell or the empty cells around it, and stays below the budget; the first may test what is
+    // tested one by one.
+    while (alone != BRICK_ALONE_NONE || (t <= t_last && !(t > state.best.t + slack))) {
+        if (turns && alone == BRICK_ALONE_NONE) {
             if (axes) {
                 line = box_line(brick_axes(s, BRICK_DEPTH), origin, ray.direction);
                 up = greaterThanEqual(line.direction, vec3(0.0));
@@ -104,26 +114,38 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
         }
         // A list that was being read when the ray paused goes on without a unit for its cell.
         bool enters = entry == BRICK_LIST_BEGIN;
-        if (enters) {
-            if (work >= work_budget) {
-                paused = true;
-                break;
+        BrickBox box = BrickBox(cell, cell, true, 0u);
+        vec3 exits = vec3(0.0);
+        float t_out = t;
+        uvec2 entries = uvec2(0u);
+        if (alone != BRICK_ALONE_NONE) {
+            entries.y = brick_alone(s, alone);
+        } else {
+            if (enters) {
+                if (work >= work_budget) {
+                    paused = true;
+                    break;
+                }
+                work++;
             }
-            work++;
-        }
-        BrickBox box = brick_box(s, traversal, face, cell, up);
-        ivec3 planes = mix(box.first, box.last + 1, up);
-        vec3 exits = axes ? box_line_exits(line, planes) : brick_exits(r, planes, traversal.column, traversal.slices);
-        float t_out = max(min(exits.x, min(exits.y, exits.z)), t);
-        if (enters) {
-            state.cells++;
-            trace_log(STEP_CELL, face, uint(cell.x), uint(cell.y), t, t_out);
+            box = brick_box(s, traversal, face, cell, up);
+            ivec3 planes = mix(box.first, box.last + 1, up);
+            exits = axes ? box_line_exits(line, planes) : brick_exits(r, planes, traversal.column, traversal.slices);
+            t_out = max(min(exits.x, min(exits.y, exits.z)), t);
+            if (enters) {
+                state.cells++;
+                trace_log(STEP_CELL, face, uint(cell.x), uint(cell.y), t, t_out);
+            }
+            if (box.listed) {
+                entries = brick_entries(s, traversal, box.list);
+                if (enters) {
+                    trace_log(STEP_LIST, uint(cell.z), entries.x, 0u, 0.0, 0.0);
+                }
+            }
         }
         if (box.listed) {
-            uvec2 entries = brick_entries(s, traversal, box.list);
             if (enters) {
                 entry = entries.x;
-                trace_log(STEP_LIST, uint(cell.z), entries.x, 0u, 0.0, 0.0);
             }
             for (; entry < entries.y; entry++) {
                 if (work >= work_budget) {
@@ -131,18 +153,31 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
                     break;
                 }
                 work++;
-                state.entries++;
-                uint primitive = BRICK_ENTRIES(s)[entry];
-                trace_log(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
+                uint primitive = entry;
+                if (alone == BRICK_ALONE_NONE) {
+                    state.entries++;
+                    primitive = BRICK_ENTRIES(s)[entry];
+                    trace_log(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
+                } else if (alone == BRICK_ALONE_NEAR) {
+                    primitive = BRICK_NEAR_LIST(s)[entry];
+                }
                 if (primitive != tested.x && primitive != tested.y) {
                     brick_test(s, primitive, ray, state);
                     tested = uvec2(primitive, tested.x);
                 }
+                if (alone != BRICK_ALONE_NONE && any_hit && state.best.primitive != PRIMITIVE_NONE) {
+                    break;
+                }
             }
-            if (paused || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
+            if (paused || alone == BRICK_ALONE_ALL || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
                 break;
             }
             entry = BRICK_LIST_BEGIN;
+        }
+        if (alone != BRICK_ALONE_NONE) {
+            alone = BRICK_ALONE_NONE;
+            tested = uvec2(PRIMITIVE_NONE);
+            continue;
         }
         // Where the ray enters the near region it continues on the other side; triangles in it are tested one by one.
         if (crosses_near && t < near.x && t_out >= near.x) {
@@ -178,11 +213,12 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
         }
     }
     if (paused) {
-        state.cursor[0] = bits_put(true, BRICK_CURSOR_STARTED) | bits_put(face, BRICK_CURSOR_FACE);
+        state.cursor[0] = bits_put(true, BRICK_CURSOR_STARTED) | bits_put(face, BRICK_CURSOR_FACE)
+            | bits_put(alone != BRICK_ALONE_NONE, BRICK_CURSOR_LISTED);
         state.cursor[1] = floatBitsToUint(t);
-        state.cursor[3] = bits_of_cell(cell.xy);
-        state.cursor[4] = uint(cell.z);
-        state.cursor[6] = entry;
+        state.cursor[2] = bits_of_cell(cell.xy);
+        state.cursor[3] = uint(cell.z);
+        state.cursor[4] = entry;
     }
     return paused;
 }
@@ -201,23 +237,16 @@ uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
         return TRACE_MISS;
     }
     bool distant = largest_coordinate(origin) > ORIGIN_LIMIT * reach;
-    uint work = 0u;
     bool resumed = bits_are_set(state.cursor[0], BRICK_CURSOR_STARTED);
-    bool listed = bits_are_set(state.cursor[0], BRICK_CURSOR_LISTED);
     bool intersects_near = near.x <= near.y && near.x <= clip.y && near.y >= clip.x;
-    if ((!resumed || listed) && (distant || intersects_near)) {
-        if (!resumed) {
-            trace_log(STEP_VIEW, distant ? SEGMENT_ALL : SEGMENT_NEAR, 0u, 0u, clip.x, clip.y);
-        }
-        uint place = state.cursor[7];
-        if (listed_test(s, ray, distant, any_hit, place, state, work)) {
-            state.cursor[7] = place;
-            state.cursor[0] = bits_put(true, BRICK_CURSOR_STARTED) | bits_put(true, BRICK_CURSOR_LISTED);
-            return TRACE_PAUSED;
-        }
+    uint alone = BRICK_ALONE_NONE;
+    if (!resumed || bits_are_set(state.cursor[0], BRICK_CURSOR_LISTED)) {
+        alone = distant ? BRICK_ALONE_ALL : (intersects_near ? BRICK_ALONE_NEAR : BRICK_ALONE_NONE);
     }
-    bool done = distant || (any_hit && state.best.primitive != PRIMITIVE_NONE);
-    if (!done && brick_trace_cells(s, ray, origin, clip.x, clip.y, near, slack, any_hit, resumed && !listed, state, work)) {
+    if (!resumed && alone != BRICK_ALONE_NONE) {
+        trace_log(STEP_VIEW, distant ? SEGMENT_ALL : SEGMENT_NEAR, 0u, 0u, clip.x, clip.y);
+    }
+    if (brick_trace_cells(s, ray, origin, clip.x, clip.y, near, slack, alone, any_hit, resumed, state)) {
         return TRACE_PAUSED;
     }
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;

@@ -7,12 +7,8 @@
 #include "structure/names.glsl"
 #include "structure/trace.glsl"
 
-uint trace_closest(StructureRef s, Ray ray, inout TraceState state, out Hit hit) {
-    return STRUCTURE_NAME(trace_closest)(s, ray, state, hit);
-}
-
-uint trace_occluded(StructureRef s, Ray ray, inout TraceState state) {
-    return STRUCTURE_NAME(trace_occluded)(s, ray, state);
+uint trace_ray(StructureRef s, Ray ray, inout TraceState state, bool any_hit, out Hit hit) {
+    return STRUCTURE_NAME(trace_ray)(s, ray, state, any_hit, hit);
 }
 
 #ifdef SURFACES_ENABLED

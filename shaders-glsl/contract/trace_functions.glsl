@@ -9,7 +9,7 @@
 #include "contract/trace_state.glsl"
 #include "ads/geometry.glsl"
 
-// Defines <prefix>_trace_closest and <prefix>_trace_occluded from
+// Defines <prefix>_trace_closest and <prefix>_trace_occluded, and <prefix>_trace_ray, which is either as `any_hit` says, from
 //     uint <prefix>_status(Ref s)                                                       the status of the last build
 //     uint <prefix>_trace(Ref s, Ray ray, inout TraceState state, bool any_hit)         TRACE_*
 // Hit  <prefix>_hit(Ref s, Hit best)                                                the hit that the best one
@@ -27,13 +27,16 @@
         } \
         return prefix##_trace(s, ray, state, any_hit); \
     } \
-    uint prefix##_trace_closest(Ref s, Ray ray, inout TraceState state, out Hit hit) { \
-        uint result = prefix##_trace_checked(s, ray, state, false); \
+    uint prefix##_trace_ray(Ref s, Ray ray, inout TraceState state, bool any_hit, out Hit hit) { \
+        uint result = prefix##_trace_checked(s, ray, state, any_hit); \
         hit = state.best; \
-        if (result == TRACE_HIT) { \
+        if (!any_hit && result == TRACE_HIT) { \
             hit = prefix##_hit(s, hit); \
         } \
         return result; \
+    } \
+    uint prefix##_trace_closest(Ref s, Ray ray, inout TraceState state, out Hit hit) { \
+        return prefix##_trace_ray(s, ray, state, false, hit); \
     } \
     uint prefix##_trace_occluded(Ref s, Ray ray, inout TraceState state) { \
         return prefix##_trace_checked(s, ray, state, true); \

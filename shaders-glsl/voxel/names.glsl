@@ -3,3 +3,5 @@
 // No include guard: a shader with two structures includes the names of each in turn, and undefines them.
 #define StructureRef VoxelRef
 #define STRUCTURE_NAME(name) voxel_##name
+// Words of the cursor that a paused ray keeps.
+#define STRUCTURE_CURSOR_WORDS 8u

@@ -69,10 +69,8 @@ pub struct Modules {
 /// Modules that trace a queue.
 #[derive(Clone, Copy, Debug)]
 pub struct TraceModules {
-    /// Closest hit.
-    pub closest: &'static Shader,
-    /// Occlusion.
-    pub occluded: &'static Shader,
+    /// Nearest hits and occlusion.
+    pub trace: &'static Shader,
     /// Surfaces; absent where the scene's shaders are not compiled in.
     pub surfaces: Option<&'static Shader>,
 }
@@ -135,8 +133,7 @@ impl Modules {
     ) -> Result<TraceModules, AdsError> {
         let masked = SceneBinding::mask_suffix(scene);
         Ok(TraceModules {
-            closest: self.find(&format!("trace_closest{variant}{masked}"))?,
-            occluded: self.find(&format!("trace_occluded{variant}{masked}"))?,
+            trace: self.find(&format!("trace{variant}{masked}"))?,
             surfaces: self.find("surfaces").ok(),
         })
     }

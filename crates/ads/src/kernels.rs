@@ -32,8 +32,9 @@ pub struct TraceKernelsDesc<'a> {
 /// Pipelines that trace a queue through one structure.
 #[derive(Debug)]
 pub struct TraceKernels {
-    closest: Kernel,
-    occluded: Kernel,
+    trace: ComputePipeline,
+    /// Labels of traces for nearest hits and for occlusion.
+    trace_labels: [String; 2],
     surfaces: Option<Kernel>,
     next_round: ComputePipeline,
     scene: Option<SceneBinding>,
@@ -61,16 +62,19 @@ impl TraceKernels {
         let mut constants = vec![(COUNTERS, desc.counters.constant())];
         constants.extend_from_slice(desc.constants);
         constants.extend(desc.scene.iter().flat_map(|scene| &scene.constants));
-        let kernel = |shader: &'static Shader| -> Result<Kernel, AdsError> {
-            let pipeline = device.create_compute_pipeline(&ComputePipelineDesc {
+        let pipeline = |shader: &'static Shader| {
+            device.create_compute_pipeline(&ComputePipelineDesc {
                 name: shader.name,
                 spirv: &shader.words(),
                 sets: &sets,
                 push_constant_bytes: size_of::<TraceConstants>() as u32,
                 constants: &constants,
-            })?;
-            Ok(Kernel { label: shader.name, pipeline })
+            })
         };
+        let surfaces = |shader: &'static Shader| -> Result<Kernel, AdsError> {
+            Ok(Kernel { label: shader.name, pipeline: pipeline(shader)? })
+        };
+        let TraceModules { trace, surfaces: surface_module } = desc.modules;
         let next_round = device.create_compute_pipeline(&ComputePipelineDesc {
             name: "ads/queue_next_round",
             spirv: &rasray_shaders_glsl::ADS_QUEUE_NEXT_ROUND.words(),
@@ -79,9 +83,10 @@ impl TraceKernels {
             constants: &[],
         })?;
         Ok(Self {
-            closest: kernel(desc.modules.closest)?,
-            occluded: kernel(desc.modules.occluded)?,
-            surfaces: desc.modules.surfaces.filter(|_| desc.scene.is_some()).map(kernel).transpose()?,
+            trace: pipeline(trace)?,
+            trace_labels: ["/trace_closest", "/trace_occluded"]
+                .map(|label| trace.name.replacen("/trace", label, 1)),
+            surfaces: surface_module.filter(|_| desc.scene.is_some()).map(surfaces).transpose()?,
             next_round,
             scene: desc.scene.cloned(),
             counters: desc.counters,
@@ -107,25 +112,25 @@ impl TraceKernels {
         Ok(())
     }
 
-    fn constants(&self, address: u64, domain: Domain, continues: bool) -> TraceConstants {
+    fn constants(&self, address: u64, domain: Domain) -> TraceConstants {
         TraceConstants {
             structure: halves(address),
             domain: domain.word(),
             work_budget: self.work_budget,
-            continues: continues.into(),
+            ..TraceConstants::default()
         }
     }
 
     fn bind(
         &self,
         recorder: &mut Recorder<'_>,
-        kernel: &Kernel,
+        pipeline: &ComputePipeline,
         geometry: &Geometry,
         structure: Option<&BindingSet>,
         queue: &RayQueue,
         constants: TraceConstants,
     ) {
-        recorder.bind_compute(&kernel.pipeline);
+        recorder.bind_compute(pipeline);
         recorder.bind_sets(0, &[geometry.set()]);
         if let Some(structure) = structure {
             recorder.bind_sets(1, &[structure]);
@@ -153,22 +158,23 @@ impl TraceKernels {
         rounds: u32,
         continues: bool,
     ) {
-        let kernel = match mode {
-            TraceMode::Closest => &self.closest,
-            TraceMode::Occluded => &self.occluded,
+        let any_hit = mode == TraceMode::Occluded;
+        let constants = TraceConstants {
+            continues: continues.into(),
+            any_hit: any_hit.into(),
+            ..self.constants(address, domain)
         };
-        let constants = self.constants(address, domain, continues);
         let round = std::mem::offset_of!(QueueHeader, round) as u64;
         let after_paused = std::mem::offset_of!(QueueHeader, unfinished) as u64;
-        recorder.begin_pass(Stage::Trace(mode), kernel.label);
+        recorder.begin_pass(Stage::Trace(mode), &self.trace_labels[usize::from(any_hit)]);
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
         recorder.fill(queue.header(), round, after_paused - round, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
-        self.bind(recorder, kernel, geometry, structure, queue, constants);
+        self.bind(recorder, &self.trace, geometry, structure, queue, constants);
         queue.record_dispatch(recorder, domain);
         for _ in 1..rounds.max(1) {
             self.record_next_round(recorder, queue, false);
-            self.bind(recorder, kernel, geometry, structure, queue, constants);
+            self.bind(recorder, &self.trace, geometry, structure, queue, constants);
             recorder.dispatch_indirect(queue.header(), 0);
         }
         self.record_next_round(recorder, queue, true);
@@ -199,9 +205,9 @@ impl TraceKernels {
         let Some(kernel) = &self.surfaces else {
             return false;
         };
-        let constants = self.constants(address, domain, false);
+        let constants = self.constants(address, domain);
         recorder.begin_pass(Stage::Surfaces, kernel.label);
-        self.bind(recorder, kernel, geometry.whole(), structure, queue, constants);
+        self.bind(recorder, &kernel.pipeline, geometry.whole(), structure, queue, constants);
         queue.record_dispatch(recorder, domain);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
         recorder.end_pass();

@@ -184,7 +184,7 @@ fn resolved(requested: &str, defines: &[(String, String)]) -> String {
 /// A line of the permutation list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Permutation {
-    /// Name of the module, such as `abuffer/trace_closest`.
+    /// Name of the module, such as `bvh/trace`.
     pub name: String,
     /// Entry file relative to the root.
     pub entry: String,

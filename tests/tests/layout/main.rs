@@ -102,7 +102,7 @@ fn push_constants_of_every_module() {
 fn a_wrong_expectation_is_noticed() {
     let (members, size) = (members_of(&Hit::LAYOUT), size_of::<Hit>());
     for records in [read_by_us as fn(&Shader) -> BTreeMap<String, Record>, read_by_spirq]
-        .map(|read| read(&shaders::BRUTE_TRACE_CLOSEST))
+        .map(|read| read(&shaders::BRUTE_TRACE))
     {
         let hit = records.get("Hit");
         assert_eq!(difference(hit, &members, size), None);
