@@ -7,9 +7,7 @@
 #include "contract/extensions.glsl"
 #define SHADING_BLEND false
 #include "ads/queue.glsl"
-#include "integrators/storage.glsl"
-#include "integrators/path.glsl"
-#include "scene/surface.glsl"
+#include "integrators/path_storage.glsl"
 
 layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
@@ -19,16 +17,9 @@ void main() {
         return;
     }
     Ray ray = queue_ray(slot);
-    PathState state = path_states[slot];
-    if (wave.round == 0u) {
-        state = path_begin(wave_pixel(slot), wave.sample_index);
-    }
-    Surface surface = surface_miss(ray);
-    if (queue_surfaces[slot].valid != 0u) {
-        surface = queue_surface(slot);
-    }
-    PathStep asked = path_step(state, ray, surface, wave.bounces);
-    path_states[slot] = state;
+    PathState state = path_of(slot);
+    PathStep asked = path_step(state, ray, path_surface(slot, ray), wave.bounces);
+    path_keep(slot, state);
     pending_radiance[slot] = asked.pending;
     shadow_ask(slot, asked.shadow_ray);
     queue_set_ray(slot, asked.next_ray);

@@ -10,9 +10,7 @@
 layout(constant_id = 95) const bool PATHS_PASS_PANES = true;
 #define SHADING_PANES PATHS_PASS_PANES
 #include "ads/queue.glsl"
-#include "integrators/storage.glsl"
-#include "integrators/path.glsl"
-#include "scene/surface.glsl"
+#include "integrators/path_storage.glsl"
 
 layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
@@ -47,19 +45,12 @@ void main() {
         return;
     }
     Ray ray = queue_ray(slot);
-    PathState state = path_states[slot];
-    vec3 pending = path_waiting[slot].pending;
-    if (wave.round == 0u) {
-        state = path_begin(wave_pixel(slot), wave.sample_index);
-        pending = vec3(0.0);
-    }
+    PathState state = path_of(slot);
+    vec3 pending = wave.round == 0u ? vec3(0.0) : path_waiting[slot].pending;
     if ((wave.marks & WAVE_ROUND_RESUMES) != 0u) {
         atomicAdd(film_faults.unended, 0xFFFFFFFFu);
     }
-    Surface surface = surface_miss(ray);
-    if (queue_surfaces[slot].valid != 0u) {
-        surface = queue_surface(slot);
-    }
+    Surface surface = path_surface(slot, ray);
     uint cut;
     Ray next;
     if (largest_component(pending) > 0.0) {
@@ -70,7 +61,7 @@ void main() {
     if (cut != 0u) {
         atomicAdd(film_faults.cut, 1u);
     }
-    path_states[slot] = state;
+    path_keep(slot, state);
     queue_set_ray(slot, next);
     if (next.t_max < 0.0) {
         film_add(wave_pixel(slot), state.radiance);

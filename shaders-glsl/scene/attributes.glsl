@@ -18,7 +18,7 @@ vec2 attribute_uv(DrawShading draw, uint uv_set, uvec3 triangle, vec3 weights) {
 }
 
 vec4 attribute_color(DrawShading draw, uvec3 triangle, vec3 weights) {
-    if (draw.colors == ATTRIBUTE_NONE) return vec4(1.0);
+    if (!SHADING_COLORS || draw.colors == ATTRIBUTE_NONE) return vec4(1.0);
     uvec3 words = draw.colors + 4u * (triangle - draw.first_vertex);
     return weights.x * scene_vertex_vec4(words.x)
          + weights.y * scene_vertex_vec4(words.y)

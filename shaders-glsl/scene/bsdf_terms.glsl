@@ -225,7 +225,7 @@ float bsdf_straight_probability(BsdfTerms terms, vec3 straight) {
 
 // What left the boundary of a rough volume after several scatterings, 1/sr; as bsdf_cosine_family.
 vec3 bsdf_glass(BsdfTerms terms, float cosine, int side) {
-    if (!(terms.glass_mean > 0.0)) return vec3(0.0);
+    if (!SHADING_TRANSMISSION || !(terms.glass_mean > 0.0)) return vec3(0.0);
     uint block = side > 0 ? terms.glass_side : GLASS_LOST_BACK - terms.glass_side;
     float lost = terms.glass_o * glass_albedo(terms.glass, block, cosine) / MICROFACET_PI;
     return side > 0 ? terms.glass_returned * (lost / terms.glass_mean)

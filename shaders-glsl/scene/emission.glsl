@@ -8,8 +8,7 @@
 
 // `front`: leaving from the counter-clockwise side of the mesh. Level 0; what is cut out emits
 // nothing, what is blended emits in proportion to its opacity.
-vec3 emission_at(uint primitive, vec2 barycentrics, bool front) {
-    DrawShading draw = scene_draw_shading(scene_draw_of(primitive));
+vec3 emission_at(DrawShading draw, uint primitive, vec2 barycentrics, bool front) {
     Material material = scene_material(draw.material);
     if (!front && (material.flags & MATERIAL_DOUBLE_SIDED) == 0u) return vec3(0.0);
     uvec3 triangle = geometry_triangle(primitive);

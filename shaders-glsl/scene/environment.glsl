@@ -8,6 +8,10 @@
 
 #define ENVIRONMENT_PI 3.14159265358979
 
+bool environment_is_constant(Frame frame) {
+    return !SHADING_ENVIRONMENT_MAP || frame.environment_kind == ENVIRONMENT_CONSTANT;
+}
+
 uint environment_column(vec3 direction, uint width) {
     float turn = atan(direction.z, direction.x) / (2.0 * ENVIRONMENT_PI);
     return min(uint((turn < 0.0 ? turn + 1.0 : turn) * float(width)), width - 1u);
@@ -44,7 +48,7 @@ uint environment_search(uint first, uint count, float random) {
 // W/(sr m^2) that arrives against the unit `direction`.
 vec3 environment_radiance(vec3 direction) {
     Frame frame = scene_frame();
-    if (frame.environment_kind == ENVIRONMENT_CONSTANT) return frame.environment_radiance;
+    if (environment_is_constant(frame)) return frame.environment_radiance;
     uint row = environment_row(direction, frame.environment_height);
     uint column = environment_column(direction, frame.environment_width);
     return scene_environment_texel(row * frame.environment_width + column);
@@ -59,7 +63,7 @@ float environment_pdf_of_texel(Frame frame, uint row, uint column) {
 
 float environment_pdf_alone(vec3 direction) {
     Frame frame = scene_frame();
-    if (frame.environment_kind == ENVIRONMENT_CONSTANT) return 1.0 / (4.0 * ENVIRONMENT_PI);
+    if (environment_is_constant(frame)) return 1.0 / (4.0 * ENVIRONMENT_PI);
     return environment_pdf_of_texel(frame, environment_row(direction, frame.environment_height),
                                     environment_column(direction, frame.environment_width));
 }
@@ -71,7 +75,7 @@ vec3 environment_sample(float pick, vec2 place, out vec3 radiance, out float pdf
     Frame frame = scene_frame();
     float cosine;
     float azimuth;
-    if (frame.environment_kind == ENVIRONMENT_CONSTANT) {
+    if (environment_is_constant(frame)) {
         cosine = 1.0 - 2.0 * place.x;
         azimuth = 2.0 * ENVIRONMENT_PI * place.y;
         radiance = frame.environment_radiance;

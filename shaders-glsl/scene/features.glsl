@@ -1,5 +1,5 @@
 // What: the parts of shading a module contains: specialisation constants, set from what a scene needs. An entry may set
-// each macro to something else before it includes anything. Constant ids 90 to 99 belong to scene and integrators.
+// each macro to something else before it includes anything. Constant ids 90 to 109 belong to scene and integrators.
 // Reads: nothing. Writes: nothing. Source: docs/shading.md, "Functions".
 #ifndef SCENE_FEATURES_GLSL
 #define SCENE_FEATURES_GLSL
@@ -30,6 +30,26 @@ layout(constant_id = 92) const bool SCENE_HAS_BLEND = true;
 #ifndef SHADING_TEXEL_RUNS
 layout(constant_id = 94) const bool SCENE_HAS_TEXEL_RUNS = true;
 #define SHADING_TEXEL_RUNS SCENE_HAS_TEXEL_RUNS
+#endif
+// Any light without extent.
+#ifndef SHADING_LIGHTS
+layout(constant_id = 97) const bool SCENE_HAS_LIGHTS = true;
+#define SHADING_LIGHTS SCENE_HAS_LIGHTS
+#endif
+// Any triangle is sampled as a light.
+#ifndef SHADING_EMITTERS
+layout(constant_id = 98) const bool SCENE_HAS_EMITTERS = true;
+#define SHADING_EMITTERS SCENE_HAS_EMITTERS
+#endif
+// The environment is a map, and not one radiance.
+#ifndef SHADING_ENVIRONMENT_MAP
+layout(constant_id = 99) const bool SCENE_HAS_ENVIRONMENT_MAP = true;
+#define SHADING_ENVIRONMENT_MAP SCENE_HAS_ENVIRONMENT_MAP
+#endif
+// Any draw has colours of its vertices.
+#ifndef SHADING_COLORS
+layout(constant_id = 100) const bool SCENE_HAS_COLORS = true;
+#define SHADING_COLORS SCENE_HAS_COLORS
 #endif
 
 #endif

@@ -103,8 +103,9 @@ LightSample light_sample_emissive(Frame frame, vec3 from, float pick, vec2 place
     if (!(chosen.pdf > 0.0)) return light_sample_none();
 
     bool counter_clockwise = dot(normal, chosen.direction) < 0.0;
-    bool mirrored = (scene_draw_flags(scene_draw_of(primitive)) & DRAW_MIRRORED) != 0u;
-    chosen.radiance = emission_at(primitive, barycentrics, counter_clockwise != mirrored);
+    DrawShading draw = scene_draw_shading(scene_draw_of(primitive));
+    bool mirrored = (draw.flags & DRAW_MIRRORED) != 0u;
+    chosen.radiance = emission_at(draw, primitive, barycentrics, counter_clockwise != mirrored);
     chosen.target = spawn_position(position, error, normal, -chosen.direction);
     chosen.flags = SAMPLE_VALID;
     return chosen;
@@ -116,10 +117,10 @@ LightSample light_sample(Surface s, vec4 random) {
     vec3 shares = frame.kind_shares;
     LightSample chosen = light_sample_none();
     float share;
-    if (random.x < shares.x) {
+    if (SHADING_LIGHTS && random.x < shares.x) {
         share = shares.x;
         chosen = light_sample_punctual(frame, s.position, random.y);
-    } else if (random.x < shares.x + shares.y) {
+    } else if (SHADING_EMITTERS && random.x < shares.x + shares.y) {
         share = shares.y;
         chosen = light_sample_emissive(frame, s.position, random.y, random.zw);
     } else {
@@ -142,7 +143,7 @@ Ray light_shadow_ray(Surface s, LightSample chosen) {
 // 1/sr with which light_sample chooses `position` on `primitive` from `origin`; 0 if it never does.
 float light_pdf_emitter(uint primitive, vec3 origin, vec3 position) {
     Frame frame = scene_frame();
-    if (frame.emissive_count == 0u || primitive == PRIMITIVE_NONE) return 0.0;
+    if (!SHADING_EMITTERS || frame.emissive_count == 0u || primitive == PRIMITIVE_NONE) return 0.0;
     DrawShading draw = scene_draw_shading(scene_draw_of(primitive));
     if (draw.first_emissive == EMISSIVE_NONE) return 0.0;
     vec3 a, b, c;

@@ -126,7 +126,7 @@ Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
     uvec3 triangle = geometry_triangle(primitive);
     vec3 weights = barycentric_weights(barycentrics);
     vec3 a, b, c;
-    geometry_vertices(primitive, a, b, c);
+    geometry_corners(triangle, a, b, c);
 
     s.position = triangle_point(weights, a, b, c, s.position_error);
 

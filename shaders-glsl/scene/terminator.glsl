@@ -20,7 +20,7 @@ Surface terminator_surface(Surface s, vec3 o) {
     if (draw.normals == ATTRIBUTE_NONE) return s;
     uvec3 triangle = geometry_triangle(s.primitive);
     vec3 corners[3];
-    geometry_vertices(s.primitive, corners[0], corners[1], corners[2]);
+    geometry_corners(triangle, corners[0], corners[1], corners[2]);
     vec3 weights = barycentric_weights(triangle_barycentrics(s.position, corners[0], corners[1], corners[2]));
     float facing = s.side == 1u ? 1.0 : -1.0;
     vec3 smoothed = vec3(0.0);

@@ -3,7 +3,8 @@
 use rasray_shaders_glsl::constant_ids::scene as ids;
 use rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
 use rasray_shaders_glsl::constants::scene::{
-    BSDF_SMOOTH_ROUGHNESS, MATERIAL_ALPHA_BLEND, MATERIAL_UNLIT, TEXTURE_NONE,
+    ATTRIBUTE_NONE, BSDF_SMOOTH_ROUGHNESS, ENVIRONMENT_CONSTANT, MATERIAL_ALPHA_BLEND, MATERIAL_UNLIT,
+    TEXTURE_NONE,
 };
 use rasray_shaders_glsl::records::Material;
 
@@ -24,6 +25,14 @@ pub struct ShadingFeatures {
     pub texel_runs: bool,
     /// Any draw is alpha-masked.
     pub alpha_masks: bool,
+    /// Any light without extent.
+    pub lights: bool,
+    /// Any triangle is sampled as a light.
+    pub emitters: bool,
+    /// The environment is a map, and not one radiance.
+    pub environment_map: bool,
+    /// Any draw has colours of its vertices.
+    pub colors: bool,
 }
 
 impl ShadingFeatures {
@@ -35,6 +44,10 @@ impl ShadingFeatures {
         panes: true,
         texel_runs: true,
         alpha_masks: true,
+        lights: true,
+        emitters: true,
+        environment_map: true,
+        colors: true,
     };
 
     /// Those of a scene whose texels are in runs of that length.
@@ -46,11 +59,15 @@ impl ShadingFeatures {
             panes: tables.materials.iter().any(may_be_pane),
             texel_runs: tables.texels.len() as u64 > runs.length(),
             alpha_masks: tables.posed.draws.iter().any(|draw| draw.flags & DRAW_ALPHA_MASKED != 0),
+            lights: !tables.lights.is_empty(),
+            emitters: !tables.emissive_triangles.is_empty(),
+            environment_map: tables.environment.kind != ENVIRONMENT_CONSTANT,
+            colors: tables.draw_shadings.iter().any(|draw| draw.colors != ATTRIBUTE_NONE),
         }
     }
 
     /// Each with its name.
-    fn named(self) -> [(&'static str, bool); 6] {
+    fn named(self) -> [(&'static str, bool); 10] {
         [
             ("textures", self.textures),
             ("transmission", self.transmission),
@@ -58,6 +75,10 @@ impl ShadingFeatures {
             ("smooth thin panes", self.panes),
             ("textures beyond one binding", self.texel_runs),
             ("alpha masks", self.alpha_masks),
+            ("lights without extent", self.lights),
+            ("surfaces that are sampled as lights", self.emitters),
+            ("a map of the environment", self.environment_map),
+            ("colours of vertices", self.colors),
         ]
     }
 
@@ -77,17 +98,25 @@ impl ShadingFeatures {
             panes: self.panes || other.panes,
             texel_runs: self.texel_runs || other.texel_runs,
             alpha_masks: self.alpha_masks || other.alpha_masks,
+            lights: self.lights || other.lights,
+            emitters: self.emitters || other.emitters,
+            environment_map: self.environment_map || other.environment_map,
+            colors: self.colors || other.colors,
         }
     }
 
     /// Specialisation constants of modules that read the scene (`scene/features.glsl`): id and bits. A module without
     /// one of them ignores it.
-    pub fn constants(self) -> [(u32, u32); 4] {
+    pub fn constants(self) -> [(u32, u32); 8] {
         [
             (ids::SCENE_HAS_TEXTURES, self.textures.into()),
             (ids::SCENE_HAS_TRANSMISSION, self.transmission.into()),
             (ids::SCENE_HAS_BLEND, self.blend.into()),
             (ids::SCENE_HAS_TEXEL_RUNS, self.texel_runs.into()),
+            (ids::SCENE_HAS_LIGHTS, self.lights.into()),
+            (ids::SCENE_HAS_EMITTERS, self.emitters.into()),
+            (ids::SCENE_HAS_ENVIRONMENT_MAP, self.environment_map.into()),
+            (ids::SCENE_HAS_COLORS, self.colors.into()),
         ]
     }
 }

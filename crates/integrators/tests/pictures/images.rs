@@ -241,6 +241,10 @@ fn code_that_is_left_out_does_not_change_the_picture() {
         panes: false,
         texel_runs: false,
         alpha_masks: false,
+        lights: false,
+        emitters: true,
+        environment_map: false,
+        colors: false,
     };
     assert_eq!(stage.scene.features(), needed);
     let lean = Path::new(&stage.desc_with(108, needed), 2).expect("valid");

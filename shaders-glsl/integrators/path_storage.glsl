@@ -1,0 +1,48 @@
+// What: paths of a wave as the kernels that shade them find and leave them.
+// Reads, writes: path states, surfaces of the queue. What a scene without transmission, or without anything that lets light
+// pass in a straight line, never changes is neither stored nor read.
+// Source: wavefront path tracing as in pbrt-v4, section 15.
+#ifndef INTEGRATORS_PATH_STORAGE_GLSL
+#define INTEGRATORS_PATH_STORAGE_GLSL
+
+#include "integrators/storage.glsl"
+#include "integrators/path.glsl"
+#include "scene/surface.glsl"
+
+// The path of a slot; a new one in the first round.
+PathState path_of(uint slot) {
+    PathState state = path_begin(wave_pixel(slot), wave.sample_index);
+    if (wave.round == 0u) return state;
+    state.throughput = path_states[slot].throughput;
+    state.radiance = path_states[slot].radiance;
+    state.bsdf_pdf = path_states[slot].bsdf_pdf;
+    state.bounce = path_states[slot].bounce;
+    if (SHADING_TRANSMISSION) state.medium = path_states[slot].medium;
+    if (SHADING_PASSES) {
+        state.choices = path_states[slot].choices;
+        state.passed = path_states[slot].passed;
+        state.travelled = path_states[slot].travelled;
+    }
+    return state;
+}
+
+void path_keep(uint slot, PathState state) {
+    path_states[slot].throughput = state.throughput;
+    path_states[slot].radiance = state.radiance;
+    path_states[slot].bsdf_pdf = state.bsdf_pdf;
+    path_states[slot].bounce = state.bounce;
+    if (SHADING_TRANSMISSION) path_states[slot].medium = state.medium;
+    if (SHADING_PASSES) {
+        path_states[slot].choices = state.choices;
+        path_states[slot].passed = state.passed;
+        path_states[slot].travelled = state.travelled;
+    }
+}
+
+// What the ray of a slot hit; a miss where it hit nothing.
+Surface path_surface(uint slot, Ray ray) {
+    if (queue_surfaces[slot].valid == 0u) return surface_miss(ray);
+    return queue_surface(slot);
+}
+
+#endif
