@@ -179,12 +179,18 @@ fn emissive_triangles_are_chosen_by_power() {
     let tables = pack(&scene, DVec3::ZERO, &Parts::ALL);
     assert!(tables.emissive_triangles.is_empty());
     assert!(tables.draw_shadings.iter().all(|draw| draw.first_emissive == numbers::EMISSIVE_NONE));
-    // Nor does a blended or an unlit material.
+    // A blended material has power in proportion to its opacity; a clear or an unlit one has none.
     scene.images[1].rgba8.fill(255);
+    let opaque = pack(&scene, DVec3::ZERO, &Parts::ALL);
+    let alpha = scene.materials[1].base_color[3];
     scene.materials[1].alpha_mode = AlphaMode::Blend;
+    scene.materials[1].base_color[3] = 0.5;
+    let blended = pack(&scene, DVec3::ZERO, &Parts::ALL);
+    assert_eq!(blended.emissive_triangles, opaque.emissive_triangles);
+    assert_eq!(blended.emissive_power, 0.5 * opaque.emissive_power);
+    scene.materials[1].base_color[3] = 0.0;
     assert!(pack(&scene, DVec3::ZERO, &Parts::ALL).emissive_triangles.is_empty());
-    scene.materials[1].alpha_mode = AlphaMode::Opaque;
-    assert!(!pack(&scene, DVec3::ZERO, &Parts::ALL).emissive_triangles.is_empty());
+    (scene.materials[1].alpha_mode, scene.materials[1].base_color[3]) = (AlphaMode::Opaque, alpha);
     scene.materials[1].unlit = true;
     assert!(pack(&scene, DVec3::ZERO, &Parts::ALL).emissive_triangles.is_empty());
 }
