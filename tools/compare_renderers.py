@@ -3,7 +3,8 @@
 
 Each scene is a glTF file with one camera and one constant environment, for rasray and for Blender's importer. Of those
 made here Mitsuba reads the same triangles as OBJ, with its own materials. Prints Markdown tables; writes pictures as
-EXR, and side by side as PNG, to the output folder. Needs Python 3.11 with the packages mitsuba, bpy and numpy.
+EXR, and side by side as PNG, to the output folder. Needs Python 3.11 with the packages mitsuba and numpy, and bpy for
+Cycles.
 """
 
 import argparse
@@ -18,10 +19,14 @@ from collections import namedtuple
 from dataclasses import dataclass
 from pathlib import Path
 
-import bpy
-import mathutils
 import mitsuba as mi
 import numpy as np
+
+try:
+    import bpy
+    import mathutils
+except ImportError:
+    bpy = None
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 # Triangles with one material; without normals they are flat.
@@ -40,6 +45,7 @@ class Material:
     specular: float = 0.0
     emission: tuple = (0.0, 0.0, 0.0)
     glass: bool = False
+    alpha: float = 1.0
 
     def gltf(self):
         """As an entry of `materials`."""
@@ -48,8 +54,9 @@ class Material:
         extensions |= {"emissive_strength": {"emissiveStrength": strength}}
         glass = {"transmission": {"transmissionFactor": 1.0}, "volume": {"thicknessFactor": 1.0}}
         extensions |= glass if self.glass else {}
-        factors = {"baseColorFactor": [*self.color, 1.0], "metallicFactor": self.metallic}
+        factors = {"baseColorFactor": [*self.color, self.alpha], "metallicFactor": self.metallic}
         return {
+            "alphaMode": "BLEND" if self.alpha < 1.0 else "OPAQUE",
             "pbrMetallicRoughness": factors | {"roughnessFactor": self.roughness},
             "emissiveFactor": [value / strength for value in self.emission],
             "extensions": {"KHR_materials_" + key: value for key, value in extensions.items()},
@@ -67,7 +74,8 @@ class Material:
             inner = {"type": rough + "conductor", "material": "none", "specular_reflectance": color, **facets}
         elif self.specular == 0.0:
             inner = {"type": "diffuse", "reflectance": color}
-        return {"type": "twosided", "inner": inner}
+        both = {"type": "twosided", "inner": inner}
+        return {"type": "mask", "opacity": self.alpha, "inner": both} if self.alpha < 1.0 else both
 
 
 def quads(corners, material):
@@ -193,8 +201,10 @@ class Mitsuba:
         film = {"type": "hdrfilm", "width": size, "height": size, "rfilter": {"type": "box"}}
         sensor = {"type": "perspective", "to_world": look, "fov": scene.fov, "film": film}
         sensor["sampler"] = {"type": sampler, "sample_count": samples}
-        # Emission alone is depth 1 there and 0 scatterings in rasray.
-        integrator = {"type": "path", "max_depth": scene.bounces + 1, "rr_depth": 1000}
+        # Emission alone is depth 1 there and 0 scatterings in rasray. Going through sheets counts as well: no end then.
+        blends = any(mesh.material.alpha < 1.0 for mesh in scene.meshes)
+        depth = -1 if blends else scene.bounces + 1
+        integrator = {"type": "path", "max_depth": depth, "rr_depth": 1000}
         world = {"type": "scene", "integrator": integrator, "sensor": sensor}
         if scene.sky > 0.0:
             world["sky"] = {"type": "constant", "radiance": scene.sky}
@@ -266,6 +276,16 @@ def lamps(folder):
     return write_scene("lamps", folder, meshes, eye=(0, 2.6, 6), target=(0, 0.5, 0), fov=45, bounces=4)
 
 
+def sheets(folder, count, name, color):
+    """A stack of sheets with the alpha 0.3 over a floor, under a sky; scatterings without end."""
+    meshes = [quads([(-4, 0, 4), (4, 0, 4), (4, 0, -4), (-4, 0, -4)], Material((0.6, 0.5, 0.3)))]
+    heights = 0.3 + 0.1 * np.arange(count)
+    corners = [(x, y, z) for y in heights for x, z in ((-1.5, 1.5), (1.5, 1.5), (1.5, -1.5), (-1.5, -1.5))]
+    meshes.append(quads(corners, Material(color, alpha=0.3)))
+    view = {"eye": (0, 4, 6), "target": (0, 0.8, 0), "fov": 40, "sky": 1.0, "bounces": 64}
+    return write_scene(f"sheets-{count}-{name}", folder, meshes, **view)
+
+
 def measure(scene, renderers, folder, size, samples):
     """Two seeds of each renderer: means, differences from rasray, and what of them is noise."""
     pictures, noise = {}, {}
@@ -326,6 +346,7 @@ def main():
     parser.add_argument("--scenes", required=True, type=Path, help="folder of the real scenes")
     parser.add_argument("--output", type=Path, default=Path("comparison"), help="folder for pictures [%(default)s]")
     parser.add_argument("--tables", default="measure,variance,furnace,leaning", help="which to make [%(default)s]")
+    parser.add_argument("--against", default="cycles,mitsuba", help="which renderers [%(default)s]")
     parser.add_argument("--only", help="names of scenes and kinds of balls, with commas between them [all]")
     parser.add_argument("--size", type=int, default=128, help="pixels along each side [%(default)s]")
     parser.add_argument("--samples", type=int, default=64, help="of the converged pictures [%(default)s]")
@@ -339,9 +360,14 @@ def main():
     folder = options.output.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     Rasray.command = options.rasray
-    sides = [Rasray(), Cycles(), Mitsuba()]
-    print(f"Mitsuba {mi.__version__}, Blender {bpy.app.version_string}")
+    against = options.against.split(",")
+    if "cycles" in against and bpy is None:
+        parser.error("Cycles needs the package bpy; without it --against mitsuba")
+    sides = [Rasray()] + [side() for side in (Cycles, Mitsuba) if side.__name__.lower() in against]
+    print(f"Mitsuba {mi.__version__}", f"Blender {bpy.app.version_string}" if bpy else "no Blender", sep=", ")
     scenes = [cornell(folder), glass(folder), lamps(folder)]
+    colors = {"white": (0.8, 0.8, 0.8), "red": (0.8, 0.1, 0.1)}
+    scenes += [sheets(folder, count, name, color) for name, color in colors.items() for count in (1, 5, 20)]
     for name, path, eye, target, fov, sky in (
         ("normals", "conformance/NormalTangentMirrorTest", (-0.65, 0, 1), (-0.65, 0, 0), 60, 1.0),
         ("normals-aslant", "conformance/NormalTangentMirrorTest", (1.4, 0, 1.3), (0.65, 0, 0), 60, 1.0),
@@ -353,10 +379,11 @@ def main():
         scenes.append(Scene(name, file, eye, target, fov, sky, 16))
     only = options.only.split(",") if options.only else []
     for scene in [item for item in scenes if not only or item.name in only]:
+        able = [side for side in sides if scene.meshes or not isinstance(side, Mitsuba)]
         if "measure" in options.tables:
-            measure(scene, sides if scene.meshes else sides[:2], folder, options.size, options.samples)
+            measure(scene, able, folder, options.size, options.samples)
         if "variance" in options.tables:
-            variance(scene, sides if scene.meshes else sides[:2], folder, options.seeds)
+            variance(scene, able, folder, options.seeds)
     for make in [make for make in (furnace, leaning) if make.__name__ in options.tables]:
         make(sides, folder, only)
 
