@@ -376,6 +376,14 @@ fn fragments_of_backs_are_passed() {
         assert!(shares.without > 0.4, "{system} {preset} {options:?}: {shares:?}");
         assert!(shares.stopped < 0.03, "{system} {preset} {options:?}: {shares:?}");
         // Beside silhouettes a fragment of a back may stand for a front, and a third of these rays is aimed at edges.
-        assert!(shares.passed > 0.8 * shares.begun_behind, "{system} {preset} {options:?}: {shares:?}");
+        // Published voxels decide by parity, and selective has each fragment in one view alone, so that fewer stand near
+        // a crossing. Measured: 0.848 (selective), 0.883 (hu), 0.926 (mmrt), 0.959 to 0.975 of the others.
+        let least = match (*system, *preset) {
+            ("selective", "published") => 0.84,
+            ("hu", "published") => 0.87,
+            ("mmrt", "published") => 0.91,
+            _ => 0.95,
+        };
+        assert!(shares.passed > least * shares.begun_behind, "{system} {preset} {options:?}: {shares:?}");
     }
 }
