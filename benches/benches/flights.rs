@@ -15,7 +15,7 @@ use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, Parts, PosePass, Sampling, SceneTables, View};
 use rasray_integrators::{Film, FilmPixel, IntegratorDesc, Path};
 use rasray_metrics::Summary;
-use rasray_scene::needs::{self, Needs, Workload};
+use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Moment, default_view};
 use rasray_systems::Spec;
 use rasray_tracer::{FrameStructure, Keeping, refresh_until_complete};
@@ -91,8 +91,7 @@ impl<'a> Setting<'a> {
         let scene = &loaded.scene;
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(scene));
         let view = View { camera, width, height, seed: 1 };
-        let workload = Workload { integrator: needs::Integrator::Path, bounces: BOUNCES };
-        let parts = Parts::from(&Needs::of(scene, workload));
+        let parts = Parts::from(&Needs::of(scene, Workload::ALL));
         let origin = SceneTables::default_frame_origin(scene, view.eye());
         let tables = SceneTables::new(scene, origin, &parts)?;
         let gpu = GpuScene::upload(device, &tables, &view)?;
