@@ -4,7 +4,7 @@
 Each scene is shown at key times of each of its clips, because between keys of rotations Blender mixes quaternions where
 the format asks for the arc. Prints a Markdown table: how far a corner or the centroid of a triangle of either is from the
 nearest one of the other, over the longest side of the scene. Needs Python 3.11 with the packages bpy and numpy, and `cargo build --release -p
-rasray-scene --example positions`.
+rasray-scene-files --example positions`.
 
   tools/compare_poses.py target/release/examples/positions SCENE.glb ...
 """
@@ -112,7 +112,7 @@ def farthest(ours, theirs):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("positions", help="the example of rasray-scene")
+    parser.add_argument("positions", help="the example of rasray-scene-files")
     parser.add_argument("scenes", nargs="+", type=Path)
     given = parser.parse_args()
     print("| scene | clip | times, s | triangles | largest distance / size |")

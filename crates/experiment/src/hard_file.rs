@@ -3,7 +3,7 @@
 use crate::error::ExperimentError;
 use rasray_hard_cases::{HardFile, Loading};
 use rasray_report::{HardRecord, Run};
-use rasray_scene::LoadOptions;
+use rasray_scene_files::LoadOptions;
 
 /// Loads a file that must be refused, or read as stated: a run with its verdict.
 ///
@@ -20,8 +20,8 @@ pub fn compare_file(file: &HardFile) -> Result<Run, ExperimentError> {
         )
     };
     std::fs::create_dir_all(&folder).map_err(failed)?;
-    let loaded =
-        std::fs::write(&place, &file.bytes).map(|()| rasray_scene::load(&place, &LoadOptions::default()));
+    let loaded = std::fs::write(&place, &file.bytes)
+        .map(|()| rasray_scene_files::load(&place, &LoadOptions::default()));
     // What is left behind there does no harm.
     _ = std::fs::remove_dir_all(&folder);
     let loaded = loaded.map_err(failed)?;

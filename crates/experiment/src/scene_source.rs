@@ -9,7 +9,8 @@ use rasray_report::{PoseRecord, SceneRecord, SmallerImageRecord};
 use rasray_scene::nearest::nearest;
 use rasray_scene::needs::Needs;
 use rasray_scene::pose::Pose;
-use rasray_scene::{AlphaMode, Camera, LoadOptions, Moment, Scene, builtin};
+use rasray_scene::{AlphaMode, Camera, Moment, Scene, builtin};
+use rasray_scene_files::LoadOptions;
 use sha2::{Digest, Sha256};
 use std::borrow::Cow;
 use std::ffi::OsStr;
@@ -80,7 +81,7 @@ pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, Exp
     let extension = path.extension().and_then(|text| text.to_str()).map(str::to_ascii_lowercase);
     let is_file = extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()));
     if is_file {
-        let scene = rasray_scene::load(path, options)?;
+        let scene = rasray_scene_files::load(path, options)?;
         let shown = scene.animation.deformer.as_ref().and_then(|deformer| deformer.file(0.0));
         let sha256 = digest(shown.unwrap_or(path))?;
         // Of numbered files the one that is shown changes with the time: keys of pictures have it by its digest.

@@ -10,7 +10,7 @@ use std::path::Path;
 use crate::remarks::Remarks;
 use crate::{Mesh, SceneError, Warning};
 
-pub(crate) use textures::textured;
+pub use textures::textured;
 pub use triangles::MAX_COORDINATE;
 
 /// Brings a mesh into the state that [`Mesh`] promises.
@@ -39,13 +39,13 @@ pub fn clean_mesh(path: &Path, mesh: &mut Mesh, warnings: &mut Vec<Warning>) -> 
 }
 
 /// See [`clean_mesh`].
-pub(crate) fn clean(path: &Path, mesh: &mut Mesh, remarks: &mut Remarks) -> Result<(), SceneError> {
+pub fn clean(path: &Path, mesh: &mut Mesh, remarks: &mut Remarks) -> Result<(), SceneError> {
     clean_deformed(path, mesh, None, remarks)
 }
 
 /// The same of a mesh at rest, with its positions `before` something deforms it: triangles are remarked on that have no area
 /// then, since what they are for a while is no fault of the file.
-pub(crate) fn clean_deformed(
+pub fn clean_deformed(
     path: &Path,
     mesh: &mut Mesh,
     before: Option<&[[f32; 3]]>,

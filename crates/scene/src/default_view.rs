@@ -62,6 +62,6 @@ fn camera_outside(scene: &Scene) -> Camera {
 }
 
 /// The material of triangles whose file names none: light grey, rough, no metal.
-pub(crate) fn plain_material(name: &str) -> Material {
+pub fn plain_material(name: &str) -> Material {
     Material { name: name.to_owned(), base_color: [0.8, 0.8, 0.8, 1.0], metallic: 0.0, ..Material::default() }
 }

@@ -29,7 +29,7 @@ pub enum SceneError {
         /// What the operating system said.
         source: std::io::Error,
     },
-    /// A limit of [`crate::Limits`] was exceeded. More may be allowed by the field `option`.
+    /// A limit of how a scene is loaded was exceeded. More may be allowed by the field `option`.
     #[error("{}: {} is {found}, which is more than the limit of {limit} ({option})", path.display(), shown(what))]
     TooLarge {
         /// The scene file.
@@ -40,7 +40,7 @@ pub enum SceneError {
         found: u64,
         /// How much is allowed.
         limit: u64,
-        /// The field of [`crate::Limits`] that decides.
+        /// The field of the limits that decides.
         option: &'static str,
     },
     /// The extension of the file name tells no known format.
@@ -168,17 +168,17 @@ pub enum SceneError {
 
 impl SceneError {
     /// An element of `path` that contradicts itself or the format.
-    pub(crate) fn invalid(path: &Path, place: impl Into<String>, reason: impl Into<String>) -> Self {
+    pub fn invalid(path: &Path, place: impl Into<String>, reason: impl Into<String>) -> Self {
         Self::Invalid { path: path.to_owned(), place: place.into(), reason: reason.into() }
     }
 
     /// Bytes of `path` that do not follow the grammar of its format.
-    pub(crate) fn syntax(path: &Path, reason: impl Into<String>) -> Self {
+    pub fn syntax(path: &Path, reason: impl Into<String>) -> Self {
         Self::Syntax { path: path.to_owned(), reason: reason.into() }
     }
 
-    /// More of something than [`crate::Limits`] allows.
-    pub(crate) fn too_large(
+    /// More of something than the limits of how a scene is loaded allow.
+    pub fn too_large(
         path: &Path,
         what: impl Into<String>,
         found: u64,
@@ -189,7 +189,7 @@ impl SceneError {
     }
 
     /// The error of a file that `scene` refers to, as one of `scene`: both are named.
-    pub(crate) fn of_scene(self, scene: &Path) -> Self {
+    pub fn of_scene(self, scene: &Path) -> Self {
         let path = scene.to_owned();
         let below = |file: &Path, text: &str| format!("{}: {text}", file.display());
         match self {

@@ -13,7 +13,7 @@ const SINGULAR_MATRIX: (&str, &str) =
 
 /// Remarks on nodes of a rig that place triangles and flatten them while these clips play; what a clip scales comes and
 /// goes as it says.
-pub(crate) fn remark(rig: &Rig, instances: &[Instance], clips: &[usize], remarks: &mut Remarks) {
+pub fn remark(rig: &Rig, instances: &[Instance], clips: &[usize], remarks: &mut Remarks) {
     let places = placing(rig, instances);
     let mut is_scaled = vec![false; rig.nodes.len()];
     for channel in clips.iter().filter_map(|&clip| rig.clips.get(clip)).flat_map(|clip| &clip.channels) {

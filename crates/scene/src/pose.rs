@@ -206,13 +206,14 @@ impl Between {
 }
 
 /// How joints have moved since a mesh was bound to them.
-pub(crate) struct Joints<'a> {
+pub struct Joints<'a> {
     binding: &'a SkinBinding,
     /// Of each joint: from mesh space to the world.
     moves: Vec<DAffine3>,
 }
 
 impl<'a> Joints<'a> {
+    /// Of a mesh that was bound to a skin, where the nodes are now.
     pub fn new(skin: &Skin, binding: &'a SkinBinding, world_from_node: &[DAffine3]) -> Self {
         let world = |joint: usize| world_from_node.get(joint).copied().unwrap_or(DAffine3::IDENTITY);
         let moves = skin.joints.iter().zip(&skin.joint_from_mesh);
@@ -258,7 +259,7 @@ fn origin_for(positions: &[DVec3]) -> DVec3 {
 
 /// Moves the vertices of `mesh`, which is as the file has it, by weighted targets of `deformed` and by joints. Answers where
 /// a mesh is that joints place; as the format asks, the transform of the node that holds it plays no part.
-pub(crate) fn deform(
+pub fn deform(
     mesh: &mut Mesh,
     deformed: &DeformedMesh,
     weights: &[f64],
@@ -321,7 +322,7 @@ fn cofactors(matrix: DMat3) -> DMat3 {
 
 /// The rigid map with the same place, view direction and up direction: where a camera at a node is. Absent where the node
 /// is degenerate.
-pub(crate) fn rigid(world: DAffine3) -> Option<DAffine3> {
+pub fn rigid(world: DAffine3) -> Option<DAffine3> {
     let back = world.matrix3.z_axis.try_normalize()?;
     let right = world.matrix3.y_axis.try_normalize()?.cross(back).try_normalize()?;
     let up = back.cross(right);
@@ -330,7 +331,7 @@ pub(crate) fn rigid(world: DAffine3) -> Option<DAffine3> {
 }
 
 /// The way that a light at a node shines.
-pub(crate) fn light_direction(world: DAffine3) -> Option<DVec3> {
+pub fn light_direction(world: DAffine3) -> Option<DVec3> {
     world.transform_vector3(DVec3::NEG_Z).try_normalize()
 }
 

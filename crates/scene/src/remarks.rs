@@ -11,7 +11,7 @@ const TEXTS: usize = 16;
 
 /// Remarks on the places of a file, and which files were read for it. The same remark on many places becomes one warning.
 #[derive(Debug, Default)]
-pub(crate) struct Remarks {
+pub struct Remarks {
     /// In the order in which they were read.
     pub files: Vec<PathBuf>,
     list: Vec<Remark>,

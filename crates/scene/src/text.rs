@@ -8,17 +8,17 @@ const LONGEST: usize = 160;
 const LONGEST_SENTENCE: usize = 800;
 
 /// A name or value of a file, cut where it is long.
-pub(crate) fn shown(text: impl Display) -> String {
+pub fn shown(text: impl Display) -> String {
     cut(text.to_string(), LONGEST)
 }
 
 /// A sentence, cut where it is long.
-pub(crate) fn sentence(text: impl Display) -> String {
+pub fn sentence(text: impl Display) -> String {
     cut(text.to_string(), LONGEST_SENTENCE)
 }
 
 /// What the operating system said, without the number it says it by.
-pub(crate) fn reason(error: &std::io::Error) -> String {
+pub fn reason(error: &std::io::Error) -> String {
     let whole = sentence(error);
     match whole.rfind(" (os error ") {
         Some(end) => whole[..end].to_owned(),

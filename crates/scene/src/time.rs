@@ -18,7 +18,7 @@ pub(crate) fn has_come(key: f64, seconds: f64) -> bool {
 }
 
 /// The last frame that has begun, of those that begin at n / `fps`.
-pub(crate) fn frame(seconds: f64, fps: f64) -> f64 {
+pub fn frame(seconds: f64, fps: f64) -> f64 {
     let nearest = (seconds * fps).round();
     if has_come(nearest / fps, seconds) { nearest } else { nearest - 1.0 }
 }

@@ -238,14 +238,14 @@ fn obj(face: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasray_scene::LoadOptions;
+    use rasray_scene_files::LoadOptions;
 
     /// Loads as the command does: from a folder, by extension.
     fn load(file: &HardFile) -> Result<Scene, SceneError> {
         let folder = tempfile::tempdir().expect("a folder can be made");
         let path = folder.path().join(file.name);
         std::fs::write(&path, &file.bytes).expect("the file can be written");
-        rasray_scene::load(&path, &LoadOptions::default())
+        rasray_scene_files::load(&path, &LoadOptions::default())
     }
 
     #[test]
@@ -279,7 +279,7 @@ mod tests {
         }
         // The same file with its index in range is read.
         let repaired = GltfText::triangle().text();
-        let loaded = rasray_scene::gltf::from_slice(
+        let loaded = rasray_scene_files::gltf::from_slice(
             "file.gltf".as_ref(),
             repaired.as_bytes(),
             &LoadOptions::default(),

@@ -8,7 +8,8 @@ use super::gltf_text::GltfText;
 use glam::DVec3;
 use rasray_reference::oracle::Ray;
 use rasray_reference::shading::PosedScene;
-use rasray_scene::{Limits, LoadOptions, Scene};
+use rasray_scene::Scene;
+use rasray_scene_files::{Limits, LoadOptions};
 
 pub(super) const CASES: &[Entry] = &[
     Entry { id: "T1", title: "mirrored tetrahedron", parameter: 0.0, build: outside },
@@ -96,7 +97,7 @@ pub fn transformed(id: &str) -> Option<Transformed> {
     let limits = Limits { depth: HALF_TURNS as u64 + 2, ..Limits::default() };
     let options = LoadOptions { limits, ..LoadOptions::default() };
     let name = format!("{id}.gltf");
-    let scene = rasray_scene::gltf::from_slice(name.as_ref(), text.as_bytes(), &options)
+    let scene = rasray_scene_files::gltf::from_slice(name.as_ref(), text.as_bytes(), &options)
         .expect("the file is written to be read");
     Some(Transformed { scene, world_from_mesh: matrix })
 }

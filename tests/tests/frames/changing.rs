@@ -8,7 +8,8 @@ use rasray_frame::{FrameError, FrameInput, FrameRenderer, FrameScene, render_in_
 use rasray_gpu::{Device, RawDevice, Timing, vk};
 use rasray_gpu_scene::{GpuScene, PosePass, ShadingFeatures};
 use rasray_integrators::{Film, IntegratorDesc, IntegratorError, Path, Raycast, Visibility};
-use rasray_scene::{AlphaMode, Camera, LoadOptions, Mesh, Moment, Projection, Scene, builtin};
+use rasray_scene::{AlphaMode, Camera, Mesh, Moment, Projection, Scene, builtin};
+use rasray_scene_files::LoadOptions;
 use rasray_systems::Spec;
 use rasray_tests::harness::Bench;
 use rasray_tracer::{Keeping, Refresh};
@@ -327,7 +328,8 @@ fn numbered_files_are_frames() {
         std::fs::write(folder.path().join(format!("sheet.{number:02}.obj")), text).expect("a file");
     }
     let options = LoadOptions { fps: 10.0, ..LoadOptions::default() };
-    let scene = rasray_scene::load(&folder.path().join("sheet.##.obj"), &options).expect("files of one name");
+    let scene =
+        rasray_scene_files::load(&folder.path().join("sheet.##.obj"), &options).expect("files of one name");
     let eye = DAffine3::from_translation(DVec3::new(0.0, 0.5, 0.3));
     let camera = Camera {
         name: "above".to_owned(),

@@ -11,7 +11,8 @@ use rasray_frame::{FrameInput, FrameRenderer, render_in_order};
 use rasray_gpu::Timing;
 use rasray_gpu_scene::{GpuScene, Parts, PosePass, Sampling, SceneTables};
 use rasray_integrators::{Film, IntegratorDesc, Path};
-use rasray_scene::{LoadOptions, Moment, Scene};
+use rasray_scene::{Moment, Scene};
+use rasray_scene_files::LoadOptions;
 use rasray_systems::Spec;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
@@ -177,7 +178,7 @@ fn a_real_figure_moves_in_a_hall() {
     };
     let bench = Bench::new();
     let file = folder.join("skinned/CesiumMan/CesiumMan.glb");
-    let figure = rasray_scene::load(&file, &LoadOptions::default()).expect("it is read");
+    let figure = rasray_scene_files::load(&file, &LoadOptions::default()).expect("it is read");
     let hall = among(figure, &made("atrium:detail=0.25"));
     let times: Vec<f64> = (0..5).map(|frame| 0.4 * f64::from(frame)).collect();
     hold(&bench, "CesiumMan in atrium", &hall, &times, &specs()[..2]);

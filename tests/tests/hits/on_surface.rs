@@ -103,7 +103,7 @@ fn rays_that_start_on_a_scan_are_right() {
     let bench = Bench::new();
     let count = RAYS.on(bench.device(), "rays that start on a surface");
     for file in ["organic/stanford-bunny/stanford-bunny.obj", "organic/fandisk/fandisk.obj"] {
-        let scene = rasray_scene::load(&folder.join(file), &rasray_scene::LoadOptions::default())
+        let scene = rasray_scene_files::load(&folder.join(file), &rasray_scene_files::LoadOptions::default())
             .expect("the scan loads");
         let triangles: Vec<Triangle> = scene
             .meshes

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use glam::DVec3;
-use rasray_scene::{Environment, Light, LoadOptions, Moment};
+use rasray_scene::{Environment, Light, Moment};
+use rasray_scene_files::LoadOptions;
 use rasray_tests::harness::Bench;
 
 use crate::pose::held::DeviceScene;
@@ -33,7 +34,7 @@ fn real_scenes_are_where_the_host_has_them() {
     let bench = Bench::new();
     println!("scene: moving vertices; positions, ulp; normals; tangents");
     for (file, moving) in FILES {
-        let mut scene = rasray_scene::load(&folder.join(file), &LoadOptions::default()).expect(file);
+        let mut scene = rasray_scene_files::load(&folder.join(file), &LoadOptions::default()).expect(file);
         // All kinds of light, one of which may move.
         scene.environment = Environment::Constant([0.5; 3]);
         scene.materials[0].emission = [1.0, 2.0, 3.0];

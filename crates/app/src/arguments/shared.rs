@@ -10,7 +10,8 @@ use rasray_experiment::{
     placed_view,
 };
 use rasray_scene::needs::{Needs, Workload};
-use rasray_scene::{BackFaces, Environment, LoadOptions, Scene, SceneError, load_environment};
+use rasray_scene::{BackFaces, Environment, Scene, SceneError};
+use rasray_scene_files::{LoadOptions, load_environment};
 use std::path::Path;
 
 /// Pixels of an image unless told.

@@ -10,9 +10,9 @@ use crate::terminal;
 use rasray_experiment::{
     Backend, Chosen, ExperimentError, LoadedScene, OpenBackend, Progress, load_with, texels,
 };
-use rasray_scene::LoadOptions;
 use rasray_scene::needs::Needs;
-use rasray_scene::sequence::{Sequence, is_pattern};
+use rasray_scene_files::LoadOptions;
+use rasray_scene_files::sequence::{Sequence, is_pattern};
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -4,7 +4,8 @@
 use std::path::PathBuf;
 
 use crate::pictures::common::difference::{difference, path};
-use rasray_scene::{Environment, LoadOptions, default_view::default_camera};
+use rasray_scene::{Environment, default_view::default_camera};
+use rasray_scene_files::LoadOptions;
 
 /// Instances, mirrored normal maps, texture settings, vertex colours, lights, blending.
 const FILES: [&str; 6] = [
@@ -48,7 +49,7 @@ fn real_scenes_look_the_same_on_device_and_cpu() {
     let more = if is_full { &MORE_FILES[..] } else { &[] };
     for &file in FILES.iter().chain(more) {
         let start = std::time::Instant::now();
-        let mut scene = rasray_scene::load(&folder.join(file), &LoadOptions::default()).expect(file);
+        let mut scene = rasray_scene_files::load(&folder.join(file), &LoadOptions::default()).expect(file);
         // Whatever else shines: some emit too little to be compared.
         scene.environment = Environment::Constant([0.6, 0.7, 0.8]);
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(&scene));

@@ -5,7 +5,7 @@ use crate::remarks::Remarks;
 use crate::{Material, Scene, TextureRef};
 
 /// Remarks on every mesh whose material has a texture that the mesh has no coordinates for.
-pub(crate) fn textured(scene: &Scene, remarks: &mut Remarks) {
+pub fn textured(scene: &Scene, remarks: &mut Remarks) {
     for mesh in &scene.meshes {
         let Some(material) = scene.materials.get(mesh.material) else { continue };
         for (what, texture) in textures(material) {

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use glam::DVec3;
-use rasray_scene::{LoadOptions, Mesh, Scene, gltf};
+use rasray_scene::{Mesh, Scene};
+use rasray_scene_files::{LoadOptions, gltf};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
     Studio, System, assert_refused, assert_truth, box_around, enclosure, looking,

@@ -1,0 +1,66 @@
+//! Which extensions are understood, and what is said of the others.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use ::gltf::json::Value;
+
+use rasray_scene::SceneError;
+use rasray_scene::remarks::Remarks;
+use rasray_scene::text::shown;
+
+/// Extensions that change the scene as they should.
+const SUPPORTED: [&str; 10] = [
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
+
+fn is_supported(name: &str) -> bool {
+    SUPPORTED.contains(&name)
+}
+
+/// Refuses files that require what is not supported.
+pub(super) fn check_required(path: &Path, tree: &Value) -> Result<(), SceneError> {
+    let required = tree["extensionsRequired"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    match required.into_iter().find(|name| !is_supported(name)) {
+        Some(name) => Err(SceneError::UnsupportedExtension {
+            path: path.to_owned(),
+            extension: name.to_owned(),
+            fix: fix_for(name),
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Warns of what a file uses, whether it says so or not, and is not supported.
+pub(super) fn report<'a>(used: impl Iterator<Item = &'a String>, remarks: &mut Remarks) {
+    let unsupported: BTreeSet<&String> = used.filter(|name| !is_supported(name)).collect();
+    for name in unsupported {
+        let text = format!("{} is used but not supported; the scene is shown without it", shown(name));
+        remarks.note("unsupported-extension", "", text);
+    }
+}
+
+/// How to get rid of an extension.
+fn fix_for(name: &str) -> &'static str {
+    match name {
+        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
+            "decompress the meshes first: npx @gltf-transform/cli copy in.glb out.glb"
+        }
+        "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" | "MSFT_texture_dds" => {
+            "convert the images first: npx @gltf-transform/cli png in.glb out.glb"
+        }
+        "KHR_materials_pbrSpecularGlossiness" => {
+            "convert the materials first: npx @gltf-transform/cli metalrough in.glb out.glb"
+        }
+        _ => "export the scene without it",
+    }
+}

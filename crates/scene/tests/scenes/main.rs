@@ -1,0 +1,9 @@
+//! Scenes made in code: built-in ones, poses, default views, and what workloads need of them.
+
+mod builtin_scenes;
+mod default_view;
+mod deforming;
+mod facing_of_scenes;
+mod needs_default_view;
+mod needs_of_scenes;
+mod poses;
