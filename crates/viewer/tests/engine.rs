@@ -326,7 +326,8 @@ fn cut_rays_are_told_when_refinement_has_ended() {
     let camera = Rounded { eye: "0,0,4".to_owned(), target: "0,0,0".to_owned(), fov: "10".to_owned() };
     settings.standpoint = Standpoint::Placed(camera);
     settings.system = system("brute-force");
-    settings.frame = Frame { integrator: integrator("path"), width: 2, height: 1, spp: 1, ..settings.frame };
+    let direct = integrator("path").with("bounces", 1).expect("valid");
+    settings.frame = Frame { integrator: direct, width: 2, height: 1, spp: 1, ..settings.frame };
     let picture = finished(&mut engine_of(path.as_os_str(), &settings));
     assert!(picture.cut_rays >= 2, "{}", picture.cut_rays);
     settings.frame.integrator = integrator("raycast");
