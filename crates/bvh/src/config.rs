@@ -109,7 +109,7 @@ impl Config {
     pub fn options(&self) -> Vec<(&'static str, String)> {
         let mut options = vec![("builder", self.builder.name().to_owned())];
         if self.builder == Builder::Sah {
-            options.push(("width", self.width.children().to_string()));
+            options.push(("children", self.width.children().to_string()));
             options.push(("leaf", self.leaf.to_string()));
         }
         options

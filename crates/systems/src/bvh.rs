@@ -28,7 +28,7 @@ const OPTIONS: &[Setter<Config>] = &[
         let builders = [Builder::Sah, Builder::Lbvh, Builder::Refit].map(|builder| (builder.name(), builder));
         given.choice(&builders).map(|value| config.builder = value)
     }),
-    ("width", |config, given| {
+    ("children", |config, given| {
         given.choice(&[("2", Width::Two), ("4", Width::Four)]).map(|value| config.width = value)
     }),
     ("leaf", |config, given| given.whole().map(|value| config.leaf = value)),

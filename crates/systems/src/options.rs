@@ -340,7 +340,7 @@ pub const OPTIONS: &[StructureOption] = &[
         "How the structure is built",
     ),
     words(
-        "width",
+        "children",
         Speed,
         Same,
         &[("2", "Two"), ("4", "Four, tested together")],
