@@ -131,20 +131,18 @@ impl Sampler {
 impl Frame {
     /// Adds to a run what was asked for.
     pub(crate) fn describe(&self, run: &mut Run) {
-        let value = |option| self.integrator.get(option);
-        let word = |option| value(option).map(|value| value.to_string());
         run.integrator = Some(self.integrator.name().to_owned());
         run.width = Some(self.width);
         run.height = Some(self.height);
         run.spp = Some(self.spp);
-        run.bounces = value("bounces").and_then(Value::whole);
+        run.bounces = self.integrator.get("bounces").and_then(Value::whole);
         run.primary = Some(self.primary.name().to_owned());
         run.seed = Some(self.seed);
         run.sampler = Some(self.sampler.name().to_owned());
         run.back_faces = Some(self.back_faces.name().to_owned());
-        run.glass_shadows = word("glass-shadows");
-        run.shadow_terminator = word("shadow-terminator");
-        run.ao_distance_m = value("ao-distance").and_then(Value::number);
+        let values = self.integrator.values();
+        let texts = values.iter().map(|(option, value)| (option, value.to_string()));
+        run.integrator_options = rasray_report::options(texts);
     }
 
     /// What an image like this one looks at in a scene.

@@ -223,15 +223,9 @@ pub struct Run {
     /// Which rays pass the backs of single-sided surfaces, such as `camera`; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub back_faces: Option<String>,
-    /// Light and shadow through smooth panes, such as `tint`; absent unless paths are traced.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub glass_shadows: Option<String>,
-    /// Where shadow rays of smooth surfaces start, such as `none`; absent unless paths are traced.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shadow_terminator: Option<String>,
-    /// Metres within which something occludes; absent unless ambient occlusion has such a distance.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub ao_distance_m: Option<f32>,
+    /// Options of the integrator by name, also those at their default; empty for ray sets.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub integrator_options: BTreeMap<String, Value>,
     /// Times and rate.
     #[serde(flatten)]
     pub times: Times,

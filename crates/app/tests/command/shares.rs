@@ -218,9 +218,9 @@ fn reports_that_are_not_of_all_frames_of_a_command_are_refused_by_name() {
         ("--sampler pcg", r#""sampler":"pcg""#),
         ("--primary raster", r#""primary":"raster""#),
         ("--back-faces none", r#""back_faces":"none""#),
-        ("--shadow-terminator offset", r#""shadow_terminator":"offset""#),
-        ("--glass-shadows opaque", r#""glass_shadows":"opaque""#),
-        ("--integrator ao --ao-distance 2", r#""ao_distance_m":2.0"#),
+        ("--shadow-terminator offset", r#""shadow-terminator":"offset""#),
+        ("--glass-shadows opaque", r#""glass-shadows":"opaque""#),
+        ("--integrator ao --ao-distance 2", r#""ao-distance":2"#),
         ("--environment 1,1,1", r#""environment":"given""#),
         ("--alpha off", r#""alpha":"off""#),
     ];
