@@ -150,6 +150,13 @@ impl DeviceScene {
         self.scene.geometry().download(device).map_err(device_error)
     }
 
+    /// Whether positions have digits enough for a camera: the frame origin, around which the scene was uploaded, is the one
+    /// that suits it.
+    pub fn suits(&self, scene: &Scene, camera: &Camera) -> bool {
+        let eye = camera.world_from_camera.translation;
+        self.scene.frame_origin() == SceneTables::default_frame_origin(scene, eye)
+    }
+
     /// Looks from elsewhere, or at another size in pixels; the frame origin stays. Structures that depend on it are
     /// stale then ([`Built::follow`](crate::Built::follow)).
     ///

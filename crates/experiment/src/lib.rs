@@ -73,7 +73,7 @@ pub use kept_files::NamedBytes;
 pub use key::picture_key;
 pub use key_hash::KeyHash;
 pub use measured::{HIT_ROUNDING, Measured, Tolerance};
-pub use moving_scene::Shown;
+pub use moving_scene::PoseTimes;
 pub use placed::{Placed, case_camera};
 pub use rasray_gpu::{PassCommands, Stage};
 pub use rasray_integrators::{INTEGRATORS, IntegratorRow, IntegratorSpec, integrator_options};

@@ -37,11 +37,11 @@ impl DeviceScene {
     ///
     /// # Errors
     /// As [`DeviceScene::moving`] and [`DeviceScene::pose`].
-    pub(super) fn of_job(device: &Device, job: &RenderJob<'_>) -> Result<(Self, Shown), ExperimentError> {
+    pub(super) fn of_job(device: &Device, job: &RenderJob<'_>) -> Result<(Self, PoseTimes), ExperimentError> {
         let Frame { width, height, seed, .. } = job.frame;
         let Some(moment) = job.moment else {
             let stage = Self::new(device, job.scene, &job.camera, [width, height], seed, &job.needs)?;
-            return Ok((stage, Shown::default()));
+            return Ok((stage, PoseTimes::default()));
         };
         let mut stage = Self::moving(device, job.scene, &job.camera, [width, height], seed, &job.needs)?;
         if job.refresh == Refresh::Moving {
@@ -83,7 +83,7 @@ impl DeviceScene {
         scene: &Scene,
         moment: &Moment,
         timing: Timing,
-    ) -> Result<Shown, ExperimentError> {
+    ) -> Result<PoseTimes, ExperimentError> {
         let Some(pass) = &self.pose else {
             return Err(device_error("a scene is to be posed that was not made to move"));
         };
@@ -92,12 +92,21 @@ impl DeviceScene {
         let host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
         let submitted =
             device.submit_passes(timing, |recorder| pass.record(recorder, 0, &pose)).map_err(device_error)?;
-        Ok(Shown { host_milliseconds, passes: submitted.passes })
+        Ok(PoseTimes { host_milliseconds, passes: submitted.passes })
     }
 }
 
-impl Shown {
-    /// As the times of a stage; none where the device posed nothing.
+/// What showing a moment took.
+#[derive(Clone, Debug, Default)]
+pub struct PoseTimes {
+    /// On the host, milliseconds: matrices of a rig, or what a deformer simulated or read.
+    pub host_milliseconds: f64,
+    /// On the device.
+    pub passes: Vec<PassTiming>,
+}
+
+impl PoseTimes {
+    /// The times of the stage; none where the device posed nothing.
     pub(super) fn times(&self) -> Passes {
         let mut passes = Passes::default();
         if !self.passes.is_empty() {
@@ -106,13 +115,4 @@ impl Shown {
         }
         passes
     }
-}
-
-/// What showing a moment took.
-#[derive(Clone, Debug, Default)]
-pub struct Shown {
-    /// On the host, milliseconds: matrices of a rig, or what a deformer simulated or read.
-    pub host_milliseconds: f64,
-    /// On the device.
-    pub passes: Vec<PassTiming>,
 }

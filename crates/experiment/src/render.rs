@@ -3,8 +3,9 @@
 use std::time::Instant;
 
 use rasray_gpu::{Device, Stage};
-use rasray_gpu_scene::{SceneTables, View};
+use rasray_gpu_scene::View;
 use rasray_integrators::FilmPixel;
+use rasray_scene::needs::Needs;
 
 use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
@@ -13,6 +14,7 @@ use crate::error::ExperimentError;
 use crate::jobs::{AovSelection, FilmSums, Frame, Refresh, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::rendering::Rendering;
+use crate::shard::Shard;
 use crate::system_config::SystemConfig;
 use rasray_report::{Counters, PassOf, Times};
 
@@ -74,9 +76,8 @@ pub(super) fn render_pixels(
     Ok(Pixels { film, samples_done, passes: std::mem::take(&mut rendering.passes), counters, first_use_ms })
 }
 
-/// What a device has of a scene that is rendered at one moment after the other: the scene, the structure, the image. For
-/// another scene, another size or seed, other needs or another part that is built ([`RenderJob::refresh`]) begin with
-/// nothing.
+/// What a device has of a scene that is rendered at one moment after the other: the scene, the structure, the image. Begin
+/// with nothing for another scene.
 #[derive(Default)]
 pub struct KeptScene(Option<OnDevice>);
 
@@ -84,9 +85,37 @@ struct OnDevice {
     stage: DeviceScene,
     built: Built,
     rendering: Rendering,
-    system: SystemConfig,
+    made_for: MadeFor,
     /// Whether every kernel was used.
     is_warm: bool,
+}
+
+/// What of a job decides what the device has.
+struct MadeFor {
+    /// For the scene there.
+    needs: Needs,
+    refresh: Refresh,
+    /// For the structure.
+    system: SystemConfig,
+    /// For the image.
+    frame: Frame,
+    shard: Option<Shard>,
+}
+
+impl MadeFor {
+    fn of(job: &RenderJob<'_>) -> Self {
+        let (needs, system, frame) = (job.needs.clone(), job.system.clone(), job.frame.clone());
+        Self { needs, refresh: job.refresh, system, frame, shard: job.shard }
+    }
+
+    /// Whether the scene on the device is that of another job.
+    fn has_scene_of(&self, other: &Self) -> bool {
+        self.needs == other.needs && self.refresh == other.refresh
+    }
+
+    fn has_image_of(&self, other: &Self) -> bool {
+        self.frame == other.frame && self.shard == other.shard
+    }
 }
 
 /// Brings a job to the device: what is there stays as far as its eye is not far from that of the job before. With times of
@@ -100,14 +129,17 @@ fn on_device(
     let spec = job.system.spec()?;
     let mut says = |task, unit| _ = progress(Progress { task, done: 0, total: 0, unit });
     says("scene", "to the device");
-    let origin = SceneTables::default_frame_origin(job.scene, job.camera.world_from_camera.translation);
-    let kept = kept.filter(|kept| kept.stage.scene.frame_origin() == origin);
+    let made_for = MadeFor::of(job);
+    let is_kept =
+        |kept: &OnDevice| kept.made_for.has_scene_of(&made_for) && kept.stage.suits(job.scene, &job.camera);
+    let kept = kept.filter(is_kept);
     let (mut stage, shown, built, rendering) = match job.moment.zip(kept) {
-        Some((moment, OnDevice { mut stage, built, rendering, system, .. })) => {
+        Some((moment, OnDevice { mut stage, built, rendering, made_for: before, .. })) => {
             let Frame { width, height, seed, .. } = job.frame;
             stage.look(&View { camera: job.camera.clone(), width, height, seed })?;
             let shown = stage.pose(device, job.scene, moment, device.best_timing())?;
-            (stage, shown, Some(built).filter(|_| system == job.system), Some(rendering))
+            let built = Some(built).filter(|_| before.system == made_for.system);
+            (stage, shown, built, Some(rendering).filter(|_| before.has_image_of(&made_for)))
         }
         None => {
             let (stage, shown) = DeviceScene::of_job(device, job)?;
@@ -136,8 +168,7 @@ fn on_device(
         }
         None => Rendering::new(device, &stage, &job.frame, job.shard, &job.needs)?,
     };
-    let system = job.system.clone();
-    Ok((OnDevice { stage, built, rendering, system, is_warm }, shown.times()))
+    Ok((OnDevice { stage, built, rendering, made_for, is_warm }, shown.times()))
 }
 
 /// Renders an image with all requested additional images.

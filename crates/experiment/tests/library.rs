@@ -5,8 +5,9 @@ use std::ops::ControlFlow;
 
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_experiment::{
-    CompareJob, Comparison, DeviceChoice, Frame, HardJob, IntegratorRow, LoadedScene, OptionValues, Primary,
-    RaySet, Sampler, SystemConfig, default_view, load, open,
+    AovSelection, CompareJob, Comparison, DeviceChoice, Frame, HardJob, IntegratorRow, KeptScene,
+    LoadedScene, OptionValues, Primary, RaySet, Refresh, RenderJob, Sampler, Shard, SystemConfig,
+    default_view, load, open,
 };
 use rasray_hard_cases::Scale;
 use rasray_ray_files::HitsFile;
@@ -121,4 +122,62 @@ fn a_hard_case_has_a_verdict_and_a_wrong_answer_breaks_it() {
     hard.hits_files = &given;
     let with_given = backend.hard(&hard, &mut |_| ControlFlow::Continue(())).expect("the device works");
     assert_eq!(met(&with_given), [Some(true), Some(false)]);
+}
+
+/// Whatever the job before was: at another moment, of another size, seed, share, system or part that is built.
+#[test]
+fn pictures_do_not_depend_on_what_was_kept() {
+    let mut loaded = load(OsStr::new("walker:8k")).expect("a built-in scene");
+    loaded.show(0.0, None).expect("it moves");
+    loaded.light(None);
+    let mut backend = open(&DeviceChoice { validation: true, ..DeviceChoice::default() }).expect("a device");
+    let frame = Frame {
+        integrator: IntegratorRow::named("path").expect("registered").into(),
+        spp: 2,
+        ..job(&loaded, &["bvh"], &[]).frame
+    };
+    let camera = default_view(&loaded.scene).camera;
+    let small = Frame { width: 24, height: 16, ..frame.clone() };
+    let reseeded = Frame { seed: 3, ..small.clone() };
+    let second = Shard::new(2, 2);
+    let (all, moving) = (Refresh::All, Refresh::Moving);
+    let mut kept = KeptScene::default();
+    let mut kept_kernels = 0;
+    for (seconds, system, frame, shard, refresh) in [
+        (0.0, "bvh", &frame, None, all),
+        (0.5, "bvh", &frame, None, all),
+        (0.5, "bvh", &small, None, all),
+        (0.75, "bvh", &small, second, all),
+        (0.75, "bvh", &reseeded, second, all),
+        (1.0, "bvh", &small, None, moving),
+        (1.25, "bvh", &small, None, moving),
+        (1.25, "brute-force", &small, None, moving),
+    ] {
+        loaded.show(seconds, None).expect("it moves");
+        let job = RenderJob {
+            scene: &loaded.scene,
+            moment: loaded.moment.as_ref(),
+            camera: camera.clone(),
+            system: systems(&[system]).remove(0),
+            refresh,
+            frame: frame.clone(),
+            shard,
+            aovs: AovSelection { depth: true, ..AovSelection::default() },
+            needs: Needs::of(&loaded.scene, frame.workload()),
+            repetitions: 0,
+        };
+        let mut render = |kept: &mut KeptScene| {
+            backend.render(&job, kept, &mut |_| ControlFlow::Continue(())).expect("the device works")
+        };
+        let (after, fresh) = (render(&mut kept), render(&mut KeptScene::default()));
+        let bits =
+            |pixels: &[[f32; 3]]| pixels.iter().map(|pixel| pixel.map(f32::to_bits)).collect::<Vec<_>>();
+        assert_eq!(bits(&after.beauty), bits(&fresh.beauty), "{system} at {seconds} s");
+        assert_eq!((&after.sums, &after.depth), (&fresh.sums, &fresh.depth), "{system} at {seconds} s");
+        assert!(after.beauty.iter().flatten().any(|value| *value > 0.0));
+        kept_kernels += u32::from(after.times.first_use_ms.is_none());
+        assert!(fresh.times.first_use_ms.is_some());
+    }
+    // At 0.5 s and at 1.25 s.
+    assert_eq!(kept_kernels, 2);
 }

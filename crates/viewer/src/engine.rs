@@ -7,7 +7,7 @@ use rasray_experiment::{
     work_per_pixel,
 };
 use rasray_gpu::{Device, Timing};
-use rasray_gpu_scene::{SceneTables, View};
+use rasray_gpu_scene::View;
 use rasray_report::Pass;
 use rasray_scene::Camera;
 use rasray_scene::needs::Needs;
@@ -171,13 +171,10 @@ impl Engine {
             Standpoint::AsGiven => self.scene.camera(&*self.choose)?,
             Standpoint::Placed(rounded) => rounded.camera()?,
         };
-        let eye = camera.world_from_camera.translation;
-        let origin = SceneTables::default_frame_origin(&self.scene.loaded().scene, eye);
         let is_posed = self.scene.loaded().moment.is_some();
         let has_default_light = self.scene.loaded().has_default_light();
         let is_kept = |(stage, _): &(DeviceScene, Needs)| {
-            // Positions far from the eye have too few digits left.
-            stage.scene.frame_origin() == origin
+            stage.suits(&self.scene.loaded().scene, &camera)
                 && self.has_default_light == has_default_light
                 && (self.posed == seconds || (stage.is_moving() && is_posed))
         };

@@ -13,13 +13,15 @@ pub(super) fn show_tables(ui: &mut egui::Ui, picture: &Picture) {
             "All dispatches of a pass together, of the build and of all samples so far; those of the first build with what \
              the driver compiled.",
         );
-        egui::Grid::new("times").num_columns(3).striped(true).show(ui, |ui| {
+        egui::Grid::new("times").num_columns(4).striped(true).show(ui, |ui| {
             ui.strong("pass");
+            ui.strong("stage");
             ui.strong("ms");
             ui.strong("times");
             ui.end_row();
             for pass in &picture.passes {
                 ui.label(&pass.label);
+                ui.label(pass.stage.as_deref().unwrap_or_default());
                 ui.monospace(format!("{:9.3}", pass.ms_median));
                 ui.monospace(grouped(pass.dispatches.unwrap_or(1)));
                 ui.end_row();
