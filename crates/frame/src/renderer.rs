@@ -32,7 +32,7 @@ pub struct FrameInput {
 
 /// What became of a frame.
 #[derive(Clone, Debug)]
-pub enum Shown {
+pub enum Taken {
     /// A picture.
     Picture(Picture),
     /// Its build was not complete, or its rays needed more rounds or passed more surfaces than were recorded, all of which the
@@ -254,7 +254,7 @@ impl FrameRenderer {
     /// # Errors
     /// The device failed, no sizes suffice for the structure, rays did not finish in as many rounds as there can be
     /// ([`FrameError::Unfinished`]), or lists are damaged.
-    pub fn take(&mut self) -> Result<Option<Shown>, FrameError> {
+    pub fn take(&mut self) -> Result<Option<Taken>, FrameError> {
         let ended = self.frames.take()?;
         ended.map(|ended| self.shown(ended)).transpose()
     }
@@ -263,12 +263,12 @@ impl FrameRenderer {
     ///
     /// # Errors
     /// As [`FrameRenderer::take`].
-    pub fn take_ended(&mut self) -> Result<Option<Shown>, FrameError> {
+    pub fn take_ended(&mut self) -> Result<Option<Taken>, FrameError> {
         let ended = self.frames.take_ended()?;
         ended.map(|ended| self.shown(ended)).transpose()
     }
 
-    fn shown(&mut self, ended: rasray_tracer::Ended) -> Result<Shown, FrameError> {
+    fn shown(&mut self, ended: rasray_tracer::Ended) -> Result<Taken, FrameError> {
         // A new image does not depend on the film before it.
         let pending = self.pending.pop_front().unwrap_or(Pending { continues: false, rounds: 0, traces: 0 });
         self.film_is_right |= !pending.continues;
@@ -291,10 +291,10 @@ impl FrameRenderer {
         }
         self.film_is_right &= ended.outcome == FrameOutcome::Complete && unanswered + unended == 0;
         if !self.film_is_right {
-            return Ok(Shown::Nothing);
+            return Ok(Taken::Nothing);
         }
         let rasray_tracer::Ended { number, built, passes, .. } = ended;
-        Ok(Shown::Picture(Picture { number, film, built, counters, passes }))
+        Ok(Taken::Picture(Picture { number, film, built, counters, passes }))
     }
 }
 

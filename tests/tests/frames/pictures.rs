@@ -3,7 +3,7 @@
 use std::ops::{ControlFlow, Range};
 
 use glam::{DAffine3, DQuat, DVec3};
-use rasray_frame::{FrameInput, FrameRenderer, ImageRenderer, Picture, Shown, render_in_order};
+use rasray_frame::{FrameInput, FrameRenderer, ImageRenderer, Picture, Taken, render_in_order};
 use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, Parts, PosePass, Sampling, SceneTables, View};
 use rasray_integrators::{Film, IntegratorDesc, Path, Visibility};
@@ -240,8 +240,8 @@ fn what_continues_adds_its_samples() {
             .submit(&input(at.view.clone(), at.pose.clone(), samples, continues))
             .expect("a slot is free");
         match renderer.take().expect("the device works").expect("one is in flight") {
-            Shown::Picture(picture) => picture.film.pixels,
-            Shown::Nothing => panic!("a tree is complete at once"),
+            Taken::Picture(picture) => picture.film.pixels,
+            Taken::Nothing => panic!("a tree is complete at once"),
         }
     };
     let whole = submit(0..4, false);
@@ -265,12 +265,12 @@ fn a_frame_that_is_not_complete_is_no_picture() {
     renderer.submit(&continued).expect("a slot is free");
     let mut shown = 0;
     while let Some(one) = renderer.take().expect("the device works") {
-        shown += usize::from(matches!(one, Shown::Picture(_)));
+        shown += usize::from(matches!(one, Taken::Picture(_)));
     }
     assert_eq!(shown, 0, "100 fragments are not enough, and nothing can be added to what is not there");
     // The film still is what an incomplete build left, although the pools suffice now.
     renderer.submit(&continued).expect("a slot is free");
-    assert!(matches!(renderer.take(), Ok(Some(Shown::Nothing))));
+    assert!(matches!(renderer.take(), Ok(Some(Taken::Nothing))));
     let (found, _) = pictures(&mut renderer, all);
     assert_eq!(found.len(), 2);
 }
