@@ -13,9 +13,9 @@ use rasray_experiment::{DeviceChoice, LoadedScene, load, open_device};
 use rasray_frame::{FrameInput, FrameRenderer, ImageRenderer, render_in_order};
 use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, Parts, PosePass, Sampling, SceneTables, View};
-use rasray_integrators::{Film, FilmPixel, IntegratorDesc, Path};
+use rasray_integrators::{Film, FilmPixel, Integrator, IntegratorDesc, IntegratorRow, IntegratorSpec};
 use rasray_metrics::Summary;
-use rasray_scene::needs::{Needs, Workload};
+use rasray_scene::needs::Needs;
 use rasray_scene::{Moment, default_view};
 use rasray_systems::Spec;
 use rasray_tracer::{FrameStructure, Keeping, refresh_until_complete};
@@ -79,7 +79,7 @@ struct Setting<'a> {
     view: View,
     scene: GpuScene,
     pose: PosePass,
-    path: Path,
+    path: Box<dyn Integrator>,
 }
 
 /// Milliseconds per frame, and the pictures.
@@ -91,13 +91,15 @@ impl<'a> Setting<'a> {
         let scene = &loaded.scene;
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(scene));
         let view = View { camera, width, height, seed: 1 };
-        let parts = Parts::from(&Needs::of(scene, Workload::ALL));
+        let paths = IntegratorRow::named("path").ok_or("paths are not registered")?;
+        let paths = IntegratorSpec::from(paths).with("bounces", BOUNCES)?;
+        let parts = Parts::from(&Needs::of(scene, paths.workload()));
         let origin = SceneTables::default_frame_origin(scene, view.eye());
         let tables = SceneTables::new(scene, origin, &parts)?;
         let gpu = GpuScene::upload(device, &tables, &view)?;
         let pose = PosePass::new(device, scene, &tables, &gpu)?;
         let film = Film::new(device, width, height)?;
-        let path = Path::new(&IntegratorDesc::new(device, &gpu, &film), BOUNCES)?;
+        let path = paths.make(&IntegratorDesc::new(device, &gpu, &film))?;
         Ok(Self { device, loaded, spec, view, scene: gpu, pose, path })
     }
 
@@ -113,7 +115,7 @@ impl<'a> Setting<'a> {
         let structure = spec.create(device, scene.geometry(), Some(scene.binding()))?;
         let keeping = Keeping { slots: 1, ..Keeping::default() };
         let mut structure = FrameStructure::new(device, structure, keeping)?;
-        let mut image = ImageRenderer::new(device, Box::new(path), 0..1)?;
+        let mut image = ImageRenderer::new(device, path, 0..1)?;
         let (mut started, mut pictures) = (Instant::now(), Vec::new());
         for number in 0..=count {
             if number == 1 {
@@ -135,7 +137,7 @@ impl<'a> Setting<'a> {
         let Self { device, loaded, spec, view, scene, pose, path } = self;
         let structure = spec.create(device, scene.geometry(), Some(scene.binding()))?;
         let rest = (Keeping { slots, ..Keeping::default() }, Timing::None, true);
-        let mut renderer = FrameRenderer::new(device, (scene, Some(pose)), structure, Box::new(path), rest)?;
+        let mut renderer = FrameRenderer::new(device, (scene, Some(pose)), structure, path, rest)?;
         let shown = renderer.scene().clone();
         let pose = shown.pose().ok_or("the scene does not move")?;
         let mut failed = Ok(());
