@@ -35,6 +35,8 @@
 // Ray flags.
 // Backs of draws with DRAW_SINGLE_SIDED are no hits.
 #define RAY_CULL_BACK_FACES 1u
+// The bits from here on: 1 + the number of the light without extent that a shadow ray leads to; 0 for every other ray.
+#define RAY_LIGHT_SHIFT 8u
 
 // Which fields of a Surface the structure fills; the others hold documented defaults.
 #define SURFACE_POSITION 1u

@@ -11,7 +11,7 @@
 #define LIGHT_INFINITY uintBitsToFloat(0x7F800000u)
 
 LightSample light_sample_none() {
-    return LightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u);
+    return LightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u, 0u);
 }
 
 // First punctual light whose cumulative share exceeds `random`.
@@ -33,6 +33,7 @@ LightSample light_sample_punctual(Frame frame, vec3 from, float pick) {
     chosen.pdf = index == 0u ? light.cumulative : light.cumulative - scene_light_cumulative(index - 1u);
     if (!(chosen.pdf > 0.0)) return chosen;
     chosen.flags = SAMPLE_VALID | SAMPLE_DELTA;
+    chosen.ray_flags = (index + 1u) << RAY_LIGHT_SHIFT;
     if (light.kind == LIGHT_DIRECTIONAL) {
         chosen.direction = -light.direction;
         chosen.distance = LIGHT_INFINITY;
@@ -136,8 +137,11 @@ LightSample light_sample(Surface s, vec4 random) {
 
 // The ray that tests whether the sample is visible from the surface.
 Ray light_shadow_ray(Surface s, LightSample chosen) {
-    if (chosen.distance < LIGHT_INFINITY) return spawn_segment(s, chosen.target);
-    return spawn_ray(s, chosen.direction, LIGHT_INFINITY);
+    Ray ray;
+    if (chosen.distance < LIGHT_INFINITY) ray = spawn_segment(s, chosen.target);
+    else ray = spawn_ray(s, chosen.direction, LIGHT_INFINITY);
+    ray.flags |= chosen.ray_flags;
+    return ray;
 }
 
 // 1/sr with which light_sample chooses `position` on `primitive` from `origin`; 0 if it never does.

@@ -146,6 +146,7 @@ struct LightSample {
     float pdf;                  // 1/sr including the choice of the light; delta: probability
     vec3 target;                // end of the shadow segment, moved off the light by its error bound
     uint flags;                 // SAMPLE_*; 0: nothing arrives
+    uint ray_flags;             // of the shadow ray, beside what it passes: which light without extent it leads to
 };
 
 // What one step of a path asks to be traced. A ray with t_max < 0 is not to be traced.

@@ -5,7 +5,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::constants::{bvh::BVH_NONE, contract::PRIMITIVE_NONE};
+use crate::constants::bvh::BVH_NONE;
+use crate::constants::contract::{PRIMITIVE_NONE, RAY_LIGHT_SHIFT};
 
 include!(concat!(env!("OUT_DIR"), "/records.rs"));
 
@@ -121,5 +122,10 @@ impl Ray {
             cone_width: 0.0,
             cone_spread: 0.0,
         }
+    }
+
+    /// The number of the light without extent that a shadow ray leads to; nothing for every other ray.
+    pub fn light(&self) -> Option<u32> {
+        (self.flags >> RAY_LIGHT_SHIFT).checked_sub(1)
     }
 }

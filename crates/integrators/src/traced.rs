@@ -1,30 +1,30 @@
 //! What the rays of an integrator are traced through.
 
-use rasray_ads::{AdsError, Domain, RayQueue, Structure, TraceMode};
+use rasray_ads::{AdsError, Domain, Occluder, RayQueue, Structure, TraceMode};
 use rasray_gpu::Recorder;
 
 use crate::{Visibility, Wave};
 
-/// A structure for nearest hits and one for occlusion: usually the same. A different one for occlusion may be cheaper.
+/// A structure for nearest hits, and what answers shadow rays: usually the same structure.
 #[derive(Clone, Copy)]
 pub struct Traced<'a> {
     /// Finds the nearest hit and its surface.
     pub closest: &'a dyn Structure,
-    /// Tests for occlusion. Not used where surfaces let shadow rays pass, which need nearest hits.
-    pub occluded: &'a dyn Structure,
+    /// Answers shadow rays. Not used where surfaces let them pass: they need nearest hits there.
+    pub occluder: &'a dyn Occluder,
     /// Finds what camera rays hit by drawing; where absent, they are traced as all others.
     pub primary: Option<&'a Visibility>,
 }
 
 impl<'a> From<&'a dyn Structure> for Traced<'a> {
     fn from(structure: &'a dyn Structure) -> Self {
-        Self { closest: structure, occluded: structure, primary: None }
+        Self { closest: structure, occluder: structure, primary: None }
     }
 }
 
 impl<'a, S: Structure> From<&'a S> for Traced<'a> {
     fn from(structure: &'a S) -> Self {
-        Self { closest: structure, occluded: structure, primary: None }
+        Self { closest: structure, occluder: structure, primary: None }
     }
 }
 
@@ -70,12 +70,6 @@ impl<'a> Traced<'a> {
 
     /// Records whether rays of the slots of `domain` hit anything.
     pub(crate) fn record_occluded(self, recorder: &mut Recorder<'_>, queue: &RayQueue, domain: Domain) {
-        self.occluded.record_trace(recorder, queue, domain, TraceMode::Occluded, self.occluded.rounds());
-    }
-
-    /// Allows more rounds where a structure gives rays fewer than they may need; false where that changes nothing.
-    pub fn allow_more_rounds(self) -> bool {
-        let closest = self.closest.allow_more_rounds();
-        self.occluded.allow_more_rounds() || closest
+        self.occluder.record_occluded(recorder, queue, domain);
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::pictures::common::*;
 use glam::DVec3;
+use rasray_ads::Ray;
 use rasray_gpu_scene::ShadingFeatures;
 use rasray_integrators::{
     AmbientOcclusion, AovPass, Film, Integrator, IntegratorError, Path, Raycast, Wave, waves,
@@ -256,6 +257,40 @@ fn code_that_is_left_out_does_not_change_the_picture() {
             assert!((a[channel] - b[channel]).abs() <= 1e-5 * b[channel].abs(), "{a:?} {b:?}");
         }
     }
+    assert_silent(&device);
+}
+
+#[test]
+fn shadow_rays_say_which_light_they_lead_to() {
+    let device = device();
+    let mut scene = busy_scene();
+    scene.materials[2].transmission = 0.0;
+    scene.materials[3].alpha_mode = rasray_scene::AlphaMode::Opaque;
+    // The last round replaces the shadow rays of paths that go on; facets of rough metal end some in the first.
+    (scene.materials[0].metallic, scene.materials[0].roughness) = (1.0, 1.0);
+    let places = [DVec3::new(-0.8, 0.5, 0.2), DVec3::new(0.7, -0.6, 0.4)];
+    for position in places {
+        let intensity = [2.0; 3];
+        scene.lights.push(Light::Point { position, intensity, range: f32::INFINITY });
+    }
+    let stage = Stage::new(&device, &scene, forward_camera(DVec3::new(0.0, 0.0, 0.9)), 48, 36, 2);
+    let path = Path::new(&stage.desc(), 1).expect("valid");
+    stage.render(&path, 1);
+    let queue = path.queues()[1];
+    let rays: Vec<Ray> =
+        device.download_as(queue.rays(), 0, queue.capacity() as usize).expect("they can be read");
+    let mut found = [0; 3];
+    for ray in rays.iter().filter(|ray| ray.t_max >= 0.0) {
+        let end = DVec3::from(ray.origin.map(f64::from))
+            + DVec3::from(ray.direction.map(f64::from)) * f64::from(ray.t_max);
+        match ray.light() {
+            Some(light) => assert!(end.distance(places[light as usize]) < 1e-3, "{light}: {end}"),
+            // The lamp under the ceiling.
+            None => assert!((end.y - 0.98).abs() < 1e-3, "{end}"),
+        }
+        found[ray.light().map_or(2, |light| light as usize)] += 1;
+    }
+    assert!(found.iter().all(|&count| count > 10), "{found:?}");
     assert_silent(&device);
 }
 
