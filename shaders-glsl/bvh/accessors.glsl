@@ -18,12 +18,14 @@ struct BvhRef {
 #ifdef ADDRESSING_ADDRESS
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhHeaderAddress { BvhHeader header; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhNodeAddress { BvhNode nodes[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer BvhWideNodeAddress { BvhWideNode nodes[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhNodeVectorAddress { uvec4 vectors[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhRecordAddress { BvhRecord records[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhRecordVectorAddress { uvec2 vectors[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhScratchAddress { uint words[]; };
 #define BVH_HEADER(s) BvhHeaderAddress(s.header).header
 #define BVH_NODES(s) BvhNodeAddress(BVH_HEADER(s).nodes_address).nodes
+#define BVH_WIDE_NODES(s) BvhWideNodeAddress(BVH_HEADER(s).nodes_address).nodes
 #define BVH_NODE_VECTORS(s) BvhNodeVectorAddress(BVH_HEADER(s).nodes_address).vectors
 #define BVH_RECORDS(s) BvhRecordAddress(BVH_HEADER(s).records_address).records
 #define BVH_RECORD_VECTORS(s) BvhRecordVectorAddress(BVH_HEADER(s).records_address).vectors
@@ -31,12 +33,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhScratchAd
 #else
 layout(set = STRUCTURE_SET, binding = 0, scalar) buffer BvhHeaderBuffer { BvhHeader bvh_header; };
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer BvhNodeBuffer { BvhNode bvh_nodes[]; };
+layout(set = STRUCTURE_SET, binding = 1, scalar) readonly buffer BvhWideNodeBuffer { BvhWideNode bvh_wide_nodes[]; };
 layout(set = STRUCTURE_SET, binding = 1, scalar) readonly buffer BvhNodeVectorBuffer { uvec4 bvh_node_vectors[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer BvhRecordBuffer { BvhRecord bvh_records[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) readonly buffer BvhRecordVectorBuffer { uvec2 bvh_record_vectors[]; };
 layout(set = STRUCTURE_SET, binding = 3, scalar) buffer BvhScratchBuffer { uint bvh_scratch_words[]; };
 #define BVH_HEADER(s) bvh_header
 #define BVH_NODES(s) bvh_nodes
+#define BVH_WIDE_NODES(s) bvh_wide_nodes
 #define BVH_NODE_VECTORS(s) bvh_node_vectors
 #define BVH_RECORDS(s) bvh_records
 #define BVH_RECORD_VECTORS(s) bvh_record_vectors
@@ -74,7 +78,7 @@ uint bvh_parent(BvhRef s, uint node) {
     if (node >= BVH_HEADER(s).node_capacity) {
         return BVH_NONE;
     }
-    return BVH_WIDTH == BVH_WIDE ? BVH_NODE_VECTORS(s)[8u * node + 7u].x : BVH_NODE_VECTORS(s)[4u * node + 2u].w;
+    return BVH_WIDTH == BVH_WIDE ? BVH_WIDE_NODES(s)[node].parent : BVH_NODES(s)[node].parent;
 }
 
 // The child that a link refers to.
@@ -84,7 +88,10 @@ uint bvh_child(BvhRef s, uint link) {
         return BVH_NONE;
     }
     uint slot = link % BVH_WIDTH;
-    return BVH_WIDTH == BVH_WIDE ? BVH_NODE_VECTORS(s)[8u * node + 6u][slot] : BVH_NODE_VECTORS(s)[4u * node + slot].w;
+    if (BVH_WIDTH == BVH_WIDE) {
+        return BVH_WIDE_NODES(s)[node].children[slot];
+    }
+    return slot == 0u ? BVH_NODES(s)[node].child_0 : BVH_NODES(s)[node].child_1;
 }
 
 // A triangle, read as whole vectors. An index past the end is counted and gives a triangle without area.

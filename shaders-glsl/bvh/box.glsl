@@ -58,7 +58,8 @@ uvec4 bvh_keys(BvhRay ray, BvhWideNode node, float farthest, uint always) {
     // A zero may have a sign.
     uvec4 keys = (floatBitsToUint(entry) & 0x7FFFFFFCu) | numbers;
     bvec4 is_missed = greaterThan(entry, leave);
-    bvec4 is_none = equal(node.children, uvec4(BVH_NONE));
+    // Every node has two children.
+    bvec4 is_none = bvec4(false, false, equal(node.children.zw, uvec2(BVH_NONE)));
     bvec4 is_wanted = equal(numbers, uvec4(always));
     return mix(mix(mix(keys, uvec4(BVH_NO_KEY), is_missed), uvec4(BVH_NO_KEY), is_none), keys, is_wanted);
 }

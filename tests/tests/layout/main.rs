@@ -67,7 +67,7 @@ fn records_of_every_structure() {
             assert!(records::ALL.contains(record), "{} is generated", record.name);
             let mut counts = [0, 0];
             for (shader, [ours, spirq]) in of_folder.clone() {
-                let traces = place == 0 && shader.name.contains("/trace_");
+                let traces = place == 0 && shader.name.contains("/trace");
                 // With device addresses records are reached by pointers, which only the own reader follows.
                 let by_address = shader.name.ends_with(".address");
                 for (found, count) in

@@ -1,28 +1,46 @@
 //! Damaged trees.
 
-use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents};
+use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Width};
 use rasray_faults::{in_child, scrambled};
 
 use crate::damage::survive::{self, Flag, survive};
 
 type Damage = survive::Damage<Contents>;
 
-/// Sets both children and the parent of every node; `change` is given the node's number and their values.
-fn each_node(contents: &mut Contents, mut change: impl FnMut(u32, [u32; 3]) -> [u32; 3]) {
-    for (index, node) in contents.nodes.iter_mut().enumerate() {
-        [node.child_0, node.child_1, node.parent] =
-            change(index as u32, [node.child_0, node.child_1, node.parent]);
+/// A node as damages see it.
+struct Own {
+    number: u32,
+    /// The link of its first child.
+    link: u32,
+    /// The link by which it is reached.
+    parent: u32,
+}
+
+/// Sets children and parent of every node: `change` says a first child, what all others are, and the parent.
+fn each_node(contents: &mut Contents, mut change: impl FnMut(Own) -> [u32; 3]) {
+    for (number, node) in (0..).zip(&mut contents.nodes) {
+        let own = Own { number, link: 2 * number, parent: node.parent };
+        [node.child_0, node.child_1, node.parent] = change(own);
+    }
+    for (number, node) in (0..).zip(&mut contents.wide_nodes) {
+        let own = Own { number, link: 4 * number, parent: node.parent };
+        let [first, others, parent] = change(own);
+        (node.children, node.parent) = ([first, others, others, others], parent);
     }
 }
 
 const DAMAGES: [Damage; 7] = [
-    ("every node is its own child", |c| each_node(c, |own, _| [own, own, 2 * own]), Flag::Unfinished),
-    ("every child is the root", |c| each_node(c, |_, [_, _, parent]| [0, 0, parent]), Flag::Unfinished),
+    (
+        "every node is its own child",
+        |c| each_node(c, |own| [own.number, own.number, own.link]),
+        Flag::Unfinished,
+    ),
+    ("every child is the root", |c| each_node(c, |own| [0, 0, own.parent]), Flag::Unfinished),
     (
         "children just past the end",
         |c| {
             let past = c.header.node_capacity;
-            each_node(c, |_, [_, _, parent]| [past, past, parent]);
+            each_node(c, |own| [past, past, own.parent]);
         },
         Flag::Corrupted,
     ),
@@ -30,16 +48,16 @@ const DAMAGES: [Damage; 7] = [
         "leaves past the end",
         |c| {
             let past = 0x8000_0000 | c.header.record_capacity;
-            each_node(c, |_, [_, _, parent]| [past, past, parent]);
+            each_node(c, |own| [past, past, own.parent]);
         },
         Flag::Corrupted,
     ),
-    ("children that are all ones", |c| each_node(c, |_, _| [u32::MAX; 3]), Flag::Corrupted),
+    ("children that are all ones", |c| each_node(c, |_| [u32::MAX; 3]), Flag::Corrupted),
     (
         "children and parents at random",
         |c| {
             let mut next = scrambled(0x9E37_79B9);
-            each_node(c, |_, _| [next(), next(), next()]);
+            each_node(c, |_| [next(), next(), next()]);
         },
         Flag::Corrupted,
     ),
@@ -56,9 +74,12 @@ fn check(config: Config) {
 #[test]
 fn damaged_trees_are_survived_and_told() {
     if in_child("damage::bvh::damaged_trees_are_survived_and_told") {
-        for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
+        let two = Config { width: Width::Two, ..Config::new(Builder::Sah) };
+        for config in
+            [two, Config::new(Builder::Sah), Config::new(Builder::Lbvh), Config::new(Builder::Refit)]
+        {
             for addressing in [Addressing::Descriptor, Addressing::Address] {
-                check(Config { addressing, ..Config::new(builder) });
+                check(Config { addressing, ..config });
             }
         }
     }
