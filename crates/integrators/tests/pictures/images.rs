@@ -273,7 +273,7 @@ fn shadow_rays_say_which_light_they_lead_to() {
         let intensity = [2.0; 3];
         scene.lights.push(Light::Point { position, intensity, range: f32::INFINITY });
     }
-    let stage = Stage::new(&device, &scene, forward_camera(DVec3::new(0.0, 0.0, 0.9)), 48, 36, 2);
+    let stage = Setup::new(&device, &scene, forward_camera(DVec3::new(0.0, 0.0, 0.9)), 48, 36, 2);
     let path = Path::new(&stage.desc(), 1).expect("valid");
     stage.render(&path, 1);
     let queue = path.queues()[1];

@@ -6,7 +6,7 @@ use rasray_scene::ShadowTerminator;
 use crate::IntegratorSpec;
 
 /// Maximum number of scatterings of a path. A wave records up to this number of rounds.
-pub const BOUNCE_LIMIT: u32 = 64;
+pub const BOUNCE_LIMIT: u32 = 1024;
 
 /// By default so many that light, which enters and leaves a glass with two walls and so has scattered four times before it is
 /// seen on what stands behind, can go through two such glasses in a row.
