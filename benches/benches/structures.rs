@@ -21,12 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let systems: Vec<SystemConfig> = SYSTEMS
         .iter()
         .flat_map(|system| system.presets.iter().map(move |preset| (system, *preset)))
-        .map(|(system, preset)| SystemConfig {
-            system,
-            preset,
-            options: OptionValues::default(),
-            variant: None,
-        })
+        .map(|(system, preset)| SystemConfig::new(system, preset, OptionValues::default()))
         .collect();
     let contestants =
         Contestant::all(&device, &stage, &systems, stage.scene.eye(), REPETITIONS, &mut |_| {

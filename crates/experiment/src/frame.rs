@@ -145,6 +145,12 @@ impl Frame {
         run.integrator_options = rasray_report::options(texts);
     }
 
+    /// About how many rays the image takes: one per sample, and one per bounce of each.
+    pub fn rays(&self) -> u64 {
+        let bounces = self.integrator.get("bounces").and_then(Value::whole).unwrap_or(0);
+        u64::from(self.width) * u64::from(self.height) * u64::from(self.spp) * (1 + u64::from(bounces))
+    }
+
     /// What an image like this one looks at in a scene.
     pub fn workload(&self) -> Workload {
         self.integrator.workload()

@@ -268,6 +268,7 @@ impl RenderOutput {
             system: system.system.name.to_owned(),
             structure: system.system.structure.to_owned(),
             preset: system.preset.name().to_owned(),
+            chosen: system.chosen.clone(),
             options: self.options.clone(),
             paths: self.paths.clone(),
             times: self.times,

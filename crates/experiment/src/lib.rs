@@ -14,6 +14,7 @@
 //! # Ok::<(), rasray_experiment::ExperimentError>(())
 //! ```
 
+mod automatic;
 mod backend;
 mod built;
 mod camera;
@@ -53,6 +54,7 @@ mod traced_set;
 mod whole;
 mod work_maps;
 
+pub use automatic::SystemRequest;
 pub use backend::{
     Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OpenBackend, Progress,
     TexelCapacity,

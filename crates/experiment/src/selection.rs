@@ -41,7 +41,7 @@ pub fn one_system(
             ));
         }
     }
-    let config = SystemConfig { system, preset, options: options.clone(), variant: None };
+    let config = SystemConfig::new(system, preset, options.clone());
     config.spec()?;
     Ok(config)
 }

@@ -17,9 +17,16 @@ pub struct SystemConfig {
     pub options: OptionValues,
     /// The options of several values, where the system takes part once with each.
     pub variant: Option<String>,
+    /// Why it was taken, where none was asked for.
+    pub chosen: Option<String>,
 }
 
 impl SystemConfig {
+    /// A system that was asked for, with these options over its preset.
+    pub fn new(system: &'static System, preset: Preset, options: OptionValues) -> Self {
+        Self { system, preset, options, variant: None, chosen: None }
+    }
+
     /// The same for renders of a workload: published fragments carry what their paper keeps for occlusion
     /// where nothing else is asked for, unless a payload was given. Comparisons keep the preset's, since rays
     /// are compared in addition to the image.

@@ -19,11 +19,9 @@ const RAYS: u32 = 500;
 const SEED: u32 = 7;
 
 fn systems(names: &[&str]) -> Vec<SystemConfig> {
-    let config = |name: &&str| SystemConfig {
-        system: System::named(name).expect("a system of the registry"),
-        preset: Preset::Robust,
-        options: OptionValues::default(),
-        variant: None,
+    let config = |name: &&str| {
+        let system = System::named(name).expect("a system of the registry");
+        SystemConfig::new(system, Preset::Robust, OptionValues::default())
     };
     names.iter().map(config).collect()
 }

@@ -182,6 +182,9 @@ pub struct Run {
     /// there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variant: Option<String>,
+    /// Why the system was taken, where none was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chosen: Option<String>,
     /// What a picture is known by, 64 hexadecimal digits: a hash of everything that decides its values; absent for ray
     /// sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]

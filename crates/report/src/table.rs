@@ -88,7 +88,8 @@ pub fn table_within(report: &Report, camera: Option<&str>, full: bool, width: Op
     let whole = unbroken(report, camera, full, width);
     let Some(width) = width else { return whole };
     let fit = |line: &str| {
-        let label = line.starts_with("device ") || line.starts_with("scene  ") || line.starts_with("image  ");
+        let label = line.starts_with("device ")
+            || ["scene  ", "image  ", "system "].iter().any(|label| line.starts_with(label));
         let is_camera = line.starts_with("camera ");
         if is_camera {
             format!("{line}\n")
@@ -119,6 +120,10 @@ fn unbroken(report: &Report, camera: Option<&str>, full: bool, width: Option<usi
     }
     if let Some(camera) = camera {
         _ = writeln!(text, "camera {}", in_line(camera));
+    }
+    // One of a kind: comparisons are told what to compare.
+    if let [Run { system, chosen: Some(reason), .. }, ..] = report.runs.as_slice() {
+        _ = writeln!(text, "system {system}: {reason}");
     }
     match report.runs.as_slice() {
         [run] if !full && run.accuracy.is_none() && run.hard.is_none() => text += &in_short(run),

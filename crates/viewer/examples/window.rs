@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         back_faces: rasray_scene::BackFaces::Camera,
     };
     let options = OptionValues::default();
-    let system = SystemConfig { system: &SYSTEMS[0], preset: Preset::Robust, options, variant: None };
+    let system = SystemConfig::new(&SYSTEMS[0], Preset::Robust, options);
     let standpoint = Standpoint::AsGiven;
     let settings =
         Settings { standpoint, seconds: None, system, frame, shown: Shown::Picture, moving: false };

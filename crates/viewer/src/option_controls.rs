@@ -87,12 +87,7 @@ mod tests {
 
     fn choice(system: &str) -> SystemChoice {
         let system = System::named(system).expect("a system");
-        SystemChoice::new(&SystemConfig {
-            system,
-            preset: system.presets[0],
-            options: OptionValues::default(),
-            variant: None,
-        })
+        SystemChoice::new(&SystemConfig::new(system, system.presets[0], OptionValues::default()))
     }
 
     #[test]

@@ -134,12 +134,7 @@ pub(crate) mod tests {
             primary: Primary::Trace,
             back_faces: rasray_scene::BackFaces::Camera,
         };
-        let system = SystemConfig {
-            system: &SYSTEMS[0],
-            preset: Preset::Robust,
-            options: OptionValues::default(),
-            variant: None,
-        };
+        let system = SystemConfig::new(&SYSTEMS[0], Preset::Robust, OptionValues::default());
         let standpoint = Standpoint::AsGiven;
         Settings { standpoint, seconds: None, system, frame, shown: Shown::Picture, moving: false }
     }

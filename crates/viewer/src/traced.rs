@@ -22,12 +22,7 @@ pub(crate) fn exact_config(shown: &SystemConfig) -> SystemConfig {
             .and_then(|spec| spec.kind().map_err(|error| ExperimentError::usage(error.to_string(), "")))
             .is_ok_and(|kind| kind == StructureKind::Primitive)
     };
-    let robust = |system| SystemConfig {
-        system,
-        preset: Preset::Robust,
-        options: OptionValues::default(),
-        variant: None,
-    };
+    let robust = |system| SystemConfig::new(system, Preset::Robust, OptionValues::default());
     let others = SYSTEMS.iter().filter(|system| *system != shown.system).map(robust);
     others.into_iter().find(is_exact).unwrap_or_else(|| shown.clone())
 }

@@ -24,7 +24,7 @@ const VALIDATED: DeviceChoice = DeviceChoice { device: None, validation: true };
 
 fn system(name: &str) -> SystemConfig {
     let system = System::named(name).expect("a system");
-    SystemConfig { system, preset: Preset::Robust, options: OptionValues::default(), variant: None }
+    SystemConfig::new(system, Preset::Robust, OptionValues::default())
 }
 
 fn integrator(name: &str) -> IntegratorSpec {

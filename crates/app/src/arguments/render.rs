@@ -1,14 +1,14 @@
 //! Options of `rasray render`.
 
 use super::shared::WorkArguments;
-use super::structure::{preset_parser, refresh_parser, system_parser};
+use super::structure::{preset_parser, refresh_parser, system_request_parser};
 use super::values;
 use crate::error::AppError;
 use crate::output::ImageFormat;
 use clap::{Args, ValueEnum};
-use rasray_experiment::{AovSelection, Frame, Refresh, Shard, SystemConfig, one_system};
+use rasray_experiment::{AovSelection, Frame, Refresh, Shard, SystemConfig, SystemRequest};
 use rasray_scene::builtin::{Picture, picture};
-use rasray_systems::{Preset, SYSTEMS, System};
+use rasray_systems::Preset;
 use std::ffi::OsString;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -46,8 +46,8 @@ pub struct RenderArguments {
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
     /// What rays are traced through
-    #[arg(long, value_parser = system_parser(), default_value = SYSTEMS[0].name)]
-    pub system: &'static System,
+    #[arg(long, value_parser = system_request_parser(), default_value = SystemRequest::AUTOMATIC)]
+    pub system: SystemRequest,
     /// How closely the system follows its paper
     #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name())]
     pub preset: Preset,
@@ -107,7 +107,7 @@ impl RenderArguments {
     /// # Errors
     /// A preset or an option that the system does not have, or a value that it does not take.
     pub fn system(&self) -> Result<SystemConfig, AppError> {
-        Ok(one_system(self.system, self.preset, &self.work.structure.0)?)
+        Ok(self.system.config(self.preset, &self.work.structure.0)?)
     }
 
     /// The image that was asked for; where nothing is said of it and the scene's own camera sees it, the one that suits a

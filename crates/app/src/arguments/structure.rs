@@ -2,7 +2,7 @@
 
 use clap::builder::TypedValueParser;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
-use rasray_experiment::{OptionValues, Primary, RaySet, Refresh, Sampler};
+use rasray_experiment::{OptionValues, Primary, RaySet, Refresh, Sampler, SystemRequest};
 use rasray_scene::BackFaces;
 use rasray_systems::{Group, OPTIONS, Preset, SYSTEMS, System};
 
@@ -11,6 +11,17 @@ use super::options::{arguments, choice, given};
 /// Reads the name of a system.
 pub fn system_parser() -> impl TypedValueParser<Value = &'static System> {
     choice(SYSTEMS, |system| (system.name, system.doc))
+}
+
+/// Reads the name of a system, or leaves it to the job.
+pub fn system_request_parser() -> impl TypedValueParser<Value = SystemRequest> {
+    let named = SYSTEMS.iter().map(SystemRequest::Named);
+    choice([SystemRequest::Automatic].into_iter().chain(named), |request| match request {
+        SystemRequest::Automatic => {
+            (SystemRequest::AUTOMATIC, "The fastest exact one for the job; the report says which")
+        }
+        SystemRequest::Named(system) => (system.name, system.doc),
+    })
 }
 
 /// Reads the name of a preset.

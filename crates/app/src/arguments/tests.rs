@@ -42,8 +42,8 @@ fn defaults_are_the_documented_ones() {
     let given = render("render cornell --output a.png");
     let frame = given.work.frame.frame().expect("defaults fit together");
     let system = given.system().expect("the exact structure");
-    assert_eq!((system.system.name, system.preset), ("bricks", Preset::Robust));
-    assert_eq!(system.spec().expect("known").structure(), "bricks");
+    assert_eq!((system.system.name, system.preset), ("bvh", Preset::Robust));
+    assert_eq!(system.spec().expect("known").structure(), "bvh");
     assert_eq!((frame.width, frame.height, frame.spp, frame.seed), (640, 360, 16, 1));
     assert_eq!(frame.integrator, IntegratorSpec::from(&INTEGRATORS[0]));
     assert_eq!((frame.integrator.name(), frame.integrator.get("bounces")), ("path", Some(Value::Whole(8))));
@@ -178,7 +178,7 @@ fn help_and_version_are_text() {
 }
 
 #[test]
-fn without_a_system_only_options_of_the_exact_structure_are_taken() {
+fn without_a_system_only_options_of_exact_structures_are_taken() {
     assert!(render("render cornell -o a.png --grid 64").system().is_ok());
     assert!(render("render cornell -o a.png --system mmrt --resolution 64").system().is_ok());
     for line in ["--preset published", "--storage llb", "--resolution 64", "--buckets 4"] {

@@ -1,10 +1,11 @@
 //! Options of `rasray view`.
 
 use super::shared::WorkArguments;
-use super::structure::{preset_parser, system_parser};
+use super::structure::{preset_parser, system_request_parser};
 use super::values;
 use clap::Args;
-use rasray_systems::{Preset, SYSTEMS, System};
+use rasray_experiment::SystemRequest;
+use rasray_systems::Preset;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -32,8 +33,8 @@ pub struct ViewerArguments {
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
     /// What rays are traced through
-    #[arg(long, value_parser = system_parser(), default_value = SYSTEMS[0].name)]
-    pub system: &'static System,
+    #[arg(long, value_parser = system_request_parser(), default_value = SystemRequest::AUTOMATIC)]
+    pub system: SystemRequest,
     /// How closely the system follows its paper
     #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name())]
     pub preset: Preset,

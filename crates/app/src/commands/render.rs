@@ -38,6 +38,10 @@ pub(crate) fn render(
     let shown = time.map(|seconds| Shown { seconds, posing: Posing::Device, times });
     let (mut loaded, chosen) =
         read_scene(&given.scene, &given.work.reading, shown.as_ref(), &given.work.view)?;
+    let system = match given.frames {
+        Some(_) => system.rebuilt_for(frame.rays(), loaded.triangles),
+        None => system,
+    };
     system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 
     let backend = open_device(open, &given.work.device)?;

@@ -37,7 +37,7 @@ mod with_window {
     use crate::output::{self, Destination, ImageFormat};
     use crate::progress::during;
     use crate::terminal;
-    use rasray_experiment::{Chosen, ExperimentError, LoadedScene, one_system, open_device};
+    use rasray_experiment::{Chosen, ExperimentError, Frame, LoadedScene, open_device};
     use rasray_scene::default_view;
     use rasray_viewer::{
         End, Engine, Opening, SavedPicture, SceneSource, Session, Settings, Shown, Standpoint, Viewing,
@@ -52,7 +52,7 @@ mod with_window {
     pub(crate) fn view(given: &ViewerArguments, interrupt: &Interrupt) -> Result<(), AppError> {
         check_display()?;
         let frame = given.work.frame.frame()?;
-        let system = one_system(given.system, given.preset, &given.work.structure.0)?;
+        let system = given.system.config(given.preset, &given.work.structure.0)?;
         let output = given.output.clone().unwrap_or_else(|| default_output(&given.scene));
         if ImageFormat::of(&output)? != ImageFormat::Png {
             return Err(AppError::input(&output, "the window saves 8-bit pictures", "name a .png"));
@@ -61,6 +61,12 @@ mod with_window {
         let mut loaded = during("scene", "reading", || prepare(&given.scene, &given.work.reading, None))?;
         let chosen = check_view(given, &mut loaded)?;
 
+        let is_moving = !loaded.scene.animation.clips.is_empty() || loaded.scene.animation.deformer.is_some();
+        let system = match is_moving {
+            // A moment of play is shown with a sample per pixel.
+            true => system.rebuilt_for(Frame { spp: 1, ..frame }.rays(), loaded.triangles),
+            false => system,
+        };
         let seconds = given.work.reading.time;
         let settings = Settings {
             standpoint: Standpoint::AsGiven,
@@ -79,11 +85,7 @@ mod with_window {
             other_words: other_words(given),
             settings: settings.clone(),
             exposure: given.exposure,
-            duration: if animation.clips.is_empty() && animation.deformer.is_none() {
-                0.0
-            } else {
-                animation.duration.into()
-            },
+            duration: if is_moving { animation.duration.into() } else { 0.0 },
             bounds: default_view::bounds(&loaded.scene).unwrap_or_default(),
             output,
         });

@@ -47,14 +47,19 @@ fn a_report_follows_the_schema_and_leaves_out_what_was_not_measured() {
     assert_eq!((made.scene.name.as_str(), &made.scene.sha256), ("cornell", &None));
     assert!(made.scene.triangles > 0);
     let run = &made.runs[0];
-    assert_eq!(
-        (run.system.as_str(), run.structure.as_str(), run.preset.as_str()),
-        ("bricks", "bricks", "robust")
-    );
+    assert_eq!((run.system.as_str(), run.structure.as_str(), run.preset.as_str()), ("bvh", "bvh", "robust"));
+    assert_eq!(run.chosen.as_deref(), Some("the fastest exact structure"));
     assert_eq!((run.seed, run.bounces, run.width, run.spp), (Some(9), Some(2), Some(4), Some(16)));
     assert_eq!((run.times.build_ms, run.memory.is_none(), run.accuracy.is_none()), (None, true, true));
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(text.contains("trace 2.0 ms") && text.contains("1,000 rays"), "{text}");
+    assert!(text.contains("system bvh: the fastest exact structure"), "{text}");
+    for (given, system) in [("--system bvh", "bvh"), ("--system hu --preset published", "hu")] {
+        let output = rasray(folder.path(), &format!("render cornell --size 4x3 --report r.json {given}"));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let made = report(&folder.path().join("r.json"));
+        assert_eq!((made.runs[0].system.as_str(), &made.runs[0].chosen), (system, &None));
+    }
 }
 
 #[test]
