@@ -4,6 +4,8 @@
 //! in frames with one to three in flight. Ways take turns; medians over rounds of the milliseconds per frame, with
 //! quartiles. Pictures of all ways must be equal bit for bit. Times of software devices are for ratios on that device.
 
+mod moving;
+
 use std::error::Error;
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
@@ -20,6 +22,8 @@ use rasray_scene::{Moment, default_view};
 use rasray_systems::Spec;
 use rasray_tracer::{FrameStructure, Keeping, refresh_until_complete};
 
+use moving::Arguments;
+
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 /// Frames in flight; 0 is one step after the other.
@@ -28,17 +32,10 @@ const ROUNDS: usize = 5;
 const BOUNCES: u32 = 4;
 
 fn main() -> Result<()> {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
-    let argument = |place: usize, default: &'static str| arguments.get(place).map_or(default, String::as_str);
-    let (name, size, count) = (argument(0, "walker"), argument(1, "320x180"), argument(2, "12"));
-    let size = size.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-    let size: [u32; 2] =
-        size.filter(|[w, h]| *w > 0 && *h > 0).ok_or("the size is WIDTHxHEIGHT, in pixels")?;
-    let count: u32 =
-        count.parse().ok().filter(|count| *count > 0).ok_or("FRAMES is a whole number above 0")?;
-    let spec = Spec::new(argument(3, "bricks"), "robust", [])?;
+    let Arguments { scene: name, size, frames: count, more } = Arguments::read(12)?;
+    let spec = Spec::new(more.as_deref().unwrap_or("bricks"), "robust", [])?;
     let device = open_device(&DeviceChoice::default())?;
-    let loaded = load(OsStr::new(name))?;
+    let loaded = load(OsStr::new(&name))?;
     println!(
         "{}, {name}, {} triangles, {} x {}, {}, {count} frames, {ROUNDS} rounds\n",
         device.name(),

@@ -7,6 +7,8 @@
 //! camera; `cells`, `entries` and `tests` are what one of them reads on average, counted in a trace that is not timed. Times
 //! of software devices are for ratios on that device.
 
+mod moving;
+
 use std::error::Error;
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
@@ -21,6 +23,8 @@ use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Camera, Moment, default_view};
 use rasray_systems::Spec;
 use rasray_tracer::{FrameStructure, Keeping, Refresh, refresh_until_complete};
+
+use moving::Arguments;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -84,16 +88,9 @@ impl Frame {
 }
 
 fn main() -> Result<()> {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
-    let argument = |place: usize, default: &'static str| arguments.get(place).map_or(default, String::as_str);
-    let (name, size, count) = (argument(0, "walker"), argument(1, "320x180"), argument(2, "8"));
-    let size = size.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-    let size: [u32; 2] =
-        size.filter(|[w, h]| *w > 0 && *h > 0).ok_or("the size is WIDTHxHEIGHT, in pixels")?;
-    let count: u32 =
-        count.parse().ok().filter(|count| *count > 0).ok_or("FRAMES is a whole number above 0")?;
+    let Arguments { scene: name, size, frames: count, more } = Arguments::read(8)?;
     let device = Device::create(&DeviceDesc { requirements: requirements(), ..DeviceDesc::default() })?;
-    let loaded = load(OsStr::new(name))?;
+    let loaded = load(OsStr::new(&name))?;
     let [width, height] = size;
     println!(
         "{}, {}, {} triangles, {width} x {height}, medians of {count} frames, milliseconds\n",
@@ -101,7 +98,7 @@ fn main() -> Result<()> {
         loaded.scene.name,
         loaded.triangles
     );
-    let wanted: Vec<&str> = arguments.get(3).map(|names| names.split(',').collect()).unwrap_or_default();
+    let wanted: Vec<&str> = more.iter().flat_map(|names| names.split(',')).collect();
     let mut measured = Vec::new();
     for (system, option, in_parts) in SYSTEMS {
         // The baseline is always there.

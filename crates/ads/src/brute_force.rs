@@ -4,8 +4,8 @@ use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
 use crate::slots::{check_read, check_recorded};
 use crate::{
-    Addressing, AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, Modules, Occluder,
-    RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc,
+    Addressing, AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, Modules, RayQueue,
+    SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc,
     TraceMode, Viewpoint, default_work_budget,
 };
 
@@ -70,12 +70,6 @@ impl BruteForce {
 /// It has no pools to reach, so there is one way to do so.
 const MODULES: Modules =
     Modules { structure: "brute-force", prefix: "brute", addressing: Addressing::Descriptor };
-
-impl Occluder for BruteForce {
-    fn record_occluded(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, domain: Domain) {
-        self.record_trace(recorder, queue, domain, TraceMode::Occluded, self.rounds());
-    }
-}
 
 impl Structure for BruteForce {
     fn name(&self) -> &'static str {

@@ -3,8 +3,8 @@
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
 use crate::{
-    AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, GeometryParts, Occluder,
-    RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceMode, Viewpoint,
+    AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, GeometryParts, RayQueue,
+    SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceMode, Viewpoint,
 };
 
 /// Number of parts.
@@ -105,12 +105,6 @@ impl Combined {
             }
             continues = true;
         }
-    }
-}
-
-impl Occluder for Combined {
-    fn record_occluded(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, domain: Domain) {
-        self.record_trace(recorder, queue, domain, TraceMode::Occluded, self.rounds());
     }
 }
 

@@ -8,7 +8,7 @@ use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Counters, Demand, Dependencies, Design,
-    Domain, Geometry, InlineTrace, Modules, Occluder, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue,
+    Domain, Geometry, InlineTrace, Modules, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue,
     RecordLayout, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
     TraceKernelsDesc, TraceMode, Viewpoint, default_work_budget,
 };
@@ -168,12 +168,6 @@ impl<D: Design> Pooled<D> {
             pools.record_forget(recorder);
         }
         pools.record_trace(recorder, kernels, geometry, queue, domain, mode, rounds, continues, corrupted);
-    }
-}
-
-impl<D: Design> Occluder for Pooled<D> {
-    fn record_occluded(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, domain: Domain) {
-        self.record_trace(recorder, queue, domain, TraceMode::Occluded, self.rounds());
     }
 }
 

@@ -150,6 +150,11 @@ fn flatten(shape: &Bvh2, boxes: &[Box3], groups: &[Vec<u32>], leaf: usize) -> Tr
     tree
 }
 
+/// How many triangles a leaf's reference says.
+pub(crate) fn triangles_of(leaf: u32) -> u32 {
+    ((leaf & !BVH_LEAF) >> BVH_LEAF_SHIFT) + 1
+}
+
 fn set_child(tree: &mut Tree, link: u32, reference: u32, bounds: Box3) {
     if link == BVH_NONE {
         tree.root = reference;

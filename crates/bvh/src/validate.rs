@@ -2,7 +2,7 @@
 
 use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_LEAF_SHIFT, BVH_NONE, BVH_WIDE};
 
-use crate::host::{Box3, union};
+use crate::host::{Box3, triangles_of, union};
 use crate::{Header, Node, Record, WideNode};
 
 /// A tree as downloaded.
@@ -134,7 +134,7 @@ pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
         let node = link / width;
         if reference & BVH_LEAF != 0 {
             let first = (reference & ((1 << BVH_LEAF_SHIFT) - 1)) as usize;
-            let count = ((reference & !BVH_LEAF) >> BVH_LEAF_SHIFT) as usize + 1;
+            let count = triangles_of(reference) as usize;
             let records = contents.records.get(first..first + count);
             let records = records.ok_or(Fault::Dangling { node, reference })?;
             shape.leaves += 1;
@@ -205,7 +205,7 @@ fn cost(contents: &Contents, order: &[u32]) -> f64 {
         for (_, reference, bounds) in contents.children(node) {
             let units = match reference & BVH_LEAF {
                 0 => 1.0,
-                _ => f64::from(((reference & !BVH_LEAF) >> BVH_LEAF_SHIFT) + 1),
+                _ => f64::from(triangles_of(reference)),
             };
             sum += units * area(bounds);
         }

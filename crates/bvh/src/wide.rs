@@ -4,10 +4,10 @@
 //! the leaves up: Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", HPG
 //! 2017, section 3.1. Leaves and boxes stay as they are.
 
-use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_LEAF_SHIFT, BVH_NONE, BVH_WIDE};
+use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE, BVH_WIDE};
 
 use crate::WideNode;
-use crate::host::{Box3, Tree};
+use crate::host::{Box3, Tree, triangles_of};
 use crate::validate::area;
 
 /// Children of a node.
@@ -24,9 +24,8 @@ struct Choice {
 impl Choice {
     /// A leaf is one child and costs its triangles, by area.
     fn leaf(reference: u32, bounds: Box3) -> Self {
-        let triangles = ((reference & !BVH_LEAF) >> BVH_LEAF_SHIFT) + 1;
         let mut costs = [f64::INFINITY; WIDE];
-        costs[0] = area(bounds) * f64::from(triangles);
+        costs[0] = area(bounds) * f64::from(triangles_of(reference));
         Self { costs, first: [0; WIDE] }
     }
 

@@ -11,6 +11,9 @@ use crate::system_config::SystemConfig;
 /// Exact systems, the one first that traces fastest.
 const CANDIDATES: [&str; 2] = ["bvh", "bricks"];
 
+/// Why the first of them is taken.
+const FASTEST: &str = "the fastest exact structure";
+
 /// Rays per triangle and build from which a tree by surface area repays its build, where each frame builds one.
 const RAYS_PER_TRIANGLE: u64 = 1000;
 
@@ -43,14 +46,15 @@ impl SystemRequest {
                 candidates().find(suits).or_else(|| candidates().next()).expect("candidates are registered")
             }
         };
-        let reason = match system.name == CANDIDATES[0] {
-            true => "the fastest exact structure",
-            false => "the fastest exact structure with these options",
-        };
         let mut config = one_system(system, preset, options)?;
-        config.chosen = Some(reason.to_owned());
+        let with = if is_fastest(system) { "" } else { " with these options" };
+        config.chosen = Some(format!("{FASTEST}{with}"));
         Ok(config)
     }
+}
+
+fn is_fastest(system: &System) -> bool {
+    system.name == CANDIDATES[0]
 }
 
 impl SystemConfig {
@@ -61,16 +65,15 @@ impl SystemConfig {
     pub fn rebuilt_for(mut self, rays: u64, triangles: u64) -> Self {
         let is_free = self.chosen.is_some()
             && ["builder", "leaf", "children"].iter().all(|o| self.options.get(o).is_none());
-        if is_free && self.system.name == CANDIDATES[0] {
-            let is_quick = rays < RAYS_PER_TRIANGLE.saturating_mul(triangles);
-            if is_quick {
+        if is_free && is_fastest(self.system) {
+            let limit = format!("{RAYS_PER_TRIANGLE} rays per triangle");
+            let reason = if rays < RAYS_PER_TRIANGLE.saturating_mul(triangles) {
                 self.options.set("builder", "lbvh");
-            }
-            let reason = match is_quick {
-                true => "its quickest build for frames of fewer than 1000 rays per triangle",
-                false => "frames of 1000 rays per triangle and more repay a tree by surface area",
+                format!("its quickest build for frames of fewer than {limit}")
+            } else {
+                format!("frames of {limit} and more repay a tree by surface area")
             };
-            self.chosen = Some(format!("the fastest exact structure; {reason}"));
+            self.chosen = Some(format!("{FASTEST}; {reason}"));
         }
         self
     }
