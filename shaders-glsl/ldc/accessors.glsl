@@ -147,6 +147,11 @@ float ldc_depth_rounding(LdcRef s) {
     return LDC_DEPTH_BITS == 16u ? 2.5e-4 * LDC_HEADER(s).size : 0.0;
 }
 
+// How far the fragments of a surface may be from a point of it: over a cell it rises by no more than a cell.
+float ldc_reach(LdcRef s) {
+    return LDC_HEADER(s).cell + LDC_HEADER(s).tolerance + ldc_depth_rounding(s);
+}
+
 // Stores the first depth at a place; words start out zeroed where two depths share one.
 void ldc_add_depth(LdcRef s, uint place, uint bits) {
     if (LDC_DEPTH_BITS == 16u) {

@@ -16,6 +16,10 @@
 #define LDC_OCCUPANCY_BOUNDS 0u
 #define LDC_OCCUPANCY_SLICES 1u
 
+// Whether fragments count that are as close to an end of the ray as its own surface there.
+#define LDC_ENDS_TOUCHING 0u
+#define LDC_ENDS_CLEAR 1u
+
 // What a fragment carries: its triangle, or colour and normal of what is shaded there.
 #define LDC_PAYLOAD_INDEX 0u
 #define LDC_PAYLOAD_ATTRIBUTES 1u
@@ -40,6 +44,10 @@
 
 // How far a ray has to be from its origin, in widths of a cell, to hit a plane that it started close to.
 #define LDC_LEAVING 2.0
+
+// How far from the end of a ray fragments next to it are part of the surface that it ends on, in widths of a cell with
+// the tolerance: a ray that ends at a steeper angle than a seventh has left their depths by then.
+#define LDC_ENDING 4.0
 
 // Margin for the rounding of what is subtracted from corner and ray, over the largest coordinate of the geometry.
 #define LDC_ROUNDING 4.8e-7

@@ -114,6 +114,17 @@ bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
     return words.x < held.x || (words.x == held.x && words.y < held.y);
 }
 
+// Whether a fragment at this depth that the ray passes at t is next to where the ray ends, as close as fragments of the
+// surface there may be.
+bool ldc_is_at_end(LdcRef s, Ray ray, LdcSearch search, float z, float t) {
+    if (LDC_ENDS == LDC_ENDS_TOUCHING || !(ray.t_max < 3.0e38)) {
+        return false;
+    }
+    float reach = ldc_reach(s);
+    float z_end = search.z_origin + ray.t_max * search.z_direction;
+    return abs(z - z_end) <= reach && (ray.t_max - t) * length(ray.direction) <= LDC_ENDING * reach;
+}
+
 // Tests a fragment by its depth: the hit is where the ray passes it, within the cell.
 void ldc_evaluate_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint place, float z, inout TraceState state) {
     bool known = LDC_PAYLOAD == LDC_PAYLOAD_INDEX;
@@ -125,7 +136,8 @@ void ldc_evaluate_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint p
     bool near = z >= depths.x - tolerance && z <= depths.y + tolerance;
     // A fragment without an id cannot be the triangle that is excluded.
     uint verdict = known && primitive == ray.exclude_primitive ? TEST_EXCLUDED : (!near ? TEST_OUTSIDE_CELL
-        : (!(t > ray.t_min) ? TEST_BEFORE : (!(t < ray.t_max) ? TEST_BEYOND
+        : (!(t > ray.t_min) ? TEST_BEFORE
+        : (!(t < ray.t_max) || ldc_is_at_end(s, ray, search, z, t) ? TEST_BEYOND
         : (t <= state.best.t ? TEST_ACCEPTED : TEST_NOT_BETTER))));
     vec2 found = vec2(uintBitsToFloat(place), 0.0);
     if (verdict == TEST_ACCEPTED && known) {

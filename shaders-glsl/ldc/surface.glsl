@@ -10,8 +10,7 @@
 
 Surface ldc_surface_at(LdcRef s, Ray ray, Hit hit) {
     bool stored = stored_hit_is(hit);
-    // A surface rises by no more than a cell from the centre to where the ray hits it.
-    float error = LDC_HEADER(s).cell + LDC_HEADER(s).tolerance + ldc_depth_rounding(s);
+    float error = ldc_reach(s);
     uvec2 words = uvec2(0u);
     if (stored) {
         words = ldc_attributes(s, floatBitsToUint(hit.a));

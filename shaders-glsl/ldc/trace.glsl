@@ -4,6 +4,7 @@
 #ifndef LDC_TRACE_GLSL
 #define LDC_TRACE_GLSL
 
+#include "ads/leaving.glsl"
 #include "contract/stored_hit.glsl"
 #include "contract/trace_log.glsl"
 #include "contract/trace_functions.glsl"
@@ -139,6 +140,9 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
 }
 
 uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
+    if (LDC_ENDS == LDC_ENDS_CLEAR) {
+        ray = leaving_ray(ray, ldc_reach(s));
+    }
     bool ordered = LDC_HEADER(s).unsorted == 0u;
     LdcSizes sizes = ldc_sizes(s, ray);
     vec2 clip = ldc_clip(s, ray);

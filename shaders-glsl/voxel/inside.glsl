@@ -34,6 +34,25 @@ uint voxel_first_from(VoxelRef s, uvec2 list, float depth, inout TraceState stat
     return place;
 }
 
+// The depths, the second not among them, at which fragments count for points of the traversal's voxel.
+vec2 voxel_counted_depths(VoxelRef s, VoxelTraversal traversal) {
+    if (VOXEL_INSIDE == VOXEL_INSIDE_COLUMN) {
+        return vec2(-3.0e38, 3.0e38);
+    }
+    float slice = float(traversal.voxel[traversal.axis]);
+    return vec2(slice, slice + 1.0) * VOXEL_HEADER(s).voxel;
+}
+
+// The part of a sorted list that counts.
+uvec2 voxel_counted(VoxelRef s, uvec2 list, vec2 depths, inout TraceState state, inout uint work) {
+    if (VOXEL_INSIDE == VOXEL_INSIDE_COLUMN) {
+        return list;
+    }
+    list.x = voxel_first_from(s, list, depths.x, state, work);
+    list.y = voxel_first_from(s, list, depths.y, state, work);
+    return list;
+}
+
 // Replaces the nearest fragment to a point by this one if it is nearer in depth; of equals the one before
 // the point is nearer, and on one side the one that comes first. A total order, so that the order of reading has no
 // influence.
@@ -90,8 +109,9 @@ bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelTrav
         }
     }
     bool sorted = voxel_lists_sorted(s);
+    vec2 counted = voxel_counted_depths(s, traversal);
     if (sorted && voxel_contiguous()) {
-        uvec2 list = voxel_list(s, point.list);
+        uvec2 list = voxel_counted(s, voxel_list(s, point.list), counted, state, work);
         if (nearest) {
             traversal.held = voxel_nearest_sorted(s, list, point.depth, state, work);
         } else {
@@ -114,9 +134,10 @@ bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelTrav
             break;
         }
         float z = voxel_read(s, place, state, work);
-        if (nearest) {
+        bool counts = z >= counted.x && z < counted.y;
+        if (counts && nearest) {
             voxel_hold_nearer(s, point.depth, place, z, traversal.held, held_z);
-        } else if (z < point.depth) {
+        } else if (counts && z < point.depth) {
             traversal.odd = !traversal.odd;
         }
         // In order, those that follow lie no nearer and not before the point.

@@ -4,12 +4,25 @@
 #ifndef VOXEL_TRACE_GLSL
 #define VOXEL_TRACE_GLSL
 
+#include "ads/leaving.glsl"
 #include "contract/trace_functions.glsl"
 #include "contract/stored_hit.glsl"
 #include "voxel/search.glsl"
 #include "voxel/parity.glsl"
 
+// The ray without the fragments of the triangle that it leaves and of what it ends on.
+Ray voxel_clear_ends(VoxelRef s, Ray ray) {
+    float cell = VOXEL_HEADER(s).cell;
+    if (ray.t_max < 3.0e38) {
+        ray.t_max -= VOXEL_ENDING * cell / length(ray.direction);
+    }
+    return leaving_ray(ray, cell);
+}
+
 uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
+    if (VOXEL_ENDS == VOXEL_ENDS_CLEAR) {
+        ray = voxel_clear_ends(s, ray);
+    }
     VoxelTraversal traversal;
     bool more = voxel_begin(s, ray, traversal);
     if (!more) {

@@ -19,6 +19,9 @@ layout(constant_id = 77) const uint VOXEL_STORAGE = VOXEL_STORAGE_CONTIGUOUS;
 // Whether fragments keep their triangle behind a payload without it.
 layout(constant_id = 78) const uint VOXEL_IDS = 0u;
 layout(constant_id = 79) const uint VOXEL_MARKED = VOXEL_MARKED_BY_TRIANGLES;
+// Parity only.
+layout(constant_id = 81) const uint VOXEL_INSIDE = VOXEL_INSIDE_COLUMN;
+layout(constant_id = 82) const uint VOXEL_ENDS = VOXEL_ENDS_TOUCHING;
 
 // State and sizes of voxels with axis A-buffers. 136 bytes.
 struct VoxelHeader {

@@ -27,6 +27,16 @@ pub enum Coverage {
     Conservative,
 }
 
+/// Whether fragments count that are as close to an end of the ray as those of the surface there. [`Accept::Plane`] does not
+/// ask: it knows which triangle a ray leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// They do: rays hit what they leave and what they end on.
+    Touching,
+    /// A ray starts a cell and the tolerance off the triangle that it leaves, and what it ends on does not count.
+    Clear,
+}
+
 /// How fragments keep their depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
@@ -83,6 +93,8 @@ pub struct Config {
     pub accept: Accept,
     /// Share of the cube's side, 0 to 1; only for [`Accept::Tolerance`].
     pub tolerance: f32,
+    /// Whether rays hit what they leave and end on; not for [`Accept::Plane`].
+    pub ends: Ends,
     /// How coverage is decided.
     pub coverage: Coverage,
     /// How triangles are binned into cells; [`Making::Peel`] draws. Changes no hit.
@@ -120,6 +132,7 @@ impl Config {
             layers: 256,
             accept: Accept::Plane,
             tolerance: 0.001,
+            ends: Ends::Clear,
             coverage: Coverage::Conservative,
             builder: Builder::Raster,
             depth: Depth::Bits32,
@@ -215,8 +228,13 @@ impl Config {
             Payload::Index => numbers::LDC_PAYLOAD_INDEX,
             Payload::Attributes => numbers::LDC_PAYLOAD_ATTRIBUTES,
         };
+        let ends = match self.ends {
+            Ends::Clear if self.accept != Accept::Plane => numbers::LDC_ENDS_CLEAR,
+            _ => numbers::LDC_ENDS_TOUCHING,
+        };
         vec![
             (ids::LDC_ACCEPT, accept),
+            (ids::LDC_ENDS, ends),
             (ids::LDC_COVERAGE, coverage),
             (ids::LDC_DEPTH_BITS, self.depth.bits()),
             (ids::LDC_SKIP, u32::from(self.skip)),
@@ -250,6 +268,9 @@ impl Config {
         }
         if self.accept == Accept::Tolerance {
             options.push(("tolerance", self.tolerance.to_string()));
+        }
+        if self.accept != Accept::Plane {
+            options.push(("ends", lower(&self.ends)));
         }
         if self.making == Making::Peel {
             options.push(("layers", self.layers.to_string()));

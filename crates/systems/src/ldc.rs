@@ -1,6 +1,8 @@
 //! LDC: the layered depth cube with the paper's presets.
 
-use rasray_ldc::{Accept, Builder, Config, Coverage, Depth, LayeredDepthCube, Making, Occupancy, Payload};
+use rasray_ldc::{
+    Accept, Builder, Config, Coverage, Depth, Ends, LayeredDepthCube, Making, Occupancy, Payload,
+};
 
 use crate::given::{Given, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
@@ -62,6 +64,9 @@ const OPTIONS: &[Setter<Config>] = &[
         given
             .choice(&[("tolerance", Accept::Tolerance), ("slope", Accept::Slope), ("plane", Accept::Plane)])
             .map(|value| config.accept = value)
+    }),
+    ("ends", |config, given| {
+        given.choice(&[("touching", Ends::Touching), ("clear", Ends::Clear)]).map(|value| config.ends = value)
     }),
     ("coverage", |config, given| {
         given

@@ -237,6 +237,29 @@ pub const OPTIONS: &[StructureOption] = &[
         "With --accept tolerance: how far along a view a fragment may be from the ray, a share of the cube's side",
     ),
     words(
+        "inside",
+        Method,
+        MayChange,
+        &[
+            ("column", "All that lie before it in its cell"),
+            ("voxel", "Those of them at the depths of the voxel"),
+        ],
+        "With --accept parity: fragments that decide whether a point is inside",
+    ),
+    words(
+        "ends",
+        Method,
+        MayChange,
+        &[
+            ("touching", "They count like all others"),
+            (
+                "clear",
+                "A ray starts beyond those of the triangle that it leaves, and those where it ends do not count",
+            ),
+        ],
+        "With --accept tolerance, slope or parity: fragments as close to an end of the ray as the surface there",
+    ),
+    words(
         "march",
         Method,
         MayChange,

@@ -1,6 +1,6 @@
 //! Options of the systems that trace voxels with axis A-buffers.
 
-use rasray_voxel::{Accept, Axes, Builder, Config, Coverage, March, Marking, Payload, Storage};
+use rasray_voxel::{Accept, Axes, Builder, Config, Coverage, Ends, Inside, March, Marking, Payload, Storage};
 
 use crate::given::{Given, Setter};
 use crate::{Spec, SystemsError};
@@ -37,6 +37,14 @@ const OPTIONS: &[Setter<Config>] = &[
         given
             .choice(&[("parity", Accept::Parity), ("plane", Accept::Plane)])
             .map(|value| config.accept = value)
+    }),
+    ("ends", |config, given| {
+        given.choice(&[("touching", Ends::Touching), ("clear", Ends::Clear)]).map(|value| config.ends = value)
+    }),
+    ("inside", |config, given| {
+        given
+            .choice(&[("column", Inside::Column), ("voxel", Inside::Voxel)])
+            .map(|value| config.inside = value)
     }),
     ("ids", |config, given| given.switch().map(|value| config.ids = value)),
     // Attributes are those of the system's paper, which the configuration is made with.

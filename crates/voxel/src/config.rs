@@ -43,6 +43,25 @@ pub enum Accept {
     Plane,
 }
 
+/// Which fragments decide whether a point is inside. Needs [`Accept::Parity`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inside {
+    /// All that lie before it in its cell: of closed objects an even number ends before the voxel.
+    Column,
+    /// Those of them at the depths of the voxel, which need not be of closed objects: elsewhere nothing flips.
+    Voxel,
+}
+
+/// Whether fragments count that are as close to an end of the ray as those of the surface there. Needs
+/// [`Accept::Parity`]: planes know which triangle a ray leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// They do: rays hit what they leave and what they end on.
+    Touching,
+    /// A ray starts a cell off the triangle that it leaves, and is searched up to two cells before its end.
+    Clear,
+}
+
 /// Which cells keep a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
@@ -117,6 +136,10 @@ pub struct Config {
     pub samples: u32,
     /// When a fragment counts.
     pub accept: Accept,
+    /// Which fragments decide whether a point is inside; only for [`Accept::Parity`].
+    pub inside: Inside,
+    /// Whether rays hit what they leave and end on; only for [`Accept::Parity`].
+    pub ends: Ends,
     /// Which cells keep a triangle.
     pub coverage: Coverage,
     /// How triangles are binned into cells. Changes no hit.
@@ -155,6 +178,8 @@ impl Config {
             march: March::Exact,
             samples: 3,
             accept: Accept::Plane,
+            inside: Inside::Column,
+            ends: Ends::Clear,
             coverage: Coverage::Exact,
             builder: Builder::Raster,
             payload: Payload::Index,
@@ -314,7 +339,17 @@ impl Config {
             Payload::Material => numbers::VOXEL_PAYLOAD_MATERIAL,
             Payload::Mirror => numbers::VOXEL_PAYLOAD_MIRROR,
         };
+        let ends = match self.ends {
+            Ends::Clear if self.accept == Accept::Parity => numbers::VOXEL_ENDS_CLEAR,
+            _ => numbers::VOXEL_ENDS_TOUCHING,
+        };
+        let inside = match self.inside {
+            Inside::Column => numbers::VOXEL_INSIDE_COLUMN,
+            Inside::Voxel => numbers::VOXEL_INSIDE_VOXEL,
+        };
         vec![
+            (ids::VOXEL_INSIDE, inside),
+            (ids::VOXEL_ENDS, ends),
             (ids::VOXEL_AXES, axes),
             (ids::VOXEL_MARCH, march),
             (ids::VOXEL_ACCEPT, accept),
@@ -342,6 +377,10 @@ impl Config {
             ("accept", lower(&self.accept)),
             ("payload", payload.to_owned()),
         ];
+        if self.accept == Accept::Parity {
+            options.push(("inside", lower(&self.inside)));
+            options.push(("ends", lower(&self.ends)));
+        }
         if self.payload == Payload::Material {
             options.push(("ids", if self.ids { "on" } else { "off" }.to_owned()));
         }

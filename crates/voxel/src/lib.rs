@@ -17,7 +17,7 @@ mod structure;
 mod validate;
 
 pub use build::Build;
-pub use config::{Accept, Axes, Config, Coverage, March, Marking, Payload, Storage};
+pub use config::{Accept, Axes, Config, Coverage, Ends, Inside, March, Marking, Payload, Storage};
 pub use layout::{Demand, FormulaBytes, formula_bytes, list_count, plan};
 pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};

@@ -1,0 +1,28 @@
+// What: rays that start beyond the fragments of the triangle that they leave, which need not lie on the triangle.
+// Reads: geometry. Writes: nothing.
+// Source: as rays that leave a fragment start (scene/spawn.glsl), here for origins on triangles.
+#ifndef ADS_LEAVING_GLSL
+#define ADS_LEAVING_GLSL
+
+#include "ads/geometry.glsl"
+
+// The ray moved along the normal of the triangle that it excludes, to the side that it goes to, beyond everything within
+// `reach` metres of the plane along each axis. Unchanged where it excludes none.
+Ray leaving_ray(Ray ray, float reach) {
+    if (ray.exclude_primitive >= geometry_triangle_count()) {
+        return ray;
+    }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(ray.exclude_primitive, a, b, c);
+    vec3 normal = cross(b - a, c - a);
+    float size = length(normal);
+    if (size > 0.0) {
+        normal /= dot(normal, ray.direction) < 0.0 ? -size : size;
+        ray.origin += reach * (abs(normal.x) + abs(normal.y) + abs(normal.z)) * normal;
+    }
+    return ray;
+}
+
+#endif
