@@ -64,7 +64,7 @@ mod with_window {
         let is_moving = !loaded.scene.animation.clips.is_empty() || loaded.scene.animation.deformer.is_some();
         let system = match is_moving {
             // A moment of play is shown with a sample per pixel.
-            true => system.rebuilt_for(Frame { spp: 1, ..frame }.rays(), loaded.triangles),
+            true => system.rebuilt_for(Frame { spp: 1, ..frame.clone() }.rays(), loaded.triangles),
             false => system,
         };
         let seconds = given.work.reading.time;
