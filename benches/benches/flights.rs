@@ -11,7 +11,7 @@ use std::ffi::OsStr;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use rasray_experiment::{DeviceChoice, LoadedScene, load, open_device};
+use rasray_experiment::{DeviceChoice, open_device};
 use rasray_frame::{FrameInput, FrameRenderer, ImageRenderer, render_in_order};
 use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, Parts, PosePass, Sampling, SceneTables, View};
@@ -19,6 +19,7 @@ use rasray_integrators::{Film, FilmPixel, Integrator, IntegratorDesc, Integrator
 use rasray_metrics::Summary;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Moment, default_view};
+use rasray_scene_source::{LoadedScene, load};
 use rasray_systems::Spec;
 use rasray_tracer::{FrameStructure, Keeping, refresh_until_complete};
 

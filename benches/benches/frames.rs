@@ -14,13 +14,14 @@ use std::ffi::OsStr;
 use std::ops::ControlFlow;
 
 use rasray_ads::{Combined, Counters, Geometry, QueueCounters, Structure};
-use rasray_experiment::{DeviceScene, LoadedScene, load, requirements};
+use rasray_experiment::{DeviceScene, requirements};
 use rasray_frame::{Advance, ImageRenderer};
 use rasray_gpu::{Device, DeviceDesc, PassTiming, Stage};
 use rasray_integrators::{Film, IntegratorDesc, Raycast};
 use rasray_metrics::median;
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Camera, Moment, default_view};
+use rasray_scene_source::{LoadedScene, load};
 use rasray_systems::Spec;
 use rasray_tracer::{FrameStructure, Keeping, Refresh, refresh_until_complete};
 

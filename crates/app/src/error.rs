@@ -2,6 +2,7 @@
 
 use rasray_experiment::ExperimentError;
 use rasray_report::one_line;
+use rasray_scene_source::LoadError;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
@@ -80,10 +81,20 @@ impl From<ExperimentError> for AppError {
         let help = error.help().to_owned();
         match error {
             ExperimentError::Usage { message, .. } => Self::Usage { message, help },
-            ExperimentError::Scene(error) => Self::Usage { message: error.to_string(), help },
+            ExperimentError::Load(error) => error.into(),
             ExperimentError::Input { path, message, .. } => Self::Input { path, message, help },
             ExperimentError::Refused { message, .. } => Self::Refused { message, help },
             error => Self::Device { message: error.to_string(), help },
+        }
+    }
+}
+
+impl From<LoadError> for AppError {
+    fn from(error: LoadError) -> Self {
+        let help = error.help().to_owned();
+        match error {
+            LoadError::Input { path, message, .. } => Self::Input { path, message, help },
+            error => Self::Usage { message: error.to_string(), help },
         }
     }
 }

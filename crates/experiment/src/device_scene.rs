@@ -7,6 +7,7 @@ use rasray_gpu::{Device, GpuError};
 use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, PosePass, Sampling, SceneTables, View};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
+use rasray_scene_source::LoadError;
 use rasray_tracer::TracerError;
 
 use crate::error::ExperimentError;
@@ -25,7 +26,7 @@ pub(super) fn image_error(error: impl std::fmt::Display) -> ExperimentError {
 /// What an error about the scene's own tables is about: no option of structures or images makes them smaller.
 pub(super) fn scene_error(error: GpuSceneError) -> ExperimentError {
     let error = match error {
-        GpuSceneError::Scene(error) => return error.into(),
+        GpuSceneError::Scene(error) => return LoadError::from(error).into(),
         other => other,
     };
     let message = match &error {

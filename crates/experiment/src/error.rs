@@ -1,6 +1,6 @@
 //! Everything that ends an experiment early.
 
-use rasray_scene::SceneError;
+use rasray_scene_source::LoadError;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
@@ -27,9 +27,9 @@ pub enum ExperimentError {
         /// What to do; may be empty.
         help: String,
     },
-    /// A scene cannot be read.
+    /// There is no scene to show, or no view of it.
     #[error(transparent)]
-    Scene(#[from] SceneError),
+    Load(#[from] LoadError),
     /// The device is missing, lacks something required, or failed.
     #[error("{message}")]
     Device {
@@ -72,36 +72,11 @@ impl ExperimentError {
     /// What to do about it; may be empty.
     pub fn help(&self) -> &str {
         match self {
-            Self::Scene(error) => scene_help(error),
+            Self::Load(error) => error.help(),
             Self::Usage { help, .. }
             | Self::Input { help, .. }
             | Self::Device { help, .. }
             | Self::Refused { help, .. } => help,
         }
-    }
-}
-
-/// What to do about a scene that cannot be read. Messages that already end in what to do get none.
-fn scene_help(error: &SceneError) -> &'static str {
-    match error {
-        SceneError::Read { .. } => "check the name and that you may read the file",
-        SceneError::Missing { .. } => {
-            "put that file where the scene looks for it, and check that you may read it"
-        }
-        SceneError::TooLarge { .. } => "split or simplify the scene",
-        SceneError::Syntax { .. }
-        | SceneError::Invalid { .. }
-        | SceneError::IndexOutOfRange { .. }
-        | SceneError::NoTriangles { .. } => {
-            "the file is damaged or breaks its format: correct it, or export it again"
-        }
-        SceneError::Sequence { .. } => {
-            "numbered files go on without a gap, with the meshes and materials of the first"
-        }
-        SceneError::Image { .. } => "convert the image to .png or .jpg and refer to that",
-        SceneError::Builtin { .. } => {
-            "write NAME:PARAMETER=VALUE,PARAMETER=VALUE, or the name alone for its defaults"
-        }
-        _ => "",
     }
 }

@@ -1,10 +1,9 @@
 //! What a picture is known by: where two keys are equal, the same program makes the same picture.
 
 use crate::jobs::{Frame, RenderJob};
-use crate::key_hash::KeyHash;
-use crate::scene_source::LoadedScene;
 use rasray_options::OptionValues;
 use rasray_scene::Camera;
+use rasray_scene_source::{KeyHash, LoadedScene};
 
 /// The key of the picture that a job makes of a scene, 64 hexadecimal digits: a hash of everything that decides its
 /// values. That is the program (`program`: version and commit), the contents of all files read or the built-in's name,
@@ -55,14 +54,14 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
 mod tests {
     use super::*;
     use crate::jobs::{AovSelection, Primary, Refresh, Sampler};
-    use crate::{IntegratorRow, IntegratorSpec, Shard, default_view, load, one_system};
+    use crate::{IntegratorRow, IntegratorSpec, Shard, one_system};
     use rasray_options::Value;
+    use rasray_scene::BackFaces;
     use rasray_scene::needs::Needs;
-    use rasray_scene::{BackFaces, Environment};
+    use rasray_scene_source::{default_view, load};
     use rasray_systems::{Preset, SYSTEMS};
     use std::collections::BTreeSet;
     use std::ffi::OsStr;
-    use std::path::Path;
 
     fn integrator(name: &str) -> IntegratorSpec {
         IntegratorRow::named(name).expect("it is registered").into()
@@ -138,37 +137,5 @@ mod tests {
             &|job| job.camera.name = "another".to_owned(),
         ];
         assert!(same.iter().all(|change| key(change) == first));
-    }
-
-    #[test]
-    fn a_scene_is_known_by_all_that_it_is_made_from() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
-        write("a.obj", "mtllib a.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-        write("a.mtl", "newmtl red\nKd 1 0 0\n");
-        let content = |name: &Path, change: &dyn Fn(&mut LoadedScene)| {
-            let mut loaded = load(name.as_os_str()).expect("a scene");
-            change(&mut loaded);
-            loaded.content
-        };
-        let place = folder.path().join("a.obj");
-        let first = content(&place, &|_| ());
-        assert_eq!(content(&place, &|loaded| loaded.light(None)), first, "light that follows from the scene");
-        let mut seen = BTreeSet::from([first.clone()]);
-        let mut is_new = |content: String| assert!(seen.insert(content));
-        is_new(content(&place, &LoadedScene::close_holes));
-        is_new(content(&place, &|loaded| loaded.light(Some(Environment::Constant([0.5; 3])))));
-        for radiance in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] {
-            let map = Environment::LatLong { width: 1, height: 1, radiance: vec![radiance] };
-            is_new(content(&place, &|loaded| loaded.light(Some(map.clone()))));
-        }
-        write("a.mtl", "newmtl red\nKd 0 1 0\n");
-        is_new(content(&place, &|_| ()));
-        write("a.mtl", "newmtl red\nKd 1 0 0\n");
-        assert_eq!(content(&place, &|_| ()), first);
-        std::fs::rename(&place, folder.path().join("b.obj")).expect("another name");
-        assert_eq!(content(&folder.path().join("b.obj"), &|_| ()), first, "names are no content");
-        is_new(content(Path::new("spheres:10k"), &|_| ()));
-        is_new(content(Path::new("spheres:10001"), &|_| ()));
     }
 }

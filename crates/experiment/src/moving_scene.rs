@@ -18,7 +18,7 @@ impl DeviceScene {
     /// As [`DeviceScene::new`], of a scene at rest that [`DeviceScene::pose`] shows at any moment.
     ///
     /// # Errors
-    /// As [`DeviceScene::new`], and where a scene cannot be posed on the device ([`PosePass::always_poses`]).
+    /// As [`DeviceScene::new`], and where a scene cannot be posed on the device ([`Scene::is_posed_in_place`]).
     pub fn moving(
         device: &Device,
         scene: &Scene,

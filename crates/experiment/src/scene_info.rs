@@ -1,17 +1,24 @@
 //! What a scene holds, how it is seen and lit where nothing is said of it, and what of it an image can show.
 
 use crate::backend::TexelCapacity;
-use crate::camera::Chosen;
 use crate::error::ExperimentError;
 use crate::jobs::Frame;
-use crate::scene_source::LoadedScene;
 use crate::texels::TexelInfo;
 use glam::DVec3;
+use rasray_gpu_scene::{Parts, SceneTables, left_out_bytes};
 use rasray_report::{CameraRecord, PoseRecord};
 use rasray_scene::facing::Facing;
 use rasray_scene::needs::Needs;
-use rasray_scene::{Environment, Motion, Scene, default_view};
+use rasray_scene::{Camera, Environment, Motion, Scene, default_view};
+use rasray_scene_source::{Chosen, LoadedScene};
 use serde_json::{Value, json};
+
+/// Counts the bytes of a scene that are not uploaded where `needs` are those of an image from `camera`.
+pub fn count_not_uploaded(loaded: &mut LoadedScene, camera: &Camera, needs: &Needs) {
+    let eye = camera.world_from_camera.translation;
+    let origin = SceneTables::default_frame_origin(&loaded.scene, eye);
+    loaded.not_uploaded_bytes = left_out_bytes(&loaded.scene, origin, &Parts::from(needs)).ok();
+}
 
 /// A scene in numbers.
 #[derive(Clone, Debug)]
@@ -68,9 +75,9 @@ impl SceneInfo {
         loaded.relight();
         let unlit = loaded.has_default_light();
         let needs = Needs::of(&loaded.scene, frame.workload());
-        loaded.count_not_uploaded(&view.camera, &needs);
+        count_not_uploaded(loaded, &view.camera, &needs);
         let scene = &loaded.scene;
-        let camera = |(index, camera): (usize, &rasray_scene::Camera)| {
+        let camera = |(index, camera): (usize, &Camera)| {
             Chosen { camera: camera.clone(), index: Some(index) }.record()
         };
         let texels = TexelInfo::of(scene, &needs, capacity)?;
@@ -156,5 +163,39 @@ fn environment(environment: &Environment) -> String {
         Environment::Constant(color) if color.iter().all(|channel| *channel == 0.0) => "none".to_owned(),
         Environment::Constant([r, g, b]) => format!("constant {r},{g},{b}"),
         Environment::LatLong { width, height, .. } => format!("map of {width}x{height}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasray_scene::needs::Workload;
+    use rasray_scene_source::load;
+
+    #[test]
+    fn what_no_image_can_show_is_counted_as_not_uploaded() {
+        let mut loaded = load("cornell".as_ref()).expect("built in");
+        assert_eq!(loaded.record().not_uploaded_bytes, None);
+        let camera = loaded.scene.cameras[0].clone();
+        count_not_uploaded(&mut loaded, &camera, &Needs::all());
+        assert_eq!(loaded.record().not_uploaded_bytes, Some(0));
+        let occlusion = Workload::VISIBILITY;
+        let needs = Needs::of(&loaded.scene, occlusion);
+        count_not_uploaded(&mut loaded, &camera, &needs);
+        let normals: usize = loaded
+            .scene
+            .instances
+            .iter()
+            .map(|instance| {
+                let normals = loaded.scene.meshes[instance.mesh].normals.as_ref();
+                normals.map_or(0, |normals| size_of_val(&normals[..]))
+            })
+            .sum();
+        // One zero word stands in for a table without words.
+        assert!(loaded.not_uploaded_bytes.is_some_and(|count| count >= normals as u64 - 4), "{normals}");
+        // What is at fault and not looked at is not counted, and is no error.
+        loaded.scene.meshes[0].normals = Some(Vec::new());
+        count_not_uploaded(&mut loaded, &camera, &needs);
+        assert_eq!(loaded.not_uploaded_bytes, None);
     }
 }

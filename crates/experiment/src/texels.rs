@@ -2,11 +2,11 @@
 
 use crate::backend::TexelCapacity;
 use crate::error::ExperimentError;
-use crate::scene_source::LoadedScene;
 use rasray_gpu_scene::{GpuSceneError, Parts, SmallerImage, TEXEL_BYTES, TexelDemand};
 use rasray_report::{SmallerImageRecord, bytes};
 use rasray_scene::Scene;
 use rasray_scene::needs::Needs;
+use rasray_scene_source::LoadedScene;
 use serde_json::{Value, json};
 
 /// Bytes of texels that every device holds: Vulkan grants each of the buffers 128 MiB.
@@ -145,8 +145,8 @@ impl TexelInfo {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene_source::load;
     use rasray_scene::needs::Workload;
+    use rasray_scene_source::load;
     use std::ffi::OsStr;
 
     fn loaded() -> LoadedScene {

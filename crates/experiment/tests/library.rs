@@ -6,12 +6,12 @@ use std::ops::ControlFlow;
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_experiment::{
     AovSelection, CompareJob, Comparison, DeviceChoice, Frame, HardJob, IntegratorRow, KeptScene,
-    LoadedScene, OptionValues, Primary, RaySet, Refresh, RenderJob, Sampler, Shard, SystemConfig,
-    default_view, load, open,
+    OptionValues, Primary, RaySet, Refresh, RenderJob, Sampler, Shard, SystemConfig, open,
 };
 use rasray_hard_cases::Scale;
 use rasray_ray_files::HitsFile;
 use rasray_scene::needs::Needs;
+use rasray_scene_source::{LoadedScene, default_view, load};
 use rasray_systems::{Preset, System};
 
 const RAYS: u32 = 500;

@@ -19,7 +19,6 @@ use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
     MemoryLocation, Recorder, Stage,
 };
-use rasray_scene::deforming::Topology;
 use rasray_scene::{Moment, Scene, pose::Pose};
 use rasray_shaders_glsl::SCENE_POSE_VERTICES;
 use rasray_shaders_glsl::records::{PoseMatrix, PosePlacement, PoseTarget};
@@ -179,14 +178,6 @@ impl PosePass {
             posed,
             bytes_by_part,
         })
-    }
-
-    /// Whether a scene can be posed at any time without its tables changing in anything else: not where vertices and
-    /// triangles may be others at every time, as in numbered files, nor where a deformer changes what a rig deforms as well.
-    pub fn always_poses(scene: &Scene) -> bool {
-        let Some(deformer) = &scene.animation.deformer else { return true };
-        let by_rig = |mesh: &usize| scene.animation.rig.deformed.iter().any(|shape| shape.mesh == *mesh);
-        deformer.topology() == Topology::Fixed && !deformer.meshes().iter().any(by_rig)
     }
 
     /// Memory for shapes of that many frames in flight, at least 1: what a simulation or a file has of a frame is written

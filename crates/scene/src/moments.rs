@@ -15,6 +15,15 @@ impl Scene {
         }
     }
 
+    /// Whether the scene at any moment is the scene at rest with other positions, normals and places, so that a device can
+    /// pose it: not where vertices and triangles may be others at every time, as in numbered files, nor where a deformer
+    /// changes what a rig deforms as well.
+    pub fn is_posed_in_place(&self) -> bool {
+        let Some(deformer) = &self.animation.deformer else { return true };
+        let by_rig = |mesh: &usize| self.animation.rig.deformed.iter().any(|shape| shape.mesh == *mesh);
+        deformer.topology() == Topology::Fixed && !deformer.meshes().iter().any(by_rig)
+    }
+
     /// The scene at a moment: instances, cameras and lights where their nodes are then, meshes deformed by the rig or by the
     /// [`Deformer`](crate::deforming::Deformer). With a rig, or a deformer of fixed topology, triangles keep their order and number, so that ids do not
     /// depend on the time. The result can be shown at another moment in the same way. A scene that nothing moves is as it

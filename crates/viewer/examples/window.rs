@@ -2,10 +2,11 @@
 //! saved as .ppm, and how `rasray render` makes them is printed.
 
 use rasray_experiment::{
-    DeviceChoice, Frame, INTEGRATORS, IntegratorSpec, LoadedScene, OptionValues, Primary, Sampler,
-    SystemConfig, load, open_device,
+    DeviceChoice, Frame, INTEGRATORS, IntegratorSpec, OptionValues, Primary, Sampler, SystemConfig,
+    open_device,
 };
 use rasray_scene::default_view as view;
+use rasray_scene_source::{LoadedScene, load};
 use rasray_systems::{Preset, SYSTEMS};
 use rasray_viewer::{
     Engine, Opening, SavedPicture, SceneSource, Session, Settings, Shown, Standpoint, Viewing, run,

@@ -1,8 +1,9 @@
 //! A camera that is moved by hand.
 
 use glam::{DMat3, DVec3};
-use rasray_experiment::{ExperimentError, placed_view};
+use rasray_experiment::ExperimentError;
 use rasray_scene::{Camera, Projection};
+use rasray_scene_source::placed_view;
 
 /// How steeply it can look up and down: short of straight up, where a camera without roll has no right side.
 const STEEPEST: f64 = 89.0 * std::f64::consts::PI / 180.0;

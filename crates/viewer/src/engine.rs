@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use rasray_experiment::{
-    Built, DeviceScene, ExperimentError, Frame, LoadedScene, Rendering, SystemConfig, TexelCapacity, texels,
+    Built, DeviceScene, ExperimentError, Frame, Rendering, SystemConfig, TexelCapacity, texels,
     work_per_pixel,
 };
 use rasray_gpu::{Device, Timing};
@@ -11,6 +11,7 @@ use rasray_gpu_scene::View;
 use rasray_report::Pass;
 use rasray_scene::Camera;
 use rasray_scene::needs::Needs;
+use rasray_scene_source::LoadedScene;
 
 use crate::picture::{Picture, Pixels};
 use crate::preview_size::PreviewSize;

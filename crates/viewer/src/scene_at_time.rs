@@ -1,10 +1,10 @@
 //! A scene at times of its animation.
 
-use rasray_experiment::{Chosen, ExperimentError, LoadedScene};
 use rasray_scene::{Camera, Motion, Scene};
+use rasray_scene_source::{Chosen, LoadError, LoadedScene};
 
 /// Chooses the camera of a scene as the command line said.
-pub type ChooseCamera = dyn Fn(&mut LoadedScene) -> Result<Chosen, ExperimentError> + Send;
+pub type ChooseCamera = dyn Fn(&mut LoadedScene) -> Result<Chosen, LoadError> + Send;
 
 /// A scene that can be shown at any time, and at rest again. [`SceneAtTime::show`] is the one place that steps a scene: it
 /// stays at rest, and the device poses it. Scenes whose triangles may be others at every time are posed here.
@@ -36,7 +36,7 @@ impl SceneAtTime {
     ///
     /// # Errors
     /// It has no clips, or no such clip, or the file of that time cannot be read.
-    pub(crate) fn show(&mut self, seconds: Option<f64>) -> Result<(), ExperimentError> {
+    pub(crate) fn show(&mut self, seconds: Option<f64>) -> Result<(), LoadError> {
         if self.seconds == seconds {
             return Ok(());
         }
@@ -62,7 +62,7 @@ impl SceneAtTime {
     ///
     /// # Errors
     /// The scene has no such camera.
-    pub(crate) fn camera(&mut self, choose: &ChooseCamera) -> Result<Camera, ExperimentError> {
+    pub(crate) fn camera(&mut self, choose: &ChooseCamera) -> Result<Camera, LoadError> {
         if let Some(chosen) = &self.chosen {
             return Ok(chosen.clone());
         }

@@ -7,14 +7,15 @@ use std::time::Duration;
 
 use glam::{DQuat, DVec3};
 use rasray_experiment::{
-    AovSelection, Backend, DeviceChoice, Frame, IntegratorRow, IntegratorSpec, KeptScene, LoadedScene,
-    OptionValues, Primary, Progress, Refresh, RenderJob, Sampler, SystemConfig, load, open, open_device,
+    AovSelection, Backend, DeviceChoice, Frame, IntegratorRow, IntegratorSpec, KeptScene, OptionValues,
+    Primary, Progress, Refresh, RenderJob, Sampler, SystemConfig, open, open_device,
 };
 use rasray_scene::Moment;
 use rasray_scene::animation::{
     Channel, ChannelValues, Clip, Interpolation, NodeTransform, Placement, Rig, RigNode,
 };
 use rasray_scene::needs::Needs;
+use rasray_scene_source::{LoadedScene, load};
 use rasray_systems::{Preset, System};
 use rasray_viewer::{
     Engine, Picture, Pixels, Rounded, SceneSource, Settings, Shown, Standpoint, Step, Update, Worker,

@@ -6,10 +6,11 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rasray_ads::{Geometry, Structure};
-use rasray_experiment::{DeviceScene, device_hits, incoherent_rays, load, oracle_ray};
+use rasray_experiment::{DeviceScene, device_hits, incoherent_rays, oracle_ray};
 use rasray_gpu::Timing;
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Camera, Moment, Motion, Scene, default_view};
+use rasray_scene_source::load;
 use rasray_systems::Preset;
 use rasray_tests::conformance::{
     Cases, Curve, Demand, Law, Prepared, ROWS, Row, Tier, compare, evaluate, first_other,

@@ -5,13 +5,11 @@ use super::structure::{StructureArguments, back_faces_parser, primary_parser, sa
 use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
-use rasray_experiment::{
-    Chosen, DeviceChoice, ExperimentError, Frame, INTEGRATORS, IntegratorRow, LoadedScene, Primary, Sampler,
-    placed_view,
-};
+use rasray_experiment::{DeviceChoice, Frame, INTEGRATORS, IntegratorRow, Primary, Sampler};
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{BackFaces, Environment, Scene, SceneError};
 use rasray_scene_files::{LoadOptions, load_environment};
+use rasray_scene_source::{Chosen, LoadError, LoadedScene, placed_view};
 use std::path::Path;
 
 /// Pixels of an image unless told.
@@ -106,7 +104,7 @@ impl ViewArguments {
     ///
     /// # Errors
     /// A camera that the scene lacks, and an eye at its own target.
-    pub fn choose(&self, loaded: &mut LoadedScene) -> Result<Chosen, ExperimentError> {
+    pub fn choose(&self, loaded: &mut LoadedScene) -> Result<Chosen, LoadError> {
         match (self.eye, self.target, &self.camera) {
             (Some(eye), Some(target), _) => placed_view(eye, target, self.fov),
             (_, _, Some(name)) => loaded.named_view(name),

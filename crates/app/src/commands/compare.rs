@@ -9,7 +9,7 @@ use crate::interrupt::Interrupt;
 use crate::output;
 use crate::terminal::{self, Talk};
 use crate::version::origin;
-use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet, check_run};
+use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet, check_run, count_not_uploaded};
 use rasray_ray_files::{load_hits, load_rays};
 use rasray_report::{Report, table_within};
 
@@ -62,7 +62,7 @@ pub(crate) fn compare(
     stop_if_requested(interrupt)?;
     let needs = given.work.reading.needs(&loaded.scene, frame.workload());
     fit_images(&mut loaded, &needs, backend.as_ref())?;
-    loaded.count_not_uploaded(&chosen.camera, &needs);
+    count_not_uploaded(&mut loaded, &chosen.camera, &needs);
     let sets = ray_sets.len() + usize::from(rays_file.is_some());
     let wanted = systems.len() * (sets + usize::from(given.image)) + hits_files.len();
     let job = CompareJob {

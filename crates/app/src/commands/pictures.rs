@@ -10,10 +10,11 @@ use crate::output::{Destination, Metadata, PartOf, Row, Rows, image_key};
 use crate::terminal::{self, Talk};
 use crate::version::{origin, version_text};
 use rasray_experiment::{
-    AovSelection, Backend, Chosen, Frame, KeptScene, LoadedScene, Progress, RenderJob, RenderOutput, Shard,
-    SystemConfig, check_run, picture_key,
+    AovSelection, Backend, Frame, KeptScene, Progress, RenderJob, RenderOutput, Shard, SystemConfig,
+    check_run, count_not_uploaded, picture_key,
 };
 use rasray_report::{FramesRecord, Report, json_shown, table_within};
+use rasray_scene_source::{Chosen, LoadedScene};
 
 /// What the pictures of a command have in common.
 pub(super) struct Pictures<'a> {
@@ -70,7 +71,7 @@ impl Pictures<'_> {
         let Self { given, line, interrupt, shard, .. } = *self;
         let frame = self.frame.clone();
         let needs = given.work.reading.needs(&self.loaded.scene, frame.workload());
-        self.loaded.count_not_uploaded(&self.chosen.camera, &needs);
+        count_not_uploaded(&mut self.loaded, &self.chosen.camera, &needs);
         let mut job = self.job(&self.loaded);
         if shard.is_some_and(|shard| !shard.holds(0)) {
             // They come with the first sample.

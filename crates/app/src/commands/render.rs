@@ -8,8 +8,9 @@ use crate::arguments::RenderArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::terminal;
-use rasray_experiment::{KeptScene, KeyHash, OpenBackend};
+use rasray_experiment::{KeptScene, OpenBackend};
 use rasray_report::FramesRecord;
+use rasray_scene_source::KeyHash;
 
 /// Renders a scene, or frames of it, and writes what was asked for; `line` is the command as it was typed.
 ///

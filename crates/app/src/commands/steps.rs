@@ -7,12 +7,11 @@ use crate::interrupt::Interrupt;
 use crate::output::Destination;
 use crate::progress::{ProgressLine, during};
 use crate::terminal;
-use rasray_experiment::{
-    Backend, Chosen, ExperimentError, LoadedScene, OpenBackend, Progress, load_with, texels,
-};
+use rasray_experiment::{Backend, ExperimentError, OpenBackend, Progress, texels};
 use rasray_scene::needs::Needs;
 use rasray_scene_files::LoadOptions;
 use rasray_scene_files::sequence::{Sequence, is_pattern};
+use rasray_scene_source::{Chosen, LoadError, LoadedScene, load_with};
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -34,7 +33,7 @@ pub(super) fn keep_inputs(option: &str, output: Option<&Destination>, scene: &Os
     }
     if is_pattern(scene)
         && Sequence::find(scene, &LoadOptions::default())
-            .map_err(ExperimentError::from)?
+            .map_err(LoadError::from)?
             .files()
             .iter()
             .any(|file| output.is(file))

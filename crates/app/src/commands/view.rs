@@ -37,8 +37,9 @@ mod with_window {
     use crate::output::{self, Destination, ImageFormat};
     use crate::progress::during;
     use crate::terminal;
-    use rasray_experiment::{Chosen, ExperimentError, Frame, LoadedScene, open_device};
+    use rasray_experiment::{Frame, open_device};
     use rasray_scene::default_view;
+    use rasray_scene_source::{Chosen, LoadError, LoadedScene};
     use rasray_viewer::{
         End, Engine, Opening, SavedPicture, SceneSource, Session, Settings, Shown, Standpoint, Viewing,
         check_display, run,
@@ -113,7 +114,7 @@ mod with_window {
 
     /// Refuses a camera, a time or a clip that the scene does not have before a window is opened, and says what there is to
     /// remark on what is shown first.
-    fn check_view(given: &ViewerArguments, loaded: &mut LoadedScene) -> Result<Chosen, ExperimentError> {
+    fn check_view(given: &ViewerArguments, loaded: &mut LoadedScene) -> Result<Chosen, LoadError> {
         let SceneArguments { time, clip, .. } = &given.work.reading;
         if time.is_none() && clip.is_none() {
             let chosen = given.work.view.choose(loaded)?;

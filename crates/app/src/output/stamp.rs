@@ -3,7 +3,8 @@
 use super::exr_header;
 use super::format::ImageFormat;
 use crate::error::AppError;
-use rasray_experiment::{KeyHash, Shard};
+use rasray_experiment::Shard;
+use rasray_scene_source::KeyHash;
 use std::io::{Cursor, ErrorKind};
 use std::path::Path;
 

@@ -9,12 +9,11 @@ use crate::arguments::InfoArguments;
 use crate::error::AppError;
 use crate::progress::during;
 use crate::terminal;
-use rasray_experiment::{
-    AovSelection, Frame, OpenBackend, Primary, Refresh, RenderJob, Sampler, SceneInfo, default_view,
-};
+use rasray_experiment::{AovSelection, Frame, OpenBackend, Primary, Refresh, RenderJob, Sampler, SceneInfo};
 use rasray_report::json_shown;
 use rasray_scene::BackFaces;
 use rasray_scene::needs::Needs;
+use rasray_scene_source::default_view;
 use serde_json::Value;
 
 use super::steps::{fit_images, load_scene, open_device};

@@ -1,8 +1,8 @@
 //! What lights a scene that was loaded.
 
-use crate::error::ExperimentError;
+use crate::error::LoadError;
 use crate::key_hash::KeyHash;
-use crate::scene_source::LoadedScene;
+use crate::loaded::LoadedScene;
 use rasray_scene::{Environment, Moment, Scene, default_view as view};
 
 /// What lights a scene.
@@ -49,7 +49,7 @@ impl LoadedScene {
         environment: Option<Environment>,
         clip: Option<&str>,
         times: impl IntoIterator<Item = f64>,
-    ) -> Result<(), ExperimentError> {
+    ) -> Result<(), LoadError> {
         if environment.is_some() || !view::is_lit_at_times(&self.scene) {
             self.light(environment);
             return Ok(());
@@ -116,7 +116,7 @@ impl LoadedScene {
     }
 
     /// Whether anything lights the scene at a moment.
-    fn is_lit_at(&mut self, moment: &Moment) -> Result<bool, ExperimentError> {
+    fn is_lit_at(&mut self, moment: &Moment) -> Result<bool, LoadError> {
         // They do not change, may be most of the memory, and shape what surfaces emit.
         let images = std::mem::take(&mut self.scene.images);
         match self.scene.at(moment) {
@@ -137,7 +137,7 @@ impl LoadedScene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene_source::load;
+    use crate::loaded::load;
 
     #[test]
     fn an_environment_that_was_asked_for_stays() {

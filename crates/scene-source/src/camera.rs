@@ -1,6 +1,6 @@
 //! Which camera looks at a scene.
 
-use crate::error::ExperimentError;
+use crate::error::LoadError;
 use glam::DVec3;
 use rasray_report::CameraRecord;
 use rasray_scene::default_view::{camera_looking_at, default_camera};
@@ -64,7 +64,7 @@ pub fn default_view(scene: &Scene) -> Chosen {
 ///
 /// # Errors
 /// The scene has no such camera.
-pub fn named_view(scene: &Scene, name: &str) -> Result<Chosen, ExperimentError> {
+pub fn named_view(scene: &Scene, name: &str) -> Result<Chosen, LoadError> {
     let by_name = scene.cameras.iter().position(|camera| camera.name == name);
     let by_position = || name.parse::<usize>().ok().filter(|position| *position < scene.cameras.len());
     let index = by_name.or_else(by_position).ok_or_else(|| {
@@ -75,7 +75,7 @@ pub fn named_view(scene: &Scene, name: &str) -> Result<Chosen, ExperimentError> 
         } else {
             format!("its cameras: {}", known.join(", "))
         };
-        ExperimentError::usage(format!("the scene {} has no camera '{name}'", scene.name), help)
+        LoadError::usage(format!("the scene {} has no camera '{name}'", scene.name), help)
     })?;
     Ok(Chosen { camera: scene.cameras[index].clone(), index: Some(index) })
 }
@@ -84,11 +84,11 @@ pub fn named_view(scene: &Scene, name: &str) -> Result<Chosen, ExperimentError> 
 ///
 /// # Errors
 /// Both at one place, or not finite.
-pub fn placed_view(eye: [f64; 3], target: [f64; 3], fov: Option<f64>) -> Result<Chosen, ExperimentError> {
+pub fn placed_view(eye: [f64; 3], target: [f64; 3], fov: Option<f64>) -> Result<Chosen, LoadError> {
     let (eye, target) = (DVec3::from_array(eye), DVec3::from_array(target));
     let distance = (target - eye).length();
     if !(distance > 0.0 && distance.is_finite()) {
-        return Err(ExperimentError::usage(
+        return Err(LoadError::usage(
             "--eye and --target give no direction to look in",
             "choose a --target at another place than --eye",
         ));
@@ -157,7 +157,7 @@ mod tests {
         let Projection::Perspective { fov_y } = camera.projection else { panic!("perspective") };
         assert!((fov_y - 45.0_f32.to_radians()).abs() < 1.0e-6);
         let error = placed_view([1.0; 3], [1.0; 3], None).expect_err("no direction");
-        assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
+        assert!(matches!(error, LoadError::Usage { .. }), "{error:?}");
     }
 
     #[test]

@@ -1,13 +1,11 @@
 //! From a name to a scene that can be rendered.
 
 use crate::camera::{Chosen, default_view, named_view};
-use crate::error::ExperimentError;
+use crate::error::LoadError;
 use crate::key_hash::KeyHash;
 use crate::lighting::Lighting;
-use rasray_gpu_scene::{Parts, PosePass, SceneTables, left_out_bytes};
 use rasray_report::{PoseRecord, SceneRecord, SmallerImageRecord};
 use rasray_scene::nearest::nearest;
-use rasray_scene::needs::Needs;
 use rasray_scene::pose::Pose;
 use rasray_scene::{AlphaMode, Camera, Moment, Scene, builtin};
 use rasray_scene_files::LoadOptions;
@@ -33,7 +31,7 @@ pub struct LoadedScene {
     /// built-in's name with parameters as it was given; the environment that was asked for; whether its holes were closed.
     pub content: String,
     /// Bytes of the scene's tables that are not uploaded because no image can show what they hold; absent until they
-    /// are counted ([`Self::count_not_uploaded`]), and where the scene is at fault in what is left out.
+    /// are counted by whoever knows the image, and where the scene is at fault in what is left out.
     pub not_uploaded_bytes: Option<u64>,
     /// When it is shown; absent at rest.
     pub pose: Option<PoseRecord>,
@@ -68,7 +66,7 @@ const EXTENSIONS: [&str; 4] = ["gltf", "glb", "obj", "ply"];
 ///
 /// # Errors
 /// Names that are neither, and whatever is wrong with a file or a parameter.
-pub fn load(name: &OsStr) -> Result<LoadedScene, ExperimentError> {
+pub fn load(name: &OsStr) -> Result<LoadedScene, LoadError> {
     load_with(name, &LoadOptions::default())
 }
 
@@ -76,7 +74,7 @@ pub fn load(name: &OsStr) -> Result<LoadedScene, ExperimentError> {
 ///
 /// # Errors
 /// Those of [`load`].
-pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, ExperimentError> {
+pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, LoadError> {
     let path = Path::new(name);
     let extension = path.extension().and_then(|text| text.to_str()).map(str::to_ascii_lowercase);
     let is_file = extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()));
@@ -102,12 +100,12 @@ pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, Exp
         builtin::NAMES.join(", ")
     );
     if path.exists() {
-        return Err(ExperimentError::input(path, "is not a scene file by its name", kinds));
+        return Err(LoadError::input(path, "is not a scene file by its name", kinds));
     }
     let nothing = "there is neither such a file nor such a built-in scene";
     let help =
         name.to_str().and_then(meant).map_or(kinds.clone(), |meant| format!("did you mean {meant}? {kinds}"));
-    Err(ExperimentError::input(path, nothing, help))
+    Err(LoadError::input(path, nothing, help))
 }
 
 /// The built-in scene that was meant, with the parameters that were given.
@@ -133,21 +131,14 @@ fn loaded(scene: Scene, sha256: Option<String>, content: KeyHash) -> LoadedScene
 }
 
 impl LoadedScene {
-    /// Counts the bytes that are not uploaded where `needs` are those of an image from `camera`.
-    pub fn count_not_uploaded(&mut self, camera: &Camera, needs: &Needs) {
-        let eye = camera.world_from_camera.translation;
-        let origin = SceneTables::default_frame_origin(&self.scene, eye);
-        self.not_uploaded_bytes = left_out_bytes(&self.scene, origin, &Parts::from(needs)).ok();
-    }
-
     /// Says that the scene is shown at a time, as [`Self::pose`] does, and leaves it at rest: whoever puts it on a device poses
-    /// it there ([`crate::DeviceScene::pose`]). A scene whose triangles may be others at every time, as in numbered files, is posed
+    /// it there. A scene whose triangles may be others at every time, as in numbered files, is posed
     /// here.
     ///
     /// # Errors
     /// Those of [`Self::pose`].
-    pub fn show(&mut self, seconds: f64, clip: Option<&str>) -> Result<(), ExperimentError> {
-        if !PosePass::always_poses(&self.scene) {
+    pub fn show(&mut self, seconds: f64, clip: Option<&str>) -> Result<(), LoadError> {
+        if !self.scene.is_posed_in_place() {
             return self.pose(seconds, clip);
         }
         let clips = self.clips(clip)?;
@@ -161,7 +152,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// Those of its deformer.
-    pub fn shown(&mut self) -> Result<Cow<'_, Scene>, ExperimentError> {
+    pub fn shown(&mut self) -> Result<Cow<'_, Scene>, LoadError> {
         let Some(moment) = &self.moment else { return Ok(Cow::Borrowed(&self.scene)) };
         // They do not change, and may be most of the memory.
         let images = std::mem::take(&mut self.scene.images);
@@ -188,7 +179,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// Those of the deformer, where the scene has no camera.
-    pub fn default_view(&mut self) -> Result<Chosen, ExperimentError> {
+    pub fn default_view(&mut self) -> Result<Chosen, LoadError> {
         if self.scene.cameras.is_empty() {
             return Ok(default_view(self.shown()?.as_ref()));
         }
@@ -199,7 +190,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// The scene has no such camera.
-    pub fn named_view(&self, name: &str) -> Result<Chosen, ExperimentError> {
+    pub fn named_view(&self, name: &str) -> Result<Chosen, LoadError> {
         Ok(self.moved(named_view(&self.scene, name)?))
     }
 
@@ -216,7 +207,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// Nothing moves the scene, it has no such clip, or the file of that time cannot be read.
-    pub fn pose(&mut self, seconds: f64, clip: Option<&str>) -> Result<(), ExperimentError> {
+    pub fn pose(&mut self, seconds: f64, clip: Option<&str>) -> Result<(), LoadError> {
         let clips = self.clips(clip)?;
         // They do not change, and may be most of the memory.
         let images = std::mem::take(&mut self.scene.images);
@@ -240,16 +231,16 @@ impl LoadedScene {
     }
 
     /// The clips that move the scene: the one that is wanted, else all that can be played at once.
-    pub(crate) fn clips(&self, clip: Option<&str>) -> Result<Vec<usize>, ExperimentError> {
+    pub(crate) fn clips(&self, clip: Option<&str>) -> Result<Vec<usize>, LoadError> {
         let names = &self.scene.animation.clips;
         if !self.moves() {
-            return Err(ExperimentError::usage(
+            return Err(LoadError::usage(
                 format!("the scene {} has no clips that could move it", self.scene.name),
                 "leave --time out; `rasray info SCENE` says what moves",
             ));
         }
         if names.is_empty() && clip.is_some() {
-            return Err(ExperimentError::usage(
+            return Err(LoadError::usage(
                 format!("the scene {} has no clips: it deforms in one way", self.scene.name),
                 "leave --clip out",
             ));
@@ -262,7 +253,7 @@ impl LoadedScene {
                 let index = named.or_else(counted).ok_or_else(|| {
                     let listed: Vec<String> =
                         names.iter().enumerate().map(|(index, name)| format!("{index} ({name})")).collect();
-                    ExperimentError::usage(
+                    LoadError::usage(
                         format!("the scene {} has no clip '{wanted}'", self.scene.name),
                         format!("it has {}", listed.join(", ")),
                     )
@@ -289,9 +280,9 @@ fn triangles(scene: &Scene) -> u64 {
 }
 
 /// Of a file that was read before, in hexadecimal.
-fn digest(path: &Path) -> Result<String, ExperimentError> {
+fn digest(path: &Path) -> Result<String, LoadError> {
     let failed = |error: std::io::Error| {
-        ExperimentError::input(
+        LoadError::input(
             path,
             format!("cannot be read again: {error}"),
             "leave the file in place while it is read",
@@ -312,7 +303,8 @@ fn digest(path: &Path) -> Result<String, ExperimentError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasray_scene::needs::Workload;
+    use rasray_scene::Environment;
+    use std::collections::BTreeSet;
 
     #[test]
     fn the_digest_is_sha256() {
@@ -329,37 +321,41 @@ mod tests {
     }
 
     #[test]
-    fn what_no_image_can_show_is_counted_as_not_uploaded() {
-        let mut loaded = load(OsStr::new("cornell")).expect("built in");
-        assert_eq!(loaded.record().not_uploaded_bytes, None);
-        let camera = loaded.scene.cameras[0].clone();
-        loaded.count_not_uploaded(&camera, &Needs::all());
-        assert_eq!(loaded.record().not_uploaded_bytes, Some(0));
-        let occlusion = Workload::VISIBILITY;
-        let needs = Needs::of(&loaded.scene, occlusion);
-        loaded.count_not_uploaded(&camera, &needs);
-        let normals: usize = loaded
-            .scene
-            .instances
-            .iter()
-            .map(|instance| {
-                let normals = loaded.scene.meshes[instance.mesh].normals.as_ref();
-                normals.map_or(0, |normals| size_of_val(&normals[..]))
-            })
-            .sum();
-        // One zero word stands in for a table without words.
-        assert!(loaded.not_uploaded_bytes.is_some_and(|count| count >= normals as u64 - 4), "{normals}");
-        // What is at fault and not looked at is not counted, and is no error.
-        loaded.scene.meshes[0].normals = Some(Vec::new());
-        loaded.count_not_uploaded(&camera, &needs);
-        assert_eq!(loaded.not_uploaded_bytes, None);
+    fn a_scene_is_known_by_all_that_it_is_made_from() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
+        write("a.obj", "mtllib a.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        write("a.mtl", "newmtl red\nKd 1 0 0\n");
+        let content = |name: &Path, change: &dyn Fn(&mut LoadedScene)| {
+            let mut loaded = load(name.as_os_str()).expect("a scene");
+            change(&mut loaded);
+            loaded.content
+        };
+        let place = folder.path().join("a.obj");
+        let first = content(&place, &|_| ());
+        assert_eq!(content(&place, &|loaded| loaded.light(None)), first, "light that follows from the scene");
+        let mut seen = BTreeSet::from([first.clone()]);
+        let mut is_new = |content: String| assert!(seen.insert(content));
+        is_new(content(&place, &LoadedScene::close_holes));
+        is_new(content(&place, &|loaded| loaded.light(Some(Environment::Constant([0.5; 3])))));
+        for radiance in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] {
+            let map = Environment::LatLong { width: 1, height: 1, radiance: vec![radiance] };
+            is_new(content(&place, &|loaded| loaded.light(Some(map.clone()))));
+        }
+        write("a.mtl", "newmtl red\nKd 0 1 0\n");
+        is_new(content(&place, &|_| ()));
+        write("a.mtl", "newmtl red\nKd 1 0 0\n");
+        assert_eq!(content(&place, &|_| ()), first);
+        std::fs::rename(&place, folder.path().join("b.obj")).expect("another name");
+        assert_eq!(content(&folder.path().join("b.obj"), &|_| ()), first, "names are no content");
+        is_new(content(Path::new("spheres:10k"), &|_| ()));
+        is_new(content(Path::new("spheres:10001"), &|_| ()));
     }
-
     #[test]
     fn a_name_that_is_nothing_lists_what_there_is() {
         for bad in ["cornel", "missing.glb", "cornell:walls=7", "Cargo.toml"] {
             let error = load(OsStr::new(bad)).expect_err(bad);
-            assert!(matches!(error, ExperimentError::Input { .. } | ExperimentError::Scene(_)), "{error:?}");
+            assert!(matches!(error, LoadError::Input { .. } | LoadError::Scene(_)), "{error:?}");
             assert!(error.to_string().contains(bad.split(':').next().unwrap_or(bad)), "{error}");
         }
         for (bad, meant) in [
