@@ -5,6 +5,7 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/queue.glsl"
+#include "integrators/raycast.glsl"
 #include "integrators/storage.glsl"
 #include "scene/environment.glsl"
 
@@ -19,6 +20,6 @@ void main() {
     Surface surface = queue_surface(slot);
     vec3 radiance = surface.valid == 0u
         ? environment_radiance(direction)
-        : surface.emission + surface.base_color * abs(dot(surface.normal, direction));
+        : raycast_radiance(surface, direction);
     film_add(wave_pixel(slot), radiance);
 }

@@ -51,7 +51,7 @@ layout(set = INTEGRATOR_SET, binding = 6, scalar) buffer ShadowListBuffer { uint
 layout(set = INTEGRATOR_SET, binding = 7, scalar) buffer AovBuffer { AovPixel aov_pixels[]; };
 layout(set = INTEGRATOR_SET, binding = 8, scalar) buffer PathWaitingBuffer { PathWaiting path_waiting[]; };
 
-// Which slots a kernel works on, and what it is told. 32 bytes.
+// Which slots a kernel works on, and what it is told. 40 bytes.
 layout(push_constant, scalar) uniform WaveConstants {
     uint first_pixel;     // of the wave
     uint pixel_count;     // of the wave
@@ -61,6 +61,8 @@ layout(push_constant, scalar) uniform WaveConstants {
     float range;          // metres, of ambient occlusion
     uint domain;          // of the queue that is bound: pixel_count, or DOMAIN_SELECTED
     uint marks;           // WAVE_ROUND_* of the round
+    uint layers;          // surfaces that are there for a ray through layers
+    float layer_opacity;  // of each of them, times that of its material
 } wave;
 
 // The slot of this invocation; false where there is none.

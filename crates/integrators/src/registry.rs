@@ -9,15 +9,17 @@ use rasray_scene::needs::Workload;
 use crate::{Integrator, IntegratorDesc, IntegratorError};
 
 mod ambient_occlusion;
+mod layers;
 mod path;
 mod raycast;
 
 pub use ambient_occlusion::AmbientOcclusion;
+pub use layers::Layers;
 pub use path::{BOUNCE_LIMIT, GlassShadows, Path, PathOptions};
 pub use raycast::Raycast;
 
 /// Every integrator; the first is the default.
-pub static INTEGRATORS: &[IntegratorRow] = &[path::ROW, ambient_occlusion::ROW, raycast::ROW];
+pub static INTEGRATORS: &[IntegratorRow] = &[path::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
 
 /// Why a ray is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

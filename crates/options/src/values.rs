@@ -10,7 +10,7 @@ pub type Word = (&'static str, &'static str);
 pub enum Unit {
     /// Metres.
     Metres,
-    /// A share of a whole.
+    /// A share of a whole, at most 1.
     Share,
 }
 
@@ -65,8 +65,9 @@ impl Values {
         match (self, value) {
             (Self::Words(words), Value::Word(given)) => words.iter().any(|(word, _)| *word == given),
             (Self::Whole(lowest, highest), Value::Whole(given)) => (lowest..=highest).contains(&given),
-            (Self::Number(_, least), Value::Number(given)) => {
-                given.is_finite() && (given > 0.0 || (given == 0.0 && least == Least::Zero))
+            (Self::Number(unit, least), Value::Number(given)) => {
+                let is_least = given > 0.0 || (given == 0.0 && least == Least::Zero);
+                is_least && given.is_finite() && (unit != Unit::Share || given <= 1.0)
             }
             (Self::Cells(most), Value::Cells(sides)) => sides.iter().all(|side| (1..=most).contains(side)),
             _ => false,
@@ -86,8 +87,10 @@ impl Values {
                 format!("must be one of: {}", words.join(", "))
             }
             Self::Whole(lowest, highest) => format!("must be a whole number from {lowest} to {highest}"),
-            Self::Number(_, Least::Zero) => "must be a finite number of at least 0".to_owned(),
-            Self::Number(_, Least::AboveZero) => "must be a finite number above 0".to_owned(),
+            Self::Number(Unit::Share, Least::Zero) => "must be a number from 0 to 1".to_owned(),
+            Self::Number(Unit::Share, Least::AboveZero) => "must be a number above 0, at most 1".to_owned(),
+            Self::Number(Unit::Metres, Least::Zero) => "must be a finite number of at least 0".to_owned(),
+            Self::Number(Unit::Metres, Least::AboveZero) => "must be a finite number above 0".to_owned(),
             Self::Cells(most) => {
                 format!("write columns x rows from 1 to {most} each, such as 720x480, or one number for both")
             }
@@ -104,7 +107,7 @@ impl Values {
             Self::Whole(lowest, u32::MAX) => format!("{lowest} or more"),
             Self::Whole(lowest, highest) => format!("{lowest} to {highest}"),
             Self::Number(unit, least) => {
-                let unit = if unit == Unit::Metres { "metres" } else { "a share" };
+                let unit = if unit == Unit::Metres { "metres" } else { "a share of 1" };
                 format!("{unit}, {}", if least == Least::Zero { "not negative" } else { "above 0" })
             }
             Self::Cells(most) => format!("columns x rows, or one number for both, 1 to {most} each"),
@@ -159,6 +162,16 @@ mod tests {
                 Values::Number(Unit::Metres, Least::AboveZero),
                 "must be a finite number above 0",
                 &["0", "-0", "-1", "nan", "inf"],
+            ),
+            (
+                Values::Number(Unit::Share, Least::Zero),
+                "must be a number from 0 to 1",
+                &["-0.1", "1.01", "nan", "inf"],
+            ),
+            (
+                Values::Number(Unit::Share, Least::AboveZero),
+                "must be a number above 0, at most 1",
+                &["0", "-1", "1.01", "nan", "inf"],
             ),
             (
                 Values::Cells(8192),

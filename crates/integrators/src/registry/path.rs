@@ -1,7 +1,5 @@
 //! Path tracing with light sampling.
 
-use std::sync::atomic::{AtomicU32, Ordering};
-
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Device, Recorder};
 use rasray_gpu_scene::{GpuScene, ShadingFeatures};
@@ -13,7 +11,7 @@ use rasray_shaders_glsl::{
     INTEGRATORS_PATH_SHADE_PASSING, INTEGRATORS_PRIMARY,
     constant_ids::integrators::PATHS_PASS_PANES,
     constant_ids::scene::TERMINATOR_IS_SMOOTH,
-    constants::scene::{PATH_LAYER_LIMIT, WAVE_ROUND_LAST, WAVE_ROUND_RESUMES},
+    constants::scene::PATH_LAYER_LIMIT,
     records::{PathState, PathWaiting},
 };
 
@@ -23,6 +21,7 @@ use crate::{
     kernels::{
         Bindings, Bound, Kernel, WaveConstants, binding, camera_constants, device_buffer, film, shadow_queue,
     },
+    rounds::Rounds,
 };
 
 mod options;
@@ -64,7 +63,7 @@ const ROUND_LIMIT: u32 = 2 * BOUNCE_LIMIT + 1 + 2 * PATH_LAYER_LIMIT;
 pub struct Path {
     bounces: u32,
     /// Closest-hit rounds of a wave.
-    rounds: AtomicU32,
+    rounds: Rounds,
     /// What the kernels were made for.
     features: ShadingFeatures,
     film: Film,
@@ -124,7 +123,7 @@ impl Path {
         constants.push((TERMINATOR_IS_SMOOTH, (shadow_terminator == ShadowTerminator::Offset).into()));
         Ok(Self {
             bounces,
-            rounds: rounds(bounces, passing).into(),
+            rounds: Rounds::new(rounds(bounces, passing), ROUND_LIMIT),
             features: desc.features,
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
             shade: bindings.kernel(device, shader, &constants)?,
@@ -157,7 +156,7 @@ impl Path {
         shadows.record_select_none(recorder);
         // In the first round these are all slots, later those whose paths continue.
         let mut live = all;
-        let rounds = self.traces_of_paths();
+        let rounds = self.rounds.now();
         for round in 0..rounds {
             constants.round = round;
             if round == 0 {
@@ -187,29 +186,10 @@ impl Path {
         wave: Wave,
         is_rest: bool,
     ) -> Result<(), IntegratorError> {
-        let paths = &self.queue;
-        let mut constants = WaveConstants { bounces: self.bounces, ..WaveConstants::from(wave) };
-        let mut live = if is_rest { Domain::Selected } else { Domain::First(wave.pixel_count) };
-        let first = u32::from(is_rest);
-        let end = first + self.traces_of_paths();
-        for round in first..end {
-            constants.round = round;
-            constants.marks = if is_rest && round == first { WAVE_ROUND_RESUMES } else { 0 };
-            constants.marks |= if round + 1 == end { WAVE_ROUND_LAST } else { 0 };
-            if round == 0 {
-                traced.record_primary(recorder, paths, wave)?;
-            } else {
-                traced.record_closest(recorder, paths, live)?;
-            }
-            self.bindings.record(recorder, &self.shade, paths, live, &constants);
-            paths.record_take(recorder);
-            live = Domain::Selected;
-        }
-        Ok(())
-    }
-
-    fn traces_of_paths(&self) -> u32 {
-        self.rounds.load(Ordering::Relaxed)
+        self.rounds.record(recorder, (traced, wave), &self.queue, is_rest, |recorder, live, constants| {
+            let constants = WaveConstants { bounces: self.bounces, ..constants };
+            self.bindings.record(recorder, &self.shade, &self.queue, live, &constants);
+        })
     }
 }
 
@@ -258,13 +238,9 @@ impl Integrator for Path {
     }
 
     fn allow_more_rounds(&self) -> bool {
-        let now = self.traces_of_paths();
         match &self.shadows {
             Shadows::Occluded { .. } => false,
-            Shadows::Passing { .. } => {
-                self.rounds.store(now.saturating_mul(2).min(ROUND_LIMIT), Ordering::Relaxed);
-                now < ROUND_LIMIT
-            }
+            Shadows::Passing { .. } => self.rounds.allow_more(),
         }
     }
 
@@ -287,8 +263,8 @@ impl Integrator for Path {
 
     fn traces_per_wave(&self) -> u32 {
         match &self.shadows {
-            Shadows::Occluded { .. } => 2 * self.traces_of_paths() - 1,
-            Shadows::Passing { .. } => self.traces_of_paths(),
+            Shadows::Occluded { .. } => 2 * self.rounds.now() - 1,
+            Shadows::Passing { .. } => self.rounds.now(),
         }
     }
 

@@ -3,6 +3,7 @@
 pub(crate) mod common;
 mod corpus;
 mod images;
+mod layers;
 mod needs;
 mod passing;
 mod reference;

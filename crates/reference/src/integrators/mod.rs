@@ -10,6 +10,7 @@
 
 mod ambient_occlusion;
 mod image;
+mod layers;
 mod path;
 mod raycast;
 
@@ -44,7 +45,7 @@ pub struct NaiveIntegrator {
 }
 
 /// Every naive integrator.
-pub static INTEGRATORS: &[NaiveIntegrator] = &[path::ROW, ambient_occlusion::ROW, raycast::ROW];
+pub static INTEGRATORS: &[NaiveIntegrator] = &[path::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
 
 impl NaiveIntegrator {
     /// The one of that name.

@@ -1,17 +1,24 @@
 use glam::Vec3;
 
 use super::{Image, NaiveIntegrator, Tracer};
-use crate::shading::{PosedScene, ReferenceError, View, random::Numbers};
+use crate::shading::{PosedScene, ReferenceError, Surface, View, random::Numbers};
 
 pub(super) const ROW: NaiveIntegrator =
     NaiveIntegrator { name: "raycast", render: |posed, view, _| posed.render_raycast(view) };
+
+impl Surface {
+    /// Emission plus base colour times the cosine between shading normal and the unit `direction` of the ray.
+    pub(super) fn raycast(&self, direction: Vec3) -> Vec3 {
+        self.emission + self.base_color * self.normal.dot(direction).abs()
+    }
+}
 
 impl Tracer<'_> {
     /// One sample: emission plus base colour times the cosine between shading normal and ray, or the environment.
     pub(super) fn raycast(&self, view: &View, random: Numbers) -> Vec3 {
         let ray = self.camera_ray(view, random);
         match self.closest(&ray) {
-            Some(surface) => surface.emission + surface.base_color * surface.normal.dot(ray.direction).abs(),
+            Some(surface) => surface.raycast(ray.direction),
             None => self.posed.environment_radiance(ray.direction),
         }
     }

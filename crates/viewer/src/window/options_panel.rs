@@ -143,7 +143,7 @@ fn show_control(ui: &mut egui::Ui, row: &OptionRow, value: Option<Value>) -> Opt
             let speed = f64::from(number / 100.0).max(1.0e-4);
             let lowest = if least == Least::AboveZero { f32::MIN_POSITIVE } else { 0.0 };
             let drag = DragValue::new(&mut number)
-                .range(lowest..=f32::MAX)
+                .range(lowest..=if unit == Unit::Share { 1.0 } else { f32::MAX })
                 .speed(speed)
                 .max_decimals(6)
                 .suffix(if unit == Unit::Metres { " m" } else { "" });

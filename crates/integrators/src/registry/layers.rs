@@ -1,0 +1,179 @@
+//! Ray casting through all layers.
+
+use rasray_ads::{Domain, RayQueue};
+use rasray_gpu::{Buffer, Device, Recorder};
+use rasray_gpu_scene::GpuScene;
+use rasray_options::{Least, OptionRow, Unit, Value, Values};
+use rasray_scene::needs::Workload;
+use rasray_shaders_glsl::{
+    INTEGRATORS_LAYERS_SHADE, INTEGRATORS_PRIMARY, constants::scene::PATH_LAYER_LIMIT, records::LayersState,
+};
+
+use crate::{
+    Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
+    integrator::check_wave,
+    kernels::{Bindings, Kernel, WaveConstants, camera_constants, device_buffer, film},
+    rounds::Rounds,
+};
+
+/// The registry's row.
+pub(super) const ROW: IntegratorRow = IntegratorRow {
+    name: "layers",
+    doc: "Ray casting through one surface after the other, by their opacity",
+    options: &[&LAYER_LIMIT, &LAYER_OPACITY],
+    rays: &[RayKind::Camera],
+    workload: |_| Workload {
+        emission: true,
+        shades: true,
+        blends: true,
+        why: "ray casting shows colour and emission alone, lit from the eye",
+        ..Workload::VISIBILITY
+    },
+    make: |desc, spec| {
+        let limit = spec.get(LAYER_LIMIT.name).and_then(Value::whole);
+        let opacity = spec.get(LAYER_OPACITY.name).and_then(Value::number).unwrap_or(1.0);
+        Ok(Box::new(Layers::new(desc, limit, opacity)?))
+    },
+};
+
+const LAYER_LIMIT: OptionRow = OptionRow::new(
+    "layer-limit",
+    Values::Whole(1, PATH_LAYER_LIMIT),
+    "Only so many surfaces are there for a ray; all if not given",
+)
+.trying(&["1", "3"]);
+
+const LAYER_OPACITY: OptionRow = OptionRow::new(
+    "layer-opacity",
+    Values::Number(Unit::Share, Least::AboveZero),
+    "Opacity of every surface, times its material's (1: only blended ones are seen through)",
+)
+.by_default(Value::Number(0.5))
+.trying(&["0.2", "0.5", "1"]);
+
+/// Binding of the states, as `integrators/layers_shade.comp` declares it.
+const LAYERS_STATES: u32 = 9;
+
+/// Rounds that a wave has at first.
+const USUAL_LAYERS: u32 = 8;
+
+/// What [`Raycast`](crate::Raycast) shows, of all surfaces along a ray, front to back: each adds its colour by its opacity
+/// and lets the rest of 1 pass. A round per surface, as many as it takes ([`Integrator::record_rest`],
+/// [`Integrator::allow_more_rounds`]).
+#[derive(Debug)]
+pub struct Layers {
+    /// Surfaces that are there for a ray; `u32::MAX`: all.
+    limit: u32,
+    opacity: f32,
+    rounds: Rounds,
+    film: Film,
+    queue: RayQueue,
+    states: Buffer,
+    bindings: Bindings,
+    primary: Kernel,
+    shade: Kernel,
+}
+
+impl Layers {
+    /// Makes queue and kernels. For a ray the first `limit` surfaces are there, all of them without a limit; each has
+    /// `opacity` times the opacity of its material.
+    ///
+    /// # Errors
+    /// A limit that is not from 1 to [`PATH_LAYER_LIMIT`], an opacity that is not above 0 and at most 1, sizes that do not
+    /// fit, out of memory, or the device refuses a pipeline.
+    pub fn new(desc: &IntegratorDesc<'_>, limit: Option<u32>, opacity: f32) -> Result<Self, IntegratorError> {
+        limit.map(|limit| LAYER_LIMIT.check(Value::Whole(limit))).transpose()?;
+        LAYER_OPACITY.check(Value::Number(opacity))?;
+        let capacity = desc.check()?;
+        let device = desc.device;
+        let queue = RayQueue::new(device, "camera rays", capacity, true)?;
+        let bytes = u64::from(capacity) * size_of::<LayersState>() as u64;
+        let states = device_buffer(device, "layers", bytes)?;
+        let bound = [&film(desc.film)[..], &[(LAYERS_STATES, &states)]].concat();
+        let bindings = Bindings::new(device, desc.scene, &bound)?;
+        // One more than there are surfaces: what the last one leaves sees the background.
+        let most = limit.unwrap_or(PATH_LAYER_LIMIT + 1);
+        Ok(Self {
+            limit: limit.unwrap_or(u32::MAX),
+            opacity,
+            rounds: Rounds::new(USUAL_LAYERS, most),
+            primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
+            shade: bindings.kernel(device, &INTEGRATORS_LAYERS_SHADE, &[])?,
+            film: desc.film.clone(),
+            queue,
+            states,
+            bindings,
+        })
+    }
+
+    /// The rounds of a new wave or of the rest of one.
+    fn record_rounds(
+        &self,
+        recorder: &mut Recorder<'_>,
+        traced: (Traced<'_>, Wave),
+        is_rest: bool,
+    ) -> Result<(), IntegratorError> {
+        let own = |constants| WaveConstants { layers: self.limit, layer_opacity: self.opacity, ..constants };
+        self.rounds.record(recorder, traced, &self.queue, is_rest, |recorder, live, constants| {
+            self.bindings.record(recorder, &self.shade, &self.queue, live, &own(constants));
+        })
+    }
+}
+
+impl Integrator for Layers {
+    fn name(&self) -> &'static str {
+        ROW.name
+    }
+
+    fn record_wave(
+        &self,
+        recorder: &mut Recorder<'_>,
+        traced: Traced<'_>,
+        wave: Wave,
+    ) -> Result<(), IntegratorError> {
+        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        let all = Domain::First(wave.pixel_count);
+        self.bindings.record(recorder, &self.primary, &self.queue, all, &WaveConstants::from(wave));
+        self.queue.record_select_none(recorder);
+        self.record_rounds(recorder, (traced, wave), false)
+    }
+
+    fn record_rest(
+        &self,
+        recorder: &mut Recorder<'_>,
+        traced: Traced<'_>,
+        wave: Wave,
+    ) -> Result<(), IntegratorError> {
+        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        self.record_rounds(recorder, (traced, wave), true)
+    }
+
+    fn has_rest(&self, device: &Device) -> Result<bool, IntegratorError> {
+        Ok(self.film.read_faults(device)?.unended > 0)
+    }
+
+    fn allow_more_rounds(&self) -> bool {
+        self.rounds.allow_more()
+    }
+
+    fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
+        self.bindings.set_scene(scene);
+        Ok(())
+    }
+
+    fn film(&self) -> &Film {
+        &self.film
+    }
+
+    fn queues(&self) -> Vec<&RayQueue> {
+        vec![&self.queue]
+    }
+
+    fn traces_per_wave(&self) -> u32 {
+        self.rounds.now()
+    }
+
+    fn state_bytes(&self) -> u64 {
+        self.states.size()
+    }
+}

@@ -1,0 +1,67 @@
+//! Rounds of a wave whose rays go on behind what they hit, however often that is.
+
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use rasray_ads::{Domain, RayQueue};
+use rasray_gpu::Recorder;
+use rasray_shaders_glsl::constants::scene::{WAVE_ROUND_LAST, WAVE_ROUND_RESUMES};
+
+use crate::{IntegratorError, Traced, Wave, kernels::WaveConstants};
+
+/// How many closest-hit rounds one recording of a wave has. Rays that have not ended then are counted in
+/// [`FilmFaults::unended`](crate::FilmFaults) and are the rest of the wave.
+#[derive(Debug)]
+pub(crate) struct Rounds {
+    now: AtomicU32,
+    limit: u32,
+}
+
+impl Rounds {
+    /// So many at first, and at most.
+    pub fn new(first: u32, limit: u32) -> Self {
+        Self { now: first.min(limit).into(), limit }
+    }
+
+    /// How many are recorded.
+    pub fn now(&self) -> u32 {
+        self.now.load(Ordering::Relaxed)
+    }
+
+    /// Twice as many from the next recording on; false where there cannot be more.
+    pub fn allow_more(&self) -> bool {
+        let now = self.now();
+        self.now.store(now.saturating_mul(2).min(self.limit), Ordering::Relaxed);
+        now < self.limit
+    }
+
+    /// Records the rounds of a new wave, whose camera rays are in the queue, or of the rest of one: a trace, then `shade`,
+    /// which is given the slots that were traced, and selects those that have another ray.
+    ///
+    /// # Errors
+    /// The structure was made without a scene.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        (traced, wave): (Traced<'_>, Wave),
+        queue: &RayQueue,
+        is_rest: bool,
+        mut shade: impl FnMut(&mut Recorder<'_>, Domain, WaveConstants),
+    ) -> Result<(), IntegratorError> {
+        let mut live = if is_rest { Domain::Selected } else { Domain::First(wave.pixel_count) };
+        let first = u32::from(is_rest);
+        let end = first + self.now();
+        for round in first..end {
+            let mut marks = if is_rest && round == first { WAVE_ROUND_RESUMES } else { 0 };
+            marks |= if round + 1 == end { WAVE_ROUND_LAST } else { 0 };
+            if round == 0 {
+                traced.record_primary(recorder, queue, wave)?;
+            } else {
+                traced.record_closest(recorder, queue, live)?;
+            }
+            shade(recorder, live, WaveConstants { round, marks, ..WaveConstants::from(wave) });
+            queue.record_take(recorder);
+            live = Domain::Selected;
+        }
+        Ok(())
+    }
+}
