@@ -31,8 +31,9 @@ except ImportError:
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 # Triangles with one material; without normals they are flat.
 Mesh = namedtuple("Mesh", "points faces material normals", defaults=[None])
-# A glTF file, a view with its angle in degrees, the radiance of the sky, and the meshes of what is made here.
-Scene = namedtuple("Scene", "name path eye target fov sky bounces meshes", defaults=[0.0, 8, ()])
+# A glTF file, a view with its angle in degrees, the radiance of the sky, the meshes of what is made here, and the diameter of
+# the lens, in whose focus the target is.
+Scene = namedtuple("Scene", "name path eye target fov sky bounces meshes aperture", defaults=[0.0, 8, (), 0.0])
 
 
 @dataclass(frozen=True)
@@ -139,6 +140,7 @@ class Rasray:
         command += ["--spp", samples, "--seed", seed, "--sampler", sampler, "--bounces", scene.bounces]
         command += ["--eye", "{},{},{}".format(*scene.eye), "--target", "{},{},{}".format(*scene.target)]
         command += ["--fov", scene.fov, "--environment", f"{scene.sky},{scene.sky},{scene.sky}"]
+        command += ["--aperture", scene.aperture]
         # The others have both sides of every surface.
         command += ["--back-faces", "none"]
         subprocess.run([str(part) for part in command], check=True, stderr=subprocess.DEVNULL)
@@ -200,6 +202,9 @@ class Mitsuba:
         look = mi.ScalarTransform4f().look_at(origin=list(scene.eye), target=list(scene.target), up=[0, 1, 0])
         film = {"type": "hdrfilm", "width": size, "height": size, "rfilter": {"type": "box"}}
         sensor = {"type": "perspective", "to_world": look, "fov": scene.fov, "film": film}
+        if scene.aperture > 0.0:
+            sensor["focus_distance"] = math.dist(scene.eye, scene.target)
+            sensor |= {"type": "thinlens", "aperture_radius": scene.aperture / 2}
         sensor["sampler"] = {"type": sampler, "sample_count": samples}
         # Emission alone is depth 1 there and 0 scatterings in rasray. Going through sheets counts as well: no end then.
         blends = any(mesh.material.alpha < 1.0 for mesh in scene.meshes)
@@ -274,6 +279,18 @@ def lamps(folder):
         faces = (np.arange(45)[:, None, None] * len(lamp.points) + lamp.faces).reshape(-1, 3)
         meshes.append(Mesh(points.astype(np.float32), faces, Material((0.0, 0.0, 0.0), emission=tuple(glow))))
     return write_scene("lamps", folder, meshes, eye=(0, 2.6, 6), target=(0, 0.5, 0), fov=45, bounces=4)
+
+
+def lens(folder):
+    """Balls and small lamps before, in and behind the focus of a wide lens."""
+    meshes = [quads([(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)], Material((0.5, 0.5, 0.5)))]
+    for place in range(5):
+        x, z = 1.1 * (place - 2), 2.4 - 1.6 * place
+        color = (0.8, 0.2 + 0.15 * place, 0.8 - 0.15 * place)
+        meshes.append(ball((x, 0.5, z), 0.5, Material(color)))
+        meshes.append(ball((x, 1.3, z), 0.06, Material((0.0, 0.0, 0.0), emission=(40.0, 30.0, 20.0))))
+    view = {"eye": (0, 1.5, 6), "target": (0, 0.6, -0.8), "fov": 40, "sky": 0.3, "bounces": 4}
+    return write_scene("lens", folder, meshes, aperture=0.4, **view)
 
 
 def sheets(folder, count, name, color):
@@ -365,7 +382,7 @@ def main():
         parser.error("Cycles needs the package bpy; without it --against mitsuba")
     sides = [Rasray()] + [side() for side in (Cycles, Mitsuba) if side.__name__.lower() in against]
     print(f"Mitsuba {mi.__version__}", f"Blender {bpy.app.version_string}" if bpy else "no Blender", sep=", ")
-    scenes = [cornell(folder), glass(folder), lamps(folder)]
+    scenes = [cornell(folder), glass(folder), lamps(folder), lens(folder)]
     colors = {"white": (0.8, 0.8, 0.8), "red": (0.8, 0.1, 0.1)}
     scenes += [sheets(folder, count, name, color) for name, color in colors.items() for count in (1, 5, 20)]
     for name, path, eye, target, fov, sky in (
@@ -380,6 +397,8 @@ def main():
     only = options.only.split(",") if options.only else []
     for scene in [item for item in scenes if not only or item.name in only]:
         able = [side for side in sides if scene.meshes or not isinstance(side, Mitsuba)]
+        # Lenses are compared with Mitsuba alone.
+        able = [side for side in able if scene.aperture == 0.0 or not isinstance(side, Cycles)]
         if "measure" in options.tables:
             measure(scene, able, folder, options.size, options.samples)
         if "variance" in options.tables:

@@ -1,6 +1,7 @@
-// What: the camera ray of every slot of a wave, through a random point of its pixel or its centre.
+// What: the camera ray of every slot of a wave, through a random point of its pixel and of the lens, or through the centres
+// of both.
 // Reads: frame. Writes: rays of the queue.
-// Source: docs/shading.md, "Functions".
+// Source: docs/shading.md, "Functions" and "Lens".
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/queue.glsl"
@@ -22,6 +23,10 @@ void main() {
         return;
     }
     uint pixel = wave_pixel(slot);
-    vec2 position = PIXEL_CENTRES ? pixel_centre(pixel) : camera_pixel_position(pixel, wave.sample_index);
-    queue_set_ray(slot, camera_ray(position));
+    if (PIXEL_CENTRES) {
+        queue_set_ray(slot, camera_ray(pixel_centre(pixel)));
+        return;
+    }
+    Ray ray = camera_ray(camera_pixel_position(pixel, wave.sample_index));
+    queue_set_ray(slot, camera_through_lens(ray, pixel, wave.sample_index));
 }

@@ -1,6 +1,7 @@
 // What: the hit and the surface of every slot of a wave from the triangle that drawing found, as a trace would store
 // them.
 // Reads: rays of the queue, the primitives of its hits, geometry, scene. Writes: hits and surfaces of the queue.
+// Triangles are drawn through a pinhole: with a lens no ray has an answer, which is counted as not ready.
 // Source: the visibility buffer, its second pass.
 #version 460
 #include "contract/extensions.glsl"
@@ -18,6 +19,13 @@ void main() {
         return;
     }
     Ray ray = queue_ray(slot);
+    if (scene_frame().lens_radius > 0.0) {
+        atomicAdd(queue_header.not_ready, 1u);
+        queue_set_hit(slot, Hit(ray.t_max, PRIMITIVE_NONE, 0.0, uintBitsToFloat(HIT_NOT_READY)));
+        queue_surfaces[slot].valid = 0u;
+        queue_surfaces[slot].primitive = PRIMITIVE_NONE;
+        return;
+    }
     uint primitive = queue_hit_words[visibility_primitive_word(slot)];
     vec3 a;
     vec3 b;

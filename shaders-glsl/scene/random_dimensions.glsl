@@ -5,6 +5,9 @@
 #ifndef SCENE_RANDOM_DIMENSIONS_GLSL
 #define SCENE_RANDOM_DIMENSIONS_GLSL
 
+// Place on the lens.
+#define RANDOM_LENS_U 0u
+#define RANDOM_LENS_V 1u
 // Position inside the pixel.
 #define RANDOM_CAMERA_X 2u
 #define RANDOM_CAMERA_Y 3u

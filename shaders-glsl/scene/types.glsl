@@ -8,7 +8,7 @@
 #include "scene/constants.glsl"
 
 // Camera, sizes of the tables and the constant environment. Metres relative to the frame origin.
-// 152 bytes.
+// 160 bytes.
 struct Frame {
     vec3 camera_position;       // where perspective rays start; the centre of an orthographic image
     uint projection;            // PROJECTION_*
@@ -19,6 +19,8 @@ struct Frame {
     vec3 camera_forward;        // unit, into the image
     float cone_spread;          // radians that a pixel subtends at the image centre; orthographic: 0
     float cone_width;           // metres that a pixel covers at the ray's origin; perspective: 0
+    float lens_radius;          // metres, of a perspective; 0: a pinhole
+    float focus_distance;       // metres along the view to the plane in focus; above 0 where there is a lens
     uint width;                 // pixels a row of the whole image
     uint height;                // rows of the whole image
     uint seed;                  // seed of all random numbers

@@ -28,7 +28,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         needs: _,
         repetitions: _,
     } = job;
-    let Camera { name: _, world_from_camera, projection, aspect_ratio } = camera;
+    let Camera { name: _, world_from_camera, projection, aspect_ratio, lens } = camera;
     let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces } = frame;
     let size = [width, height];
     let texts = |values: &OptionValues| -> Vec<(&str, String)> {
@@ -42,7 +42,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         .with("file", loaded.sha256.as_deref().unwrap_or_default())
         .with("time", format!("{:?}", loaded.pose.as_ref().map(|pose| (pose.time_s, &pose.clips))))
         .with("smaller images", format!("{:?}", loaded.smaller_images))
-        .with("camera", format!("{world_from_camera:?} {projection:?} {aspect_ratio:?}"))
+        .with("camera", format!("{world_from_camera:?} {projection:?} {aspect_ratio:?} {lens:?}"))
         .with("system", format!("{} {} {options:?}", system.system.name, system.preset.name()))
         .with("integrator", format!("{} {:?}", integrator.name(), texts(&integrator.values())))
         .with("frame", format!("{size:?} {spp} {seed} {sampler:?} {primary:?} {back_faces:?}"))

@@ -5,7 +5,7 @@ use rasray_ads::{PRIMITIVE_NONE, RAY_CULL_BACK_FACES, Ray};
 use rasray_gpu_scene::GpuScene;
 use rasray_reference::oracle::{Oracle, Outcome};
 use rasray_reference::shading::random::RandomStream;
-use rasray_reference::shading::{self, View, camera_ray, cosine_hemisphere, spawn_ray};
+use rasray_reference::shading::{self, View, camera_ray, cosine_hemisphere, spawn_ray, through_lens};
 
 use crate::jobs::RaySet;
 
@@ -95,13 +95,15 @@ impl RaySource<'_> {
         RandomStream { seed: self.view.seed, pixel: index, sample: 0 }
     }
 
-    /// Rays through random points of the image.
+    /// Rays through random points of the image and of the lens.
     fn camera(&self, index: u32) -> shading::Ray {
         let stream = self.stream(index);
         let place =
             Vec2::new(stream.float(20) * self.view.width as f32, stream.float(21) * self.view.height as f32);
         let culls_back_faces = self.flags.camera & RAY_CULL_BACK_FACES != 0;
-        shading::Ray { culls_back_faces, ..camera_ray(self.view, self.frame_origin, place) }
+        let ray = camera_ray(self.view, self.frame_origin, place);
+        let ray = through_lens(&self.view.camera, ray, Vec2::new(stream.float(23), stream.float(24)));
+        shading::Ray { culls_back_faces, ..ray }
     }
 
     /// Cosine-weighted directions from what camera rays hit exactly.

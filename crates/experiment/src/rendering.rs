@@ -34,6 +34,10 @@ fn visibility(
 ) -> Result<Option<Visibility>, ExperimentError> {
     match frame.primary {
         Primary::Trace => Ok(None),
+        Primary::Raster if stage.scene.frame().lens_radius > 0.0 => Err(ExperimentError::usage(
+            "--primary raster draws through a pinhole, and the camera has a lens",
+            "leave out --primary raster, or --aperture",
+        )),
         Primary::Raster => {
             Visibility::new(device, &stage.scene, false).map(Some).map_err(|error| match error {
                 IntegratorError::CannotDraw { .. } => {

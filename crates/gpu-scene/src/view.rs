@@ -85,10 +85,14 @@ impl View {
         frame.height = self.height.max(1);
         frame.seed = self.seed;
         (frame.half_width, frame.half_height) = (half_width as f32, half_height as f32);
+        (frame.lens_radius, frame.focus_distance) = (0.0, 0.0);
         match self.camera.projection {
             Projection::Perspective { .. } => {
                 frame.projection = PROJECTION_PERSPECTIVE;
                 (frame.cone_spread, frame.cone_width) = (pixel.atan() as f32, 0.0);
+                if let Some(lens) = self.camera.lens {
+                    (frame.lens_radius, frame.focus_distance) = (0.5 * lens.aperture, lens.focus);
+                }
             }
             Projection::Orthographic { .. } => {
                 frame.projection = PROJECTION_ORTHOGRAPHIC;
@@ -102,11 +106,12 @@ impl View {
 mod tests {
     use super::*;
     use glam::{DAffine3, DMat3};
+    use rasray_scene::Lens;
 
     fn camera(projection: Projection) -> Camera {
         let linear = DMat3::from_rotation_y(std::f64::consts::FRAC_PI_2) * 3.0;
         let world_from_camera = DAffine3::from_mat3_translation(linear, DVec3::new(1e6, 2.0, 3.0));
-        Camera { name: "test".to_owned(), world_from_camera, projection, aspect_ratio: None }
+        Camera { name: "test".to_owned(), world_from_camera, projection, aspect_ratio: None, lens: None }
     }
 
     #[test]
@@ -142,6 +147,21 @@ mod tests {
             assert_eq!([frame.half_width, frame.half_height], halves, "{width}x{height}");
             assert_eq!(frame.cone_width, 2.0 * halves[1] / 90.0, "pixels are as large as they are high");
         }
+    }
+
+    #[test]
+    fn a_perspective_has_a_lens_where_the_camera_does() {
+        let written = |camera| {
+            let mut frame = Frame { lens_radius: 7.0, ..Frame::default() };
+            View { camera, width: 4, height: 4, seed: 0 }.write(&mut frame, DVec3::ZERO);
+            [frame.lens_radius, frame.focus_distance]
+        };
+        let lens = Some(Lens { aperture: 0.5, focus: 3.0 });
+        let pinhole = camera(Projection::Perspective { fov_y: 1.0 });
+        assert_eq!(written(Camera { lens, ..pinhole.clone() }), [0.25, 3.0]);
+        assert_eq!(written(pinhole), [0.0; 2]);
+        let parallel = camera(Projection::Orthographic { half_height: 1.0 });
+        assert_eq!(written(Camera { lens, ..parallel }), [0.0; 2]);
     }
 
     #[test]

@@ -21,7 +21,7 @@ use crate::{IntegratorError, Wave, kernels::device_buffer};
 ///
 /// The rasterizer proposes pixels, and the test that traces use decides on the ray of each pixel, so hits are those of a
 /// structure that finds every triangle, bit for bit. Surfaces are those of triangles, whatever structure later rays are
-/// traced through.
+/// traced through. Triangles are drawn through a pinhole: where the camera has a lens, every ray is counted as not ready.
 #[derive(Debug)]
 pub struct Visibility {
     geometry: Geometry,

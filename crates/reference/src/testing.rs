@@ -108,6 +108,7 @@ pub fn view(eye: [f64; 3], target: [f64; 3], size: u32, samples: u32) -> View {
         world_from_camera,
         projection: Projection::Perspective { fov_y: 0.5 },
         aspect_ratio: None,
+        lens: None,
     };
     View { camera, width: size, height: size, samples, seed: 1, sampler: Sampler::default() }
 }

@@ -160,6 +160,12 @@ pub struct CameraRecord {
     /// above and below than its angle or height says.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aspect_ratio: Option<f64>,
+    /// Metres, the diameter of the lens's opening; absent: a pinhole.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub aperture_m: Option<f64>,
+    /// Metres along the view to the plane in focus; of a lens.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub focus_m: Option<f64>,
     /// Metres, world.
     pub eye: [f64; 3],
     /// Unit direction in which it looks, world.

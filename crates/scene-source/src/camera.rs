@@ -4,7 +4,7 @@ use crate::error::LoadError;
 use glam::DVec3;
 use rasray_report::CameraRecord;
 use rasray_scene::default_view::{camera_looking_at, default_camera};
-use rasray_scene::{Camera, Projection, Scene};
+use rasray_scene::{Camera, Lens, Projection, Scene};
 
 /// Full vertical angle of view of a camera that is placed, degrees, unless told.
 const DEFAULT_FOV: f64 = 45.0;
@@ -19,6 +19,32 @@ pub struct Chosen {
 }
 
 impl Chosen {
+    /// The same with a lens: the diameter of its opening, metres (0: a pinhole), and the distance of the plane in focus, metres
+    /// along the view.
+    ///
+    /// # Errors
+    /// A parallel projection, or a lens without a distance.
+    pub fn with_lens(mut self, aperture: f64, focus: Option<f64>) -> Result<Self, LoadError> {
+        let aperture = aperture as f32;
+        self.camera.lens = match (self.camera.projection, focus) {
+            _ if aperture <= 0.0 => None,
+            (Projection::Orthographic { .. }, _) => {
+                return Err(LoadError::usage(
+                    format!("the camera {} has a parallel projection, which has no lens", self.described()),
+                    "leave out --aperture, or place a camera by --eye and --target",
+                ));
+            }
+            (Projection::Perspective { .. }, None) => {
+                return Err(LoadError::usage(
+                    "--aperture blurs what is not in focus, and nothing says what is",
+                    "say --focus METRES, or place the camera by --eye and --target, whose target is in focus",
+                ));
+            }
+            (Projection::Perspective { .. }, Some(focus)) => Some(Lens { aperture, focus: focus as f32 }),
+        };
+        Ok(self)
+    }
+
     /// What reports say of it.
     pub fn record(&self) -> CameraRecord {
         let frame = &self.camera.world_from_camera;
@@ -35,6 +61,8 @@ impl Chosen {
             fov_y_degrees,
             height_m,
             aspect_ratio: self.camera.aspect_ratio.map(f64::from),
+            aperture_m: self.camera.lens.map(|lens| f64::from(lens.aperture)),
+            focus_m: self.camera.lens.map(|lens| f64::from(lens.focus)),
             eye: frame.translation.to_array(),
             forward: (-frame.matrix3.z_axis).normalize_or_zero().to_array(),
             up: frame.matrix3.y_axis.normalize_or_zero().to_array(),
@@ -49,7 +77,11 @@ impl Chosen {
             None => record.name.clone(),
         };
         let frame = record.aspect_ratio.map(|ratio| format!(", framing {}:1", short(ratio)));
-        format!("{whose}, {}{}", place(&record), frame.unwrap_or_default())
+        let lens = self
+            .camera
+            .lens
+            .map(|Lens { aperture, focus }| format!(" --aperture {aperture} --focus {focus}"));
+        format!("{whose}, {}{}{}", place(&record), lens.unwrap_or_default(), frame.unwrap_or_default())
     }
 }
 
@@ -158,6 +190,22 @@ mod tests {
         assert!((fov_y - 45.0_f32.to_radians()).abs() < 1.0e-6);
         let error = placed_view([1.0; 3], [1.0; 3], None).expect_err("no direction");
         assert!(matches!(error, LoadError::Usage { .. }), "{error:?}");
+    }
+
+    #[test]
+    fn a_lens_needs_a_perspective_and_a_distance() {
+        let pinhole = placed_view([0.0, 0.0, 5.0], [0.0; 3], None).expect("a camera");
+        let open = pinhole.clone().with_lens(0.05, Some(4.5)).expect("a lens");
+        assert_eq!(open.camera.lens, Some(Lens { aperture: 0.05, focus: 4.5 }));
+        assert!(open.described().ends_with("--fov 45 --aperture 0.05 --focus 4.5"), "{}", open.described());
+        assert_eq!(open.record().focus_m, Some(4.5));
+        assert_eq!(pinhole.clone().with_lens(0.0, None).expect("a pinhole").camera.lens, None);
+        let mut parallel = pinhole.clone();
+        parallel.camera.projection = Projection::Orthographic { half_height: 1.0 };
+        for (camera, focus, word) in [(pinhole, None, "--focus"), (parallel, Some(1.0), "--eye")] {
+            let error = camera.with_lens(0.1, focus).expect_err("no such lens");
+            assert!(error.help().contains(word), "{error} {}", error.help());
+        }
     }
 
     #[test]

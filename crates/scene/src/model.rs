@@ -276,6 +276,18 @@ pub struct Camera {
     pub projection: Projection,
     /// Width over height of what it frames, above 0, where the file says so; see [`Camera::half_extents`].
     pub aspect_ratio: Option<f32>,
+    /// The lens of a perspective; absent: a pinhole, which blurs nothing. No file format that is read has one.
+    pub lens: Option<Lens>,
+}
+
+/// A thin lens: all of its opening sees a pixel, and what is not in the plane in focus is blurred. Brightness does not depend
+/// on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Diameter of the opening, metres; 0 is a pinhole.
+    pub aperture: f32,
+    /// Metres from the eye to the plane in focus, along the view; above 0.
+    pub focus: f32,
 }
 
 impl Camera {

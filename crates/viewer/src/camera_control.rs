@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 use rasray_experiment::ExperimentError;
-use rasray_scene::{Camera, Projection};
+use rasray_scene::{Camera, Lens, Projection};
 use rasray_scene_source::placed_view;
 
 /// How steeply it can look up and down: short of straight up, where a camera without roll has no right side.
@@ -17,6 +17,8 @@ pub struct Rounded {
     pub target: String,
     /// How much it sees.
     pub fov: String,
+    /// Its lens, where it has one.
+    pub lens: Option<Lens>,
 }
 
 impl Rounded {
@@ -33,7 +35,7 @@ impl Rounded {
         };
         let (eye, target) = point(&self.eye).zip(point(&self.target)).ok_or_else(wrong)?;
         let fov = self.fov.parse().map_err(|_| wrong())?;
-        Ok(placed_view(eye, target, Some(fov))?.camera)
+        Ok(Camera { lens: self.lens, ..placed_view(eye, target, Some(fov))?.camera })
     }
 }
 
@@ -44,6 +46,8 @@ pub struct CameraControl {
     target: DVec3,
     /// Full vertical angle of view, degrees.
     fov: f64,
+    /// What is in focus stays as far away.
+    lens: Option<Lens>,
 }
 
 impl CameraControl {
@@ -61,7 +65,8 @@ impl CameraControl {
             Projection::Orthographic { .. } => half_height / distance,
         };
         let fov = 2.0 * tangent.atan().to_degrees();
-        let mut control = Self { eye, target: eye + forward * distance, fov: fov.clamp(0.01, 175.0) };
+        let (target, fov, lens) = (eye + forward * distance, fov.clamp(0.01, 175.0), camera.lens);
+        let mut control = Self { eye, target, fov, lens };
         // Not straight up or down.
         control.orbit(0.0, 0.0);
         control
@@ -135,6 +140,7 @@ impl CameraControl {
             eye: point(self.eye),
             target: point(self.target),
             fov: trimmed(&format!("{:.5}", self.fov)),
+            lens: self.lens,
         }
     }
 }
@@ -210,7 +216,7 @@ mod tests {
         let again =
             CameraControl::from_camera(&rounded.camera().expect("a camera"), [16, 9], control.distance());
         assert!((again.eye - control.eye).length() < 1.0e-4);
-        let far = CameraControl { eye: DVec3::splat(3.0e7), target: DVec3::ZERO, fov: 45.0 };
+        let far = CameraControl { eye: DVec3::splat(3.0e7), target: DVec3::ZERO, fov: 45.0, lens: None };
         assert_eq!(far.rounded().eye, "30000000,30000000,30000000");
     }
 }

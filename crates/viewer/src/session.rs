@@ -13,6 +13,7 @@ use crate::playback::Playback;
 use crate::settings::{Settings, Standpoint};
 use crate::worker::Update;
 use rasray_experiment::{Frame, SystemConfig};
+use rasray_scene::Lens;
 
 /// Seconds after the last motion until the whole picture is made.
 const REST: f64 = 0.2;
@@ -234,6 +235,10 @@ impl Session {
                 let pairs = [("--eye", &camera.eye), ("--target", &camera.target), ("--fov", &camera.fov)];
                 words
                     .extend(pairs.into_iter().flat_map(|(option, value)| [option.to_owned(), value.clone()]));
+                if let Some(Lens { aperture, focus }) = camera.lens {
+                    words.extend(["--aperture".to_owned(), aperture.to_string()]);
+                    words.extend(["--focus".to_owned(), focus.to_string()]);
+                }
             }
         }
         if let Some(seconds) = settings.seconds {

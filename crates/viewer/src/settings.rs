@@ -155,7 +155,12 @@ pub(crate) mod tests {
     fn a_camera_and_a_time_cost_samples_alone() {
         let samples = Redo { samples: true, ..Redo::default() };
         let from = |eye: &str| {
-            Standpoint::Placed(Rounded { eye: eye.into(), target: "0,0,0".into(), fov: "45".into() })
+            Standpoint::Placed(Rounded {
+                eye: eye.into(),
+                target: "0,0,0".into(),
+                fov: "45".into(),
+                lens: None,
+            })
         };
         assert_eq!(redo(|new| new.standpoint = from("1,0,0")), samples);
         assert_eq!(redo(|new| new.moving = true), samples);

@@ -159,7 +159,7 @@ fn pictures_are_those_of_a_render_after_every_change() {
         seen.push(expected);
     };
     check(&mut engine, &settings, "at first");
-    let placed = Rounded { eye: "0.5,1.25,3".into(), target: "0,1,0".into(), fov: "50".into() };
+    let placed = Rounded { eye: "0.5,1.25,3".into(), target: "0,1,0".into(), fov: "50".into(), lens: None };
     settings.standpoint = Standpoint::Placed(placed);
     check(&mut engine, &settings, "another camera");
     settings.frame.seed = 8;
@@ -324,7 +324,8 @@ fn cut_rays_are_told_when_refinement_has_ended() {
     std::fs::write(folder.path().join("sheets.mtl"), "newmtl clear\nKd 0 0 0\nd 0.000001\n")
         .expect("materials");
     let mut settings = settings();
-    let camera = Rounded { eye: "0,0,4".to_owned(), target: "0,0,0".to_owned(), fov: "10".to_owned() };
+    let camera =
+        Rounded { eye: "0,0,4".to_owned(), target: "0,0,0".to_owned(), fov: "10".to_owned(), lens: None };
     settings.standpoint = Standpoint::Placed(camera);
     settings.system = system("brute-force");
     let direct = integrator("path").with("bounces", 1).expect("valid");

@@ -121,6 +121,7 @@ pub fn looking(eye: DVec3, target: DVec3, fov_y: f32) -> Camera {
         world_from_camera: DAffine3::from_mat3_translation(axes, eye),
         projection: Projection::Perspective { fov_y },
         aspect_ratio: None,
+        lens: None,
     }
 }
 

@@ -336,6 +336,7 @@ fn numbered_files_are_frames() {
         world_from_camera: eye * DAffine3::from_rotation_x(-0.5),
         projection: Projection::Perspective { fov_y: 0.8 },
         aspect_ratio: None,
+        lens: None,
     };
     let shown = |number: u32| {
         let mut posed =

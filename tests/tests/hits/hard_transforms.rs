@@ -85,6 +85,7 @@ fn image(bench: &Bench, transformed: &Transformed, eye: DVec3) -> Vec<AovPixel> 
         ),
         projection: Projection::Perspective { fov_y: 0.6 },
         aspect_ratio: None,
+        lens: None,
     };
     let view = View { camera, width: SIZE, height: SIZE, seed: 1 };
     let scene = GpuScene::upload(device, &tables(transformed), &view).expect("the scene fits");

@@ -53,6 +53,7 @@ pub fn view(eye: DVec3) -> View {
         world_from_camera: glam::DAffine3::from_translation(eye),
         projection: Projection::Perspective { fov_y: 1.0 },
         aspect_ratio: None,
+        lens: None,
     };
     View { camera, width: 16, height: 8, seed: 4 }
 }

@@ -33,6 +33,7 @@ fn lamps(lights: Vec<Light>, environment: [f32; 3], others: bool) -> Scene {
         world_from_camera: glam::DAffine3::IDENTITY,
         projection: Projection::Perspective { fov_y: 1.0 },
         aspect_ratio: None,
+        lens: None,
     };
     let lamp = Material { emission: [3.0, 2.0, 1.0], ..Material::default() };
     let materials = vec![Material::default(), lamp];

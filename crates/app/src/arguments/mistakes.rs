@@ -6,7 +6,7 @@ use rasray_report::one_line;
 use rasray_scene::nearest::nearest;
 
 /// What other renderers call what an option of this one does.
-const OTHER_NAMES: [(&str, &[&str]); 12] = [
+const OTHER_NAMES: [(&str, &[&str]); 14] = [
     ("size", &["width", "height", "dimensions", "image-size", "resolution", "res", "pixels"]),
     ("spp", &["samples", "samples-per-pixel", "num-samples", "nsamples"]),
     ("bounces", &["depth", "max-depth", "max-bounces", "path-length"]),
@@ -14,6 +14,8 @@ const OTHER_NAMES: [(&str, &[&str]); 12] = [
     ("eye", &["from", "origin", "position", "camera-position", "look-from", "lookfrom"]),
     ("target", &["to", "lookat", "look-at", "at", "direction"]),
     ("fov", &["angle", "fovy", "fov-y", "yfov", "field-of-view", "focal-length", "zoom"]),
+    ("aperture", &["lens", "lens-radius", "aperture-radius", "f-stop", "fstop", "f-number", "bokeh"]),
+    ("focus", &["focus-distance", "focal-distance", "focus-depth"]),
     ("environment", &["env", "envmap", "env-map", "background", "hdri", "hdr", "sky"]),
     ("exposure", &["ev", "brightness", "stops", "gain"]),
     ("frames", &["frame", "range", "start", "end"]),

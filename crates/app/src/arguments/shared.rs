@@ -5,6 +5,7 @@ use super::structure::{StructureArguments, back_faces_parser, primary_parser, sa
 use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
+use glam::DVec3;
 use rasray_experiment::{DeviceChoice, Frame, INTEGRATORS, IntegratorRow, Primary, Sampler};
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{BackFaces, Environment, Scene, SceneError};
@@ -97,19 +98,29 @@ pub struct ViewArguments {
     /// Full vertical angle of view, with --eye and --target [default: 45]
     #[arg(long, value_name = "DEGREES", value_parser = values::angle_of_view, requires = "eye")]
     pub fov: Option<f64>,
+    /// Diameter of the lens's opening, metres: what is not in focus is blurred. A lens of 50 mm at f/1.8 has 0.05 / 1.8
+    /// [default: 0, a pinhole]
+    #[arg(long, value_name = "METRES", value_parser = values::length)]
+    pub aperture: Option<f64>,
+    /// With an aperture: distance of the plane in focus, metres along the view, above 0 [default: that of --target]
+    #[arg(long, value_name = "METRES", value_parser = values::distance, requires = "aperture")]
+    pub focus: Option<f64>,
 }
 
 impl ViewArguments {
     /// The camera that was asked for; else [`LoadedScene::default_view`].
     ///
     /// # Errors
-    /// A camera that the scene lacks, and an eye at its own target.
+    /// A camera that the scene lacks, an eye at its own target, and a lens that the camera cannot have.
     pub fn choose(&self, loaded: &mut LoadedScene) -> Result<Chosen, LoadError> {
-        match (self.eye, self.target, &self.camera) {
+        let chosen = match (self.eye, self.target, &self.camera) {
             (Some(eye), Some(target), _) => placed_view(eye, target, self.fov),
             (_, _, Some(name)) => loaded.named_view(name),
             _ => loaded.default_view(),
-        }
+        }?;
+        let Some(aperture) = self.aperture else { return Ok(chosen) };
+        let target = self.eye.zip(self.target).map(|(eye, target)| DVec3::from(eye).distance(target.into()));
+        chosen.with_lens(aperture, self.focus.or(target))
     }
 }
 

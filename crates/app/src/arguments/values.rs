@@ -147,6 +147,29 @@ pub fn angle_of_view(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Reads a length in metres.
+///
+/// # Errors
+/// Says what is allowed.
+pub fn length(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if (0.0..=FARTHEST).contains(&value) => Ok(value),
+        _ => Err("must be from 0 to 1e18 metres".to_owned()),
+    }
+}
+
+/// Reads a distance in metres, which is not 0.
+///
+/// # Errors
+/// Says what is allowed.
+pub fn distance(text: &str) -> Result<f64, String> {
+    match length(text) {
+        // What is smaller is 0 in single precision.
+        Ok(value) if value >= 1.0e-30 => Ok(value),
+        _ => Err("must be from 1e-30 to 1e18 metres".to_owned()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -186,6 +209,15 @@ mod tests {
         for bad in ["", "x", "nan", "inf", "1s", "1e39", "-1e10"] {
             assert!(seconds(bad).is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn lengths() {
+        assert_eq!((length("0"), length(" 2.5e-2 "), distance("1e18")), (Ok(0.0), Ok(0.025), Ok(1.0e18)));
+        for bad in ["", "-1", "nan", "inf", "2e18", "1m"] {
+            assert!(length(bad).is_err() && distance(bad).is_err(), "{bad}");
+        }
+        assert!(distance("0").is_err() && distance("1e-40").is_err());
     }
 
     #[test]

@@ -143,7 +143,7 @@ fn ids(id: &str) -> Result<Vec<&'static str>, AppError> {
 
 /// Refuses what is about scenes, images and generated rays.
 fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
-    const UNFIT: [&str; 19] = [
+    const UNFIT: [&str; 21] = [
         "time",
         "clip",
         "fps",
@@ -156,6 +156,8 @@ fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
         "eye",
         "target",
         "fov",
+        "aperture",
+        "focus",
         "environment",
         "alpha",
         "needs",

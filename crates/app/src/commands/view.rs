@@ -167,6 +167,8 @@ mod with_window {
         all.extend(words("--eye", view.eye.map(point)));
         all.extend(words("--target", view.target.map(point)));
         all.extend(words("--fov", view.fov.map(|fov| fov.to_string())));
+        all.extend(words("--aperture", view.aperture.map(|aperture| aperture.to_string())));
+        all.extend(words("--focus", view.focus.map(|focus| focus.to_string())));
         all
     }
 

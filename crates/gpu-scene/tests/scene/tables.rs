@@ -260,6 +260,7 @@ fn a_scene_without_triangles_has_an_environment_and_nothing_else() {
         world_from_camera: DAffine3::IDENTITY,
         projection: Projection::Perspective { fov_y: 1.0 },
         aspect_ratio: None,
+        lens: None,
     };
     let frame = tables.frame(&View { camera, width: 8, height: 4, seed: 3 });
     assert_eq!((frame.triangle_count, frame.light_count, frame.emissive_count), (0, 0, 0));

@@ -16,6 +16,7 @@ fn view() -> View {
         world_from_camera: DAffine3::from_translation(DVec3::new(100.0, 0.0, 0.5)),
         projection: Projection::Perspective { fov_y: 1.0 },
         aspect_ratio: None,
+        lens: None,
     };
     View { camera, width: 16, height: 8, seed: 4 }
 }

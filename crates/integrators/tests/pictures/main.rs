@@ -4,6 +4,7 @@ pub(crate) mod common;
 mod corpus;
 mod images;
 mod layers;
+mod lens;
 mod needs;
 mod passing;
 mod reference;

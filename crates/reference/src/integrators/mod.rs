@@ -28,8 +28,8 @@ use rasray_scene::Camera;
 use crate::{
     oracle::{Oracle, Outcome},
     shading::{
-        PosedScene, Ray, ReferenceError, Surface, View, bsdf::SMOOTH_ROUGHNESS, camera_ray, pixel_position,
-        random::Numbers,
+        PosedScene, Ray, ReferenceError, Surface, View, bsdf::SMOOTH_ROUGHNESS, camera_ray, lens_numbers,
+        pixel_position, random::Numbers, through_lens,
     },
 };
 
@@ -98,6 +98,7 @@ impl Tracer<'_> {
     /// The ray of one sample of a pixel.
     fn camera_ray(&self, view: &View, random: Numbers) -> Ray {
         let ray = camera_ray(view, self.posed.frame_origin(), pixel_position(view.width, random));
+        let ray = through_lens(&view.camera, ray, lens_numbers(random));
         Ray { culls_back_faces: self.posed.back_faces().lets_camera_rays(), ..ray }
     }
 

@@ -4,8 +4,10 @@ use glam::{DVec3, Vec2, Vec3};
 use rasray_scene::{Camera, Projection};
 
 use super::{
-    Ray, ReferenceError,
-    random::{Numbers, RANDOM_CAMERA_X, RANDOM_CAMERA_Y, RandomStream, Sampler},
+    Ray, ReferenceError, cosine_hemisphere,
+    random::{
+        Numbers, RANDOM_CAMERA_X, RANDOM_CAMERA_Y, RANDOM_LENS_U, RANDOM_LENS_V, RandomStream, Sampler,
+    },
 };
 
 /// What is rendered.
@@ -49,15 +51,41 @@ pub fn pixel_position(width: u32, random: Numbers) -> Vec2 {
     corner + Vec2::new(random.float(RANDOM_CAMERA_X), random.float(RANDOM_CAMERA_Y))
 }
 
-/// The ray through `position` (pixels from the top left corner; the first pixel's centre is
+/// Two numbers that choose a place on the lens.
+pub fn lens_numbers(random: Numbers) -> Vec2 {
+    Vec2::new(random.float(RANDOM_LENS_U), random.float(RANDOM_LENS_V))
+}
+
+/// A ray through a place on the lens, uniform over it for two uniform numbers, that meets `ray`, which goes through its centre,
+/// in the plane in focus; the ray itself where the camera has no lens.
+pub fn through_lens(camera: &Camera, ray: Ray, random: Vec2) -> Ray {
+    let (Some(lens), Projection::Perspective { .. }) = (camera.lens, camera.projection) else { return ray };
+    if !(lens.aperture > 0.0) {
+        return ray;
+    }
+    let [right, up, forward] = axes(camera);
+    let place = cosine_hemisphere(random) * (0.5 * lens.aperture);
+    let offset = right * place.x + up * place.y;
+    let depth = ray.direction.dot(forward);
+    Ray {
+        origin: ray.origin + offset,
+        direction: (ray.direction - offset * (depth / lens.focus)).normalize(),
+        ..ray
+    }
+}
+
+/// Right, up and into the image.
+fn axes(camera: &Camera) -> [Vec3; 3] {
+    let axes = camera.world_from_camera.matrix3;
+    let axis = |axis: DVec3, otherwise: DVec3| axis.normalize_or(otherwise).as_vec3();
+    [axis(axes.x_axis, DVec3::X), axis(axes.y_axis, DVec3::Y), axis(-axes.z_axis, DVec3::NEG_Z)]
+}
+
+/// The ray through the centre of the lens and `position` (pixels from the top left corner; the first pixel's centre is
 /// (0.5, 0.5)), relative to `frame_origin` (world, metres). Its cone is that of one sample of the pixel; it passes no backs.
 pub fn camera_ray(view: &View, frame_origin: DVec3, position: Vec2) -> Ray {
-    let placement = view.camera.world_from_camera;
-    let axis = |axis: DVec3, otherwise: DVec3| axis.normalize_or(otherwise).as_vec3();
-    let right = axis(placement.matrix3.x_axis, DVec3::X);
-    let up = axis(placement.matrix3.y_axis, DVec3::Y);
-    let forward = axis(-placement.matrix3.z_axis, DVec3::NEG_Z);
-    let eye = (placement.translation - frame_origin).as_vec3();
+    let [right, up, forward] = axes(&view.camera);
+    let eye = (view.camera.world_from_camera.translation - frame_origin).as_vec3();
     let [half_width, half_height] = view.camera.half_extents(view.width, view.height);
     let pixel = 2.0 * half_height / f64::from(view.height);
     let x = (2.0 * position.x / view.width as f32 - 1.0) * half_width as f32;

@@ -39,7 +39,7 @@ mod triangle;
 mod tests;
 
 pub use bsdf::{BsdfSample, bsdf_evaluate, bsdf_pdf, bsdf_sample, bsdf_straight, bsdf_times_cosine};
-pub use camera::{View, camera_ray, pixel_position};
+pub use camera::{View, camera_ray, lens_numbers, pixel_position, through_lens};
 pub use environment::EnvironmentTable;
 pub use error::ReferenceError;
 pub use light::LightSample;

@@ -1,5 +1,9 @@
 //! Random numbers: integer-exact functions of pixel, sample, dimension and seed.
 
+/// Place on the lens, first number.
+pub const RANDOM_LENS_U: u32 = 0;
+/// Place on the lens, second number.
+pub const RANDOM_LENS_V: u32 = 1;
 /// Position inside the pixel, along the row.
 pub const RANDOM_CAMERA_X: u32 = 2;
 /// Position inside the pixel, down the column.
@@ -175,6 +179,8 @@ mod tests {
             let ["#define", name, value] = words[..] else { continue };
             let value: u32 = value.trim_end_matches('u').parse().expect("a number");
             let ours = match name {
+                "RANDOM_LENS_U" => RANDOM_LENS_U,
+                "RANDOM_LENS_V" => RANDOM_LENS_V,
                 "RANDOM_CAMERA_X" => RANDOM_CAMERA_X,
                 "RANDOM_CAMERA_Y" => RANDOM_CAMERA_Y,
                 "RANDOM_BOUNCE_FIRST" => RANDOM_BOUNCE_FIRST,
@@ -194,7 +200,7 @@ mod tests {
             assert_eq!(ours, value, "{name}");
             found += 1;
         }
-        assert_eq!(found, 14);
+        assert_eq!(found, 16);
     }
 
     /// Mean, variance and correlation of neighbours in every argument, each within five standard

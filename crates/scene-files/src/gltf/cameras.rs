@@ -23,7 +23,8 @@ pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usi
             (Some(world_from_camera), Some(projection)) => {
                 remark(document, index.value(), source);
                 let aspect_ratio = aspect_ratio(source);
-                cameras.push((node, Camera { name, world_from_camera, projection, aspect_ratio }));
+                cameras
+                    .push((node, Camera { name, world_from_camera, projection, aspect_ratio, lens: None }));
             }
             (placed, _) => {
                 let fault = fault(document, index.value(), source, placed.is_some());

@@ -16,5 +16,6 @@ pub fn camera_looking_at(name: &str, eye: DVec3, target: DVec3, fov_y: f32) -> C
         world_from_camera: DAffine3::from_mat3_translation(DMat3::from_cols(right, up, back), eye),
         projection: Projection::Perspective { fov_y },
         aspect_ratio: None,
+        lens: None,
     }
 }

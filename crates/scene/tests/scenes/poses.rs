@@ -162,6 +162,7 @@ fn crowd() -> Scene {
             world_from_camera: DAffine3::IDENTITY,
             projection: Projection::Perspective { fov_y: 1.0 },
             aspect_ratio: None,
+            lens: None,
         }],
         lights: vec![
             Light::Point { position: DVec3::ZERO, intensity: [1.0; 3], range: 9.0 },

@@ -25,6 +25,7 @@ pub fn camera(eye: DVec3, right: DVec3, up: DVec3, projection: Projection) -> Ca
         world_from_camera: DAffine3::from_mat3_translation(axes, eye),
         projection,
         aspect_ratio: None,
+        lens: None,
     }
 }
 
