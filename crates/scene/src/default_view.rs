@@ -10,6 +10,7 @@ mod emitters;
 mod light;
 mod looking;
 mod room;
+mod seen;
 mod sight;
 mod sky;
 
@@ -17,6 +18,7 @@ pub use bounds::bounds;
 pub use emitters::emits;
 pub use light::{add_default_light, default_light, ensure_lit, is_lit, is_lit_at_times};
 pub use looking::camera_looking_at;
+pub(crate) use seen::seen_instances;
 
 /// Full vertical angle of the default camera that stands outside, radians.
 const FOV_Y: f64 = 0.8;

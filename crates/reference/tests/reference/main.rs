@@ -2,4 +2,5 @@
 
 mod device_scattering;
 mod glass_tables;
+mod mirror_hall;
 mod oracle_replay;

@@ -12,6 +12,7 @@
 //! | `atrium` | `detail` in [0.25, 4] (1) | about 98k at detail 1 |
 //! | `ruins` | `triangles` from 10k to 10M (200k), also as `ruins:10k` | as asked, within 20 |
 //! | `corridor` | `reflectance` in [0, 1] (0.95), `width` in metres in [0.5, 50] (2) | 1,300 |
+//! | `mirror-hall` | `share` of mirrors among the pixels in percent, in [0, 80] (25), also as `mirror-hall:40` | 202,482 |
 //! | `walker` | `triangles` from 8k to 2M (30k), also as `walker:10k`; moves | as asked, within 5 % |
 //! | `cloth-ball` | `triangles` of the cloth from 1k to 1M (10k), also as `cloth-ball:100k`; moves | as asked, within 4 %, and 5,122 |
 //!
@@ -21,7 +22,9 @@ mod atrium;
 mod cloth_ball;
 mod cornell;
 mod corridor;
+mod forms;
 mod furnace;
+mod mirror_hall;
 mod parameters;
 mod ruins;
 mod shape;
@@ -35,6 +38,7 @@ pub use cloth_ball::{ClothBall, cloth_ball};
 pub use cornell::cornell;
 pub use corridor::{Corridor, corridor};
 pub use furnace::{Furnace, FurnaceShape, furnace};
+pub use mirror_hall::{MirrorHall, mirror_hall};
 pub use ruins::{Ruins, ruins};
 pub use spheres::{Spheres, spheres};
 pub use walker::{Walker, walker};
@@ -43,8 +47,8 @@ use crate::{Scene, SceneError};
 use parameters::Parameters;
 
 /// Names of all built-in scenes, in the order that help texts list them.
-pub const NAMES: [&str; 8] =
-    ["cornell", "furnace", "spheres", "atrium", "ruins", "corridor", "walker", "cloth-ball"];
+pub const NAMES: [&str; 9] =
+    ["cornell", "furnace", "spheres", "atrium", "ruins", "corridor", "mirror-hall", "walker", "cloth-ball"];
 
 /// What of a picture suits a built-in scene, where a picture of any scene would not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,6 +122,12 @@ fn make(name: &str, mut given: Parameters) -> Result<Scene, SceneError> {
             let width = given.number("width", defaults.width, 0.5..=50.0)?;
             given.finish()?;
             Ok(corridor(Corridor { reflectance, width }))
+        }
+        "mirror-hall" => {
+            given.name_positional("share")?;
+            let share = given.number("share", MirrorHall::default().share, MirrorHall::SHARE)?;
+            given.finish()?;
+            Ok(mirror_hall(MirrorHall { share }))
         }
         "cloth-ball" => {
             given.name_positional("triangles")?;

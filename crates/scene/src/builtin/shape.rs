@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::Mesh;
 
 /// A mesh being put together, computed in f64 and rounded to f32 once.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Shapes {
     mesh: Mesh,
     normals: Vec<[f32; 3]>,
@@ -18,6 +18,20 @@ impl Shapes {
     pub fn new(name: &str, material: usize) -> Self {
         let mesh = Mesh { name: name.to_owned(), material, ..Mesh::default() };
         Self { mesh, ..Self::default() }
+    }
+
+    /// The material that it was made with.
+    pub fn material(&self) -> usize {
+        self.mesh.material
+    }
+
+    /// Adds all of other shapes; the material stays.
+    pub fn append(&mut self, other: &Self) {
+        let first = self.mesh.positions.len() as u32;
+        self.mesh.positions.extend(&other.mesh.positions);
+        self.normals.extend(&other.normals);
+        self.uvs.extend(&other.uvs);
+        self.mesh.indices.extend(other.mesh.indices.iter().map(|index| first + index));
     }
 
     /// Adds a vertex and returns its index.

@@ -29,6 +29,8 @@ pub(super) struct Hit {
     /// Whether the front side, the one seen counter-clockwise, faces the ray. Placements that mirror
     /// turn the order of the corners, not the side.
     pub front: bool,
+    /// Index into [`Scene::instances`].
+    pub instance: u32,
 }
 
 /// The placed triangles of a scene, ready for rays.
@@ -225,7 +227,7 @@ impl<'a> Sight<'a> {
         let t = normal.dot(from_a) / facing;
         // A ray in the plane divides by zero, and no comparison below holds for what comes of it.
         let within = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0 && t.is_finite();
-        within.then_some(Hit { t, front: (facing > 0.0) != mirrored })
+        within.then_some(Hit { t, front: (facing > 0.0) != mirrored, instance: triangle[0] })
     }
 }
 

@@ -1,5 +1,6 @@
 //! Scenes made in code: built-in ones, poses, default views, and what workloads need of them.
 
+mod builtin_page;
 mod builtin_scenes;
 mod default_view;
 mod deforming;

@@ -1,0 +1,216 @@
+//! Closed forms that things in scenes are made of: turned, and cut from a block.
+//!
+//! Arithmetic is additions, multiplications, divisions and square roots in f64 alone, so the bits are the same on every
+//! machine.
+
+use std::f64::consts::TAU;
+use std::ops::{Add, Mul, Sub};
+
+use glam::{DAffine3, DMat3, DVec2, DVec3};
+
+use super::shape::Shapes;
+
+/// Cosine of the angle between two steps of a profile beyond which their edge is sharp: 40 degrees.
+const CREASE: f64 = 0.766;
+
+/// Sine and cosine of a share of a full turn, within 2^-51; the same bits everywhere, which a mathematics library's
+/// are not.
+pub(super) fn turn(share: f64) -> (f64, f64) {
+    let quarter = (4.0 * share).round();
+    let angle = (share - quarter / 4.0) * TAU;
+    let square = angle * angle;
+    // Taylor series over an eighth of a turn each way, from the last term.
+    let series = |first: u32| {
+        let terms = (0..9).map(|term| f64::from((2 * term + first) * (2 * term + first + 1)));
+        terms.rev().fold(1.0, |sum, divisor| 1.0 - square / divisor * sum)
+    };
+    let (sin, cos) = (angle * series(2), series(1));
+    match quarter.rem_euclid(4.0) as u32 {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+/// A smooth curve (Catmull-Rom) through all `points`, with `steps` steps from each to the next.
+pub(super) fn curve<P>(points: &[P], steps: usize) -> Vec<P>
+where
+    P: Copy + Add<Output = P> + Sub<Output = P> + Mul<f64, Output = P>,
+{
+    let Some(&last) = points.last() else { return Vec::new() };
+    let mut along = Vec::with_capacity(points.len() * steps);
+    for gap in 0..points.len() - 1 {
+        let (a, b) = (points[gap], points[gap + 1]);
+        // Beyond the ends the curve goes on as it is there.
+        let before = if gap > 0 { points[gap - 1] } else { a + a - b };
+        let after = points.get(gap + 2).copied().unwrap_or(b + b - a);
+        let (leave, arrive) = ((b - before) * 0.5, (after - a) * 0.5);
+        for step in 0..steps {
+            let t = step as f64 / steps as f64;
+            let (t2, t3) = (t * t, t * t * t);
+            along.push(
+                a * (2.0 * t3 - 3.0 * t2 + 1.0)
+                    + b * (3.0 * t2 - 2.0 * t3)
+                    + leave * (t3 - 2.0 * t2 + t)
+                    + arrive * (t3 - t2),
+            );
+        }
+    }
+    along.push(last);
+    along
+}
+
+/// A rotation about the y axis by a share of a turn, from +z towards +x.
+pub(super) fn about_y(share: f64) -> DMat3 {
+    let (sin, cos) = turn(share);
+    DMat3::from_cols(DVec3::new(cos, 0.0, -sin), DVec3::Y, DVec3::new(sin, 0.0, cos))
+}
+
+/// Standing at `foot`, turned about the vertical by a share of a turn.
+pub(super) fn standing(foot: DVec3, share: f64) -> DAffine3 {
+    DAffine3::from_mat3_translation(about_y(share), foot)
+}
+
+impl Shapes {
+    /// A surface of revolution about the y axis of `place`. `profile` lists (radius, height) so that the front is to the
+    /// right: upwards on the outside. It is smooth but for edges of more than 40 degrees, and closed where the profile
+    /// begins and ends on the axis, or ends where it began.
+    pub fn revolve(&mut self, place: DAffine3, segments: usize, profile: &[DVec2], repeat: DVec2) {
+        let steps = profile.len() - 1;
+        let across: Vec<DVec2> = profile
+            .windows(2)
+            .map(|step| step[1] - step[0])
+            .map(|step| DVec2::new(step.y, -step.x).normalize_or(DVec2::X))
+            .collect();
+        let ring = profile[0] == profile[steps];
+        // What the next step does on the other side of a point of the profile.
+        let beyond = |point: usize, own: usize| match point {
+            _ if 0 < point && point < steps => across[if own == point { point - 1 } else { point }],
+            _ if ring => across[if own == 0 { steps - 1 } else { 0 }],
+            _ if profile[point].x == 0.0 => DVec2::new(-across[own].x, across[own].y),
+            _ => across[own],
+        };
+        let normal_from_form = place.matrix3.inverse().transpose();
+        let total: f64 = profile.windows(2).map(|step| step[0].distance(step[1])).sum();
+        let mut travelled = 0.0;
+        for own in 0..steps {
+            let ends = [own, own + 1].map(|point| {
+                let other = beyond(point, own);
+                let smooth = other.dot(across[own]) > CREASE;
+                let normal = if smooth { (other + across[own]).normalize() } else { across[own] };
+                (profile[point], normal)
+            });
+            let (from, to) = (profile[own], profile[own + 1]);
+            let v = [travelled, travelled + from.distance(to)].map(|length| 1.0 - length / total);
+            travelled += from.distance(to);
+            let mut first = None;
+            for segment in 0..=segments {
+                // The last ring of vertices repeats the first bit for bit: the surface stays closed.
+                let (sin, cos) = turn((segment % segments) as f64 / segments as f64);
+                let out = DVec3::new(cos, 0.0, -sin);
+                for ((point, normal), v) in ends.into_iter().zip(v) {
+                    let normal = normal_from_form * (out * normal.x + DVec3::Y * normal.y);
+                    let uv = DVec2::new(segment as f64 / segments as f64, v) * repeat;
+                    let position = place.transform_point3(out * point.x + DVec3::Y * point.y);
+                    let index = self.vertex(position, normal.normalize(), uv);
+                    first.get_or_insert(index);
+                }
+            }
+            let first = first.unwrap_or_default();
+            for segment in 0..segments as u32 {
+                let corner = first + 2 * segment;
+                // At the axis one of the two triangles has no area.
+                if from.x > 0.0 {
+                    self.triangle([corner, corner + 2, corner + 3]);
+                }
+                if to.x > 0.0 {
+                    self.triangle([corner, corner + 3, corner + 1]);
+                }
+            }
+        }
+    }
+
+    /// A closed block around the origin of `place` with its edges cut off over `bevel` metres and shaded round.
+    /// Texture coordinates grow by `repeat` per metre, u along the longer side of a face.
+    pub fn block_with_bevel(&mut self, place: DAffine3, half: DVec3, bevel: f64, repeat: f64) {
+        let normal_from_form = place.matrix3.inverse().transpose();
+        let shift = place.translation.x + 0.7 * place.translation.y + 1.3 * place.translation.z;
+        let sign = |corner: usize, axis: usize| if corner >> axis & 1 == 1 { 1.0 } else { -1.0 };
+        // Of each corner one vertex on each of its three faces.
+        let vertices: Vec<[u32; 3]> = (0..8)
+            .map(|corner| {
+                [0, 1, 2].map(|face| {
+                    let reach = DVec3::from([0, 1, 2].map(|axis| {
+                        sign(corner, axis) * (half[axis] - if axis == face { 0.0 } else { bevel })
+                    }));
+                    let (one, other) = ((face + 1) % 3, (face + 2) % 3);
+                    let (long, wide) = if half[one] > half[other] { (one, other) } else { (other, one) };
+                    let uv = DVec2::new(reach[long] + shift, reach[wide] + shift) * repeat;
+                    let normal = (normal_from_form * DVec3::AXES[face] * sign(corner, face)).normalize();
+                    self.vertex(place.transform_point3(reach), normal, uv)
+                })
+            })
+            .collect();
+        for face in 0..3 {
+            let (one, other) = (1 << ((face + 1) % 3), 1 << ((face + 2) % 3));
+            for high in 0..2 {
+                let first = high << face;
+                let [a, b, c, d] = [first, first | one, first | one | other, first | other];
+                self.flat(&[a, b, c, d].map(|corner| vertices[corner][face]), high == 1);
+                // The cut edges towards the next axis, on its two sides.
+                let next = (face + 1) % 3;
+                for side in 0..2 {
+                    let start = first | side << next;
+                    let end = start | other;
+                    let strip = [
+                        vertices[start][face],
+                        vertices[start][next],
+                        vertices[end][next],
+                        vertices[end][face],
+                    ];
+                    self.flat(&strip, (high == 1) == (side == 1));
+                }
+            }
+        }
+        for (corner, faces) in vertices.iter().enumerate() {
+            self.flat(faces, (0..3).fold(1.0, |product, axis| product * sign(corner, axis)) > 0.0);
+        }
+    }
+
+    /// A convex polygon in order, or against it.
+    fn flat(&mut self, corners: &[u32], in_order: bool) {
+        for pair in corners[1..].windows(2) {
+            self.triangle(if in_order {
+                [corners[0], pair[0], pair[1]]
+            } else {
+                [corners[0], pair[1], pair[0]]
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_are_those_of_the_mathematics_library() {
+        for step in -4000..=4000 {
+            let share = f64::from(step) / 1600.0;
+            let (sin, cos) = turn(share);
+            let (true_sin, true_cos) = (share * TAU).sin_cos();
+            assert!((sin - true_sin).abs() < 1.0e-14 && (cos - true_cos).abs() < 1.0e-14, "{share}");
+        }
+        assert_eq!(turn(0.25), (1.0, -0.0));
+        assert_eq!(turn(1.5), (-0.0, -1.0));
+    }
+
+    #[test]
+    fn curves_pass_their_points() {
+        let points = [DVec2::ZERO, DVec2::new(1.0, 2.0), DVec2::new(3.0, 1.0)];
+        let curve = curve(&points, 4);
+        assert_eq!(curve.len(), 9);
+        assert_eq!([curve[0], curve[4], curve[8]], points);
+    }
+}
