@@ -11,7 +11,8 @@ use std::fmt::Write as _;
 use crate::comments::{documentation, sentence};
 
 /// Records of which zeros are a wrong value rather than an empty one. They have no `Default`.
-pub(crate) const ZEROS_MISLEAD: [&str; 5] = ["Ray", "Hit", "TraceState", "BvhNode", "PathWaiting"];
+pub(crate) const ZEROS_MISLEAD: [&str; 6] =
+    ["Ray", "Hit", "TraceState", "BvhNode", "PathWaiting", "WhittedRay"];
 
 /// Bytes of a scalar.
 const WORD: usize = 4;

@@ -57,10 +57,10 @@ layout(push_constant, scalar) uniform WaveConstants {
     uint pixel_count;     // of the wave
     uint sample_index;    // number of the sample
     uint round;           // closest-hit rounds before this one
-    uint bounces;         // maximum number of scatterings of a path
-    float range;          // metres, of ambient occlusion
+    uint bounces;         // maximum number of scatterings of a path; of reflections and refractions of Whitted's rays
+    float range;          // metres, of ambient occlusion; share of light that Whitted's rays must exceed to be traced
     uint domain;          // of the queue that is bound: pixel_count, or DOMAIN_SELECTED
-    uint marks;           // WAVE_ROUND_* of the round
+    uint marks;           // WAVE_ROUND_* of the round, and rules of the integrator
     uint layers;          // surfaces that are there for a ray through layers
     float layer_opacity;  // of each of them, times that of its material
 } wave;

@@ -12,14 +12,17 @@ mod ambient_occlusion;
 mod layers;
 mod path;
 mod raycast;
+mod whitted;
 
 pub use ambient_occlusion::AmbientOcclusion;
 pub use layers::Layers;
 pub use path::{BOUNCE_LIMIT, GlassShadows, Path, PathOptions};
 pub use raycast::Raycast;
+pub use whitted::{RAY_DEPTH_LIMIT, Select, Shadows, Whitted, WhittedOptions};
 
 /// Every integrator; the first is the default.
-pub static INTEGRATORS: &[IntegratorRow] = &[path::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
+pub static INTEGRATORS: &[IntegratorRow] =
+    &[path::ROW, whitted::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
 
 /// Why a ray is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -205,7 +205,7 @@ pub struct Run {
     /// Where the rays come from; absent for images.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ray_set: Option<String>,
-    /// `path`, `ao` or `raycast`; absent for ray sets.
+    /// Its name, such as `path`; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub integrator: Option<String>,
     /// Pixels a row.

@@ -13,6 +13,7 @@ mod image;
 mod layers;
 mod path;
 mod raycast;
+mod whitted;
 
 #[cfg(test)]
 mod tests;
@@ -45,7 +46,8 @@ pub struct NaiveIntegrator {
 }
 
 /// Every naive integrator.
-pub static INTEGRATORS: &[NaiveIntegrator] = &[path::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
+pub static INTEGRATORS: &[NaiveIntegrator] =
+    &[path::ROW, whitted::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
 
 impl NaiveIntegrator {
     /// The one of that name.
@@ -73,6 +75,8 @@ struct Tracer<'a> {
     oracle: Oracle<'a>,
     /// Whether light goes straight through smooth thin panes.
     passes_panes: bool,
+    /// Surfaces less rough than this are perfectly smooth.
+    mirror_roughness: f32,
 }
 
 impl Tracer<'_> {
@@ -81,6 +85,9 @@ impl Tracer<'_> {
             Outcome::Hit { primitive, t, barycentrics } => {
                 let barycentrics = Vec2::from(barycentrics.map(|weight| weight as f32));
                 let mut surface = self.posed.surface(ray, t as f32, primitive, barycentrics);
+                if surface.roughness < self.mirror_roughness {
+                    surface.roughness = 0.0;
+                }
                 surface.is_pane = self.passes_panes
                     && surface.transmission > 0.0
                     && surface.thickness <= 0.0
@@ -115,12 +122,22 @@ impl PosedScene<'_> {
         passes_panes: bool,
         sample: impl Fn(&Tracer<'_>, Numbers) -> glam::Vec3 + Sync,
     ) -> Result<Image, ReferenceError> {
+        self.render_smoothed(view, (passes_panes, 0.0), sample)
+    }
+
+    /// The same with surfaces of more roughness that are perfectly smooth.
+    fn render_smoothed(
+        &self,
+        view: &View,
+        (passes_panes, mirror_roughness): (bool, f32),
+        sample: impl Fn(&Tracer<'_>, Numbers) -> glam::Vec3 + Sync,
+    ) -> Result<Image, ReferenceError> {
         view.check()?;
         let accept = |primitive: u32, barycentrics: [f64; 2]| self.alpha_accepts(primitive, barycentrics);
         let accept: Option<crate::oracle::Accept<'_>> =
             if self.has_alpha_masks() { Some(&accept) } else { None };
         let oracle = Oracle::new(self.positions(), self.indices(), accept)?.with_backs(|id| self.back_of(id));
-        let tracer = Tracer { posed: self, oracle, passes_panes };
+        let tracer = Tracer { posed: self, oracle, passes_panes, mirror_roughness };
         Ok(Image::render(view, |random| sample(&tracer, random)))
     }
 }

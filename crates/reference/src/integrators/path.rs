@@ -55,7 +55,7 @@ fn path_options(values: &OptionValues) -> PathOptions {
 /// A path may be ended at random from this scattering on.
 const ROULETTE_BOUNCE: u32 = 3;
 /// Surfaces that one ray passes in a straight line.
-const LAYER_LIMIT: u32 = 4096;
+pub(super) const LAYER_LIMIT: u32 = 4096;
 
 struct PathState {
     random: Numbers,
@@ -190,7 +190,7 @@ impl Tracer<'_> {
     }
 
     /// Share of the light that arrives along a shadow ray, which ends at `target` where there is one.
-    fn arriving(&self, mut ray: Ray, target: Option<Vec3>) -> Vec3 {
+    pub(super) fn arriving(&self, mut ray: Ray, target: Option<Vec3>) -> Vec3 {
         let mut share = Vec3::ONE;
         for _ in 0..=LAYER_LIMIT {
             let Some(surface) = self.closest(&self.spawned(ray)) else { return share };

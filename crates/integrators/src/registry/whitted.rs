@@ -1,0 +1,298 @@
+//! Whitted's ray tracing: direct light, and the trees of mirrored and refracted rays.
+
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use rasray_ads::{Domain, RayQueue};
+use rasray_gpu::{Buffer, Device, Recorder};
+use rasray_gpu_scene::{GpuScene, ShadingFeatures};
+use rasray_options::Value;
+use rasray_scene::needs::Workload;
+use rasray_shaders_glsl::{
+    INTEGRATORS_PRIMARY, INTEGRATORS_WHITTED_RESOLVE, INTEGRATORS_WHITTED_SHADE,
+    INTEGRATORS_WHITTED_SHADE_PASSING,
+    constant_ids::integrators::{WHITTED_MIRROR_ROUGHNESS, WHITTED_PASSES_PANES},
+    constants::scene::{BSDF_SMOOTH_ROUGHNESS, WAVE_ROUND_LAST, WAVE_ROUND_RESUMES},
+    records::{WhittedRay, WhittedState},
+};
+
+use crate::{
+    Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
+    integrator::{check_features, check_wave},
+    kernels::{
+        Bindings, Kernel, WaveConstants, binding, camera_constants, device_buffer, film, shadow_queue,
+    },
+};
+
+mod options;
+
+use options::{COMPACTION, MIRROR_ROUGHNESS, RAY_DEPTH, SELECT, SHADOWS, THRESHOLD};
+pub use options::{RAY_DEPTH_LIMIT, Select, Shadows, WhittedOptions};
+
+/// The registry's row.
+pub(super) const ROW: IntegratorRow = IntegratorRow {
+    name: "whitted",
+    doc: "Whitted's ray tracing: direct light, perfect reflections and refractions",
+    options: &[&RAY_DEPTH, &SELECT, &THRESHOLD, &SHADOWS, &MIRROR_ROUGHNESS, &COMPACTION],
+    rays: &[RayKind::Camera, RayKind::Scattered, RayKind::Shadow],
+    workload: |_| Workload::ALL,
+    make: |desc, spec| Ok(Box::new(Whitted::new(desc, WhittedOptions::of(spec))?)),
+};
+
+/// Rays of a tree, and surfaces passed in a straight line, that the rounds of a wave allow for at first.
+const USUAL_RAYS: u32 = 15;
+const USUAL_LAYERS: u32 = 8;
+
+/// Most rounds that one recording of a wave has where surfaces may be passed; more are recorded as its rest.
+const ROUND_LIMIT: u32 = 1 << 14;
+
+/// Trees of rays: of each surface that a ray meets, its emission and one light sample, and the rays that it mirrors, refracts
+/// and lets pass. Every round traces one ray of each tree that has one left, and its shadow ray. The other rays of a surface
+/// wait, for no longer than it takes to trace the trees of those before them.
+///
+/// Where surfaces let light pass in a straight line, shadow rays go through them and are traced in rounds of their own, as
+/// with [`Path`](crate::Path).
+#[derive(Debug)]
+pub struct Whitted {
+    options: WhittedOptions,
+    trees: Trees,
+    /// Closest-hit rounds of a wave.
+    rounds: AtomicU32,
+    /// What the kernels were made for.
+    features: ShadingFeatures,
+    film: Film,
+    queue: RayQueue,
+    states: Buffer,
+    waiting: Buffer,
+    /// How light samples are tested where whatever a ray hits stops it; else shadow rays are in the queue of all others.
+    shadows: Option<(RayQueue, Kernel)>,
+    bindings: Bindings,
+    primary: Kernel,
+    shade: Kernel,
+}
+
+/// How the surfaces of a scene send rays on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Trees {
+    /// They mirror.
+    Chains,
+    /// They mirror and refract.
+    Binary,
+    /// They let rays pass in a straight line as well.
+    Passing { refracts: bool },
+}
+
+impl Trees {
+    fn of(features: ShadingFeatures, passes_panes: bool) -> Self {
+        match (features.blend || passes_panes, features.transmission) {
+            (true, refracts) => Self::Passing { refracts },
+            (false, true) => Self::Binary,
+            (false, false) => Self::Chains,
+        }
+    }
+
+    /// Rounds that a wave has at first, and at most.
+    fn rounds(self, depth: u32) -> [u32; 2] {
+        let rays = (2 << depth) - 1;
+        match self {
+            Self::Chains => [depth + 1; 2],
+            Self::Binary => [USUAL_RAYS.min(rays), rays],
+            Self::Passing { .. } => [2 * USUAL_RAYS.min(rays) + USUAL_LAYERS, ROUND_LIMIT],
+        }
+    }
+
+    /// Most rays of a tree that wait at a time. Above the surface that is shaded, each one of the way there has as many rays
+    /// waiting as it sends on beside the first. Where surfaces are passed, all rays of the one shaded wait as well.
+    fn waiting(self, depth: u32) -> u32 {
+        match self {
+            Self::Chains => 0,
+            Self::Binary => depth,
+            Self::Passing { refracts } => depth * (1 + u32::from(refracts)) + 1,
+        }
+    }
+}
+
+impl Whitted {
+    /// Makes queues, states and kernels.
+    ///
+    /// # Errors
+    /// An option out of its range, sizes that do not fit, out of memory, or the device refuses a pipeline.
+    pub fn new(desc: &IntegratorDesc<'_>, options: WhittedOptions) -> Result<Self, IntegratorError> {
+        RAY_DEPTH.check(Value::Whole(options.ray_depth))?;
+        THRESHOLD.check(Value::Number(options.threshold))?;
+        MIRROR_ROUGHNESS.check(Value::Number(options.mirror_roughness))?;
+        let features = desc.features;
+        let smoothed = options.mirror_roughness > BSDF_SMOOTH_ROUGHNESS;
+        let panes = features.panes || (features.transmission && smoothed);
+        let trees = Trees::of(features, panes);
+        let device = desc.device;
+        let slot_bytes = u64::from(trees.waiting(options.ray_depth)) * size_of::<WhittedRay>() as u64;
+        let capacity = fitting(desc.check()?, slot_bytes, device.limits().max_storage_buffer_range);
+        let queue = RayQueue::new(device, "whitted rays", capacity, true)?;
+        let slots = u64::from(capacity);
+        let states = device_buffer(device, "whitted states", slots * size_of::<WhittedState>() as u64)?;
+        let waiting = device_buffer(device, "waiting rays", (slots * slot_bytes).max(4))?;
+        let [pixels, faults] = film(desc.film);
+        let own = [pixels, faults, (binding::WHITTED_STATES, &states), (binding::WHITTED_RAYS, &waiting)];
+        let mut constants = Vec::from(features.constants());
+        constants.push((WHITTED_MIRROR_ROUGHNESS, options.mirror_roughness.to_bits()));
+        let (shader, shadows, bindings) = if let Trees::Passing { .. } = trees {
+            constants.push((WHITTED_PASSES_PANES, panes.into()));
+            (&INTEGRATORS_WHITTED_SHADE_PASSING, None, Bindings::new(device, desc.scene, &own)?)
+        } else {
+            let queue = RayQueue::new(device, "shadow rays", capacity, false)?;
+            let bound = [&own[..], &shadow_queue(&queue)].concat();
+            let bindings = Bindings::new(device, desc.scene, &bound)?;
+            let resolve = bindings.kernel(device, &INTEGRATORS_WHITTED_RESOLVE, &[])?;
+            (&INTEGRATORS_WHITTED_SHADE, Some((queue, resolve)), bindings)
+        };
+        Ok(Self {
+            options,
+            trees,
+            rounds: trees.rounds(options.ray_depth)[0].into(),
+            features,
+            primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
+            shade: bindings.kernel(device, shader, &constants)?,
+            film: desc.film.clone(),
+            queue,
+            states,
+            waiting,
+            shadows,
+            bindings,
+        })
+    }
+
+    fn constants(&self, wave: Wave) -> WaveConstants {
+        let WhittedOptions { ray_depth, select, threshold, .. } = self.options;
+        let range = if select == Select::Expected { threshold } else { 0.0 };
+        WaveConstants { bounces: ray_depth, range, ..WaveConstants::from(wave) }
+    }
+
+    /// Rounds of a new wave, or of the rest of one. Trees that end add to the film.
+    fn record_rounds(
+        &self,
+        recorder: &mut Recorder<'_>,
+        traced: Traced<'_>,
+        wave: Wave,
+        is_rest: bool,
+    ) -> Result<(), IntegratorError> {
+        let all = Domain::First(wave.pixel_count);
+        let later = if self.options.masked { all } else { Domain::Selected };
+        let mut constants = self.constants(wave);
+        let first = u32::from(is_rest);
+        let end = first + self.rounds.load(Ordering::Relaxed);
+        for round in first..end {
+            constants.round = round;
+            constants.marks = self.options.marks();
+            constants.marks |= if is_rest && round == first { WAVE_ROUND_RESUMES } else { 0 };
+            constants.marks |= if round + 1 == end { WAVE_ROUND_LAST } else { 0 };
+            let live = if round == 0 { all } else { later };
+            if round == 0 {
+                traced.record_primary(recorder, &self.queue, wave)?;
+            } else {
+                traced.record_closest(recorder, &self.queue, live)?;
+            }
+            self.bindings.record(recorder, &self.shade, &self.queue, live, &constants);
+            self.queue.record_take(recorder);
+            if let Some((shadows, resolve)) = &self.shadows {
+                shadows.record_take(recorder);
+                traced.record_occluded(recorder, shadows, later);
+                self.bindings.record(recorder, resolve, shadows, later, &constants);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Slots of which each has so many bytes in a buffer that one binding holds: at most `capacity`, at least one.
+fn fitting(capacity: u32, slot_bytes: u64, limit: u64) -> u32 {
+    let fitting = limit.checked_div(slot_bytes).unwrap_or(u64::MAX).max(1);
+    capacity.min(u32::try_from(fitting).unwrap_or(u32::MAX))
+}
+
+impl Integrator for Whitted {
+    fn name(&self) -> &'static str {
+        ROW.name
+    }
+
+    fn record_wave(
+        &self,
+        recorder: &mut Recorder<'_>,
+        traced: Traced<'_>,
+        wave: Wave,
+    ) -> Result<(), IntegratorError> {
+        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        let all = Domain::First(wave.pixel_count);
+        self.bindings.record(recorder, &self.primary, &self.queue, all, &self.constants(wave));
+        for queue in self.queues() {
+            queue.record_select_none(recorder);
+        }
+        self.record_rounds(recorder, traced, wave, false)
+    }
+
+    fn record_rest(
+        &self,
+        recorder: &mut Recorder<'_>,
+        traced: Traced<'_>,
+        wave: Wave,
+    ) -> Result<(), IntegratorError> {
+        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        self.record_rounds(recorder, traced, wave, true)
+    }
+
+    fn has_rest(&self, device: &Device) -> Result<bool, IntegratorError> {
+        let [first, most] = self.trees.rounds(self.options.ray_depth);
+        Ok(first < most && self.film.read_faults(device)?.unended > 0)
+    }
+
+    fn allow_more_rounds(&self) -> bool {
+        let now = self.rounds.load(Ordering::Relaxed);
+        let [_, most] = self.trees.rounds(self.options.ray_depth);
+        self.rounds.store(now.saturating_mul(2).min(most), Ordering::Relaxed);
+        now < most
+    }
+
+    fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
+        check_features(self.features, scene)?;
+        self.bindings.set_scene(scene);
+        Ok(())
+    }
+
+    fn film(&self) -> &Film {
+        &self.film
+    }
+
+    fn queues(&self) -> Vec<&RayQueue> {
+        std::iter::once(&self.queue).chain(self.shadows.as_ref().map(|(queue, _)| queue)).collect()
+    }
+
+    fn traces_per_wave(&self) -> u32 {
+        self.rounds.load(Ordering::Relaxed) * self.queues().len() as u32
+    }
+
+    fn state_bytes(&self) -> u64 {
+        self.states.size() + self.waiting.size()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chains_have_a_round_a_ray_and_trees_what_is_usual() {
+        assert_eq!(Trees::Chains.rounds(8), [9, 9]);
+        assert_eq!(Trees::Binary.rounds(3), [15, 15]);
+        assert_eq!(Trees::Binary.rounds(RAY_DEPTH_LIMIT), [15, 511]);
+        let passing = Trees::Passing { refracts: true };
+        assert_eq!(passing.rounds(0), [2 + USUAL_LAYERS, ROUND_LIMIT]);
+        assert_eq!([Trees::Chains, Trees::Binary, passing].map(|trees| trees.waiting(3)), [0, 3, 7]);
+    }
+
+    #[test]
+    fn waves_are_as_large_as_one_binding_lets_them() {
+        assert_eq!(fitting(1000, 0, 100), 1000);
+        assert_eq!(fitting(1000, 10, 5000), 500);
+        assert_eq!(fitting(1000, 10, 5), 1);
+        assert_eq!(fitting(1000, 10, u64::MAX), 1000);
+    }
+}

@@ -1,0 +1,215 @@
+//! What Whitted's integrator does, and the rows of its options.
+
+use rasray_options::{Least, OptionRow, Unit, Value, Values, Word};
+use rasray_shaders_glsl::constants::{
+    integrators::{
+        WHITTED_SELECTS_ALL, WHITTED_SELECTS_REFLECTIVE, WHITTED_SHADOWS_FIRST, WHITTED_SHADOWS_NONE,
+        WHITTED_SHADOWS_SPECULAR,
+    },
+    scene::BSDF_SMOOTH_ROUGHNESS,
+};
+
+use crate::IntegratorSpec;
+
+/// Maximum number of reflections and refractions of a ray. Each may double the rays.
+pub const RAY_DEPTH_LIMIT: u32 = 8;
+
+pub(super) const RAY_DEPTH: OptionRow = OptionRow::new(
+    "ray-depth",
+    Values::Whole(0, RAY_DEPTH_LIMIT),
+    "At most this many reflections and refractions in a row (0: direct light only)",
+)
+.by_default(Value::Whole(3))
+.trying(&["0", "1", "8"]);
+
+pub(super) const SELECT: OptionRow = OptionRow::words(
+    "select",
+    &[Select::Expected.word(), Select::All.word(), Select::Reflective.word(), Select::Specular.word()],
+    "Where mirrored and refracted rays are traced",
+)
+.by_default(Value::Word(Select::Expected.name()));
+
+pub(super) const THRESHOLD: OptionRow = OptionRow::new(
+    "threshold",
+    Values::Number(Unit::Share, Least::Zero),
+    "With --select expected: rays are traced where they carry more than this share of what they find",
+)
+.by_default(Value::Number(0.0))
+.trying(&["0.1"]);
+
+pub(super) const SHADOWS: OptionRow = OptionRow::words(
+    "shadows",
+    &[Shadows::All.word(), Shadows::First.word(), Shadows::None.word()],
+    "Which surfaces are in shadow",
+)
+.by_default(Value::Word(Shadows::All.name()));
+
+pub(super) const MIRROR_ROUGHNESS: OptionRow = OptionRow::new(
+    "mirror-roughness",
+    Values::Number(Unit::Share, Least::Zero),
+    "Surfaces less rough than this are perfectly smooth, as all below 0.03 are",
+)
+.by_default(Value::Number(BSDF_SMOOTH_ROUGHNESS))
+.trying(&["0.4"]);
+
+pub(super) const COMPACTION: OptionRow = OptionRow::words(
+    "compaction",
+    &[
+        ("selected", "Passes work on the rays that there are"),
+        ("masked", "Passes work on all pixels, also those without a ray; pictures are the same"),
+    ],
+    "What passes after the first work on",
+)
+.by_default(Value::Word("selected"));
+
+/// Where mirrored and refracted rays are traced. Rays that go straight on through a blended surface or a pane are traced
+/// wherever they carry anything.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Select {
+    /// Where a ray carries more than a threshold of what it finds: with 0 the picture is that of all rays.
+    #[default]
+    Expected,
+    /// Everywhere, also where the surface neither mirrors nor refracts.
+    All,
+    /// Where what the camera sees mirrors; from there on as with all rays.
+    Reflective,
+    /// Where the surface mirrors or refracts; other surfaces are lit without shadow rays.
+    Specular,
+}
+
+impl Select {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Expected, Self::All, Self::Reflective, Self::Specular];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Expected => "expected",
+            Self::All => "all",
+            Self::Reflective => "reflective",
+            Self::Specular => "specular",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub const fn doc(self) -> &'static str {
+        match self {
+            Self::Expected => "Where they carry more than --threshold; with 0 the picture is that of all",
+            Self::All => "Everywhere, also where they carry nothing",
+            Self::Reflective => "Where what the camera sees mirrors; from there on all",
+            Self::Specular => {
+                "Where a surface mirrors or refracts; other surfaces are lit without shadow rays"
+            }
+        }
+    }
+
+    const fn word(self) -> Word {
+        (self.name(), self.doc())
+    }
+
+    fn marks(self) -> u32 {
+        match self {
+            Self::Expected => 0,
+            Self::All => WHITTED_SELECTS_ALL,
+            Self::Reflective => WHITTED_SELECTS_REFLECTIVE,
+            Self::Specular => WHITTED_SHADOWS_SPECULAR,
+        }
+    }
+}
+
+/// Which surfaces trace a shadow ray; the others are lit as if nothing were in the way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shadows {
+    /// All.
+    #[default]
+    All,
+    /// Those that the camera sees.
+    First,
+    /// None.
+    None,
+}
+
+impl Shadows {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::All, Self::First, Self::None];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::All => "all",
+            Self::First => "first",
+            Self::None => "none",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub const fn doc(self) -> &'static str {
+        match self {
+            Self::All => "All",
+            Self::First => "Those that the camera sees; what mirrors show is lit without shadow rays",
+            Self::None => "None",
+        }
+    }
+
+    const fn word(self) -> Word {
+        (self.name(), self.doc())
+    }
+
+    fn marks(self) -> u32 {
+        match self {
+            Self::All => 0,
+            Self::First => WHITTED_SHADOWS_FIRST,
+            Self::None => WHITTED_SHADOWS_NONE,
+        }
+    }
+}
+
+/// What Whitted's integrator does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WhittedOptions {
+    /// At most this many reflections and refractions in a row, up to [`RAY_DEPTH_LIMIT`]; 0 is direct light only.
+    pub ray_depth: u32,
+    /// Where mirrored and refracted rays are traced.
+    pub select: Select,
+    /// With [`Select::Expected`]: share of what a ray finds that must arrive, in its largest channel; not negative.
+    pub threshold: f32,
+    /// Which surfaces are in shadow.
+    pub shadows: Shadows,
+    /// Surfaces less rough than this perceptual roughness are perfectly smooth; not negative.
+    pub mirror_roughness: f32,
+    /// Whether passes work on all slots of a wave, also those without a ray.
+    pub masked: bool,
+}
+
+impl Default for WhittedOptions {
+    fn default() -> Self {
+        Self {
+            ray_depth: 3,
+            select: Select::default(),
+            threshold: 0.0,
+            shadows: Shadows::default(),
+            mirror_roughness: BSDF_SMOOTH_ROUGHNESS,
+            masked: false,
+        }
+    }
+}
+
+impl WhittedOptions {
+    /// As a spec has them.
+    pub(super) fn of(spec: &IntegratorSpec) -> Self {
+        let number = |row: &OptionRow| spec.get(row.name).and_then(Value::number).unwrap_or_default();
+        Self {
+            ray_depth: spec.get(RAY_DEPTH.name).and_then(Value::whole).unwrap_or_default(),
+            select: spec.choice(&SELECT, &Select::ALL, Select::name),
+            threshold: number(&THRESHOLD),
+            shadows: spec.choice(&SHADOWS, &Shadows::ALL, Shadows::name),
+            mirror_roughness: number(&MIRROR_ROUGHNESS),
+            masked: spec.get(COMPACTION.name) == Some(Value::Word("masked")),
+        }
+    }
+
+    /// As the rules of kernels.
+    pub(super) fn marks(self) -> u32 {
+        self.select.marks() | self.shadows.marks()
+    }
+}

@@ -1,0 +1,22 @@
+// What: numbers that integrators share with Rust.
+// Only `#define NAME number` stands here: Rust constants of the same names are generated from it.
+// Source: docs/whitted.md.
+#ifndef INTEGRATORS_CONSTANTS_GLSL
+#define INTEGRATORS_CONSTANTS_GLSL
+
+// WaveConstants.marks of Whitted's integrator, beside WAVE_ROUND_*.
+// Mirrored and refracted rays are traced whatever their weight.
+#define WHITTED_SELECTS_ALL 4u
+// What the camera sees sends rays on where it mirrors, and nowhere else.
+#define WHITTED_SELECTS_REFLECTIVE 8u
+// Only surfaces that mirror or refract trace shadow rays.
+#define WHITTED_SHADOWS_SPECULAR 16u
+// Only surfaces that the camera sees trace shadow rays.
+#define WHITTED_SHADOWS_FIRST 32u
+// No shadow ray is traced.
+#define WHITTED_SHADOWS_NONE 64u
+
+// WhittedState.waiting where no ray is left to be traced.
+#define WHITTED_ENDED 0xFFFFFFFFu
+
+#endif

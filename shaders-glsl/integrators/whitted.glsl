@@ -1,0 +1,178 @@
+// What: Whitted's ray tracing, one step per closest hit: emission, one light sample, and the rays that go on from there.
+// Reads: scene tables through scene/*.glsl. Writes: state and waiting rays, through integrators/whitted_storage.glsl.
+// Source: docs/whitted.md; Whitted 1980.
+#ifndef INTEGRATORS_WHITTED_GLSL
+#define INTEGRATORS_WHITTED_GLSL
+
+#include "integrators/path.glsl"
+#include "integrators/whitted_storage.glsl"
+#include "scene/surface.glsl"
+
+// Surfaces less rough than this are perfectly smooth.
+layout(constant_id = 105) const float WHITTED_MIRROR_ROUGHNESS = BSDF_SMOOTH_ROUGHNESS;
+
+// Anything sends more than one ray on.
+#define WHITTED_BRANCHES (SHADING_TRANSMISSION || SHADING_PASSES)
+
+// What one step asks to be traced. A ray with t_max < 0 is not to be traced.
+struct WhittedStep {
+    WhittedRay next;          // closest hit; the others wait
+    Ray shadow_ray;           // occlusion; `pending` counts if nothing is hit. Where surfaces let light pass: closest hit
+    vec3 pending;             // radiance times throughput, W/(sr m^2)
+    vec3 target;              // where a shadow ray of finite length ends
+    uint cut;                 // 1 where a ray would have passed more than PATH_LAYER_LIMIT surfaces, else 0
+};
+
+bool whitted_has(uint mark) {
+    return (wave.marks & mark) != 0u;
+}
+
+// What the ray of a slot hit; a miss where it hit nothing.
+Surface whitted_surface(uint slot, Ray ray) {
+    if (queue_surfaces[slot].valid == 0u) return surface_miss(ray);
+    Surface s = queue_surface(slot);
+    if (s.roughness < WHITTED_MIRROR_ROUGHNESS) s.roughness = 0.0;
+    return s;
+}
+
+// First dimension of the light sample at what a ray hits: that of paths unless something was refracted or passed.
+uint whitted_dimension(WhittedNode node) {
+    return random_dimension(node.depth, RANDOM_LIGHT_KIND) + 256u * node.branch;
+}
+
+// The branch of a ray that was refracted, or else went straight on.
+uint whitted_branch(WhittedNode node, bool is_refracted) {
+    return node.branch * 747796405u + 2891336453u + 2u * node.depth + (is_refracted ? 1u : 0u);
+}
+
+// Traces one more ray: next, and the one before it waits.
+void whitted_follow(uint slot, inout WhittedState state, inout WhittedStep asked, WhittedRay followed) {
+    if (WHITTED_BRANCHES && asked.next.ray.t_max >= 0.0) whitted_push(slot, state, asked.next);
+    asked.next = followed;
+}
+
+// Whether a ray that carries this share of what it finds is worth being traced.
+bool whitted_is_worth(vec3 throughput) {
+    return largest_component(throughput) > wave.range;
+}
+
+// A ray that leaves the surface by reflection or refraction.
+WhittedRay whitted_leave(WhittedNode node, Surface s, Ray ray, vec3 direction, float footprint, vec3 throughput) {
+    WhittedRay left = WhittedRay(spawn_ray(s, direction, PATH_INFINITY), node);
+    left.ray.cone_width = footprint;
+    left.ray.cone_spread = ray.cone_spread;
+    left.node.throughput = throughput;
+    left.node.depth += 1u;
+    left.node.passed = 0u;
+    return left;
+}
+
+// The ray on through a surface that lets the share `straight` pass.
+void whitted_pass(uint slot, inout WhittedState state, Ray ray, Surface s, vec3 direction, float footprint,
+                  vec3 straight, inout WhittedStep asked) {
+    vec3 throughput = state.node.throughput * straight;
+    if (!whitted_is_worth(throughput)) return;
+    if (state.node.passed >= PATH_LAYER_LIMIT) {
+        asked.cut = 1u;
+        return;
+    }
+    WhittedRay through = WhittedRay(spawn_ray(s, direction, PATH_INFINITY), state.node);
+    // The ray goes on as the one that it is: a camera ray passes the backs that camera rays pass.
+    through.ray.flags = ray.flags;
+    through.ray.cone_width = footprint;
+    through.ray.cone_spread = ray.cone_spread;
+    through.node.throughput = throughput;
+    through.node.branch = whitted_branch(state.node, false);
+    through.node.passed += 1u;
+    whitted_follow(slot, state, asked, through);
+}
+
+// One light sample of everything but the mirrored and the refracted ray; no other technique finds that light.
+// `throughput` is that of the surface.
+void whitted_light(WhittedState state, uint pixel, Surface s, BsdfTerms terms, vec3 throughput,
+                   inout WhittedStep asked) {
+    LightSample light = light_sample(s, random_vec4(pixel, wave.sample_index, whitted_dimension(state.node)));
+    if (light.flags == 0u) return;
+    vec3 value = bsdf_towards(terms, s, light.direction).value;
+    vec3 pending = throughput * value * light.radiance * (1.0 / light.pdf);
+    if (!(largest_component(pending) > 0.0)) return;
+    asked.pending = pending;
+    asked.shadow_ray = light_shadow_ray(s, light);
+    asked.target = light.target;
+}
+
+// Whether the light sample of a surface is tested.
+bool whitted_casts_shadows(WhittedNode node, bool is_specular) {
+    if (whitted_has(WHITTED_SHADOWS_NONE) || (whitted_has(WHITTED_SHADOWS_FIRST) && node.depth > 0u)) return false;
+    return is_specular || !whitted_has(WHITTED_SHADOWS_SPECULAR);
+}
+
+// One step of a tree: `ray` was traced, `s` is the surface it hit (valid 0: none). Adds emission, and light that is not
+// tested, to the state; asks for a shadow ray and the next ray, and lets the others wait: of those of one surface the
+// mirrored ray is traced first, then the refracted one, then the one straight on.
+WhittedStep whitted_step(uint slot, inout WhittedState state, Ray ray, Surface s) {
+    Ray none = ray_inactive();
+    WhittedStep asked = WhittedStep(WhittedRay(none, state.node), none, vec3(0.0), vec3(0.0), 0u);
+    float speed = length(ray.direction);
+    vec3 direction = ray.direction / speed;
+    // Rays of no weight are traced where all are asked for.
+    bool counts = largest_component(state.node.throughput) > 0.0;
+    if (s.valid == 0u) {
+        if (counts) state.radiance += state.node.throughput * environment_radiance(direction);
+        return asked;
+    }
+    float distance = s.t * speed;
+    float footprint = ray.cone_width + ray.cone_spread * distance;
+    if (SHADING_TRANSMISSION && state.node.medium != MATERIAL_NONE) {
+        state.node.throughput *= path_transmittance(state.node.medium, distance);
+    }
+    BsdfTerms terms = bsdf_terms(s, -direction);
+    float opacity = SHADING_BLEND ? s.opacity : 1.0;
+    vec3 throughput = state.node.throughput * opacity;
+    if (SHADING_PASSES) {
+        vec3 straight = opacity * bsdf_straight(terms) + (1.0 - opacity);
+        whitted_pass(slot, state, ray, s, direction, footprint, straight, asked);
+    }
+    if (counts) {
+        if (largest_component(s.emission) > 0.0) state.radiance += throughput * s.emission;
+        whitted_light(state, wave_pixel(slot), s, terms, throughput, asked);
+    }
+
+    vec3 mirrored = terms.frame * vec3(-terms.o.xy, terms.o.z);
+    bool mirrors = terms.o.z > 0.0 && bsdf_side(s, mirrored, terms.o.z) == 1;
+    vec3 mirror = mirrors && terms.mirror ? bsdf_reflected(terms, terms.o.z) : vec3(0.0);
+    vec3 refracted = vec3(0.0);
+    bool refracts = false;
+    vec3 through = vec3(0.0);
+    if (SHADING_TRANSMISSION && bsdf_volume_share(terms) > 0.0 && !terms.pane && terms.o.z > 0.0) {
+        vec3 local;
+        refracts = bsdf_refract(terms, vec3(0.0, 0.0, 1.0), local);
+        refracted = terms.frame * local;
+        refracts = refracts && bsdf_side(s, refracted, local.z) == -1;
+        if (refracts && terms.mirror) through = bsdf_transmitted(terms, terms.o.z);
+    }
+
+    bool is_reflective = largest_component(mirror) > 0.0;
+    if (!whitted_casts_shadows(state.node, is_reflective || largest_component(through) > 0.0)) {
+        state.radiance += asked.pending;
+        asked.shadow_ray = ray_inactive();
+        asked.pending = vec3(0.0);
+    }
+    if (state.node.depth >= wave.bounces) return asked;
+    if (whitted_has(WHITTED_SELECTS_REFLECTIVE) && state.node.depth == 0u && !is_reflective) return asked;
+    bool all = whitted_has(WHITTED_SELECTS_ALL);
+    if (refracts && (all || whitted_is_worth(throughput * through))) {
+        WhittedRay left =
+            whitted_leave(state.node, s, ray, normalize(refracted), footprint, throughput * through);
+        left.node.branch = whitted_branch(state.node, true);
+        if (s.thickness > 0.0) left.node.medium = s.side == 1u ? s.material : MATERIAL_NONE;
+        whitted_follow(slot, state, asked, left);
+    }
+    if (mirrors && (all || whitted_is_worth(throughput * mirror))) {
+        whitted_follow(slot, state, asked,
+                       whitted_leave(state.node, s, ray, normalize(mirrored), footprint, throughput * mirror));
+    }
+    return asked;
+}
+
+#endif

@@ -1,0 +1,79 @@
+// What: one step of every tree that continues, where surfaces let light pass in a straight line. Rays and their shadow
+// rays take turns in one queue: what a surface sends on waits until its shadow ray has ended, however many surfaces that
+// passes. Where a tree ends, its radiance is added to its pixel.
+// Reads: rays and surfaces of the queue, states, waiting rays, scene, geometry. Writes: states, waiting rays, film, rays of
+// the queue (the next closest-hit round); selects the slots that have a ray to trace.
+// Source: docs/whitted.md; docs/shading.md, "Straight through".
+#version 460
+#include "contract/extensions.glsl"
+// Any surface may be a smooth thin pane.
+layout(constant_id = 106) const bool WHITTED_PASSES_PANES = true;
+#define SHADING_PANES WHITTED_PASSES_PANES
+#include "ads/queue.glsl"
+#include "integrators/whitted.glsl"
+
+layout(local_size_x = QUEUE_GROUP_SIZE) in;
+
+// The shadow ray of a surface that was shaded; inactive where it has none. All rays of the surface wait.
+Ray shade_ray(uint slot, inout WhittedState state, Ray ray, Surface surface, out uint cut) {
+    WhittedStep asked = whitted_step(slot, state, ray, surface);
+    cut = asked.cut;
+    if (asked.next.ray.t_max >= 0.0) {
+        whitted_push(slot, state, asked.next);
+    }
+    state.pending = asked.shadow_ray.t_max >= 0.0 ? asked.pending : vec3(0.0);
+    state.target = asked.target;
+    state.node.passed = 0u;
+    return asked.shadow_ray;
+}
+
+// The shadow ray behind what it hit; inactive where it has ended.
+Ray shade_shadow(inout WhittedState state, Ray ray, Surface surface, out uint cut) {
+    PathState path = path_begin(0u, 0u);
+    path.radiance = state.radiance;
+    path.passed = state.node.passed;
+    Ray next = path_shadow_step(path, ray, surface, state.target, state.pending, cut);
+    state.radiance = path.radiance;
+    state.node.passed = path.passed;
+    if (next.t_max < 0.0) state.pending = vec3(0.0);
+    return next;
+}
+
+void main() {
+    uint slot;
+    if (!wave_slot(slot)) {
+        return;
+    }
+    Ray ray = queue_ray(slot);
+    if (ray.t_max < 0.0) {
+        return;
+    }
+    if ((wave.marks & WAVE_ROUND_RESUMES) != 0u) {
+        atomicAdd(film_faults.unended, 0xFFFFFFFFu);
+    }
+    WhittedState state = whitted_of(slot);
+    Surface surface = whitted_surface(slot, ray);
+    uint cut;
+    Ray next;
+    if (largest_component(state.pending) > 0.0) {
+        next = shade_shadow(state, ray, surface, cut);
+    } else {
+        next = shade_ray(slot, state, ray, surface, cut);
+    }
+    if (cut != 0u) {
+        atomicAdd(film_faults.cut, 1u);
+    }
+    if (next.t_max < 0.0 && state.waiting > 0u) {
+        next = whitted_pop(slot, state);
+    }
+    queue_set_ray(slot, next);
+    whitted_states[slot] = state;
+    if (next.t_max < 0.0) {
+        film_add(wave_pixel(slot), state.radiance);
+        return;
+    }
+    queue_select(slot);
+    if ((wave.marks & WAVE_ROUND_LAST) != 0u) {
+        atomicAdd(film_faults.unended, 1u);
+    }
+}
