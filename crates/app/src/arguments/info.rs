@@ -2,12 +2,12 @@
 
 use super::integrator::integrator_parser;
 use super::shared::DeviceArguments;
-use super::structure::{StructureArguments, preset_parser, system_parser};
+use super::structure::{StructureArguments, preset_parser, system_request_parser};
 use super::values;
 use crate::error::AppError;
 use clap::Args;
-use rasray_experiment::{INTEGRATORS, IntegratorRow, SystemConfig, one_system};
-use rasray_systems::{Preset, SYSTEMS, System};
+use rasray_experiment::{INTEGRATORS, IntegratorRow, SystemConfig, SystemRequest};
+use rasray_systems::Preset;
 use std::ffi::OsString;
 
 const AFTER_HELP: &str = "\
@@ -45,8 +45,8 @@ pub struct InfoArguments {
     #[arg(long, requires = "scene")]
     pub passes: bool,
     /// With --passes: the structure
-    #[arg(long, value_parser = system_parser(), default_value = SYSTEMS[0].name, requires = "passes")]
-    pub system: &'static System,
+    #[arg(long, value_parser = system_request_parser(), default_value = SystemRequest::AUTOMATIC, requires = "passes")]
+    pub system: SystemRequest,
     /// With --passes: how closely it follows its paper
     #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name(), requires = "passes")]
     pub preset: Preset,
@@ -69,7 +69,7 @@ impl InfoArguments {
     /// wanted.
     pub fn system(&self) -> Result<Option<SystemConfig>, AppError> {
         if self.passes {
-            return Ok(Some(one_system(self.system, self.preset, &self.structure.0)?));
+            return Ok(Some(self.system.config(self.preset, &self.structure.0)?));
         }
         match self.structure.0.iter().next() {
             Some((option, _)) => Err(AppError::usage(

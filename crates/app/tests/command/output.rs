@@ -198,10 +198,10 @@ fn info_is_data_too() {
     assert_eq!(passes["passes"][0]["label"], "mmrt/build_0_header");
     assert_eq!((&passes["passes"][0]["workgroups"], &passes["passes"][0]["draws"]), (&7.into(), &0.into()));
     let text = String::from_utf8(stdout(&rasray(folder.path(), "info cornell --passes"))).expect("text");
-    assert!(text.trim_start().starts_with("pass ") && text.contains("bricks/build_0_header"), "{text}");
+    assert!(text.trim_start().starts_with("pass ") && text.contains("bvh/build_0_header"), "{text}");
     for (line, words) in [
         ("info cornell --storage dll", "--storage is an option of a structure"),
-        ("info cornell --passes --storage dll", "system bricks has no option --storage"),
+        ("info cornell --passes --storage dll", "system bvh has no option --storage"),
         ("info cornell --system mmrt", "--passes"),
         ("info --passes", "SCENE"),
     ] {
