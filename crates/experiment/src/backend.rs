@@ -5,7 +5,7 @@ use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
 use crate::render::KeptScene;
 use rasray_gpu::PassCommands;
 use rasray_gpu_scene::TexelRuns;
-use rasray_report::Device;
+use rasray_report::{Device, Run};
 use std::ops::ControlFlow;
 
 /// Which device is wanted.
@@ -33,6 +33,9 @@ pub struct Progress<'a> {
 
 /// Told of progress at least once per wave of samples or rays; `Break` asks for an early end.
 pub type OnProgress<'a> = dyn FnMut(Progress<'_>) -> ControlFlow<()> + 'a;
+
+/// Told of each run of a comparison as soon as it is whole, and of the place of its cell; `Break` asks for an early end.
+pub type OnRun<'a> = dyn FnMut(usize, &Run) -> ControlFlow<()> + 'a;
 
 /// A feature of the device.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -110,11 +113,13 @@ pub trait Backend {
         progress: &mut OnProgress<'_>,
     ) -> Result<RenderOutput, ExperimentError>;
 
-    /// Compares systems: a run per system, preset and ray set, and per image where wanted. When
-    /// `progress` breaks, the complete runs so far are the result.
+    /// Compares systems: a run per system, preset and ray set, and per image where wanted. Systems take turns on each set
+    /// of rays, so the runs of a set are whole together. When `progress` or `finished` breaks, the complete runs so far are
+    /// the result.
     fn compare(
         &mut self,
         job: &CompareJob<'_>,
+        finished: &mut OnRun<'_>,
         progress: &mut OnProgress<'_>,
     ) -> Result<Comparison, ExperimentError>;
 

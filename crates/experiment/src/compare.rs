@@ -2,30 +2,78 @@
 
 use std::ops::ControlFlow;
 
+use rasray_ads::Ray;
 use rasray_gpu::Device;
 use rasray_reference::oracle::{Accept, Oracle, Side};
 use rasray_reference::shading::{PosedScene, View};
 
-use crate::backend::{OnProgress, Progress};
+use crate::backend::{OnProgress, OnRun, Progress};
 use crate::contestant::Contestant;
 use crate::device_scene::{DeviceScene, device_error};
 use crate::error::ExperimentError;
-use crate::images::{Setting, compare_images};
+use crate::images::compare_images;
 use crate::jobs::{CompareJob, Comparison, FILE_SET, Sampler};
 use crate::rays::{RayFlags, RaySource, oracle_ray, triangles};
 use crate::replay::{ReplaySetting, replay_sets};
-use crate::traced_set::{RaysWithTruth, Wanted, compare_set};
+use crate::traced_set::{RaysWithTruth, Taking, Wanted, compare_set};
 use crate::work_maps::work_maps;
+
+/// What a comparison is made from.
+#[derive(Clone, Copy)]
+pub(super) struct Setting<'a> {
+    pub(super) device: &'a Device,
+    pub(super) job: &'a CompareJob<'a>,
+    pub(super) stage: &'a DeviceScene,
+    pub(super) posed: &'a PosedScene<'a>,
+    pub(super) view: &'a View,
+}
+
+impl CompareJob<'_> {
+    /// Whether the cell at a place is to be made.
+    pub(super) fn wants(&self, place: usize) -> bool {
+        self.only.as_ref().is_none_or(|only| only.contains(&place))
+    }
+
+    /// Cells of each set of rays.
+    fn cells_of_set(&self) -> usize {
+        self.systems.len() + self.hits_files.len()
+    }
+
+    /// Sets of rays.
+    fn sets(&self) -> usize {
+        self.ray_sets.len() + usize::from(self.rays_file.is_some())
+    }
+
+    /// The place of the first image.
+    pub(super) fn first_image(&self) -> usize {
+        self.sets() * self.cells_of_set()
+    }
+
+    /// Cells that are to be made.
+    fn wanted(&self) -> usize {
+        let images = if self.image { self.systems.len() + 1 } else { 0 };
+        (0..self.first_image() + images).filter(|place| self.wants(*place)).count()
+    }
+
+    /// The name of a set, and its rays.
+    fn rays_of(&self, set: usize, source: &RaySource<'_>) -> (String, Vec<Ray>) {
+        match (self.ray_sets.get(set), &self.rays_file) {
+            (Some(set), _) => (set.name().to_owned(), source.rays(*set, self.rays)),
+            (None, Some(file)) => (FILE_SET.to_owned(), file.relative_to(source.frame_origin.to_array())),
+            (None, None) => (String::new(), Vec::new()),
+        }
+    }
+}
 
 /// Runs all systems on all ray sets, then on the image where that is wanted.
 pub(super) fn compare(
     device: &Device,
     job: &CompareJob<'_>,
+    finished: &mut OnRun<'_>,
     progress: &mut OnProgress<'_>,
 ) -> Result<Comparison, ExperimentError> {
     let frame = &job.frame;
-    let mut says = |task: &str, unit: &str| _ = progress(Progress { task, done: 0, total: 0, unit });
-    says("scene", "to the device");
+    _ = progress(Progress { task: "scene", done: 0, total: 0, unit: "to the device" });
     let mut stage = DeviceScene::new(
         device,
         job.scene,
@@ -36,16 +84,9 @@ pub(super) fn compare(
     )?;
     stage.sample_as(frame)?;
     let (positions, indices) = stage.triangles(device)?;
-    let origin = stage.scene.frame_origin();
-    let posed = PosedScene::with_positions(job.scene, origin, positions.clone())
+    let posed = PosedScene::with_positions(job.scene, stage.scene.frame_origin(), positions.clone())
         .map_err(|error| ExperimentError::usage(error.to_string(), ""))?
         .with_back_faces(frame.back_faces);
-    let accept = |primitive: u32, barycentrics: [f64; 2]| posed.alpha_accepts(primitive, barycentrics);
-    says("oracle", "building");
-    let masked = posed.has_alpha_masks() && stage.dropped_triangles == 0;
-    let accept: Option<Accept<'_>> = if masked { Some(&accept) } else { None };
-    let oracle = Oracle::new(&positions, &indices, accept).map_err(device_error)?;
-    let oracle = oracle.with_backs(|primitive| posed.back_of(primitive));
     let view = View {
         camera: job.camera.clone(),
         width: frame.width,
@@ -57,36 +98,63 @@ pub(super) fn compare(
             Sampler::Pcg => rasray_reference::shading::Sampler::Pcg,
         },
     };
+    let setting = Setting { device, job, stage: &stage, posed: &posed, view: &view };
+    let mut comparison = Comparison::default();
+    if job.replay.is_some() || (0..job.first_image()).any(|place| job.wants(place)) {
+        let end = compare_rays(&setting, (&positions, &indices), &mut comparison, finished, progress)?;
+        if end.is_break() {
+            return Ok(comparison);
+        }
+    }
+    if job.image && job.replay.is_none() {
+        compare_images(&setting, &mut comparison, finished, progress)?;
+    }
+    Ok(comparison)
+}
+
+/// Runs all systems on all ray sets of which a cell is wanted: only these are drawn and answered by the oracle.
+fn compare_rays(
+    setting: &Setting<'_>,
+    (positions, indices): (&[[f32; 3]], &[u32]),
+    comparison: &mut Comparison,
+    finished: &mut OnRun<'_>,
+    progress: &mut OnProgress<'_>,
+) -> Result<ControlFlow<()>, ExperimentError> {
+    let Setting { device, job, stage, posed, view } = *setting;
+    let accept = |primitive: u32, barycentrics: [f64; 2]| posed.alpha_accepts(primitive, barycentrics);
+    _ = progress(Progress { task: "oracle", done: 0, total: 0, unit: "building" });
+    let masked = posed.has_alpha_masks() && stage.dropped_triangles == 0;
+    let accept: Option<Accept<'_>> = if masked { Some(&accept) } else { None };
+    let oracle = Oracle::new(positions, indices, accept).map_err(device_error)?;
+    let oracle = oracle.with_backs(|primitive| posed.back_of(primitive));
     let bounds = stage.scene.geometry().bounds();
-    let center = views_center(&stage, bounds);
+    let center = views_center(stage, bounds);
     let source = RaySource {
-        view: &view,
-        frame_origin: origin,
+        view,
+        frame_origin: stage.scene.frame_origin(),
         bounds,
         center,
         oracle: &oracle,
-        positions: &positions,
-        indices: &indices,
+        positions,
+        indices,
         flags: RayFlags::of(&stage.scene),
     };
-
-    let generated = job.ray_sets.iter().map(|set| (set.name().to_owned(), source.rays(*set, job.rays)));
-    let given = job.rays_file.as_ref().map(|file| (FILE_SET.to_owned(), file.relative_to(origin.to_array())));
-    let sets = generated.chain(given);
     if let Some(index) = job.replay {
-        let setting = ReplaySetting { device, stage: &stage, oracle: &oracle, center };
-        return replay_sets(&setting, &job.systems, sets, index);
+        let setting = ReplaySetting { device, stage, oracle: &oracle, center };
+        let sets = (0..job.sets()).map(|set| job.rays_of(set, &source));
+        *comparison = replay_sets(&setting, &job.systems, sets, index)?;
+        return Ok(ControlFlow::Break(()));
     }
-    let Some(contestants) = Contestant::all(device, &stage, &job.systems, center, job.repetitions, progress)?
+    let places = job.cells_of_set();
+    let takes_part = |position| (0..job.sets()).any(|set| job.wants(set * places + position));
+    let around = (center, job.repetitions);
+    let Some(contestants) = Contestant::some(device, stage, &job.systems, takes_part, around, progress)?
     else {
-        return Ok(Comparison::default());
+        return Ok(ControlFlow::Break(()));
     };
-    let count = job.ray_sets.len() + usize::from(job.rays_file.is_some());
-    let total = (contestants.len() * (count + usize::from(job.image))) as u64;
-    let mut comparison = Comparison::default();
     if job.keep {
-        comparison.kept.frame_origin = origin.to_array();
-        comparison.kept.triangles = triangles(&positions, &indices);
+        comparison.kept.frame_origin = source.frame_origin.to_array();
+        comparison.kept.triangles = triangles(positions, indices);
         let back = |primitive| match posed.back_of(primitive) {
             None => 0,
             Some(Side::Clockwise) => 1,
@@ -94,34 +162,37 @@ pub(super) fn compare(
         };
         comparison.kept.backs = (0..posed.triangle_count()).map(back).collect();
     }
-    let wanted = Wanted {
-        repetitions: job.repetitions,
-        seed: frame.seed,
-        figures: job.figures,
-        keep: job.keep,
-        given_hits: &job.hits_files,
-    };
-    for (name, rays) in sets {
-        let done = comparison.runs.len() as u64;
-        if progress(Progress { task: &name, done, total, unit: "runs" }).is_break() {
-            return Ok(comparison);
+    let wanted =
+        Wanted { repetitions: job.repetitions, seed: job.frame.seed, figures: job.figures, keep: job.keep };
+    let total = job.wanted() as u64;
+    for set in 0..job.sets() {
+        let systems = (&contestants[..], job.systems.len());
+        let taking = Taking::of(set * places, systems, &job.hits_files, |place| job.wants(place));
+        if taking.is_empty() {
+            continue;
+        }
+        let (name, rays) = job.rays_of(set, &source);
+        let done = comparison.runs.len();
+        if progress(Progress { task: &name, done: done as u64, total, unit: "runs" }).is_break() {
+            return Ok(ControlFlow::Break(()));
         }
         let verdicts = oracle.closest_batch(&rays.iter().map(oracle_ray).collect::<Vec<_>>());
         let set = RaysWithTruth { name, rays, verdicts };
-        compare_set(device, &contestants, &set, wanted, |hits| hits, &mut comparison)?;
+        compare_set(device, &taking, &set, wanted, |hits| hits, comparison)?;
+        for (place, run) in comparison.places.iter().zip(&comparison.runs).skip(done) {
+            if finished(*place, run).is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+        }
         let done = comparison.runs.len() as u64;
-        if progress(Progress { task: &set.name, done, total, unit: "runs" }) == ControlFlow::Break(()) {
-            return Ok(comparison);
+        if progress(Progress { task: &set.name, done, total, unit: "runs" }).is_break() {
+            return Ok(ControlFlow::Break(()));
         }
     }
     if job.figures {
-        comparison.figures.work = work_maps(device, &stage, &contestants, &source, &comparison.runs)?;
+        comparison.figures.work = work_maps(device, stage, &contestants, &source, &comparison.runs)?;
     }
-    if job.image {
-        let setting = Setting { device, job, stage: &stage, posed: &posed, view: &view };
-        compare_images(&setting, &contestants, &mut comparison, progress)?;
-    }
-    Ok(comparison)
+    Ok(ControlFlow::Continue(()))
 }
 
 /// The views' centre of ray sets: a tenth of the way from the camera to the middle of the scene, so

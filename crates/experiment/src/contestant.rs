@@ -22,6 +22,21 @@ pub struct Contestant<'a> {
 }
 
 impl<'a> Contestant<'a> {
+    /// As [`Contestant::all`], of those systems that `takes_part` says by their position; each comes with it.
+    pub(super) fn some(
+        device: &Device,
+        stage: &DeviceScene,
+        systems: &'a [SystemConfig],
+        takes_part: impl Fn(usize) -> bool,
+        (center, repetitions): ([f32; 3], u32),
+        progress: &mut OnProgress<'_>,
+    ) -> Result<Option<Vec<(usize, Self)>>, ExperimentError> {
+        let positions: Vec<_> = (0..systems.len()).filter(|position| takes_part(*position)).collect();
+        let systems = positions.iter().map(|position| &systems[*position]);
+        let made = Self::all(device, stage, systems, center, repetitions, progress)?;
+        Ok(made.map(|made| positions.into_iter().zip(made).collect()))
+    }
+
     /// Makes the structures of all systems around `center` (metres, relative to the frame origin) and
     /// builds each `repetitions` times for its medians: one build of each in turn, so that what slows the
     /// machine for a while slows all of them. Nothing where `progress` asks for an early end before all are built.
@@ -31,7 +46,7 @@ impl<'a> Contestant<'a> {
     pub fn all(
         device: &Device,
         stage: &DeviceScene,
-        systems: &'a [SystemConfig],
+        systems: impl IntoIterator<Item = &'a SystemConfig>,
         center: [f32; 3],
         repetitions: u32,
         progress: &mut OnProgress<'_>,

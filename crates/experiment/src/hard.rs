@@ -18,7 +18,7 @@ use crate::measured::{Measured, Tolerance};
 use crate::placed::{Placed, case_camera};
 use crate::rays::triangles;
 use crate::replay::replay_case;
-use crate::traced_set::{RaysWithTruth, Wanted, compare_set};
+use crate::traced_set::{RaysWithTruth, Taking, Wanted, compare_set};
 
 /// Runs all systems on the rays of a case.
 pub(super) fn hard(
@@ -50,11 +50,13 @@ pub(super) fn hard(
         let task = format!("{}, {}", case.id, step.task);
         progress(Progress { task: &task, ..step })
     };
-    let Some(contestants) =
-        Contestant::all(device, &stage, job.systems, case.eye, job.repetitions, &mut of_case)?
+    let wants = |place: usize| job.only.as_ref().is_none_or(|only| only.contains(&place));
+    let around = (case.eye, job.repetitions);
+    let Some(contestants) = Contestant::some(device, &stage, job.systems, wants, around, &mut of_case)?
     else {
         return Ok(comparison);
     };
+    let taking = Taking::of(0, (&contestants, job.systems.len()), job.hits_files, wants);
     if progress(Progress { task: case.id, done: 0, total: 0, unit: "rays" }).is_break() {
         return Ok(comparison);
     }
@@ -62,15 +64,10 @@ pub(super) fn hard(
         comparison.kept.triangles = case.triangles.clone();
         comparison.kept.case = Some(case.id.to_owned());
     }
-    let wanted = Wanted {
-        repetitions: job.repetitions,
-        seed: job.seed,
-        figures: job.figures,
-        keep: job.keep,
-        given_hits: job.hits_files,
-    };
+    let wanted =
+        Wanted { repetitions: job.repetitions, seed: job.seed, figures: job.figures, keep: job.keep };
     let name = |hits: Vec<Hit>| hits.into_iter().map(|hit| placed.named(hit)).collect();
-    let answers = compare_set(device, &contestants, &set, wanted, name, &mut comparison)?;
+    let answers = compare_set(device, &taking, &set, wanted, name, &mut comparison)?;
     for ray in comparison.kept.sets.iter_mut().flat_map(|set| &mut set.rays) {
         ray.exclude_primitive = placed.id(ray.exclude_primitive);
     }

@@ -5,6 +5,9 @@ use rasray_hard_cases::{HardFile, Loading};
 use rasray_report::{HardRecord, Run};
 use rasray_scene_files::LoadOptions;
 
+/// System and preset of the run of a file.
+pub(super) const LOADER: (&str, &str) = ("loader", "file");
+
 /// Loads a file that must be refused, or read as stated: a run with its verdict.
 ///
 /// # Errors
@@ -38,9 +41,9 @@ pub fn compare_file(file: &HardFile) -> Result<Run, ExperimentError> {
         Loading::Read { .. } => "read as stated",
     };
     Ok(Run {
-        system: "loader".to_owned(),
+        system: LOADER.0.to_owned(),
         structure: "scene".to_owned(),
-        preset: "file".to_owned(),
+        preset: LOADER.1.to_owned(),
         ray_set: Some(file.id.to_owned()),
         hard: Some(HardRecord {
             id: file.id.to_owned(),

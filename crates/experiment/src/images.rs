@@ -1,30 +1,20 @@
 //! Images of the systems against the naive reference with the same random numbers.
 
-use rasray_gpu::Device;
 use rasray_metrics as metrics;
 use rasray_reference::integrators::{INTEGRATORS, Image, NaiveIntegrator};
 use rasray_reference::shading::{PosedScene, View};
 
-use crate::backend::OnProgress;
+use crate::backend::{OnProgress, OnRun};
 use crate::built::Built;
+use crate::compare::Setting;
 use crate::contestant::Contestant;
-use crate::device_scene::{DeviceScene, device_error};
+use crate::device_scene::device_error;
 use crate::error::ExperimentError;
-use crate::jobs::{CompareJob, Comparison, Frame, Primary};
+use crate::jobs::{Comparison, Frame, Primary};
 use crate::render::render_pixels;
 use crate::rendering::Rendering;
 use rasray_report::figures::{Images, SystemImage};
 use rasray_report::{ImageError, PassOf, Run};
-
-/// What images are made from.
-#[derive(Clone, Copy)]
-pub(super) struct Setting<'a> {
-    pub(super) device: &'a Device,
-    pub(super) job: &'a CompareJob<'a>,
-    pub(super) stage: &'a DeviceScene,
-    pub(super) posed: &'a PosedScene<'a>,
-    pub(super) view: &'a View,
-}
 
 /// The reference image of a frame; absent for integrators that it does not have.
 fn reference_image(
@@ -65,16 +55,24 @@ fn image_error(
     Ok((error, map))
 }
 
-/// Renders the frame through each system and compares it with the reference. A run named `reference`
-/// is the reference with another seed: what noise alone makes of the same numbers.
+/// System and preset of the run of the reference with another seed.
+pub(super) const NOISE: (&str, &str) = ("reference", "another-seed");
+
+/// Renders the frame through each system whose image is wanted and compares it with the reference. A run named
+/// `reference` is the reference with another seed: what noise alone makes of the same numbers.
 pub(super) fn compare_images(
     setting: &Setting<'_>,
-    contestants: &[Contestant<'_>],
     comparison: &mut Comparison,
+    finished: &mut OnRun<'_>,
     progress: &mut OnProgress<'_>,
 ) -> Result<(), ExperimentError> {
     let Setting { device, job, stage, posed, view } = *setting;
     let frame = &job.frame;
+    let of_noise = job.first_image() + job.systems.len();
+    let systems = || (job.first_image()..).zip(&job.systems).filter(|(place, _)| job.wants(*place));
+    if systems().next().is_none() && !job.wants(of_noise) {
+        return Ok(());
+    }
     let Some(reference) = reference_image(posed, view, frame)? else {
         let known: Vec<_> = INTEGRATORS.iter().map(|row| row.name).collect();
         return Err(ExperimentError::usage(
@@ -90,30 +88,30 @@ pub(super) fn compare_images(
             systems: Vec::new(),
         });
     }
-    let add =
-        |comparison: &mut Comparison, mut run: Run, pixels: Vec<[f32; 3]>| -> Result<(), ExperimentError> {
-            let (error, flip) = image_error(frame, &pixels, &reference, job.figures)?;
-            run.image = Some(error);
-            if let Some(images) = &mut comparison.figures.images {
-                images.systems.push(SystemImage { run: comparison.runs.len(), pixels, flip });
-            }
-            comparison.runs.push(run);
-            Ok(())
-        };
-    for contestant in contestants {
+    let mut add = |place: usize, mut run: Run, pixels: Vec<[f32; 3]>| {
+        let (error, flip) = image_error(frame, &pixels, &reference, job.figures)?;
+        run.image = Some(error);
+        if let Some(images) = &mut comparison.figures.images {
+            images.systems.push(SystemImage { run: comparison.runs.len(), pixels, flip });
+        }
+        let end = finished(place, &run);
+        comparison.add(place, run);
+        Ok::<_, ExperimentError>(end)
+    };
+    for (place, config) in systems() {
         // Images are taken as renders are: from a structure built around the camera.
-        let spec = contestant.config.spec()?;
+        let spec = config.spec()?;
         let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
         for _ in 0..job.repetitions {
             built.build_again(device)?;
         }
-        let task = format!("image {}", contestant.config.system.name);
+        let task = format!("image {}", config.system.name);
         let mut rendering = Rendering::new(device, stage, frame, None, &job.needs)?;
         let pixels = render_pixels(device, &mut rendering, &built, (true, &task), progress)?;
         if pixels.samples_done < frame.spp {
             return Ok(());
         }
-        let of_camera = Contestant { config: contestant.config, spec, built };
+        let of_camera = Contestant { config, spec, built };
         let mut run = of_camera.run(device)?;
         frame.describe(&mut run);
         pixels.write_times(&mut run.times);
@@ -121,19 +119,24 @@ pub(super) fn compare_images(
         run.stages.extend(pixels.passes.stages());
         run.passes.extend(pixels.passes.report(Some(PassOf::Image)));
         run.counters = Some(pixels.counters);
-        add(comparison, run, beauty)?;
+        if add(place, run, beauty)?.is_break() {
+            return Ok(());
+        }
+    }
+    if !job.wants(of_noise) {
+        return Ok(());
     }
     let other = View { seed: frame.seed.wrapping_add(1), ..view.clone() };
     if let Some(noise) = reference_image(posed, &other, frame)? {
         let mut run = Run {
-            system: "reference".to_owned(),
+            system: NOISE.0.to_owned(),
             structure: "oracle".to_owned(),
-            preset: "another-seed".to_owned(),
+            preset: NOISE.1.to_owned(),
             ..Run::default()
         };
         // What it sees first, it traces.
         Frame { seed: other.seed, primary: Primary::Trace, ..frame.clone() }.describe(&mut run);
-        add(comparison, run, noise.pixels)?;
+        _ = add(of_noise, run, noise.pixels)?;
     }
     Ok(())
 }

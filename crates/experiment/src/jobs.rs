@@ -11,7 +11,7 @@ use rasray_report::{Counters, Memory, Pass, Run, Spread, StageTime, Times};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Moment, Scene};
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Images in addition to the colours, from rays through pixel centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -122,6 +122,8 @@ pub struct CompareJob<'a> {
     pub replay: Option<u32>,
     /// What is uploaded, compiled in and stored; everything with `--needs all`.
     pub needs: Needs,
+    /// Places of the cells that are made, in the list of [`compare_cells`](crate::compare_cells); absent: all.
+    pub only: Option<BTreeSet<usize>>,
 }
 
 /// Systems side by side on a hard case.
@@ -143,6 +145,8 @@ pub struct HardJob<'a> {
     pub keep: bool,
     /// Instead of comparing: the ray that is replayed step by step, counted from 0.
     pub replay: Option<u32>,
+    /// Places of the cells that are made: the systems in their order, then the files of hits; absent: all.
+    pub only: Option<BTreeSet<usize>>,
 }
 
 /// What a comparison gave.
@@ -150,6 +154,8 @@ pub struct HardJob<'a> {
 pub struct Comparison {
     /// A run per system, preset and ray set, and per image where wanted.
     pub runs: Vec<Run>,
+    /// The place of the cell of each run: see [`CompareJob::only`].
+    pub places: Vec<usize>,
     /// Pictures and maps; empty unless [`CompareJob::figures`] asked for them.
     pub figures: Figures,
     /// Rays and answers; empty unless [`CompareJob::keep`] asked for them.
@@ -159,16 +165,10 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Adds the runs of another comparison, and its histograms with their runs counted on. Its images, maps, rays and
-    /// answers are left out.
-    pub fn append(&mut self, one: Self) {
-        let before = self.runs.len();
-        let errors = one.figures.depth_errors.into_iter().map(|mut errors| {
-            errors.run += before;
-            errors
-        });
-        self.figures.depth_errors.extend(errors);
-        self.runs.extend(one.runs);
+    /// Adds the run of a cell.
+    pub(crate) fn add(&mut self, place: usize, run: Run) {
+        self.places.push(place);
+        self.runs.push(run);
     }
 }
 

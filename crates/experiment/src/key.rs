@@ -4,6 +4,7 @@ use crate::jobs::{Frame, RenderJob};
 use rasray_options::OptionValues;
 use rasray_scene::Camera;
 use rasray_scene_source::{KeyHash, LoadedScene};
+use std::collections::BTreeMap;
 
 /// The key of the picture that a job makes of a scene, 64 hexadecimal digits: a hash of everything that decides its
 /// values. That is the program (`program`: version and commit), the contents of all files read or the built-in's name,
@@ -28,26 +29,35 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         needs: _,
         repetitions: _,
     } = job;
-    let Camera { name: _, world_from_camera, projection, aspect_ratio, lens } = camera;
     let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces } = frame;
     let size = [width, height];
-    let texts = |values: &OptionValues| -> Vec<(&str, String)> {
-        values.iter().map(|(name, value)| (name, value.to_string())).collect()
-    };
     let options = texts(&system.options);
-    // Numbers are written so that each reads back as the same.
-    KeyHash::default()
-        .with("program", program)
-        .with("scene", &loaded.content)
-        .with("file", loaded.sha256.as_deref().unwrap_or_default())
-        .with("time", format!("{:?}", loaded.pose.as_ref().map(|pose| (pose.time_s, &pose.clips))))
-        .with("smaller images", format!("{:?}", loaded.smaller_images))
-        .with("camera", format!("{world_from_camera:?} {projection:?} {aspect_ratio:?} {lens:?}"))
+    scene_hash(KeyHash::default().with("program", program), loaded)
+        .with("camera", camera_text(camera))
         .with("system", format!("{} {} {options:?}", system.system.name, system.preset.name()))
         .with("integrator", format!("{} {:?}", integrator.name(), texts(&integrator.values())))
         .with("frame", format!("{size:?} {spp} {seed} {sampler:?} {primary:?} {back_faces:?}"))
         .with("aovs", format!("{aovs:?}"))
         .finish()
+}
+
+/// With everything that a scene was made from, and the moment at which it is shown.
+pub(crate) fn scene_hash(hash: KeyHash, loaded: &LoadedScene) -> KeyHash {
+    hash.with("scene", &loaded.content)
+        .with("file", loaded.sha256.as_deref().unwrap_or_default())
+        .with("time", format!("{:?}", loaded.pose.as_ref().map(|pose| (pose.time_s, &pose.clips))))
+        .with("smaller images", format!("{:?}", loaded.smaller_images))
+}
+
+/// Everything of a camera that a picture depends on. Numbers are written so that each reads back as the same.
+pub(crate) fn camera_text(camera: &Camera) -> String {
+    let Camera { name: _, world_from_camera, projection, aspect_ratio, lens } = camera;
+    format!("{world_from_camera:?} {projection:?} {aspect_ratio:?} {lens:?}")
+}
+
+/// Options by name, as they read.
+pub(crate) fn texts(values: &OptionValues) -> BTreeMap<String, String> {
+    values.iter().map(|(name, value)| (name.to_owned(), value.to_string())).collect()
 }
 
 #[cfg(test)]

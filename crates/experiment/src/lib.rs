@@ -17,6 +17,7 @@
 mod automatic;
 mod backend;
 mod built;
+mod cell;
 mod compare;
 mod contestant;
 mod describe;
@@ -52,10 +53,11 @@ mod work_maps;
 
 pub use automatic::SystemRequest;
 pub use backend::{
-    Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OpenBackend, Progress,
+    Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OnRun, OpenBackend, Progress,
     TexelCapacity,
 };
 pub use built::{Built, Resolved};
+pub use cell::{CellList, HardSubject, cell_key, compare_cells, hard_cells};
 pub use contestant::Contestant;
 pub use describe::requirements;
 pub use device_scene::DeviceScene;

@@ -2,7 +2,7 @@
 
 use rasray_gpu::{Device as GpuDevice, DeviceDesc};
 
-use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, TexelCapacity};
+use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, OnRun, TexelCapacity};
 use crate::describe::requirements;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
@@ -64,9 +64,10 @@ impl Backend for Renderer {
     fn compare(
         &mut self,
         job: &CompareJob<'_>,
+        finished: &mut OnRun<'_>,
         progress: &mut OnProgress<'_>,
     ) -> Result<Comparison, ExperimentError> {
-        let comparison = crate::compare::compare(&self.device, job, progress)?;
+        let comparison = crate::compare::compare(&self.device, job, finished, progress)?;
         self.check_validation()?;
         Ok(comparison)
     }

@@ -8,6 +8,7 @@ use rasray_reference::oracle::{Oracle, OracleReplay};
 use rasray_reference::views::cells_along;
 use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, Replay};
+use serde_json::Value;
 
 use crate::built::Built;
 use crate::device_scene::{DeviceScene, device_error, tracer_error};
@@ -110,10 +111,11 @@ fn met(replay: &Replay, truth: &OracleReplay) -> String {
 
 /// Cells a side of a system's cube of views; absent where it has none.
 fn cube_resolution(built: &Built) -> Result<Option<u32>, ExperimentError> {
-    let report = built.structure().report().map_err(device_error)?;
-    let value = |name: &str| report.options.iter().find(|(known, _)| *known == name).map(|(_, value)| value);
-    let cube = value("views").is_some_and(|views| views.starts_with("cube"));
-    Ok(value("resolution").filter(|_| cube).and_then(|resolution| resolution.parse().ok()))
+    let (options, _) = built.resolved()?;
+    let views = options.get("views").and_then(Value::as_str);
+    let is_cube = views.is_some_and(|views| views.starts_with("cube"));
+    let resolution = options.get("resolution").filter(|_| is_cube).and_then(Value::as_u64);
+    Ok(resolution.map(|cells| cells as u32))
 }
 
 /// The cells that the ray truly crosses up to its hit, and which of them the system searched.

@@ -1,6 +1,8 @@
 //! One set of rays: traced through all systems in turns, compared with the truth, and kept where
 //! wanted.
 
+use std::borrow::Borrow;
+
 use rasray_ads::{Hit, QueueCounters, Ray, StructureKind, TraceMode};
 use rasray_gpu::Device;
 use rasray_reference::oracle::{Outcome, Verdict};
@@ -18,6 +20,9 @@ use rasray_report::{PassOf, Run, Times};
 /// Most rays that are traced at a time.
 const BATCH: usize = 131_072;
 
+/// Preset of the runs of hits that were found elsewhere.
+pub(super) const GIVEN: &str = "given";
+
 /// Rays with their truth.
 pub(super) struct RaysWithTruth {
     /// Such as `camera`.
@@ -28,9 +33,40 @@ pub(super) struct RaysWithTruth {
     pub(super) verdicts: Vec<Verdict>,
 }
 
+/// Who answers a set, each with the place of its cell.
+#[derive(Default)]
+pub(super) struct Taking<'a> {
+    /// Systems, which trace it in turns.
+    pub(super) systems: Vec<(usize, &'a Contestant<'a>)>,
+    /// Hits found elsewhere, evaluated like a system's.
+    pub(super) given: Vec<(usize, &'a HitsFile)>,
+}
+
+impl<'a> Taking<'a> {
+    /// Those whose cells are wanted. Places go on from `first`: all `systems` with their positions in the job, which
+    /// `count` is the number of, then the files of hits.
+    pub(super) fn of(
+        first: usize,
+        (contestants, count): (&'a [(usize, Contestant<'a>)], usize),
+        given: &'a [HitsFile],
+        wants: impl Fn(usize) -> bool,
+    ) -> Self {
+        let systems = contestants.iter().map(|(position, contestant)| (first + position, contestant));
+        let given = given.iter().enumerate().map(|(position, file)| (first + count + position, file));
+        Self {
+            systems: systems.filter(|(place, _)| wants(*place)).collect(),
+            given: given.filter(|(place, _)| wants(*place)).collect(),
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.systems.is_empty() && self.given.is_empty()
+    }
+}
+
 /// What is wanted of every set.
 #[derive(Clone, Copy)]
-pub(super) struct Wanted<'a> {
+pub(super) struct Wanted {
     /// Times each set is traced after once to warm up, at least 1.
     pub(super) repetitions: u32,
     /// What the rays were drawn with.
@@ -39,8 +75,6 @@ pub(super) struct Wanted<'a> {
     pub(super) figures: bool,
     /// Whether rays, truth and hits are kept.
     pub(super) keep: bool,
-    /// Hits found elsewhere, evaluated like a system's.
-    pub(super) given_hits: &'a [HitsFile],
 }
 
 /// What one system answered to one set.
@@ -55,17 +89,17 @@ pub struct TracedSet {
     pub(super) passes: Passes,
 }
 
-/// Traces a set through all systems, in turns, and adds a run for each to the comparison. `name_hits`
+/// Traces a set through the systems, in turns, and adds a run for each to the comparison. `name_hits`
 /// gives hits of the device the ids of the truth. Returns the answers of each new run, so named.
 pub(super) fn compare_set(
     device: &Device,
-    contestants: &[Contestant<'_>],
+    taking: &Taking<'_>,
     set: &RaysWithTruth,
-    wanted: Wanted<'_>,
+    wanted: Wanted,
     name_hits: impl Fn(Vec<Hit>) -> Vec<Hit>,
     comparison: &mut Comparison,
 ) -> Result<Vec<Answers>, ExperimentError> {
-    for given in wanted.given_hits {
+    for (_, given) in &taking.given {
         if given.hits.len() != set.rays.len() {
             return Err(ExperimentError::usage(
                 format!(
@@ -80,28 +114,28 @@ pub(super) fn compare_set(
         }
     }
     let mut answers = Vec::new();
-    for (contestant, mut traced) in
-        contestants.iter().zip(trace_in_turns(device, contestants, &set.rays, wanted.repetitions)?)
-    {
+    let contestants: Vec<_> = taking.systems.iter().map(|(_, contestant)| *contestant).collect();
+    let traces = trace_in_turns(device, &contestants, &set.rays, wanted.repetitions)?;
+    for ((place, contestant), mut traced) in taking.systems.iter().zip(traces) {
         traced.hits = name_hits(traced.hits);
         let mut run = run_of(device, contestant, set, &traced, wanted.seed)?;
         let kind = contestant.built.structure().kind();
         evaluate(&mut run, kind, &set.verdicts, &traced.hits, wanted.figures, comparison)?;
         answers.push(Answers { name: format!("{}-{}", run.system, run.preset), kind, hits: traced.hits });
-        comparison.runs.push(run);
+        comparison.add(*place, run);
     }
-    for given in wanted.given_hits {
+    for (place, given) in &taking.given {
         let mut run = Run {
             system: given.name.clone(),
             structure: "file".to_owned(),
-            preset: "given".to_owned(),
+            preset: GIVEN.to_owned(),
             ray_set: Some(set.name.clone()),
             ..Run::default()
         };
         evaluate(&mut run, StructureKind::Primitive, &set.verdicts, &given.hits, wanted.figures, comparison)?;
-        comparison.runs.push(run);
+        comparison.add(*place, run);
     }
-    let others = wanted.given_hits.iter().map(|given| Answers {
+    let others = taking.given.iter().map(|(_, given)| Answers {
         name: given.name.clone(),
         kind: StructureKind::Primitive,
         hits: given.hits.clone(),
@@ -139,9 +173,9 @@ fn evaluate(
 ///
 /// # Errors
 /// The device fails, or rays do not finish.
-pub fn trace_in_turns(
+pub fn trace_in_turns<'a>(
     device: &Device,
-    contestants: &[Contestant<'_>],
+    contestants: &[impl Borrow<Contestant<'a>>],
     rays: &[Ray],
     repetitions: u32,
 ) -> Result<Vec<TracedSet>, ExperimentError> {
@@ -151,7 +185,7 @@ pub fn trace_in_turns(
     for repetition in 0..=repetitions {
         for (contestant, traced) in contestants.iter().zip(&mut traces) {
             let outcome = tracer
-                .trace(contestant.built.structure(), rays, TraceMode::Closest, timing)
+                .trace(contestant.borrow().built.structure(), rays, TraceMode::Closest, timing)
                 .map_err(|e| tracer_error(&e))?;
             if repetition == 0 {
                 traced.hits = outcome.hits;

@@ -23,13 +23,13 @@ const BATCH: usize = 131_072;
 pub(super) fn work_maps(
     device: &Device,
     stage: &DeviceScene,
-    contestants: &[Contestant<'_>],
+    contestants: &[(usize, Contestant<'_>)],
     source: &RaySource<'_>,
     runs: &[Run],
 ) -> Result<Vec<WorkMap>, ExperimentError> {
     let View { camera, width, height, .. } = source.view;
     let mut maps = Vec::new();
-    for contestant in contestants {
+    for (_, contestant) in contestants {
         let Some(run) = run_of(contestant, runs) else { continue };
         let work = work_per_pixel(device, stage, &contestant.spec, source.center, camera, [*width, *height])?;
         if let Some(work) = work {

@@ -1,5 +1,6 @@
 //! Experiments as a program of one's own runs them: without a command line.
 
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 
@@ -10,6 +11,7 @@ use rasray_experiment::{
 };
 use rasray_hard_cases::Scale;
 use rasray_ray_files::HitsFile;
+use rasray_report::Run;
 use rasray_scene::needs::Needs;
 use rasray_scene_source::{LoadedScene, default_view, load};
 use rasray_systems::{Preset, System};
@@ -53,6 +55,7 @@ fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> Comp
         keep: true,
         replay: None,
         needs,
+        only: None,
     }
 }
 
@@ -64,7 +67,9 @@ fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
     let names = ["bricks", "brute-force"];
     let sets = [RaySet::Incoherent, RaySet::Surface];
     let Comparison { runs, mut kept, .. } = backend
-        .compare(&job(&loaded, &names, &sets), &mut |_| ControlFlow::Continue(()))
+        .compare(&job(&loaded, &names, &sets), &mut |_, _| ControlFlow::Continue(()), &mut |_| {
+            ControlFlow::Continue(())
+        })
         .expect("the device works");
     let shape: Vec<_> = runs.iter().map(|run| (run.system.as_str(), run.ray_set.as_deref())).collect();
     let expected = sets.map(|set| names.map(|name| (name, Some(set.name())))).concat();
@@ -78,6 +83,25 @@ fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
         );
     }
 
+    // Cells by themselves: the same answers, each told of as it is whole; another set is not traced.
+    let mut one = job(&loaded, &names, &sets);
+    one.only = Some(BTreeSet::from([3]));
+    let mut told = Vec::new();
+    let mut finished = |place: usize, run: &Run| {
+        told.push((place, run.system.clone()));
+        ControlFlow::Continue(())
+    };
+    let alone =
+        backend.compare(&one, &mut finished, &mut |_| ControlFlow::Continue(())).expect("the device works");
+    assert_eq!((alone.places, told), (vec![3], vec![(3, "brute-force".to_owned())]));
+    assert_eq!(alone.runs[0].accuracy, runs[3].accuracy);
+    assert_eq!(alone.kept.sets.len(), 1);
+    let mut stopped = |_: usize, _: &Run| ControlFlow::Break(());
+    let first = backend
+        .compare(&job(&loaded, &names, &sets), &mut stopped, &mut |_| ControlFlow::Continue(()))
+        .expect("the device works");
+    assert_eq!(first.places, [0, 1], "systems take turns on a set");
+
     // The same hits again, but for one that is lost.
     let set = kept.sets.swap_remove(0);
     let mut hits = set.answers[0].hits.clone();
@@ -86,7 +110,10 @@ fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
     hits[lost].primitive = PRIMITIVE_NONE;
     let mut again = job(&loaded, &names[..1], &sets[..1]);
     again.hits_files = vec![HitsFile { name: "given".to_owned(), hits }];
-    let runs = backend.compare(&again, &mut |_| ControlFlow::Continue(())).expect("the device works").runs;
+    let runs = backend
+        .compare(&again, &mut |_, _| ControlFlow::Continue(()), &mut |_| ControlFlow::Continue(()))
+        .expect("the device works")
+        .runs;
     let missed: Vec<_> =
         runs.iter().map(|run| run.accuracy.as_ref().map(|accuracy| accuracy.missed)).collect();
     assert_eq!(missed, [Some(0), Some(1)]);
@@ -106,6 +133,7 @@ fn a_hard_case_has_a_verdict_and_a_wrong_answer_breaks_it() {
         hits_files: &[],
         keep: true,
         replay: None,
+        only: None,
     };
     let mut backend = open(&DeviceChoice::default()).expect("a device");
     let whole = backend.hard(&hard, &mut |_| ControlFlow::Continue(())).expect("the device works");

@@ -11,6 +11,19 @@ pub struct Figures {
     pub depth_errors: Vec<DepthErrors>,
 }
 
+impl Figures {
+    /// The same where runs are at other positions, which `place` gives.
+    #[must_use]
+    pub fn moved(mut self, place: impl Fn(usize) -> usize) -> Self {
+        let images =
+            self.images.iter_mut().flat_map(|images| &mut images.systems).map(|image| &mut image.run);
+        let work = self.work.iter_mut().map(|map| &mut map.run);
+        let errors = self.depth_errors.iter_mut().map(|errors| &mut errors.run);
+        images.chain(work).chain(errors).for_each(|run| *run = place(*run));
+        self
+    }
+}
+
 /// Images of one size; linear Rec. 709, W/(sr m^2), rows from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Images {

@@ -3,6 +3,7 @@
 
 mod absent;
 mod accuracy;
+mod cell;
 pub mod colour_scale;
 mod cost;
 pub mod figures;
@@ -16,6 +17,7 @@ mod text;
 mod words;
 
 pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
+pub use cell::{Cell, CellImage, CellRays, CellRecord, CellView};
 pub use cost::{Counters, Memory, Pass, PassOf, Spread, StageTime, Timer, Times};
 pub use schema::{
     CameraRecord, Device, FramesRecord, PoseRecord, Report, Run, SCHEMA, SceneRecord, SmallerImageRecord,
@@ -61,6 +63,7 @@ impl Report {
             device,
             scene,
             camera: None,
+            cell: None,
             statistics,
             runs,
         }

@@ -1,6 +1,7 @@
 //! A report and its runs. A measurement that was not made is an absent field, never 0.
 
 use crate::accuracy::{Accuracy, HardRecord, ImageError};
+use crate::cell::CellRecord;
 use crate::cost::{Counters, Memory, Pass, Spread, StageTime, Times};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -30,6 +31,9 @@ pub struct Report {
     /// From where it was seen; absent for hard cases, which have an eye of their own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraRecord>,
+    /// Of a comparison, which of its runs this is, where each has a line of its own; absent otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cell: Option<CellRecord>,
     /// What the intervals of all rates hold together; absent where no rate was estimated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statistics: Option<Statistics>,
@@ -285,6 +289,16 @@ mod tests {
         let value = serde_json::to_value(&run).expect("plain data");
         let keys: Vec<_> = value.as_object().expect("an object").keys().map(String::as_str).collect();
         assert_eq!(keys, ["options", "paths", "preset", "structure", "system"]);
+    }
+
+    #[test]
+    fn numbers_read_back_to_the_last_bit() {
+        for time in [3.639_595_686_561_530_7e-9, 0.1 + 0.2, f64::MIN_POSITIVE, f64::MAX, 5.0e-324] {
+            let run =
+                Run { times: Times { build_ms: Some(time), ..Default::default() }, ..Default::default() };
+            let text = serde_json::to_string(&run).expect("plain data");
+            assert_eq!(serde_json::from_str::<Run>(&text).expect("a run"), run);
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::structure::{preset_parser, ray_set_parser, system_parser};
 use super::values;
 use crate::error::AppError;
 use clap::Args;
-use rasray_experiment::{RaySet, SystemConfig, several_systems};
+use rasray_experiment::{RaySet, Shard, SystemConfig, several_systems};
 use rasray_systems::{Preset, System};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -21,6 +21,7 @@ Examples:
   rasray compare scene.glb --systems mmrt --rays-file out/bounce.rays --hits-file other=other.npy
   rasray compare hard: (lists the hard cases)
   rasray compare hard:all --systems mmrt,brute-force --check
+  rasray compare hard:all --systems mmrt --report 1.jsonl --shard 1/4 --resume    (then: rasray merge)
   rasray compare cornell --systems mmrt --presets published --ray-set incoherent --replay 17
 
 Every system traces the same rays and is compared with an oracle in double precision. Rays that no f32
@@ -29,9 +30,14 @@ them. An option goes to the systems that have it; SYSTEM.OPTION=VALUE addresses 
 SYSTEM-PRESET.OPTION=VALUE one preset of it; mmrt.buckets=1,4,8 takes part once with each value.
 Times of software devices are for ratios on that device.
 
+With --report NAME.jsonl each run is a line, which is whole or not there after a kill: --resume makes the others. Systems
+take turns with those that are made by the same process; rasray merge makes one report of the shares.
+
 SIGINT (Ctrl-C), SIGTERM or SIGHUP: the report holds the runs that were whole, of hard:all the cases, exit code 130;
 where none is, the command ends within two seconds and writes nothing. A build or a trace that is under way
 ends first. A second signal stops at once and writes nothing.";
+
+const SHARES: &str = "Resuming and shares";
 
 /// Options of `rasray compare`.
 #[derive(Debug, Args)]
@@ -71,7 +77,7 @@ pub struct CompareArguments {
     /// Also render an image with each system and compare it with the reference
     #[arg(long)]
     pub image: bool,
-    /// JSON with everything that was measured; - is standard output
+    /// JSON with everything that was measured; - is standard output; a .jsonl takes a line per run as soon as it is whole
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
     /// Page with tables, pictures and graphs, whole in one file
@@ -80,6 +86,15 @@ pub struct CompareArguments {
     /// Markdown table of all ray sets, a line a run
     #[arg(long, value_name = "FILE")]
     pub markdown: Option<PathBuf>,
+    /// Go on with a --report .jsonl: runs that it holds are left alone. A line of another program, device or comparison is
+    /// refused
+    #[arg(long, requires = "report", conflicts_with_all = ["replay", "save_rays", "save_hits"], help_heading = SHARES)]
+    pub resume: bool,
+    /// One of N shares of the work, I from 1 to N, for rasray merge: each Nth set of rays or hard case, whose systems take
+    /// turns; all images count as one
+    #[arg(long, value_name = "I/N", value_parser = values::shard, requires = "report",
+          conflicts_with_all = ["replay", "save_rays", "save_hits"], help_heading = SHARES)]
+    pub shard: Option<Shard>,
     /// Rays for others and from others.
     #[command(flatten)]
     pub files: RayFileArguments,

@@ -6,12 +6,15 @@ use super::targets::Targets;
 use crate::arguments::CompareArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::output;
+use crate::output::{self, Cells};
 use crate::terminal::{self, Talk};
-use crate::version::origin;
-use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet, check_run, count_not_uploaded};
+use crate::version::{origin, version_text};
+use rasray_experiment::{
+    CompareJob, Comparison, OpenBackend, RaySet, check_run, compare_cells, count_not_uploaded,
+};
 use rasray_ray_files::{load_hits, load_rays};
-use rasray_report::{Report, table_within};
+use rasray_report::{Run, table_within};
+use std::ops::ControlFlow;
 
 /// Rays per set unless told.
 const DEFAULT_RAYS: u32 = 200_000;
@@ -63,9 +66,7 @@ pub(crate) fn compare(
     let needs = given.work.reading.needs(&loaded.scene, frame.workload());
     fit_images(&mut loaded, &needs, backend.as_ref())?;
     count_not_uploaded(&mut loaded, &chosen.camera, &needs);
-    let sets = ray_sets.len() + usize::from(rays_file.is_some());
-    let wanted = systems.len() * (sets + usize::from(given.image)) + hits_files.len();
-    let job = CompareJob {
+    let mut job = CompareJob {
         scene: &loaded.scene,
         camera: chosen.camera.clone(),
         systems,
@@ -80,34 +81,76 @@ pub(crate) fn compare(
         keep: targets.save().any(),
         replay: given.replay,
         needs,
+        only: None,
     };
-    let Comparison { runs, figures, kept, replay } =
-        with_progress(interrupt, |progress| progress.done > 0, |progress| backend.compare(&job, progress))?;
+    let list = compare_cells(version_text(), &loaded, &job);
+    let program = (origin(line), backend.device());
+    let mut cells = Cells::open(list, program, targets.lines(), (given.resume, interrupt))?;
+    let wanted = cells.missing(given.shard)?;
+    let count = wanted.len();
+    note_resumed(&cells, count);
+    job.only = Some(wanted);
+    let mut failed = None;
+    let mut finished = |place: usize, run: &Run| {
+        let about = (loaded.record(), Some(chosen.record()));
+        failed = cells.add(place, run.clone(), about, interrupt).err();
+        if failed.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let Comparison { places, figures, kept, replay, .. } = if count == 0 {
+        Comparison::default()
+    } else {
+        with_progress(
+            interrupt,
+            |progress| progress.done > 0,
+            |progress| backend.compare(&job, &mut finished, progress),
+        )?
+    };
+    if let Some(error) = failed {
+        return Err(error);
+    }
     if let Some(text) = replay {
         return terminal::print(&text);
     }
-    let finished = runs.len();
-    if finished == 0 && interrupt.requested() {
+    let Some(report) = cells.report() else {
         return Err(AppError::interrupted("stopped before the first run was whole; nothing was written", ""));
-    }
-
-    let report =
-        Report::new(origin(line), backend.device(), loaded.record(), runs).seen_from(chosen.record());
+    };
+    cells.note();
     output::save(targets.save(), &kept, interrupt)?;
+    let figures = figures.moved(|run| cells.run(places[run]));
     targets.write(&report, &figures, interrupt)?;
     terminal::summarize(
         &table_within(&report, Some(&chosen.described()), terminal::says(Talk::Verbose), terminal::width()),
         targets.take_stdout(),
     )?;
     report.runs.iter().try_for_each(check_run)?;
-    if finished < wanted && interrupt.requested() {
-        let kept = if targets.any() { "the report holds them" } else { "no report was asked for" };
-        return Err(AppError::interrupted(
-            format!("stopped after {finished} of {wanted} runs; {kept}"),
-            "run again for all of them",
+    stop_after(&targets, (places.len(), count), "runs", interrupt)
+}
+
+/// Says that a command goes on.
+pub(super) fn note_resumed(cells: &Cells, missing: usize) {
+    if cells.count() > 0 {
+        terminal::note(&format!(
+            "{} of {} runs are there already, {missing} are made",
+            cells.count(),
+            cells.list().len()
         ));
     }
-    Ok(())
+}
+
+/// The end of a command that a signal stopped before all was done.
+pub(super) fn stop_after(
+    targets: &Targets,
+    (finished, wanted): (usize, usize),
+    what: &str,
+    interrupt: &Interrupt,
+) -> Result<(), AppError> {
+    if finished >= wanted || !interrupt.requested() {
+        return Ok(());
+    }
+    let kept = if targets.any() { "the report holds them" } else { "no report was asked for" };
+    let again =
+        if targets.lines().is_some() { "run again with --resume" } else { "run again for all of them" };
+    Err(AppError::interrupted(format!("stopped after {finished} of {wanted} {what}; {kept}"), again))
 }
 
 /// The generated sets that are wanted, each once, in the order given.

@@ -1,20 +1,25 @@
 //! `rasray compare hard:<id>`: scenes and rays that break ray tracers.
 
+use super::compare::{note_resumed, stop_after};
 use super::steps::{open_device, stop_if_requested, with_progress};
 use super::targets::Targets;
 use crate::arguments::CompareArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::output;
+use crate::output::{self, Cells};
 use crate::terminal::{self, Talk};
-use crate::version::origin;
+use crate::version::{origin, version_text};
 use rasray_experiment::{
-    Backend, Comparison, HardJob, OpenBackend, SystemConfig, check_run, compare_file, integrator_options,
+    Backend, Comparison, HardJob, HardSubject, OpenBackend, SystemConfig, check_run, compare_file,
+    hard_cells, integrator_options,
 };
 use rasray_hard_cases::Scale;
 use rasray_ray_files::{HitsFile, load_hits};
-use rasray_report::{Report, Run, SceneRecord, columns, table_within};
+use rasray_report::figures::Figures;
+use rasray_report::{Run, SceneRecord, columns, table_within};
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
+use std::ops::Range;
 
 /// Rays of generated cases unless told.
 const DEFAULT_RAYS: u32 = 2000;
@@ -47,51 +52,67 @@ pub(super) fn compare(
     let mut backend = open_device(open, &given.work.device)?;
     stop_if_requested(interrupt)?;
 
-    let mut whole = Comparison::default();
-    let mut triangles = 0;
+    let subject = Subject { systems: &systems, hits_files: &hits_files, targets: &targets };
+    if given.replay.is_some() {
+        return replay(given, &ids, subject, backend.as_mut(), interrupt);
+    }
+    let files: Vec<_> = rasray_hard_cases::files().collect();
+    let file = |id: &str| files.iter().find(|file| file.id == id);
+    let cases = ids.iter().map(|id| file(id).map_or(HardSubject::Rays(id), HardSubject::File));
+    let list = hard_cells(version_text(), cases, &systems, &hits_files, scale(given), given.repetitions);
+    let groups = list.groups().to_vec();
+    let program = (origin(line), backend.device());
+    let mut cells = Cells::open(list, program, targets.lines(), (given.resume, interrupt))?;
+    let missing = cells.missing(given.shard)?;
+    note_resumed(&cells, missing.len());
+    let of_case = |places: &Range<usize>| -> BTreeSet<usize> {
+        missing.range(places.clone()).map(|place| place - places.start).collect()
+    };
+    let wanted: Vec<_> = ids.iter().zip(&groups).filter(|(_, places)| !of_case(places).is_empty()).collect();
+    let mut figures = Figures::default();
     let mut finished = 0;
     let mut failed = None;
-    for id in &ids {
+    for (case, places) in &wanted {
         if interrupt.requested() {
             break;
         }
-        if let Some(file) = rasray_hard_cases::files().find(|file| file.id == *id) {
-            whole.runs.push(compare_file(&file)?);
-        } else {
-            let subject = Subject { id, systems: &systems, hits_files: &hits_files, targets: &targets };
-            let (one, count) = match trace(given, subject, backend.as_mut(), interrupt) {
-                Ok(traced) => traced,
-                // What was whole before is kept.
-                Err(error) if finished > 0 && given.replay.is_none() => {
-                    failed = Some(error);
-                    break;
-                }
-                Err(error) => return Err(error),
-            };
-            if let Some(text) = &one.replay {
-                terminal::print(text)?;
-            } else if one.runs.is_empty() {
-                // A signal ended the case before it was whole.
+        let traced = match file(case) {
+            Some(file) => Ok((
+                Comparison { runs: vec![compare_file(file)?], places: vec![0], ..Comparison::default() },
+                0,
+            )),
+            None => trace(given, case, subject, Some(of_case(places)), backend.as_mut(), interrupt),
+        };
+        let (one, triangles) = match traced {
+            Ok(traced) => traced,
+            // What was whole before is kept.
+            Err(error) if finished > 0 => {
+                failed = Some(error);
                 break;
             }
-            output::save(targets.save(), &one.kept, interrupt)?;
-            triangles += count;
-            whole.append(one);
+            Err(error) => return Err(error),
+        };
+        if one.runs.is_empty() {
+            // A signal ended the case before it was whole.
+            break;
         }
+        output::save(targets.save(), &one.kept, interrupt)?;
+        let place = |run: usize| places.start + one.places[run];
+        let scene = SceneRecord { name: format!("hard:{id}"), triangles, ..SceneRecord::default() };
+        for (number, run) in one.runs.into_iter().enumerate() {
+            cells.add(place(number), run, (scene.clone(), None), interrupt)?;
+        }
+        figures.depth_errors.extend(one.figures.moved(place).depth_errors);
         finished += 1;
     }
-    if finished == 0 {
+    let Some(report) = cells.report() else {
         return Err(AppError::interrupted(
             "stopped before the first case was whole; nothing was written",
             "",
         ));
-    }
-    if given.replay.is_some() {
-        return Ok(());
-    }
-    let scene = SceneRecord { name: format!("hard:{id}"), triangles, ..SceneRecord::default() };
-    let report = Report::new(origin(line), backend.device(), scene, whole.runs);
-    targets.write(&report, &whole.figures, interrupt)?;
+    };
+    cells.note();
+    targets.write(&report, &figures.moved(|place| cells.run(place)), interrupt)?;
     terminal::summarize(
         &table_within(&report, None, terminal::says(Talk::Verbose), terminal::width()),
         targets.take_stdout(),
@@ -99,19 +120,28 @@ pub(super) fn compare(
     if let Some(error) = failed {
         terminal::warn(&format!(
             "{finished} of {} cases were whole before the error, and only they are reported",
-            ids.len()
+            wanted.len()
         ));
         return Err(error);
     }
     report.runs.iter().try_for_each(check_run)?;
-    if finished < ids.len() {
-        let kept = if targets.any() { "the report holds them" } else { "no report was asked for" };
-        return Err(AppError::interrupted(
-            format!("stopped after {finished} of {} cases; {kept}", ids.len()),
-            "run again for all of them",
-        ));
-    }
+    stop_after(&targets, (finished, wanted.len()), "cases", interrupt)?;
     if given.check { check_targets(&report.runs) } else { Ok(()) }
+}
+
+/// Shows what becomes of one ray of each case.
+fn replay(
+    given: &CompareArguments,
+    ids: &[&str],
+    subject: Subject<'_>,
+    backend: &mut dyn Backend,
+    interrupt: &Interrupt,
+) -> Result<(), AppError> {
+    for id in ids.iter().filter(|id| !rasray_hard_cases::file_ids().contains(id)) {
+        let (one, _) = trace(given, id, subject, None, backend, interrupt)?;
+        one.replay.iter().try_for_each(|text| terminal::print(text))?;
+    }
+    Ok(())
 }
 
 /// The ids that are meant.
@@ -186,42 +216,44 @@ fn hits_files(given: &CompareArguments, ids: &[&str]) -> Result<Vec<HitsFile>, A
     given.files.hits_file.iter().map(|file| Ok(load_hits(&file.name, &file.path)?)).collect()
 }
 
-/// A case with what it is traced through.
+/// What cases are traced through.
 #[derive(Clone, Copy)]
 struct Subject<'a> {
-    id: &'a str,
     systems: &'a [SystemConfig],
     hits_files: &'a [HitsFile],
     targets: &'a Targets,
 }
 
-/// Traces one case; returns its triangles as well.
-fn trace(
-    given: &CompareArguments,
-    subject: Subject<'_>,
-    backend: &mut dyn Backend,
-    interrupt: &Interrupt,
-) -> Result<(Comparison, u64), AppError> {
-    let seed = given.work.frame.seed;
+/// How cases are made.
+fn scale(given: &CompareArguments) -> Scale {
     // A ray does not depend on how many there are.
     let fewest = given.replay.map_or(0, |index| index.saturating_add(1));
     let rays = given.rays.unwrap_or(DEFAULT_RAYS.max(fewest)) as usize;
-    let scale = Scale { rays, seed: seed.into(), full: given.full };
-    let case = rasray_hard_cases::case(subject.id, scale).ok_or_else(|| {
-        AppError::usage(
-            format!("there is no hard case '{}'", subject.id),
-            "'rasray compare hard:' lists them",
-        )
+    Scale { rays, seed: given.work.frame.seed.into(), full: given.full }
+}
+
+/// Traces one case; returns its triangles as well.
+fn trace(
+    given: &CompareArguments,
+    id: &str,
+    subject: Subject<'_>,
+    only: Option<BTreeSet<usize>>,
+    backend: &mut dyn Backend,
+    interrupt: &Interrupt,
+) -> Result<(Comparison, u64), AppError> {
+    let case = rasray_hard_cases::case(id, scale(given)).ok_or_else(|| {
+        AppError::usage(format!("there is no hard case '{id}'"), "'rasray compare hard:' lists them")
     })?;
     let job = HardJob {
         case: &case,
         systems: subject.systems,
         repetitions: given.repetitions,
-        seed,
+        seed: given.work.frame.seed,
         figures: subject.targets.has_page(),
         hits_files: subject.hits_files,
         keep: subject.targets.save().any(),
         replay: given.replay,
+        only,
     };
     let comparison =
         with_progress(interrupt, |progress| progress.done > 0, |progress| backend.hard(&job, progress))?;

@@ -1,7 +1,9 @@
 //! `rasray merge`.
 
 use super::images::write_image;
+use super::merge_cells::{cells_are_in, merge_cells};
 use super::picture_targets::check_format;
+use super::targets::Form;
 use crate::arguments::MergeArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
@@ -22,8 +24,15 @@ pub(crate) fn merge(given: &MergeArguments, interrupt: &Interrupt) -> Result<(),
     if let Some(part) = given.parts.iter().find(|part| place.is(part)) {
         return Err(AppError::input(part, "is a part and the result as well", "name another file first"));
     }
-    if Rows::are_in(&given.out) {
-        return merge_rows(given, &place, interrupt);
+    if Rows::are_in(&given.out) || Form::named(&given.out).is_some() {
+        if given.exposure.is_some() {
+            return Err(AppError::usage("--exposure is of pictures, and these are reports", "leave it out"));
+        }
+        return if Form::named(&given.out).is_some() || cells_are_in(given) {
+            merge_cells(given, &place, interrupt)
+        } else {
+            merge_rows(given, &place, interrupt)
+        };
     }
     let format = ImageFormat::of(&given.out)?;
     check_format(&given.out, format, false, given.exposure)?;

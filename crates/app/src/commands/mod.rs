@@ -7,6 +7,7 @@ mod hard;
 mod images;
 mod info;
 mod merge;
+mod merge_cells;
 mod picture_targets;
 mod pictures;
 mod render;

@@ -4,14 +4,17 @@ use super::steps::{destination, keep_inputs};
 use crate::arguments::CompareArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::output::{Destination, SaveTargets};
+use crate::output::{Destination, Rows, SaveTargets};
 use rasray_report::figures::Figures;
 use rasray_report::{Report, json_shown, markdown};
 use std::ffi::OsStr;
+use std::path::Path;
 
 /// Where results go.
 pub(super) struct Targets {
     report: Option<Destination>,
+    /// A report that takes a line for each cell.
+    lines: Option<Destination>,
     html: Option<Destination>,
     markdown: Option<Destination>,
     save: SaveTargets,
@@ -40,7 +43,21 @@ impl Targets {
         keep_inputs("--html", html.as_ref(), scene)?;
         keep_inputs("--markdown", markdown.as_ref(), scene)?;
         let save = SaveTargets::check(given.files.save_rays.as_deref(), given.files.save_hits.as_deref())?;
-        Ok(Self { report, html, markdown, save })
+        let takes_lines = given.report.as_deref().is_some_and(Rows::are_in);
+        if !takes_lines && (given.resume || given.shard.is_some()) {
+            let option = if given.resume { "--resume" } else { "--shard" };
+            return Err(AppError::usage(
+                format!("{option} is of a report with a line per run"),
+                "name a .jsonl: --report NAME.jsonl; rasray merge makes a .json of it",
+            ));
+        }
+        let (report, lines) = if takes_lines { (None, report) } else { (report, None) };
+        Ok(Self { report, lines, html, markdown, save })
+    }
+
+    /// The report that takes a line for each cell.
+    pub(super) fn lines(&self) -> Option<&Destination> {
+        self.lines.as_ref()
     }
 
     /// Whether a page is wanted, and with it figures.
@@ -60,7 +77,7 @@ impl Targets {
 
     /// Whether a file keeps the runs.
     pub(super) fn any(&self) -> bool {
-        self.report.is_some() || self.html.is_some() || self.markdown.is_some()
+        [&self.report, &self.lines, &self.html, &self.markdown].into_iter().any(Option::is_some)
     }
 
     /// Writes the report and the page where they are wanted.
@@ -70,20 +87,49 @@ impl Targets {
         figures: &Figures,
         interrupt: &Interrupt,
     ) -> Result<(), AppError> {
-        if let Some(place) = &self.report {
-            place.write(json_shown(&report.to_json()).as_bytes(), interrupt)?;
+        let forms = [(Form::Json, &self.report), (Form::Markdown, &self.markdown), (Form::Page, &self.html)];
+        for (form, place) in forms {
+            if let Some(place) = place {
+                place.write(&form.of(report, figures)?, interrupt)?;
+            }
         }
-        if let Some(place) = &self.markdown {
-            place.write(markdown(report).as_bytes(), interrupt)?;
-        }
-        if let Some(place) = &self.html {
-            let page = rasray_report_html::page(report, figures).map_err(|error| {
+        Ok(())
+    }
+}
+
+/// How a report is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    /// With everything that was measured.
+    Json,
+    /// A table of all ray sets.
+    Markdown,
+    /// A page.
+    Page,
+}
+
+impl Form {
+    /// The one that a file's name asks for.
+    pub(super) fn named(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+        Some(match extension.as_str() {
+            "json" => Self::Json,
+            "md" => Self::Markdown,
+            "html" => Self::Page,
+            _ => return None,
+        })
+    }
+
+    /// The bytes of the file.
+    pub(super) fn of(self, report: &Report, figures: &Figures) -> Result<Vec<u8>, AppError> {
+        Ok(match self {
+            Self::Json => json_shown(&report.to_json()).into(),
+            Self::Markdown => markdown(report).into(),
+            Self::Page => rasray_report_html::page(report, figures).map_err(|error| {
                 let help =
                     "the page was not written; this is a defect, please report it with the command line";
                 AppError::refused(error.to_string(), help)
-            })?;
-            place.write(&page, interrupt)?;
-        }
-        Ok(())
+            })?,
+        })
     }
 }

@@ -1,5 +1,6 @@
 //! Results on disk: images by extension, rays and hits; encoded in memory, put in place in one step.
 
+mod cells;
 mod destination;
 mod exr;
 mod exr_header;
@@ -13,6 +14,7 @@ mod stamp;
 
 pub use self::exr::{Metadata, PartOf, encode as encode_exr};
 pub use self::png::encode as encode_png;
+pub(crate) use cells::{CellLines, Cells, assembled, difference, read_cells, text_of};
 pub use destination::Destination;
 pub(crate) use exr_part::{PartFile, decode as decode_part};
 pub use format::ImageFormat;

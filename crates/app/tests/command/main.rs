@@ -1,5 +1,6 @@
 //! The command as a user starts it: what it takes, writes, says and survives.
 
+mod cells;
 mod compare;
 mod far;
 mod faults_driver;

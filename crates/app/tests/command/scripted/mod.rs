@@ -5,7 +5,7 @@
 
 use rasray_experiment::{
     Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, ExperimentError, Feature,
-    FilmSums, HardJob, KeptScene, OnProgress, PassCommands, Progress, RenderJob, RenderOutput, Stage,
+    FilmSums, HardJob, KeptScene, OnProgress, OnRun, PassCommands, Progress, RenderJob, RenderOutput, Stage,
     TexelCapacity,
 };
 use rasray_report::{Counters, Device, HardRecord, Run, Times};
@@ -95,30 +95,42 @@ impl Backend for Scripted {
     fn compare(
         &mut self,
         job: &CompareJob<'_>,
+        finished: &mut OnRun<'_>,
         progress: &mut OnProgress<'_>,
     ) -> Result<Comparison, ExperimentError> {
         say_ready();
-        let mut runs = Vec::new();
-        for system in &job.systems {
-            for set in &job.ray_sets {
-                if progress(Progress { task: "compare", done: 0, total: 0, unit: "rays" }).is_break() {
-                    return Ok(Comparison { runs, ..Comparison::default() });
-                }
-                if self.device == "slow" {
-                    std::thread::sleep(Duration::from_millis(300));
-                }
-                runs.push(Run {
-                    system: system.system.name.to_owned(),
-                    preset: system.preset.name().to_owned(),
-                    ray_set: Some(set.name().to_owned()),
-                    options: rasray_report::options(
-                        system.options.iter().map(|(name, value)| (name, value.to_string())),
-                    ),
-                    ..Default::default()
-                });
+        let mut comparison = Comparison::default();
+        let cells = job.ray_sets.iter().flat_map(|set| job.systems.iter().map(move |system| (set, system)));
+        for (place, (set, system)) in cells.enumerate() {
+            if job.only.as_ref().is_some_and(|only| !only.contains(&place)) {
+                continue;
+            }
+            if progress(Progress { task: "compare", done: 0, total: 0, unit: "rays" }).is_break() {
+                break;
+            }
+            if self.device == "slow" {
+                std::thread::sleep(Duration::from_millis(300));
+            }
+            let run = Run {
+                system: system.system.name.to_owned(),
+                preset: system.preset.name().to_owned(),
+                variant: system.variant.clone(),
+                ray_set: Some(set.name().to_owned()),
+                options: rasray_report::options(
+                    system.options.iter().map(|(name, value)| (name, value.to_string())),
+                ),
+                counters: (self.device == "unfinished")
+                    .then(|| Counters { unfinished: Some(1), ..Counters::default() }),
+                ..Default::default()
+            };
+            let end = finished(place, &run);
+            comparison.places.push(place);
+            comparison.runs.push(run);
+            if end.is_break() {
+                break;
             }
         }
-        Ok(Comparison { runs, ..Comparison::default() })
+        Ok(comparison)
     }
 
     fn hard(
@@ -152,9 +164,11 @@ impl Backend for Scripted {
             }),
             ..Run::default()
         };
-        let runs = job.systems.iter().enumerate().map(run).collect();
+        let wants = |place: &usize| job.only.as_ref().is_none_or(|only| only.contains(place));
+        let places: Vec<_> = (0..job.systems.len()).filter(wants).collect();
+        let runs = places.iter().map(|place| run((*place, &job.systems[*place]))).collect();
         _ = progress(Progress { task: "hard", done: 1, total: 1, unit: "runs" });
-        Ok(Comparison { runs, ..Comparison::default() })
+        Ok(Comparison { runs, places, ..Comparison::default() })
     }
 
     fn info(&mut self) -> Result<DeviceDescription, ExperimentError> {

@@ -1,0 +1,281 @@
+//! The cells of a comparison: those that are there already, those that are made, and the report of all.
+
+use super::destination::Destination;
+use crate::error::AppError;
+use crate::interrupt::Interrupt;
+use crate::terminal;
+use rasray_experiment::{CellList, Shard, check_run};
+use rasray_report::{CameraRecord, CellRecord, Device, Origin, Report, Run, SCHEMA, SceneRecord, json_shown};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{ErrorKind, Write};
+use std::path::Path;
+
+/// What to do about lines that do not go together.
+const SAME: &str = "name another file, or leave --resume out to make all cells anew";
+
+/// The lines of a file, each the report of one cell.
+#[derive(Debug)]
+pub(crate) struct CellLines {
+    /// Each with its record.
+    pub(crate) lines: Vec<(CellRecord, Report)>,
+    /// Whether the last line was cut short, and is left out.
+    is_torn: bool,
+}
+
+/// Reads the cells of a file; none where there is no file. A last line that was cut short by a kill is left out, with a
+/// warning.
+///
+/// # Errors
+/// The file cannot be read, or another line of it is no report of a cell.
+pub(crate) fn read_cells(path: &Path) -> Result<CellLines, AppError> {
+    let unreadable =
+        |message: String| AppError::input(path, message, "see that you may read it, and that it is text");
+    let mut bytes = match std::fs::read(path) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
+        Err(error) => return Err(unreadable(error.to_string())),
+    };
+    let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+    let is_torn = whole < bytes.len();
+    if is_torn {
+        terminal::warn(&format!(
+            "{}: the last line was cut short and is left out (torn-line)",
+            path.display()
+        ));
+    }
+    bytes.truncate(whole);
+    let text = String::from_utf8(bytes).map_err(|error| unreadable(error.to_string()))?;
+    let cell = |(number, line): (usize, &str)| {
+        let wrong = |message: String| {
+            AppError::input(path, format!("line {}: {message}", number + 1), "remove that line, or the file")
+        };
+        let report: Report =
+            serde_json::from_str(line).map_err(|error| wrong(format!("is not a report ({error})")))?;
+        let is_cell = report.schema == SCHEMA && report.runs.len() == 1;
+        let record = report.cell.clone().filter(|_| is_cell);
+        record
+            .map(|record| (record, report))
+            .ok_or_else(|| wrong(format!("is not a report {SCHEMA} of a cell")))
+    };
+    let lines = text.lines().enumerate().map(cell).collect::<Result<_, _>>()?;
+    Ok(CellLines { lines, is_torn })
+}
+
+/// How a line is of something else than another, in words; `None` where both are of one comparison.
+pub(crate) fn difference(line: &Report, other: &Report) -> Option<String> {
+    let program = |report: &Report| match &report.commit {
+        Some(commit) => format!("rasray {} ({commit})", report.version),
+        None => format!("rasray {}", report.version),
+    };
+    let device = |report: &Report| format!("{} ({})", report.device.name, report.device.driver);
+    let list = |report: &Report| report.cell.as_ref().map(|cell| (cell.list.clone(), cell.cells));
+    if program(line) != program(other) {
+        return Some(format!("was made by {}, and not by {}", program(line), program(other)));
+    }
+    if line.device != other.device {
+        return Some(format!("was measured on {}, and not on {}", device(line), device(other)));
+    }
+    (list(line) != list(other)).then(|| {
+        let command = line.command.as_deref().unwrap_or("unknown");
+        format!("is of another comparison, made by: {command}")
+    })
+}
+
+/// The report of the runs of these lines, in the order of their places; `None` without any. What they have in common is as
+/// the first one says it.
+pub(crate) fn assembled<'a>(lines: impl IntoIterator<Item = &'a Report>) -> Option<Report> {
+    let mut lines = lines.into_iter().peekable();
+    let first = (*lines.peek()?).clone();
+    // The triangles of hard cases add up.
+    let mut scenes = BTreeMap::new();
+    let mut runs = Vec::new();
+    for line in lines {
+        let scene = line.cell.as_ref().map(|cell| cell.depends_on.scene.as_str());
+        scenes.insert(scene, line.scene.triangles);
+        runs.extend(line.runs.iter().cloned());
+    }
+    let Report { version, commit, command, device, mut scene, camera, .. } = first;
+    scene.triangles = scenes.values().sum();
+    let report = Report::new(Origin { version, commit, command }, device, scene, runs);
+    Some(Report { camera, ..report })
+}
+
+/// A file that a line is added to for each cell.
+struct CellFile {
+    place: Destination,
+    /// Once it is this command's.
+    file: Option<File>,
+}
+
+/// The cells of a comparison: what is there, and what is added.
+pub(crate) struct Cells {
+    list: CellList,
+    origin: Origin,
+    device: Device,
+    made: BTreeMap<usize, Report>,
+    file: Option<CellFile>,
+}
+
+impl Cells {
+    /// The cells of `list`, as this program (`origin`) makes them on a device. A file takes a line for each; `resume` keeps
+    /// the lines that are there.
+    ///
+    /// # Errors
+    /// The file cannot be read, another command writes it, or a line of it is of another program, device or comparison.
+    pub(crate) fn open(
+        list: CellList,
+        (origin, device): (Origin, Device),
+        place: Option<&Destination>,
+        (resume, interrupt): (bool, &Interrupt),
+    ) -> Result<Self, AppError> {
+        let file = place.map(|place| CellFile { place: place.clone(), file: None });
+        let mut cells = Self { list, origin, device, made: BTreeMap::new(), file };
+        if let Some(place) = place.filter(|_| resume) {
+            cells.resume(place, interrupt)?;
+        }
+        Ok(cells)
+    }
+
+    fn resume(&mut self, place: &Destination, interrupt: &Interrupt) -> Result<(), AppError> {
+        let CellLines { lines, is_torn } = read_cells(place.named())?;
+        let nothing =
+            Report::new(self.origin.clone(), self.device.clone(), SceneRecord::default(), Vec::new());
+        let own = Report { cell: self.list.record(0), ..nothing };
+        for (number, (record, line)) in lines.into_iter().enumerate() {
+            let expected = self.list.record(record.place as usize);
+            let wrong = difference(&line, &own).or_else(|| {
+                let is_whole = expected.is_some_and(|expected| expected.key == record.key);
+                (!is_whole).then(|| "is of a cell that its comparison does not have".to_owned())
+            });
+            if let Some(wrong) = wrong {
+                return Err(AppError::input(place.named(), format!("line {}: {wrong}", number + 1), SAME));
+            }
+            self.made.entry(record.place as usize).or_insert(line);
+        }
+        if is_torn {
+            place.put(self.lines().as_bytes(), interrupt)?;
+        }
+        // From now on it is this command's.
+        self.file.as_mut().map_or(Ok(()), |file| file.take().map(|_| ()))
+    }
+
+    fn lines(&self) -> String {
+        self.made.values().map(text_of).collect()
+    }
+
+    /// Cells of the comparison.
+    pub(crate) fn list(&self) -> &CellList {
+        &self.list
+    }
+
+    /// Cells that are there.
+    pub(crate) fn count(&self) -> usize {
+        self.made.len()
+    }
+
+    /// Places of the cells that are missing, of every group or of those that a share of the work gets.
+    ///
+    /// # Errors
+    /// The share has no group.
+    pub(crate) fn missing(&self, shard: Option<Shard>) -> Result<BTreeSet<usize>, AppError> {
+        let share = shard.unwrap_or_default();
+        let mut groups = self
+            .list
+            .groups()
+            .iter()
+            .enumerate()
+            .filter(|(number, _)| share.holds(*number as u32))
+            .peekable();
+        if let (Some(shard), None) = (shard, groups.peek()) {
+            let count = self.list.groups().len();
+            return Err(AppError::usage(
+                format!("--shard {shard} has none of {count} sets of rays, hard cases and images"),
+                "make no more shares than there are",
+            ));
+        }
+        let missing = |place: &usize| !self.made.contains_key(place);
+        Ok(groups.flat_map(|(_, places)| places.clone()).filter(missing).collect())
+    }
+
+    /// Adds the run of a cell, with its line in the file; a run that is not whole gets none, so that it is made again.
+    ///
+    /// # Errors
+    /// The file takes no line, or another command writes it.
+    pub(crate) fn add(
+        &mut self,
+        place: usize,
+        run: Run,
+        (scene, camera): (SceneRecord, Option<CameraRecord>),
+        interrupt: &Interrupt,
+    ) -> Result<(), AppError> {
+        let is_whole = check_run(&run).is_ok();
+        let report = Report::new(self.origin.clone(), self.device.clone(), scene, vec![run]);
+        let line = Report { camera, cell: self.list.record(place), ..report };
+        if let Some(file) = self.file.as_mut().filter(|_| is_whole) {
+            file.add(&text_of(&line), interrupt)?;
+        }
+        self.made.insert(place, line);
+        Ok(())
+    }
+
+    /// The report of all cells that are there, by the command line of this process; `None` without any.
+    pub(crate) fn report(&self) -> Option<Report> {
+        let report = assembled(self.made.values())?;
+        Some(Report { command: self.origin.command.clone(), ..report })
+    }
+
+    /// Where the run of the cell at a place is in [`Self::report`].
+    pub(crate) fn run(&self, place: usize) -> usize {
+        self.made.range(..place).count()
+    }
+
+    /// Says how many cells the file holds.
+    pub(crate) fn note(&self) {
+        if let Some(file) = &self.file {
+            let (made, all) = (self.made.len(), self.list.len());
+            terminal::note(&format!("{} holds {made} of {all} cells", file.place.named().display()));
+        }
+    }
+}
+
+/// A line of the file.
+pub(crate) fn text_of(line: &Report) -> String {
+    json_shown(&format!("{}\n", line.to_json_line()))
+}
+
+impl CellFile {
+    /// Opens the file for lines behind its last.
+    fn take(&mut self) -> Result<&mut File, AppError> {
+        let path = self.place.named();
+        let failed = |message: String| AppError::refused(format!("{}: {message}", path.display()), FREE);
+        let file = OpenOptions::new()
+            .append(true)
+            .create(true)
+            .open(path)
+            .map_err(|error| failed(error.to_string()))?;
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => {
+                let help = "wait until it has ended, or name another file: each share has one of its own";
+                Err(AppError::input(path, "is being written by another command", help))
+            }
+            // Not every file system has locks.
+            Ok(()) | Err(TryLockError::Error(_)) => Ok(self.file.insert(file)),
+        }
+    }
+
+    /// Adds a line at once. The first of a command that resumes nothing takes the place of the whole file.
+    fn add(&mut self, line: &str, interrupt: &Interrupt) -> Result<(), AppError> {
+        let Some(file) = &mut self.file else {
+            self.place.put(line.as_bytes(), interrupt)?;
+            return self.take().map(|_| ());
+        };
+        file.write_all(line.as_bytes()).and_then(|()| file.sync_data()).map_err(|error| {
+            let path = self.place.named().display();
+            AppError::refused(format!("{path}: a line could not be added: {error}"), FREE)
+        })
+    }
+}
+
+/// What to do about a file that takes no line.
+const FREE: &str = "free space or see that you may write to it, then run again with --resume";

@@ -1,0 +1,373 @@
+//! A comparison as a list of cells: each is one run, as plain data with a key.
+
+use crate::hard_file::LOADER;
+use crate::images::NOISE;
+use crate::jobs::{CompareJob, FILE_SET, Frame};
+use crate::key::{camera_text, scene_hash, texts};
+use crate::system_config::SystemConfig;
+use crate::traced_set::GIVEN;
+use rasray_ads::StructureKind;
+use rasray_hard_cases::{HardFile, Scale};
+use rasray_ray_files::{HitsFile, Place, RaysFile, hits_to_npy, write_rays};
+use rasray_report::{Cell, CellImage, CellRays, CellRecord, CellView};
+use rasray_scene_source::{KeyHash, LoadedScene};
+use std::ops::Range;
+
+/// What the run of a cell is known by: a hash of the program (`program`: version and commit) and of everything that the
+/// run depends on, 64 hexadecimal digits. The device is not in it; a report says which it was.
+pub fn cell_key(program: &str, cell: &Cell) -> String {
+    let cell = serde_json::to_vec(cell).expect("strings, numbers and maps with string keys");
+    KeyHash::default().with("program", program).with("cell", cell).finish()
+}
+
+/// The cells of a comparison in the order of its report. Those of a group are measured together: a set of rays, a hard
+/// case, or all images.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellList {
+    cells: Vec<(String, Cell)>,
+    groups: Vec<Range<usize>>,
+    key: String,
+}
+
+impl CellList {
+    /// The list of these groups, made by `program` (version and commit).
+    pub fn new(program: &str, groups: impl IntoIterator<Item = Vec<Cell>>) -> Self {
+        let mut list = Self { cells: Vec::new(), groups: Vec::new(), key: String::new() };
+        for group in groups {
+            let first = list.cells.len();
+            list.cells.extend(group.into_iter().map(|cell| (cell_key(program, &cell), cell)));
+            list.groups.push(first..list.cells.len());
+        }
+        let hash = list.cells.iter().fold(KeyHash::default(), |hash, (key, _)| hash.with("cell", key));
+        list.key = hash.finish();
+        list
+    }
+
+    /// Cells.
+    pub fn len(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.cells.is_empty()
+    }
+
+    /// Places of the cells of each group.
+    pub fn groups(&self) -> &[Range<usize>] {
+        &self.groups
+    }
+
+    /// What a line says of the cell at a place; absent where there is none.
+    pub fn record(&self, place: usize) -> Option<CellRecord> {
+        let (key, cell) = self.cells.get(place)?;
+        Some(CellRecord {
+            key: key.clone(),
+            place: place as u32,
+            cells: self.cells.len() as u32,
+            list: self.key.clone(),
+            depends_on: cell.clone(),
+        })
+    }
+}
+
+/// The cells of a comparison on a scene: of each set of rays all systems and files of hits, then all images and the
+/// reference with another seed. Places are those of [`CompareJob::only`].
+pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) -> CellList {
+    // Whoever adds a field decides here whether it changes a run. The scene is that of `loaded`.
+    let CompareJob {
+        scene: _,
+        camera,
+        systems,
+        ray_sets,
+        rays,
+        frame,
+        image,
+        // They change what else is kept.
+        figures: _,
+        keep: _,
+        replay: _,
+        repetitions,
+        rays_file,
+        hits_files,
+        needs,
+        only: _,
+    } = job;
+    let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces } = frame;
+    let pose = loaded.pose.as_ref();
+    let needed = needs.verdicts().iter().filter(|verdict| verdict.needed);
+    let cell = Cell {
+        scene: loaded.scene.name.clone(),
+        content: scene_hash(KeyHash::default(), loaded).finish(),
+        time_s: pose.map(|pose| pose.time_s),
+        clips: pose.map(|pose| pose.clips.clone()).unwrap_or_default(),
+        view: Some(CellView {
+            camera: camera_text(camera),
+            size: [*width, *height],
+            back_faces: back_faces.name().to_owned(),
+        }),
+        needs: Some(needed.map(|verdict| verdict.term.name().to_owned()).collect()),
+        seed: *seed,
+        repetitions: *repetitions,
+        ..Cell::default()
+    };
+    let drawn =
+        ray_sets.iter().map(|set| CellRays { set: set.name().to_owned(), count: *rays, content: None });
+    let sets = drawn.chain(rays_file.as_ref().map(rays_of_file));
+    let mut groups: Vec<_> =
+        sets.map(|rays| on_rays(&Cell { rays: Some(rays), ..cell.clone() }, systems, hits_files)).collect();
+    if *image {
+        let image = CellImage {
+            integrator: integrator.name().to_owned(),
+            options: texts(&integrator.values()),
+            spp: *spp,
+            sampler: sampler.name().to_owned(),
+            primary: primary.name().to_owned(),
+        };
+        let cell = Cell { image: Some(image), ..cell };
+        let noise = Cell { system: NOISE.0.to_owned(), preset: NOISE.1.to_owned(), ..cell.clone() };
+        groups.push(systems.iter().map(|system| of_system(&cell, system)).chain([noise]).collect());
+    }
+    CellList::new(program, groups)
+}
+
+/// A hard case of a list.
+#[derive(Clone, Copy, Debug)]
+pub enum HardSubject<'a> {
+    /// Triangles and rays, by id.
+    Rays(&'a str),
+    /// A file.
+    File(&'a HardFile),
+}
+
+/// The cells of hard cases: of each case all systems and files of hits, whose places are those of
+/// [`HardJob::only`](crate::HardJob::only); of one that is a file the loader. `scale` is how cases are made.
+pub fn hard_cells<'a>(
+    program: &str,
+    cases: impl IntoIterator<Item = HardSubject<'a>>,
+    systems: &[SystemConfig],
+    hits_files: &[HitsFile],
+    scale: Scale,
+    repetitions: u32,
+) -> CellList {
+    let Scale { rays, seed, full } = scale;
+    let group = |case: HardSubject<'_>| match case {
+        HardSubject::Rays(id) => {
+            let content = KeyHash::default().with("hard", id).with("full", [u8::from(full)]).finish();
+            let rays = CellRays { set: id.to_owned(), count: rays as u32, content: None };
+            let cell = Cell {
+                scene: format!("hard:{id}"),
+                content,
+                rays: Some(rays),
+                seed: seed as u32,
+                repetitions,
+                ..Cell::default()
+            };
+            on_rays(&cell, systems, hits_files)
+        }
+        HardSubject::File(file) => vec![Cell {
+            scene: format!("hard:{}", file.id),
+            content: KeyHash::default().with(file.name, &file.bytes).finish(),
+            system: LOADER.0.to_owned(),
+            preset: LOADER.1.to_owned(),
+            ..Cell::default()
+        }],
+    };
+    CellList::new(program, cases.into_iter().map(group))
+}
+
+/// The cells of a set of rays.
+fn on_rays(cell: &Cell, systems: &[SystemConfig], hits_files: &[HitsFile]) -> Vec<Cell> {
+    let given = hits_files.iter().map(|file| Cell {
+        system: file.name.clone(),
+        preset: GIVEN.to_owned(),
+        hits: Some(hash_of("hits", &file.hits, |hits| hits_to_npy(hits, StructureKind::Primitive)).finish()),
+        ..cell.clone()
+    });
+    systems.iter().map(|system| of_system(cell, system)).chain(given).collect()
+}
+
+fn of_system(cell: &Cell, config: &SystemConfig) -> Cell {
+    // Why it was chosen does not change a run.
+    let SystemConfig { system, preset, options, variant, chosen: _ } = config;
+    Cell {
+        system: system.name.to_owned(),
+        preset: preset.name().to_owned(),
+        variant: variant.clone(),
+        options: texts(options),
+        ..cell.clone()
+    }
+}
+
+fn rays_of_file(file: &RaysFile) -> CellRays {
+    let (point, origins) = match &file.place {
+        Place::Point(point) => (*point, &[][..]),
+        Place::World(origins) => ([0.0; 3], &origins[..]),
+    };
+    let hash = hash_of("rays", &file.rays, |rays| write_rays(rays, point)).with(
+        "origins",
+        hash_of("origins", origins, |origins| {
+            origins.iter().flatten().flat_map(|x| x.to_le_bytes()).collect()
+        })
+        .finish(),
+    );
+    CellRays { set: FILE_SET.to_owned(), count: file.rays.len() as u32, content: Some(hash.finish()) }
+}
+
+/// A hash of many values, of which only some are in memory as bytes at a time.
+fn hash_of<T>(name: &str, values: &[T], bytes: impl Fn(&[T]) -> Vec<u8>) -> KeyHash {
+    values.chunks(HASHED).fold(KeyHash::default(), |hash, values| hash.with(name, bytes(values)))
+}
+
+/// Values that are hashed at a time.
+const HASHED: usize = 1 << 16;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{IntegratorRow, Primary, RaySet, Sampler, one_system};
+    use rasray_ads::{Hit, Ray};
+    use rasray_options::OptionValues;
+    use rasray_scene::BackFaces;
+    use rasray_scene::needs::Needs;
+    use rasray_scene_source::{default_view, load};
+    use rasray_systems::{Preset, System};
+    use std::collections::BTreeSet;
+
+    fn system(name: &str, options: OptionValues) -> SystemConfig {
+        let system = System::named(name).expect("a system of the registry");
+        one_system(system, Preset::Robust, &options).expect("valid")
+    }
+
+    fn hits(t: f32) -> HitsFile {
+        HitsFile { name: "other".to_owned(), hits: vec![Hit { t, primitive: 1, a: 0.25, b: 0.5 }] }
+    }
+
+    fn rays(z: f32) -> RaysFile {
+        RaysFile { rays: vec![Ray::new([0.0; 3], [0.0, 0.0, z])], place: Place::Point([0.0; 3]) }
+    }
+
+    fn job(loaded: &LoadedScene) -> CompareJob<'_> {
+        CompareJob {
+            scene: &loaded.scene,
+            camera: default_view(&loaded.scene).camera,
+            systems: vec![system("mmrt", OptionValues::default()), system("bvh", OptionValues::default())],
+            ray_sets: vec![RaySet::Incoherent, RaySet::Camera],
+            rays: 100,
+            frame: Frame {
+                integrator: IntegratorRow::named("path").expect("it is registered").into(),
+                width: 4,
+                height: 3,
+                spp: 8,
+                seed: 1,
+                sampler: Sampler::Sobol,
+                primary: Primary::Trace,
+                back_faces: BackFaces::Camera,
+            },
+            image: true,
+            figures: false,
+            repetitions: 2,
+            rays_file: Some(rays(1.0)),
+            hits_files: vec![hits(1.0)],
+            keep: false,
+            replay: None,
+            needs: Needs::all(),
+            only: None,
+        }
+    }
+
+    #[test]
+    fn a_comparison_is_a_list_of_cells_each_with_a_key_of_its_own() {
+        let loaded = load("cornell".as_ref()).expect("built in");
+        let list = compare_cells("1", &loaded, &job(&loaded));
+        // Three sets by two systems and a file, then two images and noise.
+        assert_eq!(list.groups(), [0..3, 3..6, 6..9, 9..12]);
+        let records: Vec<_> = (0..list.len()).map(|place| list.record(place).expect("a cell")).collect();
+        let shape = |place: usize| {
+            let Cell { system, rays, image, .. } = &records[place].depends_on;
+            (system.as_str(), rays.as_ref().map(|rays| rays.set.as_str()), image.is_some())
+        };
+        assert_eq!(shape(0), ("mmrt", Some("incoherent"), false));
+        assert_eq!(shape(5), ("other", Some("camera"), false));
+        assert_eq!(shape(7), ("bvh", Some("file"), false));
+        assert_eq!((shape(10), shape(11)), (("bvh", None, true), ("reference", None, true)));
+        let keys: BTreeSet<_> = records.iter().map(|record| &record.key).collect();
+        assert_eq!((keys.len(), list.record(12)), (12, None));
+        assert_eq!(list, compare_cells("1", &loaded, &job(&loaded)));
+        let text = serde_json::to_string(&records[9]).expect("plain data");
+        assert_eq!(serde_json::from_str::<CellRecord>(&text).expect("it reads back"), records[9]);
+    }
+
+    #[test]
+    fn whatever_changes_a_run_changes_its_key_and_nothing_else_does() {
+        type Change = dyn Fn(&mut CompareJob<'_>);
+        let loaded = load("cornell".as_ref()).expect("built in");
+        let keys = |change: &Change| -> Vec<String> {
+            let mut job = job(&loaded);
+            change(&mut job);
+            let list = compare_cells("1", &loaded, &job);
+            (0..list.len()).map(|place| list.record(place).expect("a cell").key).collect()
+        };
+        let first = keys(&|_| ());
+        let changed = |change: &Change| -> Vec<usize> {
+            let now = keys(change);
+            (0..first.len()).filter(|place| now[*place] != first[*place]).collect()
+        };
+        let all: Vec<_> = (0..12).collect();
+        let every: [&Change; 6] = [
+            &|job| job.frame.seed = 2,
+            &|job| job.frame.width = 5,
+            &|job| job.frame.back_faces = BackFaces::None,
+            &|job| job.repetitions = 3,
+            &|job| job.camera.world_from_camera.translation.x = 1.0e-300,
+            &|job| job.needs = Needs::of(job.scene, job.frame.workload()),
+        ];
+        assert!(every.iter().all(|change| changed(change) == all));
+        assert_ne!(compare_cells("2", &loaded, &job(&loaded)).record(0).expect("a cell").key, first[0]);
+        let some: [(&Change, &[usize]); 9] = [
+            (&|job| job.rays = 99, &[0, 1, 2, 3, 4, 5]),
+            (&|job| job.ray_sets[1] = RaySet::Bounce, &[3, 4, 5]),
+            (&|job| job.rays_file = Some(rays(-1.0)), &[6, 7, 8]),
+            (&|job| job.hits_files = vec![hits(2.0)], &[2, 5, 8]),
+            (
+                &|job| job.systems[0] = system("mmrt", OptionValues::default().with("buckets", 4)),
+                &[0, 3, 6, 9],
+            ),
+            (&|job| job.systems[1].variant = Some("leaf=2".to_owned()), &[1, 4, 7, 10]),
+            (&|job| job.frame.spp = 4, &[9, 10, 11]),
+            (&|job| job.frame.sampler = Sampler::Pcg, &[9, 10, 11]),
+            (&|job| job.frame.primary = Primary::Raster, &[9, 10, 11]),
+        ];
+        for (number, (change, places)) in some.iter().enumerate() {
+            assert_eq!(changed(change), *places, "change {number}");
+        }
+        let nothing: [&Change; 5] = [
+            &|job| job.figures = true,
+            &|job| job.keep = true,
+            &|job| job.only = Some(BTreeSet::from([3])),
+            &|job| job.camera.name = "another".to_owned(),
+            &|job| job.systems[0].chosen = Some("a reason".to_owned()),
+        ];
+        assert!(nothing.iter().all(|change| changed(change).is_empty()));
+    }
+
+    #[test]
+    fn hard_cases_are_cells_too() {
+        let systems = [system("bvh", OptionValues::default()), system("mmrt", OptionValues::default())];
+        let file = rasray_hard_cases::files().next().expect("a file");
+        let cases = [HardSubject::Rays("E5"), HardSubject::File(&file)];
+        let list = |scale| hard_cells("1", cases, &systems, &[], scale, 1);
+        let quick = list(Scale::QUICK);
+        assert_eq!(quick.groups(), [0..2, 2..3]);
+        let key = |list: &CellList, place| list.record(place).expect("a cell").key;
+        for other in [
+            Scale { rays: 9, ..Scale::QUICK },
+            Scale { seed: 9, ..Scale::QUICK },
+            Scale { full: true, ..Scale::QUICK },
+        ] {
+            let other = list(other);
+            assert!(key(&other, 0) != key(&quick, 0) && key(&other, 1) != key(&quick, 1));
+            assert_eq!(key(&other, 2), key(&quick, 2), "a file has no rays");
+        }
+    }
+}

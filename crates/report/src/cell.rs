@@ -1,0 +1,107 @@
+//! A run of a comparison in a line of its own: what it depends on, and its place in the comparison's list.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// What one run of a comparison depends on: one system on one set of rays, or the image of one system.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cell {
+    /// Name of the scene, or of a hard case with `hard:` before it.
+    pub scene: String,
+    /// Hash of everything that the scene was made from, as it is shown and lit.
+    pub content: String,
+    /// When it is shown, seconds; absent at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<f64>,
+    /// Names of the clips that are played.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub clips: Vec<String>,
+    /// From where it is seen; absent for hard cases, which have an eye of their own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub view: Option<CellView>,
+    /// What is uploaded and compiled in, by name; absent for hard cases, where it is everything.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub needs: Option<Vec<String>>,
+    /// Such as `mmrt`; of a file of hits its name in the report.
+    pub system: String,
+    /// `robust` or `published`; `given` for a file of hits, as in a run.
+    pub preset: String,
+    /// As in a run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub variant: Option<String>,
+    /// Options over those of the preset, as they read.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub options: BTreeMap<String, String>,
+    /// Hash of the hits of a file; absent where rays are traced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hits: Option<String>,
+    /// What is traced; absent for images, and for files that are only loaded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rays: Option<CellRays>,
+    /// What is rendered; absent for rays.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image: Option<CellImage>,
+    /// Seed of all random numbers.
+    pub seed: u32,
+    /// Builds and traces that are timed.
+    pub repetitions: u32,
+}
+
+/// From where a scene is seen.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CellView {
+    /// Every number of the camera, to the last bit.
+    pub camera: String,
+    /// Pixels a row, rows: of the image, and of the camera's rays.
+    pub size: [u32; 2],
+    /// Which rays pass the backs of single-sided surfaces.
+    pub back_faces: String,
+}
+
+/// A set of rays.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CellRays {
+    /// Such as `camera`; the id of a hard case.
+    pub set: String,
+    /// Rays that are asked for; of a file those that it has.
+    pub count: u32,
+    /// Hash of the rays of a file; absent for sets that are drawn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub content: Option<String>,
+}
+
+/// An image.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CellImage {
+    /// Such as `path`.
+    pub integrator: String,
+    /// Its options, also those at their default, as they read.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub options: BTreeMap<String, String>,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// Where random numbers come from.
+    pub sampler: String,
+    /// How what the camera sees first is found.
+    pub primary: String,
+}
+
+/// A cell as one of a comparison's.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CellRecord {
+    /// What the run is known by, 64 hexadecimal digits: a hash of the program and of all that it depends on.
+    pub key: String,
+    /// Place in the list of the comparison, from 0.
+    pub place: u32,
+    /// Cells of the list.
+    pub cells: u32,
+    /// The same for all cells of the list: a hash of their keys.
+    pub list: String,
+    /// What the run depends on.
+    pub depends_on: Cell,
+}
