@@ -9,7 +9,7 @@ pub const WAVE_LIMIT: u32 = 1 << 20;
 /// Rays in a wave on software drivers, whose dispatches take long, and on devices with little memory.
 const SMALL_WAVE: u32 = 131_072;
 
-/// Bytes per slot of the integrator with the largest, rounded up: two queues and a path's state.
+/// Bytes per slot of two queues and a path's state, rounded up.
 const SLOT_BYTES: u64 = 512;
 
 /// Number of rays in a wave, by device: 131,072 on software drivers; on others as many as fit into a sixteenth of the

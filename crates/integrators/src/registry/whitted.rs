@@ -193,7 +193,9 @@ impl Whitted {
             }
             self.bindings.record(recorder, &self.shade, &self.queue, live, &constants);
             self.queue.record_take(recorder);
-            if let Some((shadows, resolve)) = &self.shadows {
+            if let Some((shadows, resolve)) =
+                self.shadows.as_ref().filter(|_| self.options.shadows != Shadows::None)
+            {
                 shadows.record_take(recorder);
                 traced.record_occluded(recorder, shadows, later);
                 self.bindings.record(recorder, resolve, shadows, later, &constants);

@@ -10,3 +10,4 @@ mod passing;
 mod reference;
 mod registry;
 mod texel_runs;
+mod whitted;

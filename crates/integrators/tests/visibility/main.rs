@@ -9,7 +9,7 @@ use rasray_gpu::{Device, DeviceDesc};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_integrators::{
     AmbientOcclusion, AovPass, Film, Integrator, IntegratorDesc, IntegratorError, Path, Raycast, Traced,
-    Visibility, Wave, waves,
+    Visibility, Wave, Whitted, WhittedOptions, waves,
 };
 use rasray_scene::{AlphaMode, Camera, Mesh, Projection, Scene, builtin};
 
@@ -372,7 +372,9 @@ fn pictures_are_the_same_as_with_traced_camera_rays() {
     let desc = IntegratorDesc { wave_capacity: 111, ..IntegratorDesc::new(&device, &both.scene, &film) };
     let path = Path::new(&desc, 4).expect("valid");
     let occlusion = AmbientOcclusion::new(&desc, 0.5).expect("valid");
-    for integrator in [&path as &dyn Integrator, &occlusion] {
+    let whitted = Whitted::new(&desc, WhittedOptions { mirror_roughness: 2.0, ..WhittedOptions::default() });
+    let whitted = whitted.expect("valid");
+    for integrator in [&path as &dyn Integrator, &whitted, &occlusion] {
         let image = |draws: bool| {
             device.submit(|recorder| integrator.record_reset(recorder)).expect("the reset runs");
             for wave in waves(film.pixel_count(), 3, integrator.wave_capacity()) {
