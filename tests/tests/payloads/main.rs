@@ -4,3 +4,4 @@ mod capacity;
 mod ids;
 mod integrators;
 mod published;
+mod whitted;
