@@ -6,6 +6,7 @@ use std::ops::RangeInclusive;
 use glam::{DVec2, DVec3};
 
 use super::cornell::{diffuse, place_each};
+use super::forms::Fineness;
 use super::shape::{Icosphere, Shapes};
 use super::texture;
 use crate::default_view::camera_looking_at;
@@ -114,17 +115,6 @@ pub fn atrium(parameters: Atrium) -> Scene {
         environment: sky(1.0),
         cameras: vec![camera_looking_at("courtyard", eye, DVec3::new(-6.0, 3.4, -1.2), 1.1)],
         ..Scene::default()
-    }
-}
-
-/// How often curved surfaces are divided.
-#[derive(Clone, Copy)]
-struct Fineness(f64);
-
-impl Fineness {
-    /// `count` at detail 1, never below `least`.
-    fn of(self, count: f64, least: usize) -> usize {
-        ((count * self.0).round() as usize).max(least)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Closed forms that things in scenes are made of: turned, and cut from a block.
+//! Closed forms that things in scenes are made of: turned, swept, cut from a block, folded.
 //!
 //! Arithmetic is additions, multiplications, divisions and square roots in f64 alone, so the bits are the same on every
 //! machine.
@@ -12,6 +12,17 @@ use super::shape::Shapes;
 
 /// Cosine of the angle between two steps of a profile beyond which their edge is sharp: 40 degrees.
 const CREASE: f64 = 0.766;
+
+/// How often curved surfaces are divided.
+#[derive(Clone, Copy)]
+pub(super) struct Fineness(pub f64);
+
+impl Fineness {
+    /// `count` at detail 1, never below `least`.
+    pub fn of(self, count: f64, least: usize) -> usize {
+        ((count * self.0).round() as usize).max(least)
+    }
+}
 
 /// Sine and cosine of a share of a full turn, within 2^-51; the same bits everywhere, which a mathematics library's
 /// are not.
@@ -61,6 +72,15 @@ where
     along
 }
 
+/// An arc of a profile around `centre`, from one share of a turn to another; 0 points along +x, 0.25 along +y.
+pub(super) fn arc(centre: DVec2, radius: f64, from: f64, to: f64, steps: usize) -> Vec<DVec2> {
+    let at = |step: usize| {
+        let (sin, cos) = turn(from + (to - from) * step as f64 / steps as f64);
+        centre + DVec2::new(cos, sin) * radius
+    };
+    (0..=steps).map(at).collect()
+}
+
 /// A rotation about the y axis by a share of a turn, from +z towards +x.
 pub(super) fn about_y(share: f64) -> DMat3 {
     let (sin, cos) = turn(share);
@@ -70,6 +90,14 @@ pub(super) fn about_y(share: f64) -> DMat3 {
 /// Standing at `foot`, turned about the vertical by a share of a turn.
 pub(super) fn standing(foot: DVec3, share: f64) -> DAffine3 {
     DAffine3::from_mat3_translation(about_y(share), foot)
+}
+
+/// Rigid, with the y axis of the form along `axis` (any length).
+pub(super) fn along(axis: DVec3, origin: DVec3) -> DAffine3 {
+    let y = axis.normalize_or(DVec3::Y);
+    let x = if y.x.abs() < 0.7 { DVec3::X } else { DVec3::Z };
+    let z = x.cross(y).normalize();
+    DAffine3::from_mat3_translation(DMat3::from_cols(y.cross(z), y, z), origin)
 }
 
 impl Shapes {
@@ -131,6 +159,65 @@ impl Shapes {
         }
     }
 
+    /// A closed tube along `path`; `radius` is told the share of the points that is behind. A radius of 0 at an end is a
+    /// tip, any other is closed by a flat disc.
+    pub fn tube(&mut self, path: &[DVec3], segments: usize, radius: impl Fn(f64) -> f64, repeat: DVec2) {
+        let last = path.len() - 1;
+        let tangent =
+            |point: usize| (path[(point + 1).min(last)] - path[point.saturating_sub(1)]).normalize();
+        let mut side = along(tangent(0), DVec3::ZERO).matrix3.x_axis;
+        let mut rings = Vec::with_capacity(path.len());
+        for (point, &middle) in path.iter().enumerate() {
+            let ahead = tangent(point);
+            // The frame turns no more than it must.
+            side = (side - ahead * side.dot(ahead)).normalize_or(along(ahead, DVec3::ZERO).matrix3.x_axis);
+            rings.push((middle, side, ahead.cross(side), radius(point as f64 / last as f64)));
+        }
+        let at = |point: usize, segment: usize| {
+            let (middle, x, y, reach) = rings[point];
+            let (sin, cos) = turn((segment % segments) as f64 / segments as f64);
+            let out = x * cos + y * sin;
+            (middle + out * reach, out)
+        };
+        let grid: Vec<u32> = (0..=last)
+            .flat_map(|point| (0..=segments).map(move |segment| (point, segment)))
+            .map(|(point, segment)| {
+                let (position, out) = at(point, segment);
+                let uv = DVec2::new(segment as f64 / segments as f64, 1.0 - point as f64 / last as f64);
+                self.vertex(position, out, uv * repeat)
+            })
+            .collect();
+        for point in 0..last {
+            for segment in 0..segments {
+                let [a, b] = [0, 1].map(|ring| (point + ring) * (segments + 1) + segment);
+                if rings[point].3 > 0.0 {
+                    self.triangle([grid[a], grid[a + 1], grid[b + 1]]);
+                }
+                if rings[point + 1].3 > 0.0 {
+                    self.triangle([grid[a], grid[b + 1], grid[b]]);
+                }
+            }
+        }
+        for (point, outward) in [(0, -1.0), (last, 1.0)] {
+            let (middle, _, _, reach) = rings[point];
+            if reach == 0.0 {
+                continue;
+            }
+            let normal = tangent(point) * outward;
+            let centre = self.vertex(middle, normal, DVec2::splat(0.5));
+            let rim: Vec<u32> = (0..=segments)
+                .map(|segment| self.vertex(at(point, segment).0, normal, DVec2::splat(0.5)))
+                .collect();
+            for pair in rim.windows(2) {
+                self.triangle(if outward > 0.0 {
+                    [centre, pair[0], pair[1]]
+                } else {
+                    [centre, pair[1], pair[0]]
+                });
+            }
+        }
+    }
+
     /// A closed block around the origin of `place` with its edges cut off over `bevel` metres and shaded round.
     /// Texture coordinates grow by `repeat` per metre, u along the longer side of a face.
     pub fn block_with_bevel(&mut self, place: DAffine3, half: DVec3, bevel: f64, repeat: f64) {
@@ -186,6 +273,65 @@ impl Shapes {
             } else {
                 [corners[0], pair[1], pair[0]]
             });
+        }
+    }
+
+    /// A closed solid between two surfaces over (u, v) in [0, 1]^2, `columns` by `rows` quads each: cloth with its
+    /// thickness, or water over its ground. The front of `top` is on the side of d/du x d/dv; where both meet on the
+    /// border there is no wall between.
+    pub fn between(
+        &mut self,
+        columns: usize,
+        rows: usize,
+        repeat: DVec2,
+        top: impl Fn(f64, f64) -> DVec3,
+        bottom: impl Fn(f64, f64) -> DVec3,
+    ) {
+        let sample = |of: &dyn Fn(f64, f64) -> DVec3| -> Vec<DVec3> {
+            (0..=rows)
+                .flat_map(|row| (0..=columns).map(move |column| (column, row)))
+                .map(|(column, row)| of(column as f64 / columns as f64, row as f64 / rows as f64))
+                .collect()
+        };
+        let sides = [sample(&top), sample(&bottom)];
+        let at = |column: usize, row: usize| row * (columns + 1) + column;
+        for (points, facing) in sides.iter().zip([1.0, -1.0]) {
+            let normal = |column: usize, row: usize| {
+                let right =
+                    points[at((column + 1).min(columns), row)] - points[at(column.saturating_sub(1), row)];
+                let up = points[at(column, (row + 1).min(rows))] - points[at(column, row.saturating_sub(1))];
+                right.cross(up).normalize_or(DVec3::Y) * facing
+            };
+            let grid: Vec<u32> = (0..=rows)
+                .flat_map(|row| (0..=columns).map(move |column| (column, row)))
+                .map(|(column, row)| {
+                    let uv = DVec2::new(column as f64 / columns as f64, 1.0 - row as f64 / rows as f64);
+                    self.vertex(points[at(column, row)], normal(column, row), uv * repeat)
+                })
+                .collect();
+            for (column, row) in (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row))) {
+                let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(x, y)| grid[at(column + x, row + y)]);
+                self.flat(&corners, facing > 0.0);
+            }
+        }
+        // Once around, counter-clockwise seen from the front of the top.
+        let border: Vec<usize> = (0..columns)
+            .map(|column| at(column, 0))
+            .chain((0..rows).map(|row| at(columns, row)))
+            .chain((0..columns).map(|column| at(columns - column, rows)))
+            .chain((0..rows).map(|row| at(0, rows - row)))
+            .collect();
+        for (place, &from) in border.iter().enumerate() {
+            let to = border[(place + 1) % border.len()];
+            let corners = [sides[1][from], sides[1][to], sides[0][to], sides[0][from]];
+            let normal = (corners[2] - corners[0]).cross(corners[3] - corners[1]).normalize_or(DVec3::Y);
+            let [a, b, c, d] = corners.map(|corner| self.vertex(corner, normal, DVec2::ZERO));
+            if corners[1] != corners[2] {
+                self.triangle([a, b, c]);
+            }
+            if corners[0] != corners[3] {
+                self.triangle([a, c, d]);
+            }
         }
     }
 }

@@ -13,6 +13,7 @@
 //! | `ruins` | `triangles` from 10k to 10M (200k), also as `ruins:10k` | as asked, within 20 |
 //! | `corridor` | `reflectance` in [0, 1] (0.95), `width` in metres in [0.5, 50] (2) | 1,300 |
 //! | `mirror-hall` | `share` of mirrors among the pixels in percent, in [0, 80] (25), also as `mirror-hall:40` | 202,482 |
+//! | `still-life` | `detail` in [0.25, 4] (1) | about 291k at detail 1 |
 //! | `walker` | `triangles` from 8k to 2M (30k), also as `walker:10k`; moves | as asked, within 5 % |
 //! | `cloth-ball` | `triangles` of the cloth from 1k to 1M (10k), also as `cloth-ball:100k`; moves | as asked, within 4 %, and 5,122 |
 //!
@@ -30,6 +31,7 @@ mod ruins;
 mod shape;
 mod solid;
 mod spheres;
+mod still_life;
 mod texture;
 mod walker;
 
@@ -41,14 +43,25 @@ pub use furnace::{Furnace, FurnaceShape, furnace};
 pub use mirror_hall::{MirrorHall, mirror_hall};
 pub use ruins::{Ruins, ruins};
 pub use spheres::{Spheres, spheres};
+pub use still_life::{StillLife, still_life};
 pub use walker::{Walker, walker};
 
 use crate::{Scene, SceneError};
 use parameters::Parameters;
 
 /// Names of all built-in scenes, in the order that help texts list them.
-pub const NAMES: [&str; 9] =
-    ["cornell", "furnace", "spheres", "atrium", "ruins", "corridor", "mirror-hall", "walker", "cloth-ball"];
+pub const NAMES: [&str; 10] = [
+    "cornell",
+    "furnace",
+    "spheres",
+    "atrium",
+    "ruins",
+    "corridor",
+    "mirror-hall",
+    "still-life",
+    "walker",
+    "cloth-ball",
+];
 
 /// What of a picture suits a built-in scene, where a picture of any scene would not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -128,6 +141,11 @@ fn make(name: &str, mut given: Parameters) -> Result<Scene, SceneError> {
             let share = given.number("share", MirrorHall::default().share, MirrorHall::SHARE)?;
             given.finish()?;
             Ok(mirror_hall(MirrorHall { share }))
+        }
+        "still-life" => {
+            let detail = given.number("detail", StillLife::default().detail, StillLife::DETAIL)?;
+            given.finish()?;
+            Ok(still_life(StillLife { detail }))
         }
         "cloth-ball" => {
             given.name_positional("triangles")?;

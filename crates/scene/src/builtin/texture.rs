@@ -1,5 +1,6 @@
 //! Pictures computed in code: tiles, cloth, a pierced screen.
 
+use super::forms::turn;
 use crate::{AlphaMode, Filter, Image, Material, Texture, TextureRef, Wrap};
 
 /// Texels along a side of every picture here.
@@ -53,6 +54,17 @@ pub(super) fn cloth(name: &str, ground: [f64; 3], figure: [f64; 3]) -> Image {
         let diamond = ((u * 4.0).fract() - 0.5).abs() + ((v * 4.0).fract() - 0.5).abs() < 0.24;
         let stripe = (v - 0.9).abs() < 0.04;
         shade(if diamond || stripe { figure } else { ground }, thread, 255)
+    })
+}
+
+/// Wood with its grain along u; repeats.
+pub(super) fn wood() -> Image {
+    paint("wood", |u, v| {
+        let bend = 0.012 * turn(u).0 + 0.006 * turn(3.0 * u + 0.4).0;
+        let ring = 0.5 + 0.5 * turn(9.0 * v + 14.0 * bend * turn(v).0 + 20.0 * bend).0;
+        let fibre = grain((u * 24.0) as u32, (v * 256.0) as u32);
+        let pore = if grain((u * 48.0) as u32 + 7, (v * 128.0) as u32 + 3) > 0.94 { 0.82 } else { 1.0 };
+        shade([146.0, 98.0, 58.0], (0.72 + 0.22 * ring * ring + 0.16 * fibre) * pore, 255)
     })
 }
 

@@ -2,6 +2,7 @@
 
 mod builtin_page;
 mod builtin_scenes;
+mod closed_scenes;
 mod default_view;
 mod deforming;
 mod facing_of_scenes;

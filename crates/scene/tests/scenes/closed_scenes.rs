@@ -1,0 +1,48 @@
+//! Scenes that promise closed solids: every edge has one triangle on each side.
+
+use std::collections::HashMap;
+
+use rasray_scene::builtin::builtin;
+use rasray_scene::{Mesh, Scene};
+
+fn scene(spec: &str) -> Scene {
+    builtin(spec).expect("built in").unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Directed edges, by the bits of positions, that do not have exactly one triangle along and one against them.
+fn unmatched_edges(mesh: &Mesh) -> usize {
+    let key = |vertex: u32| mesh.positions[vertex as usize].map(|value| (value + 0.0).to_bits());
+    let mut along: HashMap<_, u32> = HashMap::new();
+    for corners in mesh.indices.chunks_exact(3) {
+        for side in 0..3 {
+            *along.entry((key(corners[side]), key(corners[(side + 1) % 3]))).or_default() += 1;
+        }
+    }
+    along.iter().filter(|((from, to), count)| **count != 1 || along.get(&(*to, *from)) != Some(&1)).count()
+}
+
+/// Six times the volume: positive where fronts face outwards.
+fn volume(mesh: &Mesh) -> f64 {
+    let point = |vertex: u32| glam::DVec3::from_array(mesh.positions[vertex as usize].map(f64::from));
+    mesh.indices.chunks_exact(3).map(|c| point(c[0]).dot(point(c[1]).cross(point(c[2])))).sum()
+}
+
+/// All meshes but those named are closed, with fronts outwards.
+fn assert_closed(spec: &str, open: &[&str]) {
+    let scene = scene(spec);
+    for mesh in scene.meshes.iter().filter(|mesh| !open.contains(&mesh.name.as_str())) {
+        assert_eq!(unmatched_edges(mesh), 0, "{spec}: {} is open", mesh.name);
+        assert!(volume(mesh) > 0.0, "{spec}: {} is inside out", mesh.name);
+    }
+    for name in open {
+        let mesh = scene.meshes.iter().find(|mesh| mesh.name == *name);
+        assert!(mesh.is_some_and(|mesh| unmatched_edges(mesh) > 0), "{spec}: {name} is closed");
+    }
+}
+
+#[test]
+fn things_on_the_table_are_closed() {
+    for spec in ["still-life", "still-life:detail=0.25", "still-life:detail=1.7"] {
+        assert_closed(spec, &["wall", "window"]);
+    }
+}
