@@ -14,6 +14,7 @@
 //! | `corridor` | `reflectance` in [0, 1] (0.95), `width` in metres in [0.5, 50] (2) | 1,300 |
 //! | `mirror-hall` | `share` of mirrors among the pixels in percent, in [0, 80] (25), also as `mirror-hall:40` | 202,482 |
 //! | `still-life` | `detail` in [0.25, 4] (1) | about 291k at detail 1 |
+//! | `pool` | none; moves | 145,410 |
 //! | `walker` | `triangles` from 8k to 2M (30k), also as `walker:10k`; moves | as asked, within 5 % |
 //! | `cloth-ball` | `triangles` of the cloth from 1k to 1M (10k), also as `cloth-ball:100k`; moves | as asked, within 4 %, and 5,122 |
 //!
@@ -27,6 +28,7 @@ mod forms;
 mod furnace;
 mod mirror_hall;
 mod parameters;
+mod pool;
 mod ruins;
 mod shape;
 mod solid;
@@ -41,6 +43,7 @@ pub use cornell::cornell;
 pub use corridor::{Corridor, corridor};
 pub use furnace::{Furnace, FurnaceShape, furnace};
 pub use mirror_hall::{MirrorHall, mirror_hall};
+pub use pool::pool;
 pub use ruins::{Ruins, ruins};
 pub use spheres::{Spheres, spheres};
 pub use still_life::{StillLife, still_life};
@@ -50,7 +53,7 @@ use crate::{Scene, SceneError};
 use parameters::Parameters;
 
 /// Names of all built-in scenes, in the order that help texts list them.
-pub const NAMES: [&str; 10] = [
+pub const NAMES: [&str; 11] = [
     "cornell",
     "furnace",
     "spheres",
@@ -59,6 +62,7 @@ pub const NAMES: [&str; 10] = [
     "corridor",
     "mirror-hall",
     "still-life",
+    "pool",
     "walker",
     "cloth-ball",
 ];
@@ -146,6 +150,10 @@ fn make(name: &str, mut given: Parameters) -> Result<Scene, SceneError> {
             let detail = given.number("detail", StillLife::default().detail, StillLife::DETAIL)?;
             given.finish()?;
             Ok(still_life(StillLife { detail }))
+        }
+        "pool" => {
+            given.finish()?;
+            Ok(pool())
         }
         "cloth-ball" => {
             given.name_positional("triangles")?;

@@ -57,6 +57,19 @@ pub(super) fn cloth(name: &str, ground: [f64; 3], figure: [f64; 3]) -> Image {
     })
 }
 
+/// Eight by eight small glazed tiles in shades of blue; repeats.
+pub(super) fn mosaic() -> Image {
+    paint("mosaic", |u, v| {
+        let (x, y) = (u * 8.0, v * 8.0);
+        let inset = (x.fract().min(1.0 - x.fract())).min(y.fract().min(1.0 - y.fract()));
+        if inset < 0.045 {
+            return shade([214.0, 222.0, 220.0], 1.0, 255);
+        }
+        let tint = grain(x as u32 + 31, y as u32 + 17);
+        shade([118.0, 190.0, 208.0], 0.84 + 0.24 * tint, 255)
+    })
+}
+
 /// Wood with its grain along u; repeats.
 pub(super) fn wood() -> Image {
     paint("wood", |u, v| {

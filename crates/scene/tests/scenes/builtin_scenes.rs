@@ -140,6 +140,7 @@ fn wrong_parameters_are_refused_with_the_name_and_the_reason() {
         ("corridor:width=0", "from 0.5 to 50"),
         ("mirror-hall:90", "from 0 to 80"),
         ("still-life:detail=5", "from 0.25 to 4"),
+        ("pool:deep", "has no key"),
         ("walker:3k", "from 8000 to 2000000"),
         ("walker:speed=2", "no parameter `speed`"),
         ("cloth-ball:2M", "from 1000 to 1000000"),

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use rasray_scene::builtin::builtin;
-use rasray_scene::{Mesh, Scene};
+use rasray_scene::{Mesh, Moment, Scene};
 
 fn scene(spec: &str) -> Scene {
     builtin(spec).expect("built in").unwrap_or_else(|error| panic!("{error}"))
@@ -44,5 +44,25 @@ fn assert_closed(spec: &str, open: &[&str]) {
 fn things_on_the_table_are_closed() {
     for spec in ["still-life", "still-life:detail=0.25", "still-life:detail=1.7"] {
         assert_closed(spec, &["wall", "window"]);
+    }
+}
+
+#[test]
+fn the_water_of_the_pool_is_a_closed_volume_at_every_time() {
+    assert_closed("pool", &["basin", "lines", "ground"]);
+    let rest = scene("pool");
+    let water =
+        |scene: &Scene| scene.meshes.iter().find(|mesh| mesh.name == "water").cloned().expect("water");
+    let moment = |seconds: f64| Moment { seconds, ..Moment::default() };
+    let first = water(&rest);
+    for seconds in [0.0, 0.4, 7.25, 20.0] {
+        let now = water(&rest.at(&moment(seconds)).expect("it has no files"));
+        assert_eq!(unmatched_edges(&now), 0, "{seconds} s");
+        assert_eq!(now.indices, first.indices);
+        // Still at the beginning, waves of centimetres, and as much water as before.
+        assert_eq!(now.positions == first.positions, seconds == 0.0);
+        let moved = now.positions.iter().zip(&first.positions).map(|(a, b)| (a[1] - b[1]).abs());
+        assert!(moved.fold(0.0, f32::max) < 0.08, "{seconds} s");
+        assert!((volume(&now) / volume(&first) - 1.0).abs() < 0.01, "{seconds} s");
     }
 }
