@@ -32,6 +32,24 @@ int bsdf_side(Surface s, vec3 world_i, float cosine) {
     return 0;
 }
 
+// D(h) of the facets, 1/sr.
+float bsdf_distribution(BsdfTerms terms, vec3 h) {
+    if (SHADING_ANISOTROPY) return ggx_distribution(h, terms.alphas);
+    return ggx_distribution(h, terms.alpha);
+}
+
+// G(o, i) / (4 |cos o cos i|) of the facets.
+float bsdf_visibility(BsdfTerms terms, vec3 i) {
+    if (SHADING_ANISOTROPY) return ggx_visibility(terms.o, i, terms.alphas);
+    return ggx_visibility(terms.o.z, abs(i.z), terms.alpha);
+}
+
+// G1(o) / (4 cos o) of the facets.
+float bsdf_visibility_one(BsdfTerms terms) {
+    if (SHADING_ANISOTROPY) return ggx_visibility_one(terms.o, terms.alphas);
+    return ggx_visibility_one(terms.o.z, terms.alpha);
+}
+
 // What the rough microfacet family does towards local i: share of the value and density. The share
 // is per unit of reflected (x) or transmitted light at the facet, whose cosine is `facet_cosine`.
 void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out float value, out float pdf) {
@@ -43,9 +61,9 @@ void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out 
         vec3 up = vec3(i.xy, abs(i.z));
         vec3 h = normalize(o + up);
         facet_cosine = dot(o, h);
-        float distribution = ggx_distribution(h, terms.alpha);
-        value = distribution * ggx_visibility(o.z, up.z, terms.alpha);
-        pdf = distribution * ggx_visibility_one(o.z, terms.alpha);
+        float distribution = bsdf_distribution(terms, h);
+        value = distribution * bsdf_visibility(terms, up);
+        pdf = distribution * bsdf_visibility_one(terms);
         return;
     }
     vec3 h = bsdf_refraction_half(terms, i);
@@ -55,10 +73,10 @@ void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out 
     if (cosine_o <= 0.0 || cosine_i >= 0.0) return;
     float sum = terms.eta * cosine_o + cosine_i;
     float jacobian = -cosine_i / (sum * sum);
-    float distribution = ggx_distribution(h, terms.alpha);
+    float distribution = bsdf_distribution(terms, h);
     facet_cosine = cosine_o;
-    value = distribution * ggx_visibility(o.z, -i.z, terms.alpha) * 4.0 * cosine_o * jacobian;
-    pdf = distribution * ggx_visibility_one(o.z, terms.alpha) * 4.0 * cosine_o * jacobian;
+    value = distribution * bsdf_visibility(terms, i) * 4.0 * cosine_o * jacobian;
+    pdf = distribution * bsdf_visibility_one(terms) * 4.0 * cosine_o * jacobian;
 }
 
 // Value and density towards i; o and i are unit and point away from the surface. Delta lobes are left out.
@@ -128,7 +146,8 @@ BsdfSample bsdf_choose(BsdfTerms terms, Surface s, vec4 random) {
             expected = -1;
         }
     } else {
-        vec3 h = terms.mirror ? vec3(0.0, 0.0, 1.0) : ggx_visible_normal(terms.o, terms.alpha, random.zw);
+        vec2 alphas = SHADING_ANISOTROPY ? terms.alphas : vec2(terms.alpha);
+        vec3 h = terms.mirror ? vec3(0.0, 0.0, 1.0) : ggx_visible_normal(terms.o, alphas, random.zw);
         float cosine = dot(terms.o, h);
         float reflect_share = bsdf_reflect_probability(terms, cosine);
         bool reflects = random.y < reflect_share;

@@ -1,12 +1,14 @@
 // What: what scattering at one surface towards one direction needs to know: shares, probabilities and the light that
 // leaves the facets after several scatterings.
-// Reads: materials (specular colour, table of rough glass), vertex attributes (that table). Writes: nothing.
+// Reads: materials (specular colour, table of rough glass), vertex attributes (that table); what scene/anisotropy.glsl
+// reads where facets are rougher along one direction. Writes: nothing.
 // Source: docs/shading.md, "Reflection and transmission", "Energy"; glTF 2.0 appendix B.
 #ifndef SCENE_BSDF_TERMS_GLSL
 #define SCENE_BSDF_TERMS_GLSL
 
 #include "scene/accessors.glsl"
 #include "scene/albedo.glsl"
+#include "scene/anisotropy.glsl"
 #include "scene/features.glsl"
 #include "scene/glass_albedo.glsl"
 #include "scene/microfacet.glsl"
@@ -29,7 +31,8 @@ struct BsdfTerms {
     vec3 base_color;
     float metallic;
     float transmission;
-    float alpha;         // 0 for perfect mirrors
+    float alpha;         // 0 for perfect mirrors; of facets that are rougher along one direction the root mean square
+    vec2 alphas;         // along x and y of the frame; read where SHADING_ANISOTROPY
     float eta;           // index on the side of o over the index on the other side; 1: straight on
     bool mirror;
     bool pane;           // a smooth thin wall: what it lets through is followed apart, and is in no lobe
@@ -135,7 +138,7 @@ void bsdf_set_glass(inout BsdfTerms terms, Surface s) {
     if (!SHADING_TRANSMISSION || terms.eta == 1.0 || terms.alpha < ALBEDO_LOSSLESS_ALPHA) return;
     uint table = scene_material_albedo(s.material);
     if (table == ATTRIBUTE_NONE) return;
-    terms.glass = glass_rows(table, s.roughness);
+    terms.glass = glass_rows(table, SHADING_ANISOTROPY ? sqrt(terms.alpha) : s.roughness);
     float mean = glass_albedo_mean(terms.glass, terms.glass_side);
     float beyond = glass_albedo_mean(terms.glass, GLASS_LOST_BACK - terms.glass_side);
     if (!(mean > 0.0) || !(beyond > 0.0)) return;
@@ -186,6 +189,26 @@ vec3 bsdf_facet_normal(Surface s, vec3 o) {
     return normalize(o + lifted);
 }
 
+// Turns the frame so that facets are rougher along its x axis, and makes them so. Facets that are smooth across it scatter all
+// the same.
+void bsdf_set_anisotropy(inout BsdfTerms terms, Surface s) {
+    terms.alphas = vec2(terms.alpha);
+    vec3 rougher;
+    float strength = anisotropy_at(s, rougher);
+    vec3 normal = terms.frame[2];
+    vec3 along = rougher - normal * dot(normal, rougher);
+    float squared = dot(along, along);
+    if (!(strength > 0.0) || !(squared > 0.0)) return;
+    along *= inversesqrt(squared);
+    terms.frame = mat3(along, cross(normal, along), normal);
+    float roughness = max(s.roughness, BSDF_SMOOTH_ROUGHNESS);
+    float least = roughness * roughness;
+    terms.alphas = vec2(least + (1.0 - least) * strength * strength, least);
+    terms.alpha = sqrt(0.5 * dot(terms.alphas, terms.alphas));
+    terms.mirror = false;
+    terms.pane = false;
+}
+
 BsdfTerms bsdf_terms(Surface s, vec3 o) {
     BsdfTerms terms;
     // glTF: an index of 0 stands for full reflection; such a surface does not bend light.
@@ -202,6 +225,7 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
     bool straight = s.thickness <= 0.0 || terms.transmission <= 0.0 || abs(ior - 1.0) < BSDF_STRAIGHT_INDEX;
     terms.eta = straight ? 1.0 : (s.side == 1u ? 1.0 / ior : ior);
     terms.frame = basis_around(bsdf_facet_normal(s, o));
+    if (SHADING_ANISOTROPY) bsdf_set_anisotropy(terms, s);
     terms.base = s.normal * terms.frame;
     terms.o = o * terms.frame;
     bsdf_set_glass(terms, s);

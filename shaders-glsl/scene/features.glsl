@@ -51,5 +51,10 @@ layout(constant_id = 99) const bool SCENE_HAS_ENVIRONMENT_MAP = true;
 layout(constant_id = 100) const bool SCENE_HAS_COLORS = true;
 #define SHADING_COLORS SCENE_HAS_COLORS
 #endif
+// Facets of any material are rougher along one direction.
+#ifndef SHADING_ANISOTROPY
+layout(constant_id = 109) const bool SCENE_HAS_ANISOTROPY = true;
+#define SHADING_ANISOTROPY SCENE_HAS_ANISOTROPY
+#endif
 
 #endif

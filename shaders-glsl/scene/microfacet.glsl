@@ -43,8 +43,27 @@ float ggx_visibility_one(float cosine_o, float alpha) {
     return 0.5 / (cosine_o + ggx_root(cosine_o, alpha));
 }
 
-// A facet normal visible from o; density G1(o) D(h) max(0, o.h) / cos o.
-vec3 ggx_visible_normal(vec3 o, float alpha, vec2 random) {
+// The same for facets of another alpha along x than along y; o and i are directions, on either side.
+float ggx_distribution(vec3 h, vec2 alpha) {
+    vec3 scaled = vec3(h.xy / alpha, h.z);
+    float slope = dot(scaled, scaled);
+    return 1.0 / (MICROFACET_PI * alpha.x * alpha.y * slope * slope);
+}
+
+float ggx_root(vec3 direction, vec2 alpha) {
+    return length(vec3(alpha * direction.xy, direction.z));
+}
+
+float ggx_visibility(vec3 o, vec3 i, vec2 alpha) {
+    return 0.5 / (abs(o.z) * ggx_root(i, alpha) + abs(i.z) * ggx_root(o, alpha));
+}
+
+float ggx_visibility_one(vec3 o, vec2 alpha) {
+    return 0.5 / (abs(o.z) + ggx_root(o, alpha));
+}
+
+// A facet normal visible from o; density G1(o) D(h) max(0, o.h) / cos o. One alpha for each of x and y.
+vec3 ggx_visible_normal(vec3 o, vec2 alpha, vec2 random) {
     vec3 stretched = normalize(vec3(alpha * o.xy, o.z));
     float azimuth = 2.0 * MICROFACET_PI * random.x;
     float z = (1.0 - random.y) * (1.0 + stretched.z) - stretched.z;

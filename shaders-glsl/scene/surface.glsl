@@ -83,10 +83,9 @@ SurfaceTexels surface_texels(Material material, DrawShading draw, uvec3 triangle
 
 // Tangent along growing u (w: sign of the bitangent), from the vertices or else from the triangle's
 // texture coordinates. Zero where there is none.
-vec4 surface_tangent(DrawShading draw, Material material, uvec3 triangle, vec3 weights, vec3 ab, vec3 ac) {
+vec4 surface_tangent(DrawShading draw, uint uv_set, uvec3 triangle, vec3 weights, vec3 ab, vec3 ac) {
     vec4 tangent = attribute_tangent(draw, triangle, weights);
     if (dot(tangent.xyz, tangent.xyz) > 0.0) return tangent;
-    uint uv_set = material.normal_texture.uv_set;
     vec2 a = attribute_uv_at(draw, uv_set, triangle.x);
     vec2 u = attribute_uv_at(draw, uv_set, triangle.y) - a;
     vec2 v = attribute_uv_at(draw, uv_set, triangle.z) - a;
@@ -151,7 +150,7 @@ Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
     float facing = s.side == 1u ? 1.0 : -1.0;
     if (SHADING_TEXTURES && material.normal_texture.texture != TEXTURE_NONE) {
         vec3 front = dot(interpolated, interpolated) > 0.0 ? normalize(interpolated) : s.geometric_normal * facing;
-        vec4 tangent = surface_tangent(draw, material, triangle, weights, ab, ac);
+        vec4 tangent = surface_tangent(draw, material.normal_texture.uv_set, triangle, weights, ab, ac);
         interpolated = surface_mapped_normal(front, tangent, texels.normal.xyz, material.normal_scale);
     }
     s.normal = surface_shading_normal(interpolated * facing, s.geometric_normal);

@@ -64,7 +64,7 @@ struct TextureRef {
     vec3 row_v;                 // `v' = dot(row_v, (u, v, 1))`
 };
 
-// What a surface is made of. 256 bytes.
+// What a surface is made of. 300 bytes.
 struct Material {
     vec4 base_color;            // linear RGBA
     vec3 emission;              // W/(sr m^2)
@@ -86,6 +86,9 @@ struct Material {
     TextureRef normal_texture;  // linear
     TextureRef emission_texture; // with TEXTURE_SRGB
     TextureRef transmission_texture; // linear
+    float anisotropy;           // strength, in [0, 1]
+    vec2 anisotropy_rotation;   // cosine and sine of the angle from the tangent
+    TextureRef anisotropy_texture; // linear
 };
 
 // Where the texels of a texture lie and how they are sampled.

@@ -91,6 +91,8 @@ fn append_vertex_attributes(
     let masked = matches!(scene.materials[mesh.material].alpha_mode, AlphaMode::Mask { .. }) && parts.alpha;
     let shaded = parts.base_color_textures
         || parts.metallic_roughness_textures
+        || parts.anisotropy_textures
+        || scene.materials[mesh.material].anisotropy > 0.0
         || parts.normal_textures
         || parts.emission_textures
         || parts.transmission_textures;

@@ -33,6 +33,8 @@ pub struct ShadingFeatures {
     pub environment_map: bool,
     /// Any draw has colours of its vertices.
     pub colors: bool,
+    /// Facets of any material are rougher along one direction.
+    pub anisotropy: bool,
 }
 
 impl ShadingFeatures {
@@ -48,6 +50,7 @@ impl ShadingFeatures {
         emitters: true,
         environment_map: true,
         colors: true,
+        anisotropy: true,
     };
 
     /// Those of a scene whose texels are in runs of that length.
@@ -63,11 +66,12 @@ impl ShadingFeatures {
             emitters: !tables.emissive_triangles.is_empty(),
             environment_map: tables.environment.kind != ENVIRONMENT_CONSTANT,
             colors: tables.draw_shadings.iter().any(|draw| draw.colors != ATTRIBUTE_NONE),
+            anisotropy: tables.materials.iter().any(|material| material.anisotropy > 0.0),
         }
     }
 
     /// Each with its name.
-    fn named(self) -> [(&'static str, bool); 10] {
+    fn named(self) -> [(&'static str, bool); 11] {
         [
             ("textures", self.textures),
             ("transmission", self.transmission),
@@ -79,6 +83,7 @@ impl ShadingFeatures {
             ("surfaces that are sampled as lights", self.emitters),
             ("a map of the environment", self.environment_map),
             ("colours of vertices", self.colors),
+            ("anisotropic materials", self.anisotropy),
         ]
     }
 
@@ -102,12 +107,13 @@ impl ShadingFeatures {
             emitters: self.emitters || other.emitters,
             environment_map: self.environment_map || other.environment_map,
             colors: self.colors || other.colors,
+            anisotropy: self.anisotropy || other.anisotropy,
         }
     }
 
     /// Specialisation constants of modules that read the scene (`scene/features.glsl`): id and bits. A module without
     /// one of them ignores it.
-    pub fn constants(self) -> [(u32, u32); 8] {
+    pub fn constants(self) -> [(u32, u32); 9] {
         [
             (ids::SCENE_HAS_TEXTURES, self.textures.into()),
             (ids::SCENE_HAS_TRANSMISSION, self.transmission.into()),
@@ -117,6 +123,7 @@ impl ShadingFeatures {
             (ids::SCENE_HAS_EMITTERS, self.emitters.into()),
             (ids::SCENE_HAS_ENVIRONMENT_MAP, self.environment_map.into()),
             (ids::SCENE_HAS_COLORS, self.colors.into()),
+            (ids::SCENE_HAS_ANISOTROPY, self.anisotropy.into()),
         ]
     }
 }

@@ -71,6 +71,11 @@ fn pack(
             | if material.double_sided { MATERIAL_DOUBLE_SIDED } else { 0 }
             | if material.unlit { MATERIAL_UNLIT } else { 0 },
         albedo: ATTRIBUTE_NONE,
+        anisotropy: material.anisotropy,
+        anisotropy_rotation: {
+            let (sine, cosine) = material.anisotropy_rotation.sin_cos();
+            [cosine, sine]
+        },
         base_color_texture: slot(TextureKind::BaseColor, &material.base_color_texture, Encoding::Srgb)?,
         metallic_roughness_texture: slot(
             TextureKind::MetallicRoughness,
@@ -84,5 +89,6 @@ fn pack(
             &material.transmission_texture,
             Encoding::Linear,
         )?,
+        anisotropy_texture: slot(TextureKind::Anisotropy, &material.anisotropy_texture, Encoding::Linear)?,
     })
 }

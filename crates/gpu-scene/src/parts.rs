@@ -9,6 +9,8 @@ pub enum TextureKind {
     BaseColor,
     /// Metallic and roughness.
     MetallicRoughness,
+    /// Direction and strength of anisotropy.
+    Anisotropy,
     /// Tangent-space normals.
     Normal,
     /// Emission.
@@ -33,6 +35,8 @@ pub struct Parts {
     pub base_color_textures: bool,
     /// Metallic-roughness textures.
     pub metallic_roughness_textures: bool,
+    /// Anisotropy textures.
+    pub anisotropy_textures: bool,
     /// Normal maps.
     pub normal_textures: bool,
     /// Emission textures.
@@ -60,6 +64,7 @@ impl Parts {
         colors: true,
         base_color_textures: true,
         metallic_roughness_textures: true,
+        anisotropy_textures: true,
         normal_textures: true,
         emission_textures: true,
         transmission_textures: true,
@@ -78,6 +83,7 @@ impl Parts {
         colors: true,
         base_color_textures: false,
         metallic_roughness_textures: false,
+        anisotropy_textures: false,
         normal_textures: false,
         emission_textures: false,
         transmission_textures: false,
@@ -93,6 +99,7 @@ impl Parts {
         match kind {
             TextureKind::BaseColor => self.base_color_textures || (masked && self.alpha),
             TextureKind::MetallicRoughness => self.metallic_roughness_textures,
+            TextureKind::Anisotropy => self.anisotropy_textures,
             TextureKind::Normal => self.normal_textures,
             TextureKind::Emission => self.emission_textures,
             TextureKind::Transmission => self.transmission_textures,
@@ -111,6 +118,7 @@ impl From<&Needs> for Parts {
             colors: has(Term::Colors),
             base_color_textures: has(Term::BaseColorTextures),
             metallic_roughness_textures: has(Term::MetallicRoughnessTextures),
+            anisotropy_textures: has(Term::AnisotropyTextures),
             normal_textures: has(Term::NormalTextures),
             emission_textures: has(Term::EmissionTextures),
             transmission_textures: has(Term::TransmissionTextures),

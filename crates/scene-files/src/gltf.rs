@@ -16,6 +16,7 @@
 
 mod accessor;
 mod animations;
+mod anisotropy;
 mod attributes;
 mod buffer_views;
 mod buffers;

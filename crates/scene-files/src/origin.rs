@@ -84,6 +84,7 @@ fn repeats(material: &Material, textures: &[Texture]) -> bool {
     let used = [
         material.base_color_texture,
         material.metallic_roughness_texture,
+        material.anisotropy_texture,
         material.normal_texture,
         material.emission_texture,
         material.transmission_texture,

@@ -81,6 +81,12 @@ pub struct Material {
     pub roughness: f32,
     /// Roughness in G, metallic in B, linear.
     pub metallic_roughness_texture: Option<TextureRef>,
+    /// How much rougher facets are along one direction, in [0, 1].
+    pub anisotropy: f32,
+    /// Where that direction lies, radians from the tangent to the bitangent.
+    pub anisotropy_rotation: f32,
+    /// Direction in RG, from -1 to 1, before the rotation, and factor of the strength in B, linear.
+    pub anisotropy_texture: Option<TextureRef>,
     /// Tangent-space normals, linear.
     pub normal_texture: Option<TextureRef>,
     /// Scale of the normal texture's x and y.
@@ -125,6 +131,9 @@ impl Default for Material {
             metallic: 1.0,
             roughness: 1.0,
             metallic_roughness_texture: None,
+            anisotropy: 0.0,
+            anisotropy_rotation: 0.0,
+            anisotropy_texture: None,
             normal_texture: None,
             normal_scale: 1.0,
             emission: [0.0; 3],

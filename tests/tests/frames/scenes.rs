@@ -36,6 +36,7 @@ pub fn among(mut moving: Scene, other: &Scene) -> Scene {
         let used = [
             &mut material.base_color_texture,
             &mut material.metallic_roughness_texture,
+            &mut material.anisotropy_texture,
             &mut material.normal_texture,
             &mut material.emission_texture,
             &mut material.transmission_texture,

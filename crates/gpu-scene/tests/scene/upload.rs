@@ -76,7 +76,7 @@ fn bytes_are_given_by_part_and_come_back() {
     let bytes = |name| uploaded.bytes_by_part().iter().find(|part| part.0 == name).map(|part| part.1);
     assert_eq!(bytes("positions"), Some(10 * 36));
     assert_eq!(bytes("indices"), Some(10 * 12));
-    assert_eq!(bytes("materials"), Some(256));
+    assert_eq!(bytes("materials"), Some(300));
     assert_eq!(bytes("lights"), Some(56), "one zero record stands in for an empty table");
     assert_eq!(uploaded.bytes(), uploaded.bytes_by_part().iter().map(|part| part.1).sum::<u64>());
     assert!(device.allocated_bytes() >= uploaded.bytes());

@@ -246,6 +246,7 @@ fn code_that_is_left_out_does_not_change_the_picture() {
         emitters: true,
         environment_map: false,
         colors: false,
+        anisotropy: false,
     };
     assert_eq!(stage.scene.features(), needed);
     let lean = Path::new(&stage.desc_with(108, needed), 2).expect("valid");

@@ -1,5 +1,6 @@
 //! Integrators on a device against the naive reference.
 
+mod anisotropy;
 pub(crate) mod common;
 mod corpus;
 mod images;

@@ -91,6 +91,7 @@ impl Tracer<'_> {
                 surface.is_pane = self.passes_panes
                     && surface.transmission > 0.0
                     && surface.thickness <= 0.0
+                    && surface.anisotropy <= 0.0
                     && surface.roughness < SMOOTH_ROUGHNESS;
                 Some(surface)
             }

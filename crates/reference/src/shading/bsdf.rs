@@ -12,7 +12,10 @@ use super::{
     Surface, basis_around,
     bsdf_terms::{CosineProbability, Side, Terms},
     cosine_hemisphere, luminance,
-    microfacet::{ggx_distribution, ggx_visibility, ggx_visibility_one, ggx_visible_normal},
+    microfacet::{
+        ggx_distribution, ggx_distribution_along, ggx_visibility, ggx_visibility_along, ggx_visibility_one,
+        ggx_visibility_one_along, ggx_visible_normal,
+    },
 };
 
 pub use super::bsdf_terms::SMOOTH_ROUGHNESS;
@@ -48,17 +51,29 @@ impl Terms {
         if transmitted > 0.0 { reflected / (reflected + transmitted) } else { 1.0 }
     }
 
-    fn facets(&self, i: Vec3, side: Side) -> Facets {
+    /// D(h), 1/sr.
+    fn distribution(&self, h: Vec3) -> f32 {
+        self.alphas
+            .map_or_else(|| ggx_distribution(h, self.alpha), |alphas| ggx_distribution_along(h, alphas))
+    }
+
+    /// G(o, i) / (4 |cos o cos i|) and G1(o) / (4 cos o).
+    fn visibilities(&self, i: Vec3) -> [f32; 2] {
         let (o, alpha) = (self.o, self.alpha);
+        match self.alphas {
+            Some(alphas) => [ggx_visibility_along(o, i, alphas), ggx_visibility_one_along(o, alphas)],
+            None => [ggx_visibility(o.z, i.z.abs(), alpha), ggx_visibility_one(o.z, alpha)],
+        }
+    }
+
+    fn facets(&self, i: Vec3, side: Side) -> Facets {
+        let o = self.o;
+        let [both, one] = self.visibilities(i);
         if side == Side::Reflected || self.eta == 1.0 {
             let up = Vec3::new(i.x, i.y, i.z.abs());
             let h = (o + up).normalize();
-            let distribution = ggx_distribution(h, alpha);
-            return Facets {
-                cosine: o.dot(h),
-                value: distribution * ggx_visibility(o.z, up.z, alpha),
-                pdf: distribution * ggx_visibility_one(o.z, alpha),
-            };
+            let distribution = self.distribution(h);
+            return Facets { cosine: o.dot(h), value: distribution * both, pdf: distribution * one };
         }
         let h = (self.eta * o + i).normalize();
         let h = if h.z < 0.0 { -h } else { h };
@@ -69,11 +84,11 @@ impl Terms {
         }
         let sum = self.eta * cosine_o + cosine_i;
         let jacobian = -cosine_i / (sum * sum);
-        let distribution = ggx_distribution(h, alpha);
+        let distribution = self.distribution(h);
         Facets {
             cosine: cosine_o,
-            value: distribution * ggx_visibility(o.z, -i.z, alpha) * 4.0 * cosine_o * jacobian,
-            pdf: distribution * ggx_visibility_one(o.z, alpha) * 4.0 * cosine_o * jacobian,
+            value: distribution * both * 4.0 * cosine_o * jacobian,
+            pdf: distribution * one * 4.0 * cosine_o * jacobian,
         }
     }
 
@@ -167,8 +182,8 @@ pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> 
             up
         }
     } else {
-        let h =
-            if terms.mirror { Vec3::Z } else { ggx_visible_normal(terms.o, terms.alpha, Vec2::new(u, v)) };
+        let alphas = terms.alphas.unwrap_or(Vec2::splat(terms.alpha));
+        let h = if terms.mirror { Vec3::Z } else { ggx_visible_normal(terms.o, alphas, Vec2::new(u, v)) };
         let cosine = terms.o.dot(h);
         let reflect_share = terms.reflect_probability(cosine);
         let reflects = side < reflect_share;

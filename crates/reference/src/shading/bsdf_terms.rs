@@ -3,7 +3,7 @@
 
 use std::f32::consts::PI;
 
-use glam::{Mat3, Vec3};
+use glam::{Mat3, Vec2, Vec3};
 
 use super::{
     Surface, albedo, basis_around,
@@ -34,8 +34,10 @@ pub struct Terms {
     pub base_color: Vec3,
     pub metallic: f32,
     pub transmission: f32,
-    /// 0 for perfect mirrors.
+    /// 0 for perfect mirrors; of facets that are rougher along one direction the root mean square.
     pub alpha: f32,
+    /// Along x and y of the frame, where they are not the same.
+    pub alphas: Option<Vec2>,
     /// Index on the side of o over the index on the other side; 1: straight on.
     pub eta: f32,
     pub mirror: bool,
@@ -89,21 +91,42 @@ pub struct CosineProbability {
     pub through: f32,
 }
 
+/// A frame along whose x axis facets are rougher, and the alphas along x and y; `None` where they are as rough in all directions.
+fn anisotropy(surface: &Surface, normal: Vec3) -> Option<(Mat3, Vec2)> {
+    let along = surface.rougher - normal * normal.dot(surface.rougher);
+    if !(surface.anisotropy > 0.0) || !(along.length_squared() > 0.0) {
+        return None;
+    }
+    let along = along / along.length();
+    let roughness = surface.roughness.max(SMOOTH_ROUGHNESS);
+    let least = roughness * roughness;
+    let alphas = Vec2::new(least + (1.0 - least) * surface.anisotropy * surface.anisotropy, least);
+    Some((Mat3::from_cols(along, normal.cross(along), normal), alphas))
+}
+
 impl Terms {
     pub fn new(surface: &Surface, o: Vec3) -> Self {
         let ior = if surface.ior > 1.0e-3 { surface.ior } else { 1.0 };
         let root = (surface.ior.max(0.0) - 1.0) / (surface.ior.max(0.0) + 1.0);
         let straight =
             surface.thickness <= 0.0 || surface.transmission <= 0.0 || (ior - 1.0).abs() < STRAIGHT_INDEX;
-        let frame = basis_around(facet_normal(surface.normal, surface.geometric_normal, o));
-        let mirror = surface.roughness < SMOOTH_ROUGHNESS;
+        let normal = facet_normal(surface.normal, surface.geometric_normal, o);
+        let anisotropy = anisotropy(surface, normal);
+        let frame = anisotropy.map_or_else(|| basis_around(normal), |(frame, _)| frame);
+        let alphas = anisotropy.map(|(_, alphas)| alphas);
+        let mirror = surface.roughness < SMOOTH_ROUGHNESS && alphas.is_none();
         let mut terms = Self {
             f0: (root * root * surface.specular_color).min(Vec3::ONE) * surface.specular,
             f90: surface.specular,
             base_color: surface.base_color,
             metallic: surface.metallic,
             transmission: surface.transmission,
-            alpha: if mirror { 0.0 } else { surface.roughness * surface.roughness },
+            alpha: match alphas {
+                Some(alphas) => (0.5 * alphas.length_squared()).sqrt(),
+                None if mirror => 0.0,
+                None => surface.roughness * surface.roughness,
+            },
+            alphas,
             eta: match (straight, surface.front) {
                 (true, _) => 1.0,
                 (false, true) => 1.0 / ior,
@@ -127,7 +150,7 @@ impl Terms {
     /// Lost light goes through as facets let it, but no more than is lost for light that takes the same way back.
     fn glass(&self, ior: f32, surface: &Surface) -> Glass {
         let table = glass_albedo::table(ior, self.f0.max_element(), self.f90);
-        let roughness = surface.roughness;
+        let roughness = if self.alphas.is_some() { self.alpha.sqrt() } else { surface.roughness };
         let side = if surface.front { Block::Front } else { Block::Back };
         let (mean, beyond) = (table.mean(side, roughness), table.mean(side.beyond(), roughness));
         let mut glass = Glass {

@@ -43,14 +43,32 @@ pub fn ggx_visibility_one(cosine_o: f32, alpha: f32) -> f32 {
     0.5 / (cosine_o + ggx_root(cosine_o, alpha))
 }
 
-/// A facet normal visible from o; density G1(o) D(h) max(0, o.h) / cos o.
-pub fn ggx_visible_normal(o: Vec3, alpha: f32, random: Vec2) -> Vec3 {
-    let stretched = Vec3::new(alpha * o.x, alpha * o.y, o.z).normalize();
+/// The same for facets of another alpha along x than along y; o and i are directions, on either side.
+pub fn ggx_distribution_along(h: Vec3, alpha: Vec2) -> f32 {
+    let slope = (h.truncate() / alpha).extend(h.z).length_squared();
+    1.0 / (PI * alpha.x * alpha.y * slope * slope)
+}
+
+fn ggx_root_along(direction: Vec3, alpha: Vec2) -> f32 {
+    (alpha * direction.truncate()).extend(direction.z).length()
+}
+
+pub fn ggx_visibility_along(o: Vec3, i: Vec3, alpha: Vec2) -> f32 {
+    0.5 / (o.z.abs() * ggx_root_along(i, alpha) + i.z.abs() * ggx_root_along(o, alpha))
+}
+
+pub fn ggx_visibility_one_along(o: Vec3, alpha: Vec2) -> f32 {
+    0.5 / (o.z.abs() + ggx_root_along(o, alpha))
+}
+
+/// A facet normal visible from o; density G1(o) D(h) max(0, o.h) / cos o. One alpha for each of x and y.
+pub fn ggx_visible_normal(o: Vec3, alpha: Vec2, random: Vec2) -> Vec3 {
+    let stretched = Vec3::new(alpha.x * o.x, alpha.y * o.y, o.z).normalize();
     let azimuth = 2.0 * PI * random.x;
     let z = (1.0 - random.y) * (1.0 + stretched.z) - stretched.z;
     let sine = (1.0 - z * z).clamp(0.0, 1.0).sqrt();
     let h = Vec3::new(sine * azimuth.cos(), sine * azimuth.sin(), z) + stretched;
-    Vec3::new(alpha * h.x, alpha * h.y, h.z.max(1.0e-7)).normalize()
+    Vec3::new(alpha.x * h.x, alpha.y * h.y, h.z.max(1.0e-7)).normalize()
 }
 
 /// (1 - cosine)^5.

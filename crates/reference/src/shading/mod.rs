@@ -14,6 +14,7 @@
 
 mod albedo;
 mod alpha;
+mod anisotropy;
 mod attributes;
 pub mod bsdf;
 mod bsdf_terms;

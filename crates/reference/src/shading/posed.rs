@@ -187,6 +187,7 @@ pub(super) fn texture_uses(material: &Material) -> impl Iterator<Item = (Texture
     [
         (material.base_color_texture, Use::Color),
         (material.metallic_roughness_texture, Use::Linear),
+        (material.anisotropy_texture, Use::Linear),
         (material.normal_texture, Use::Linear),
         (material.emission_texture, Use::Color),
         (material.transmission_texture, Use::Linear),

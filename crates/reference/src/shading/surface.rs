@@ -31,6 +31,10 @@ pub struct Surface {
     pub emission: Vec3,
     /// Perceptual, in [0, 1].
     pub roughness: f32,
+    /// How much rougher facets are along `rougher`, in [0, 1].
+    pub anisotropy: f32,
+    /// Not normalised; read where there is anisotropy.
+    pub rougher: Vec3,
     /// In [0, 1].
     pub transmission: f32,
     /// Index of refraction.
@@ -66,6 +70,8 @@ impl Default for Surface {
             metallic: 0.0,
             emission: Vec3::ZERO,
             roughness: 1.0,
+            anisotropy: 0.0,
+            rougher: Vec3::ZERO,
             transmission: 0.0,
             ior: 1.5,
             opacity: 1.0,
@@ -81,17 +87,17 @@ impl Default for Surface {
 }
 
 /// A triangle as seen by its textures.
-struct Textured<'a> {
-    posed: &'a PosedScene<'a>,
-    draw: &'a Draw,
-    triangle: [usize; 3],
-    weights: Vec3,
-    twice_area: f32,
-    footprint: f32,
+pub(super) struct Textured<'a> {
+    pub posed: &'a PosedScene<'a>,
+    pub draw: &'a Draw,
+    pub triangle: [usize; 3],
+    pub weights: Vec3,
+    pub twice_area: f32,
+    pub footprint: f32,
 }
 
 impl Textured<'_> {
-    fn texel(&self, reference: Option<&TextureRef>, usage: Use) -> Vec4 {
+    pub fn texel(&self, reference: Option<&TextureRef>, usage: Use) -> Vec4 {
         let Some(reference) = reference else { return Vec4::ONE };
         let mesh = self.posed.mesh(self.draw);
         let uv = attributes::uv(mesh, reference.uv_set, self.triangle, self.weights);
@@ -112,7 +118,7 @@ impl Textured<'_> {
     }
 
     /// Tangent along growing u, from the vertices or else from the texture coordinates.
-    fn tangent(&self, uv_set: u32, ab: Vec3, ac: Vec3) -> Vec4 {
+    pub fn tangent(&self, uv_set: u32, ab: Vec3, ac: Vec3) -> Vec4 {
         let tangent = attributes::tangent(self.draw, self.triangle, self.weights);
         if tangent.xyz().length_squared() > 0.0 {
             return tangent;
@@ -222,7 +228,7 @@ impl PosedScene<'_> {
         surface.thickness = material.thickness;
         surface.specular = material.specular;
         surface.specular_color = Vec3::from(material.specular_color);
-        surface
+        self.with_anisotropy(surface)
     }
 
     /// Radiance that leaves a point of a triangle towards a light sample: level 0; what is cut out

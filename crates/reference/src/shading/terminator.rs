@@ -2,7 +2,11 @@
 
 use glam::Vec3;
 
-use super::{Surface, posed::PosedScene, triangle::barycentric_weights};
+use super::{
+    Surface,
+    posed::PosedScene,
+    triangle::{barycentric_weights, barycentrics},
+};
 
 impl PosedScene<'_> {
     /// The surface on the smooth shape that the normals of its triangle's vertices suggest, as `o` sees it; the same one where
@@ -32,15 +36,6 @@ impl PosedScene<'_> {
         let normal =
             if surface.normal.dot(geometric_normal) < 0.0 { geometric_normal } else { surface.normal };
         let (position, position_error) = (surface.position + offset, 2.0 * surface.position_error);
-        Surface { position, position_error, geometric_normal, normal, ..*surface }
+        self.with_anisotropy(Surface { position, position_error, geometric_normal, normal, ..*surface })
     }
-}
-
-/// Weights of vertices 1 and 2 of a point of a triangle's plane.
-fn barycentrics(point: Vec3, [a, b, c]: [Vec3; 3]) -> glam::Vec2 {
-    let (ab, ac) = (b - a, c - a);
-    let normal = ab.cross(ac);
-    let squared = normal.length_squared();
-    let weights = glam::Vec2::new((point - a).cross(ac).dot(normal), ab.cross(point - a).dot(normal));
-    if squared > 0.0 { weights / squared } else { glam::Vec2::ZERO }
 }

@@ -31,3 +31,12 @@ pub fn triangle_normal(ab: Vec3, ac: Vec3) -> (Vec3, f32) {
     }
     (normal / size, size * scale * scale)
 }
+
+/// Weights of vertices 1 and 2 of a point of a triangle's plane.
+pub fn barycentrics(point: Vec3, [a, b, c]: [Vec3; 3]) -> Vec2 {
+    let (ab, ac) = (b - a, c - a);
+    let normal = ab.cross(ac);
+    let squared = normal.length_squared();
+    let weights = Vec2::new((point - a).cross(ac).dot(normal), ab.cross(point - a).dot(normal));
+    if squared > 0.0 { weights / squared } else { Vec2::ZERO }
+}

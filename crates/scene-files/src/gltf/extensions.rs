@@ -10,9 +10,10 @@ use rasray_scene::remarks::Remarks;
 use rasray_scene::text::shown;
 
 /// Extensions that change the scene as they should.
-const SUPPORTED: [&str; 10] = [
+const SUPPORTED: [&str; 11] = [
     "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_specular",

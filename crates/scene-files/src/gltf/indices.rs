@@ -6,6 +6,7 @@ use ::gltf::json::material::Material;
 use ::gltf::json::texture::Info;
 use ::gltf::json::{Index, Root};
 
+use super::anisotropy::anisotropy;
 use rasray_scene::SceneError;
 
 /// Checks all references of a file.
@@ -149,6 +150,10 @@ impl Check<'_> {
         for (member, info) in infos {
             self.optional(place, member, info.map(|info| info.index), textures)?;
         }
+        // What cannot be read is refused where it is.
+        let anisotropy = anisotropy(material).ok().flatten();
+        let info = anisotropy.and_then(|found| found.texture);
+        self.optional(place, "anisotropyTexture", info.map(|info| info.index), textures)?;
         self.optional(
             place,
             "normalTexture",

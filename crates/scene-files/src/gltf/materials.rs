@@ -3,6 +3,7 @@
 use ::gltf::json::material::{AlphaMode as JsonAlphaMode, Material as JsonMaterial};
 use ::gltf::json::validation::Checked;
 
+use super::anisotropy::{Anisotropy, anisotropy};
 use super::document::Document;
 use super::textures::{TextureReader, Use};
 use rasray_scene::{AlphaMode, Material, Scene, SceneError};
@@ -68,6 +69,12 @@ fn convert_one(
         _ => AlphaMode::Opaque,
     };
     scalar_extensions(source, &mut material, &mut range);
+    let anisotropy = anisotropy(source)
+        .map_err(|_| document.invalid(format!("{place}.anisotropyTexture"), "has a malformed transform"))?;
+    if let Some(found) = &anisotropy {
+        material.anisotropy = range.unit("anisotropyStrength", found.strength);
+        material.anisotropy_rotation = range.clamp("anisotropyRotation", found.rotation, -1.0e6, 1.0e6);
+    }
     // Boundaries of volumes have both sides, whatever the file says (KHR_materials_volume).
     material.culls_back = !source.double_sided && material.thickness == 0.0;
     range.report(document);
@@ -82,6 +89,9 @@ fn convert_one(
     let transmission = extension(source, |found| found.transmission.as_ref());
     material.transmission_texture =
         read(transmission.and_then(|found| found.transmission_texture.as_ref()).map(Into::into))?;
+    if let Some(Anisotropy { texture: Some(info), .. }) = &anisotropy {
+        material.anisotropy_texture = read(Some(info.into()))?;
+    }
     if let Some(normal) = &source.normal_texture {
         let wanted = Use::of_normal(normal)
             .map_err(|_| document.invalid(format!("{place}.normalTexture"), "has a malformed transform"))?;

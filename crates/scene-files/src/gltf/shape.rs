@@ -195,6 +195,14 @@ const MATERIAL: &[Member] = &[
     may(
         "extensions",
         Extensions(&[
+            may(
+                "KHR_materials_anisotropy",
+                Object(&[
+                    may("anisotropyStrength", Number),
+                    may("anisotropyRotation", Number),
+                    may("anisotropyTexture", Object(INFO)),
+                ]),
+            ),
             may("KHR_materials_emissive_strength", Object(&[may("emissiveStrength", Number)])),
             may("KHR_materials_ior", Object(&[may("ior", Number)])),
             may(

@@ -1,6 +1,6 @@
 //! What is read: geometry, instances, materials, lights, cameras, deformation.
 
-use crate::gltf_support::rich::rich_glb;
+use crate::gltf_support::rich::{png, rich_glb};
 use crate::gltf_support::{
     assert_well_formed, data_uri, floats, kinds, load_bytes, triangle_bytes, triangle_gltf,
 };
@@ -145,6 +145,35 @@ fn quantised_positions_need_their_extension() {
     let normalized = text.replace(r#""componentType":5122"#, r#""componentType":5122,"normalized":true"#);
     assert_eq!(load_text(&normalized).meshes[0].positions[2], [0.0, -1.0, 0.0]);
     assert!(load_bytes(text.replace("KHR_mesh_quantization", "KHR_other").as_bytes()).is_err());
+}
+
+/// `KHR_materials_anisotropy`, which may be required.
+#[test]
+fn anisotropy_is_read() {
+    let extra = |members: &str| {
+        format!(
+            r#","materials":[{{"extensions":{{"KHR_materials_anisotropy":{{{members}}}}}}}],
+            "extensionsUsed":["KHR_materials_anisotropy"],"extensionsRequired":["KHR_materials_anisotropy"],
+            "textures":[{{"source":0}}],"images":[{{"uri":"{}"}}]"#,
+            data_uri(&png())
+        )
+    };
+    let load = |members: &str| load_text(&triangle_gltf(NODE, r#","material":0"#, &extra(members)));
+    let scene = load(r#""anisotropyStrength":0.75,"anisotropyRotation":1.5,"anisotropyTexture":{"index":0}"#);
+    let material = &scene.materials[0];
+    assert_eq!((material.anisotropy, material.anisotropy_rotation), (0.75, 1.5));
+    assert_eq!(material.anisotropy_texture.expect("a texture").uv_set, 0);
+    let bare = load("");
+    assert_eq!((bare.materials[0].anisotropy, bare.materials[0].anisotropy_texture), (0.0, None));
+    assert_eq!(load(r#""anisotropyStrength":2"#).materials[0].anisotropy, 1.0, "brought into range");
+    for (members, word) in [
+        (r#""anisotropyTexture":{"index":7}"#, "anisotropyTexture"),
+        (r#""anisotropyStrength":"much""#, "anisotropyStrength"),
+    ] {
+        let text = triangle_gltf(NODE, r#","material":0"#, &extra(members));
+        let error = load_bytes(text.as_bytes()).expect_err("refused").to_string();
+        assert!(error.contains(word), "{error}");
+    }
 }
 
 #[test]

@@ -303,7 +303,6 @@ fn unsupported_extensions_are_named_wherever_they_are() {
         "KHR_materials_clearcoat",
         "KHR_materials_sheen",
         "KHR_materials_iridescence",
-        "KHR_materials_anisotropy",
         "KHR_materials_variants",
     ];
     for name in names {

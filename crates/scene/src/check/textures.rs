@@ -12,7 +12,8 @@ pub fn textured(scene: &Scene, remarks: &mut Remarks) {
             let Some(TextureRef { uv_set, .. }) = texture else { continue };
             if mesh.uvs.get(uv_set as usize).is_none_or(Option::is_none) {
                 // A tangent follows from coordinates unless the mesh has its own.
-                let flat = what == "normal map" && mesh.tangents.is_none();
+                let is_laid = ["normal map", "anisotropy texture"].contains(&what);
+                let flat = is_laid && mesh.tangents.is_none();
                 let effect =
                     if flat { "it has no effect" } else { "the same texel of it is used everywhere" };
                 remarks.note(
@@ -28,10 +29,11 @@ pub fn textured(scene: &Scene, remarks: &mut Remarks) {
 }
 
 /// The textures of a material with their names.
-fn textures(material: &Material) -> [(&'static str, Option<TextureRef>); 5] {
+fn textures(material: &Material) -> [(&'static str, Option<TextureRef>); 6] {
     [
         ("base colour texture", material.base_color_texture),
         ("metallic-roughness texture", material.metallic_roughness_texture),
+        ("anisotropy texture", material.anisotropy_texture),
         ("normal map", material.normal_texture),
         ("emission texture", material.emission_texture),
         ("transmission texture", material.transmission_texture),

@@ -11,6 +11,7 @@ pub(super) struct Reads<'a> {
     /// For its alpha, against a cutoff.
     pub mask: Option<&'a TextureRef>,
     pub metallic_roughness: Option<&'a TextureRef>,
+    pub anisotropy: Option<&'a TextureRef>,
     pub normal: Option<&'a TextureRef>,
     pub emission: Option<&'a TextureRef>,
     pub transmission: Option<&'a TextureRef>,
@@ -33,6 +34,9 @@ impl<'a> Reads<'a> {
         if scattered {
             reads.metallic_roughness = material.metallic_roughness_texture.as_ref();
         }
+        if is_anisotropic(material, workload) {
+            reads.anisotropy = material.anisotropy_texture.as_ref();
+        }
         if scattered && material.transmission > 0.0 {
             reads.transmission = material.transmission_texture.as_ref();
         }
@@ -44,8 +48,10 @@ impl<'a> Reads<'a> {
 
     /// All textures that are read; one that is read twice occurs twice.
     pub fn textures(&self) -> impl Iterator<Item = &'a TextureRef> {
-        let Self { base_color, mask, metallic_roughness, normal, emission, transmission } = *self;
-        [base_color, mask, metallic_roughness, normal, emission, transmission].into_iter().flatten()
+        let Self { base_color, mask, metallic_roughness, anisotropy, normal, emission, transmission } = *self;
+        [base_color, mask, metallic_roughness, anisotropy, normal, emission, transmission]
+            .into_iter()
+            .flatten()
     }
 }
 
@@ -57,6 +63,11 @@ pub(super) fn reads_base_color(material: &Material, workload: Workload) -> bool 
 /// Whether the workload lets light through where a material blends.
 pub(super) fn blends(material: &Material, workload: Workload) -> bool {
     workload.blends && material.alpha_mode == AlphaMode::Blend
+}
+
+/// Whether the workload shows that facets are rougher along one direction.
+pub(super) fn is_anisotropic(material: &Material, workload: Workload) -> bool {
+    workload.scatters && !material.unlit && material.anisotropy > 0.0
 }
 
 /// Whether a colour is not black.

@@ -1,7 +1,7 @@
 //! What a scene has, as far as a workload could look at it.
 
 use super::moving::moving_instances;
-use super::reads::{Reads, blends, is_lit, reads_base_color};
+use super::reads::{Reads, blends, is_anisotropic, is_lit, reads_base_color};
 use super::term::Term;
 use super::workload::Workload;
 use crate::{AlphaMode, Environment, Light, Material, Mesh, Scene, TextureRef};
@@ -67,12 +67,13 @@ fn words(term: Term) -> ((&'static str, &'static str), &'static str, &'static st
     let (mesh, material) = (("mesh", "meshes"), ("material", "materials"));
     match term {
         Term::Normals => (mesh, "has", "shading normals"),
-        Term::Tangents => (mesh, "has", "tangents that a normal map is laid along"),
+        Term::Tangents => (mesh, "has", "tangents that a normal map or rougher facets are laid along"),
         Term::Uv0 => (mesh, "has", "texture coordinates 0 that a texture is read at"),
         Term::Uv1 => (mesh, "has", "texture coordinates 1 that a texture is read at"),
         Term::Colors => (mesh, "has", "vertex colours that show"),
         Term::BaseColorTextures => (material, "has", "a base colour texture that shows"),
         Term::MetallicRoughnessTextures => (material, "has", "a metallic-roughness texture"),
+        Term::AnisotropyTextures => (material, "has", "an anisotropy texture"),
         Term::NormalTextures => (material, "has", "a normal map"),
         Term::EmissionTextures => (material, "has", "an emission texture"),
         Term::TransmissionTextures => (material, "has", "a transmission texture"),
@@ -101,6 +102,7 @@ pub(super) fn unseen(term: Term, workload: Workload) -> Option<&'static str> {
         Term::AlphaBlend => workload.blends,
         Term::Normals | Term::Tangents | Term::NormalTextures => workload.shades,
         Term::MetallicRoughnessTextures
+        | Term::AnisotropyTextures
         | Term::TransmissionTextures
         | Term::Specular
         | Term::Transmission
@@ -170,6 +172,7 @@ impl Survey {
         for (texture, term) in [
             (reads.base_color, Term::BaseColorTextures),
             (reads.metallic_roughness, Term::MetallicRoughnessTextures),
+            (reads.anisotropy, Term::AnisotropyTextures),
             (reads.normal, Term::NormalTextures),
             (reads.emission, Term::EmissionTextures),
             (reads.transmission, Term::TransmissionTextures),
@@ -196,10 +199,14 @@ impl Survey {
         let reads = Reads::of(material, workload);
         let shaded = workload.shades && !material.unlit;
         self.add_if(mesh.normals.is_some() && shaded, Term::Normals, name);
-        self.add_if(mesh.tangents.is_some() && reads.normal.is_some(), Term::Tangents, name);
+        let is_anisotropic = is_anisotropic(material, workload);
+        let reads_tangents = reads.normal.is_some() || is_anisotropic;
+        self.add_if(mesh.tangents.is_some() && reads_tangents, Term::Tangents, name);
         for (set, term) in [Term::Uv0, Term::Uv1].into_iter().enumerate() {
             let reads_set = |texture: &TextureRef| texture.uv_set as usize == set;
-            self.add_if(mesh.uvs[set].is_some() && reads.textures().any(reads_set), term, name);
+            // Tangents follow from the first set where nothing else says from which.
+            let reads_it = reads.textures().any(reads_set) || (is_anisotropic && set == 0);
+            self.add_if(mesh.uvs[set].is_some() && reads_it, term, name);
         }
         // Alpha of vertices takes part in masks.
         let colored =

@@ -17,6 +17,8 @@ pub enum Term {
     BaseColorTextures,
     /// Metallic-roughness textures.
     MetallicRoughnessTextures,
+    /// Anisotropy textures.
+    AnisotropyTextures,
     /// Normal maps.
     NormalTextures,
     /// Emission textures.
@@ -51,7 +53,7 @@ pub enum Term {
 
 impl Term {
     /// All terms, in the order that reports list them.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 23] = [
         Self::Normals,
         Self::Tangents,
         Self::Uv0,
@@ -59,6 +61,7 @@ impl Term {
         Self::Colors,
         Self::BaseColorTextures,
         Self::MetallicRoughnessTextures,
+        Self::AnisotropyTextures,
         Self::NormalTextures,
         Self::EmissionTextures,
         Self::TransmissionTextures,
@@ -86,6 +89,7 @@ impl Term {
             Self::Colors => "vertex colours",
             Self::BaseColorTextures => "base colour textures",
             Self::MetallicRoughnessTextures => "metallic-roughness textures",
+            Self::AnisotropyTextures => "anisotropy textures",
             Self::NormalTextures => "normal maps",
             Self::EmissionTextures => "emission textures",
             Self::TransmissionTextures => "transmission textures",

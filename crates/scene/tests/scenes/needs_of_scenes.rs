@@ -45,6 +45,8 @@ fn everything() -> Scene {
         name: "glass".to_owned(),
         base_color_texture: texture(0, 0),
         metallic_roughness_texture: texture(1, 0),
+        anisotropy: 0.5,
+        anisotropy_texture: texture(1, 0),
         normal_texture: texture(2, 0),
         emission: [1.0; 3],
         emission_texture: texture(3, 1),
@@ -159,7 +161,13 @@ fn each_term_goes_with_its_cause() {
         assert_eq!(missing, gone);
     };
     without(&|scene| scene.meshes.iter_mut().for_each(|mesh| mesh.normals = None), &[Term::Normals]);
-    without(&|scene| scene.materials[0].normal_texture = None, &[Term::Tangents, Term::NormalTextures]);
+    without(&|scene| scene.materials[0].normal_texture = None, &[Term::NormalTextures]);
+    without(&|scene| scene.materials[0].anisotropy = 0.0, &[Term::AnisotropyTextures]);
+    let flat = |scene: &mut Scene| {
+        scene.materials[0].normal_texture = None;
+        scene.materials[0].anisotropy = 0.0;
+    };
+    without(&flat, &[Term::Tangents, Term::AnisotropyTextures, Term::NormalTextures]);
     without(
         &|scene| scene.materials[0].emission = [0.0; 3],
         &[Term::EmissionTextures, Term::Emission, Term::AreaLights],

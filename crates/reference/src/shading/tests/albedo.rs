@@ -17,7 +17,7 @@ fn albedos_are_those_of_the_integrals() {
         let (steps, mut sums) = (200, [0.0_f64; 2]);
         for step in 0..steps * steps {
             let place = Vec2::new((step % steps) as f32 + 0.5, (step / steps) as f32 + 0.5) / steps as f32;
-            let h = ggx_visible_normal(o, alpha, place);
+            let h = ggx_visible_normal(o, Vec2::splat(alpha), place);
             let i = 2.0 * o.dot(h) * h - o;
             if i.z > 0.0 {
                 let kept = ggx_visibility(o.z, i.z, alpha) / ggx_visibility_one(o.z, alpha) * i.z;

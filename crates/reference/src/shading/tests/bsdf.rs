@@ -36,6 +36,25 @@ fn surfaces() -> Vec<(&'static str, Surface)> {
     all
 }
 
+/// Surfaces whose facets are rougher along one direction, which leans out of the surface.
+fn anisotropic() -> Vec<(&'static str, Surface)> {
+    let rougher = Vec3::new(3.0, -1.0, 0.5);
+    let base = Surface { specular: 1.0, rougher, ..Surface::default() };
+    let mut all = Vec::new();
+    for (roughness, anisotropy) in [(0.3, 0.5), (0.5, 1.0), (0.6, 0.2)] {
+        let brushed = Surface { roughness, anisotropy, ..base };
+        let glass = Surface { transmission: 1.0, thickness: 1.0, ..brushed };
+        all.extend([
+            ("brushed plastic", brushed),
+            ("brushed metal", Surface { metallic: 1.0, base_color: Vec3::new(0.9, 0.6, 0.3), ..brushed }),
+            ("brushed thin wall", Surface { transmission: 1.0, ..brushed }),
+            ("brushed glass", glass),
+            ("brushed glass from inside", Surface { front: false, ..glass }),
+        ]);
+    }
+    all
+}
+
 fn directions() -> [Vec3; 3] {
     [0.05_f32, 0.7, 1.35].map(|angle| Vec3::new(angle.sin() * 0.6, angle.sin() * 0.8, angle.cos()))
 }
@@ -76,7 +95,7 @@ fn over_sphere_in_rows<const N: usize>(rows: u32, o: Vec3, value: impl Fn(Vec3) 
 #[test]
 fn densities_describe_the_samples() {
     let count = 20_000;
-    for (name, surface) in surfaces() {
+    for (name, surface) in surfaces().into_iter().chain(anisotropic()) {
         for o in directions() {
             let mut sums = [0.0; 4];
             for index in 0..count {
@@ -113,7 +132,7 @@ fn a_wrong_density_would_be_seen() {
 /// Weights are value times cosine over density, and their mean is the integral of value times cosine.
 #[test]
 fn weights_are_value_times_cosine_over_density() {
-    for (name, surface) in surfaces() {
+    for (name, surface) in surfaces().into_iter().chain(anisotropic()) {
         for o in directions() {
             for index in 0..200 {
                 let Some(sample) = bsdf_sample(&surface, o, random(index)) else { continue };
@@ -206,6 +225,90 @@ fn white_surfaces_lose_nothing() {
     }
 }
 
+/// The distribution and the masking of KHR_materials_anisotropy, as it writes them, of a metal so dark that what facets send on
+/// after several scatterings does not count.
+#[test]
+fn facets_are_rougher_along_one_direction_as_the_extension_says() {
+    let color = 0.01;
+    for (roughness, anisotropy) in [(0.3_f32, 0.5_f32), (0.1, 0.2), (0.2, 0.6), (0.15, 0.4)] {
+        let surface = Surface {
+            metallic: 1.0,
+            base_color: Vec3::splat(color),
+            rougher: Vec3::X * 2.0,
+            roughness,
+            anisotropy,
+            ..Surface::default()
+        };
+        let ab = f64::from(roughness).powi(2);
+        let at = ab + (1.0 - ab) * f64::from(anisotropy).powi(2);
+        let o = glam::DVec3::new(0.3, 0.2, 0.9).normalize();
+        let mut seen = 0;
+        for azimuth in (0..12).map(|twelfth| f64::from(twelfth) * PI / 6.0) {
+            // Around the mirrored direction, as far as the lobe is bright.
+            let i = glam::DVec3::new(-o.x + 0.1 * azimuth.cos(), -o.y + 0.1 * azimuth.sin(), o.z).normalize();
+            let h = (o + i).normalize();
+            let f = glam::DVec3::new(ab * h.x, at * h.y, at * ab * h.z);
+            let w = at * ab / f.length_squared();
+            let distribution = at * ab * w * w / PI;
+            let long = |d: glam::DVec3| glam::DVec3::new(at * d.x, ab * d.y, d.z).length();
+            let visibility = 0.5 / (i.z * long(o) + o.z * long(i));
+            let fresnel = f64::from(color) + (1.0 - f64::from(color)) * (1.0 - o.dot(h)).powi(5);
+            let expected = fresnel * distribution * visibility;
+            if expected > 0.05 * f64::from(color) / (4.0 * PI * at * ab) {
+                let found = f64::from(bsdf_evaluate(&surface, o.as_vec3(), i.as_vec3()).x);
+                assert!(
+                    (found / expected - 1.0).abs() < 0.02,
+                    "{roughness} {anisotropy}: {found} {expected}"
+                );
+                seen += 1;
+            }
+        }
+        assert!(seen > 1, "{roughness} {anisotropy}");
+    }
+    // Without a strength or without a direction there is none.
+    let plain = Surface { metallic: 1.0, roughness: 0.4, ..Surface::default() };
+    for other in [Surface { rougher: Vec3::X, ..plain }, Surface { anisotropy: 0.7, ..plain }] {
+        let [o, i, _] = directions();
+        assert_eq!(bsdf_evaluate(&other, o, i), bsdf_evaluate(&plain, o, i));
+    }
+}
+
+/// What is lost is made up for as if facets were as rough on average in all directions: what a white metal sends back is right
+/// over the hemisphere, and not from every angle.
+#[test]
+fn white_brushed_metals_lose_little() {
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for roughness in [0.2, 0.4, 0.6] {
+        for anisotropy in [0.25, 0.5, 0.75, 1.0] {
+            let metal = Surface {
+                metallic: 1.0,
+                specular: 1.0,
+                rougher: Vec3::X,
+                roughness,
+                anisotropy,
+                ..Surface::default()
+            };
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for degrees in [10.0_f32, 30.0, 50.0, 70.0] {
+                for azimuth in [0.0_f32, 30.0, 60.0, 90.0] {
+                    let (angle, azimuth) = (degrees.to_radians(), azimuth.to_radians());
+                    let o = Vec3::new(angle.sin() * azimuth.cos(), angle.sin() * azimuth.sin(), angle.cos());
+                    let total = directional_albedo(&metal, o);
+                    (least, most) = (least.min(total), most.max(total));
+                    let weight = f64::from((2.0 * angle).sin());
+                    sum += weight * total;
+                    weights += weight;
+                }
+            }
+            let mean = sum / weights;
+            println!("roughness {roughness}, strength {anisotropy}: {mean:.4} over the hemisphere");
+            assert!((mean - 1.0).abs() < 0.025, "{roughness} {anisotropy}: {mean}");
+        }
+    }
+    println!("from {least:.3} to {most:.3} by direction");
+    assert!(least > 0.85 && most < 1.08, "{least} {most}");
+}
+
 #[test]
 fn lambert_is_exact_without_specular() {
     let surface = Surface { base_color: Vec3::splat(0.5), ..Surface::default() };
@@ -221,7 +324,7 @@ fn lambert_is_exact_without_specular() {
 #[test]
 fn light_paths_can_be_reversed() {
     let mut compared = 0;
-    for (name, surface) in surfaces() {
+    for (name, surface) in surfaces().into_iter().chain(anisotropic()) {
         for index in 0..300 {
             let o = directions()[index as usize % 3];
             let Some(sample) = bsdf_sample(&surface, o, random(index)) else { continue };

@@ -69,6 +69,7 @@ pub fn assert_well_formed(scene: &Scene) {
         let textures = [
             material.base_color_texture,
             material.metallic_roughness_texture,
+            material.anisotropy_texture,
             material.normal_texture,
             material.emission_texture,
             material.transmission_texture,
