@@ -15,6 +15,7 @@
 //! | `mirror-hall` | `share` of mirrors among the pixels in percent, in [0, 80] (25), also as `mirror-hall:40` | 202,482 |
 //! | `still-life` | `detail` in [0.25, 4] (1) | about 291k at detail 1 |
 //! | `pool` | none; moves | 145,410 |
+//! | `teapots` | `pots` from 1 to 2k (37), also as `teapots:100` | 6,320 a pot |
 //! | `walker` | `triangles` from 8k to 2M (30k), also as `walker:10k`; moves | as asked, within 5 % |
 //! | `cloth-ball` | `triangles` of the cloth from 1k to 1M (10k), also as `cloth-ball:100k`; moves | as asked, within 4 %, and 5,122 |
 //!
@@ -34,6 +35,8 @@ mod shape;
 mod solid;
 mod spheres;
 mod still_life;
+mod teapot;
+mod teapots;
 mod texture;
 mod walker;
 
@@ -47,13 +50,14 @@ pub use pool::pool;
 pub use ruins::{Ruins, ruins};
 pub use spheres::{Spheres, spheres};
 pub use still_life::{StillLife, still_life};
+pub use teapots::{Teapots, teapots};
 pub use walker::{Walker, walker};
 
 use crate::{Scene, SceneError};
 use parameters::Parameters;
 
 /// Names of all built-in scenes, in the order that help texts list them.
-pub const NAMES: [&str; 11] = [
+pub const NAMES: [&str; 12] = [
     "cornell",
     "furnace",
     "spheres",
@@ -63,6 +67,7 @@ pub const NAMES: [&str; 11] = [
     "mirror-hall",
     "still-life",
     "pool",
+    "teapots",
     "walker",
     "cloth-ball",
 ];
@@ -154,6 +159,12 @@ fn make(name: &str, mut given: Parameters) -> Result<Scene, SceneError> {
         "pool" => {
             given.finish()?;
             Ok(pool())
+        }
+        "teapots" => {
+            given.name_positional("pots")?;
+            let pots = given.count("pots", Teapots::default().pots, Teapots::POTS)?;
+            given.finish()?;
+            Ok(teapots(Teapots { pots }))
         }
         "cloth-ball" => {
             given.name_positional("triangles")?;

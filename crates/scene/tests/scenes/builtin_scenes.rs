@@ -141,6 +141,7 @@ fn wrong_parameters_are_refused_with_the_name_and_the_reason() {
         ("mirror-hall:90", "from 0 to 80"),
         ("still-life:detail=5", "from 0.25 to 4"),
         ("pool:deep", "has no key"),
+        ("teapots:0", "from 1 to 2000"),
         ("walker:3k", "from 8000 to 2000000"),
         ("walker:speed=2", "no parameter `speed`"),
         ("cloth-ball:2M", "from 1000 to 1000000"),
@@ -318,4 +319,30 @@ fn urns_and_drapes_stand_on_and_above_the_floor() {
     };
     assert_eq!(lowest("brass"), 0.0);
     assert!(lowest("red drapes") > 0.2 && lowest("blue drapes") > 4.5);
+}
+
+#[test]
+fn teapots_are_instances_of_one_shape_above_a_mirror() {
+    for (spec, pots, kinds) in
+        [("teapots:1", 1, 1), ("teapots:3", 3, 3), ("teapots", 37, 7), ("teapots:2k", 2_000, 7)]
+    {
+        let scene = scene(spec);
+        // The mirror and the lamps are two more.
+        assert_eq!((scene.instances.len(), scene.meshes.len()), (pots + 2, kinds + 2), "{spec}");
+        let (mirror, lamps) = (&scene.meshes[kinds], &scene.meshes[kinds + 1]);
+        assert!(scene.meshes[..kinds].iter().all(|pot| pot.indices == scene.meshes[0].indices));
+        let material = &scene.materials[mirror.material];
+        assert_eq!((material.metallic, material.roughness), (1.0, 0.0));
+        assert!(mirror.positions.iter().all(|point| point[1] == 0.0));
+        assert!(scene.materials[lamps.material].emission[0] > 0.0);
+        let lowest = scene.instances[..pots].iter().map(|pot| pot.world_from_mesh.translation.y);
+        assert!(lowest.fold(f64::INFINITY, f64::min) > 0.0, "{spec}: none stands in the plane of the mirror");
+        let places: Vec<DVec3> =
+            scene.instances[..pots].iter().map(|pot| pot.world_from_mesh.translation).collect();
+        let nearest = |at: usize| {
+            let others = places.iter().enumerate().filter(|(other, _)| *other != at);
+            others.map(|(_, other)| other.distance(places[at])).fold(f64::INFINITY, f64::min)
+        };
+        assert!((0..pots).all(|pot| nearest(pot) > 0.7), "{spec}: two pots touch");
+    }
 }
