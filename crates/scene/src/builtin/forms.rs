@@ -334,6 +334,22 @@ impl Shapes {
             }
         }
     }
+
+    /// A closed surface as [`super::solid::surface`] makes it.
+    pub fn solid(&mut self, solid: super::solid::Surface, repeat: f64) {
+        let first: Vec<u32> = solid
+            .positions
+            .iter()
+            .zip(&solid.normals)
+            .map(|(&position, &normal)| {
+                let uv = DVec2::new(position.x + position.y, position.z + position.y) * repeat;
+                self.vertex(position, normal, uv)
+            })
+            .collect();
+        for triangle in solid.triangles {
+            self.triangle(triangle.map(|corner| first[corner as usize]));
+        }
+    }
 }
 
 #[cfg(test)]

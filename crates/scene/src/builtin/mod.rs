@@ -16,6 +16,7 @@
 //! | `still-life` | `detail` in [0.25, 4] (1) | about 291k at detail 1 |
 //! | `pool` | none; moves | 145,410 |
 //! | `teapots` | `pots` from 1 to 2k (37), also as `teapots:100` | 6,320 a pot |
+//! | `smithy` | none | 183,002 |
 //! | `walker` | `triangles` from 8k to 2M (30k), also as `walker:10k`; moves | as asked, within 5 % |
 //! | `cloth-ball` | `triangles` of the cloth from 1k to 1M (10k), also as `cloth-ball:100k`; moves | as asked, within 4 %, and 5,122 |
 //!
@@ -32,6 +33,7 @@ mod parameters;
 mod pool;
 mod ruins;
 mod shape;
+mod smithy;
 mod solid;
 mod spheres;
 mod still_life;
@@ -48,6 +50,7 @@ pub use furnace::{Furnace, FurnaceShape, furnace};
 pub use mirror_hall::{MirrorHall, mirror_hall};
 pub use pool::pool;
 pub use ruins::{Ruins, ruins};
+pub use smithy::smithy;
 pub use spheres::{Spheres, spheres};
 pub use still_life::{StillLife, still_life};
 pub use teapots::{Teapots, teapots};
@@ -57,7 +60,7 @@ use crate::{Scene, SceneError};
 use parameters::Parameters;
 
 /// Names of all built-in scenes, in the order that help texts list them.
-pub const NAMES: [&str; 12] = [
+pub const NAMES: [&str; 13] = [
     "cornell",
     "furnace",
     "spheres",
@@ -68,6 +71,7 @@ pub const NAMES: [&str; 12] = [
     "still-life",
     "pool",
     "teapots",
+    "smithy",
     "walker",
     "cloth-ball",
 ];
@@ -165,6 +169,10 @@ fn make(name: &str, mut given: Parameters) -> Result<Scene, SceneError> {
             let pots = given.count("pots", Teapots::default().pots, Teapots::POTS)?;
             given.finish()?;
             Ok(teapots(Teapots { pots }))
+        }
+        "smithy" => {
+            given.finish()?;
+            Ok(smithy())
         }
         "cloth-ball" => {
             given.name_positional("triangles")?;

@@ -66,3 +66,8 @@ fn the_water_of_the_pool_is_a_closed_volume_at_every_time() {
         assert!((volume(&now) / volume(&first) - 1.0).abs() < 0.01, "{seconds} s");
     }
 }
+
+#[test]
+fn things_in_the_smithy_are_closed() {
+    assert_closed("smithy", &["mortar", "daylight"]);
+}
