@@ -85,3 +85,21 @@ impl DepthErrors {
     /// Bins: up to 10^1.
     pub const BINS: usize = 40;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_go_with_their_runs() {
+        let image = SystemImage { run: 2, ..SystemImage::default() };
+        let figures = Figures {
+            images: Some(Images { systems: vec![image], ..Images::default() }),
+            work: vec![WorkMap { run: 0, ..WorkMap::default() }],
+            depth_errors: vec![DepthErrors { run: 1, ..DepthErrors::default() }],
+        };
+        let Figures { images, work, depth_errors } = figures.moved(|run| 10 + run);
+        let image = images.map(|images| images.systems[0].run);
+        assert_eq!((image, work[0].run, depth_errors[0].run), (Some(12), 10, 11));
+    }
+}

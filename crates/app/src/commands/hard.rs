@@ -46,6 +46,12 @@ pub(super) fn compare(
 ) -> Result<(), AppError> {
     let ids = ids(id)?;
     refuse_options_of_scenes(given)?;
+    if let [id] = ids[..]
+        && given.replay.is_some()
+        && rasray_hard_cases::file_ids().contains(&id)
+    {
+        return Err(AppError::usage(format!("hard:{id} is a file and has no rays"), "leave --replay out"));
+    }
     let systems = given.systems()?;
     let targets = Targets::check(given, &given.scene)?;
     let hits_files = hits_files(given, &ids)?;
@@ -137,7 +143,9 @@ fn replay(
     backend: &mut dyn Backend,
     interrupt: &Interrupt,
 ) -> Result<(), AppError> {
-    for id in ids.iter().filter(|id| !rasray_hard_cases::file_ids().contains(id)) {
+    let files = rasray_hard_cases::file_ids();
+    for id in ids.iter().filter(|id| !files.contains(id)) {
+        stop_if_requested(interrupt)?;
         let (one, _) = trace(given, id, subject, None, backend, interrupt)?;
         one.replay.iter().try_for_each(|text| terminal::print(text))?;
     }

@@ -49,3 +49,12 @@ fn a_ray_of_a_hard_case_is_replayed() {
     assert_eq!(output.status.code(), Some(0), "{complaints}");
     assert!(text.starts_with("ray 2 of E1") && text.contains("oracle: "), "{text}");
 }
+
+#[test]
+fn a_hard_case_that_is_a_file_has_no_ray_to_replay() {
+    let id = rasray_hard_cases::file_ids()[0];
+    let output = rasray(&format!("compare hard:{id} --systems brute-force --replay 0"));
+    assert_eq!(output.status.code(), Some(2));
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(error.contains(&format!("hard:{id} is a file and has no rays")), "{error}");
+}
