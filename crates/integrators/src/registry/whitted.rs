@@ -120,6 +120,10 @@ impl Whitted {
         RAY_DEPTH.check(Value::Whole(options.ray_depth))?;
         THRESHOLD.check(Value::Number(options.threshold))?;
         MIRROR_ROUGHNESS.check(Value::Number(options.mirror_roughness))?;
+        if options.select != Select::Expected && options.threshold > 0.0 {
+            let expected = "--select expected alone has a threshold".to_owned();
+            return Err(THRESHOLD.refused(options.threshold, expected).into());
+        }
         let features = desc.features;
         let smoothed = options.mirror_roughness > BSDF_SMOOTH_ROUGHNESS;
         let panes = features.panes || (features.transmission && smoothed);

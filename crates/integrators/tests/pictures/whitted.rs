@@ -3,7 +3,9 @@
 use glam::{DMat3, DVec3};
 use rasray_ads::BruteForce;
 use rasray_gpu::Timing;
-use rasray_integrators::{Integrator, IntegratorRow, IntegratorSpec, Select, Wave, Whitted, WhittedOptions};
+use rasray_integrators::{
+    Integrator, IntegratorRow, IntegratorSpec, RAY_DEPTH_LIMIT, Select, Wave, Whitted, WhittedOptions,
+};
 use rasray_scene::{Camera, Environment, Light, Material, Mesh, Projection, Scene};
 
 use crate::pictures::common::{difference::difference, *};
@@ -413,5 +415,23 @@ fn point_lights_light_rough_surfaces_as_they_do_in_paths() {
     let image = render(&stage, WhittedOptions::default());
     let expected = stage.render(&rasray_integrators::Path::new(&stage.desc(), 1).expect("valid"), 1);
     assert!(mean(&image) > 0.01 && are_same(&device, &image, &expected));
+    assert_silent(&device);
+}
+
+#[test]
+fn options_out_of_their_ranges_are_refused() {
+    let device = device();
+    let stage = Setup::new(&device, &Scene::default(), forward_camera(DVec3::ZERO), 2, 2, 0);
+    let plain = WhittedOptions::default();
+    for (options, named) in [
+        (depth(RAY_DEPTH_LIMIT + 1), "--ray-depth 9"),
+        (WhittedOptions { threshold: -0.5, ..plain }, "--threshold -0.5"),
+        (WhittedOptions { threshold: 0.5, ..all() }, "--select expected alone"),
+        (WhittedOptions { mirror_roughness: f32::NAN, ..plain }, "--mirror-roughness NaN"),
+    ] {
+        let error = Whitted::new(&stage.desc(), options).expect_err("refused");
+        assert!(error.to_string().contains(named), "{error}");
+    }
+    assert!(Whitted::new(&stage.desc(), depth(RAY_DEPTH_LIMIT)).is_ok());
     assert_silent(&device);
 }
