@@ -17,6 +17,7 @@
 //! | `pool` | none; moves | 145,410 |
 //! | `teapots` | `pots` from 1 to 2k (37), also as `teapots:100` | 6,320 a pot |
 //! | `smithy` | none | 183,002 |
+//! | `foliage` | `leaves` from 1k to 1M (40k), also as `foliage:100k`; `shape` `leaf` or `card` (`leaf`); moves | about 344k at 40k |
 //! | `walker` | `triangles` from 8k to 2M (30k), also as `walker:10k`; moves | as asked, within 5 % |
 //! | `cloth-ball` | `triangles` of the cloth from 1k to 1M (10k), also as `cloth-ball:100k`; moves | as asked, within 4 %, and 5,122 |
 //!
@@ -26,6 +27,7 @@ mod atrium;
 mod cloth_ball;
 mod cornell;
 mod corridor;
+mod foliage;
 mod forms;
 mod furnace;
 mod mirror_hall;
@@ -46,6 +48,7 @@ pub use atrium::{Atrium, atrium};
 pub use cloth_ball::{ClothBall, cloth_ball};
 pub use cornell::cornell;
 pub use corridor::{Corridor, corridor};
+pub use foliage::{Foliage, foliage};
 pub use furnace::{Furnace, FurnaceShape, furnace};
 pub use mirror_hall::{MirrorHall, mirror_hall};
 pub use pool::pool;
@@ -60,7 +63,7 @@ use crate::{Scene, SceneError};
 use parameters::Parameters;
 
 /// Names of all built-in scenes, in the order that help texts list them.
-pub const NAMES: [&str; 13] = [
+pub const NAMES: [&str; 14] = [
     "cornell",
     "furnace",
     "spheres",
@@ -72,6 +75,7 @@ pub const NAMES: [&str; 13] = [
     "pool",
     "teapots",
     "smithy",
+    "foliage",
     "walker",
     "cloth-ball",
 ];
@@ -173,6 +177,13 @@ fn make(name: &str, mut given: Parameters) -> Result<Scene, SceneError> {
         "smithy" => {
             given.finish()?;
             Ok(smithy())
+        }
+        "foliage" => {
+            given.name_positional("leaves")?;
+            let leaves = given.count("leaves", Foliage::default().leaves, Foliage::LEAVES)?;
+            let cards = given.word("shape", "leaf", &["leaf", "card"])? == "card";
+            given.finish()?;
+            Ok(foliage(Foliage { leaves, cards }))
         }
         "cloth-ball" => {
             given.name_positional("triangles")?;

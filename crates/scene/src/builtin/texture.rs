@@ -81,6 +81,18 @@ pub(super) fn wood() -> Image {
     })
 }
 
+/// A leaf with its foot at the bottom: alpha is 0 around it.
+pub(super) fn leaf() -> Image {
+    paint("leaf", |u, v| {
+        let along = 1.0 - v;
+        let wide = 2.6 * along.min(0.36) * (1.0 - along) * (1.0 + 0.7 * along);
+        let out = (2.0 * u - 1.0).abs();
+        let vein = ((along - 0.45 * out) * 9.0).fract() < 0.12 || out < 0.04;
+        let shadow = if vein { 1.25 } else { 0.92 + 0.1 * grain((u * 64.0) as u32, (v * 64.0) as u32) };
+        shade([122.0, 156.0, 66.0], shadow, u8::from(out < wide) * 255)
+    })
+}
+
 /// A bronze screen with round and square holes: alpha is 0 where it is pierced; repeats.
 pub(super) fn screen() -> Image {
     paint("screen", |u, v| {

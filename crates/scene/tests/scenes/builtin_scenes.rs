@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 use rasray_scene::builtin::{NAMES, builtin};
 use rasray_scene::default_view::{bounds, is_lit};
-use rasray_scene::{AlphaMode, Environment, Mesh, Projection, Scene, SceneError};
+use rasray_scene::{AlphaMode, Environment, Mesh, Moment, Projection, Scene, SceneError};
 
 fn scene(spec: &str) -> Scene {
     builtin(spec).unwrap_or_else(|| panic!("{spec} is a built-in")).unwrap_or_else(|error| panic!("{error}"))
@@ -142,6 +142,7 @@ fn wrong_parameters_are_refused_with_the_name_and_the_reason() {
         ("still-life:detail=5", "from 0.25 to 4"),
         ("pool:deep", "has no key"),
         ("teapots:0", "from 1 to 2000"),
+        ("foliage:shape=needle", "one of leaf, card"),
         ("walker:3k", "from 8000 to 2000000"),
         ("walker:speed=2", "no parameter `speed`"),
         ("cloth-ball:2M", "from 1000 to 1000000"),
@@ -345,4 +346,59 @@ fn teapots_are_instances_of_one_shape_above_a_mirror() {
         };
         assert!((0..pots).all(|pot| nearest(pot) > 0.7), "{spec}: two pots touch");
     }
+}
+
+/// Triangles of leaves and grass, and how many of them are narrower than a pixel of 640 by 360.
+fn slivers(scene: &Scene) -> (usize, usize) {
+    let camera = &scene.cameras[0];
+    let view = camera.world_from_camera.inverse();
+    let pixel = 2.0 * camera.half_extents(640, 360)[1] / 360.0;
+    let width = |corners: [[f32; 3]; 3]| {
+        let [a, b, c] = corners
+            .map(|corner| view.transform_point3(DVec3::from_array(corner.map(f64::from))))
+            .map(|point| point.truncate() / -point.z / pixel);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        (b - a).perp_dot(c - a).abs() / longest
+    };
+    let blades = scene.meshes.iter().filter(|mesh| mesh.name == "leaves" || mesh.name == "grass");
+    let widths: Vec<f64> = blades.flat_map(corners).map(width).collect();
+    (widths.len(), widths.iter().filter(|width| **width < 1.0).count())
+}
+
+#[test]
+fn foliage_has_the_leaves_asked_for_and_most_are_slivers() {
+    for (spec, count) in [
+        ("foliage:1k", 667 * 6 + 333 * 5),
+        ("foliage", 26_667 * 6 + 13_333 * 5),
+        ("foliage:10k,shape=card", 6_667 * 2 + 3_333 * 5),
+    ] {
+        let scene = scene(spec);
+        let (all, thin) = slivers(&scene);
+        assert_eq!(all, count, "{spec}");
+        println!("{spec}: {thin} of {all}");
+        assert!(spec != "foliage" || 2 * thin > all, "{spec}: {thin} of {all} are slivers");
+        let masks =
+            scene.materials.iter().filter(|material| material.alpha_mode != AlphaMode::Opaque).count();
+        assert_eq!(masks, usize::from(spec.ends_with("card")), "{spec}");
+    }
+}
+
+#[test]
+fn wind_bends_leaves_and_lets_them_go() {
+    let rest = scene("foliage:1k");
+    let furthest = |seconds: f64| {
+        let now = rest.at(&Moment { seconds, ..Moment::default() }).expect("it has no files");
+        let moved = now.meshes.iter().zip(&rest.meshes).flat_map(|(now, then)| {
+            assert_eq!(now.indices, then.indices);
+            now.positions
+                .iter()
+                .zip(&then.positions)
+                .map(|(a, b)| DVec3::from_array(std::array::from_fn(|k| f64::from(a[k] - b[k]))))
+        });
+        moved.map(DVec3::length).fold(0.0, f64::max)
+    };
+    assert_eq!(furthest(0.0), 0.0);
+    assert!((0.02..0.5).contains(&furthest(1.3)), "{}", furthest(1.3));
+    // After the last gust it is as before.
+    assert!(furthest(8.0) < 1.0e-5, "{}", furthest(8.0));
 }
