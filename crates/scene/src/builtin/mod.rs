@@ -18,6 +18,7 @@
 //! | `teapots` | `pots` from 1 to 2k (37), also as `teapots:100` | 6,320 a pot |
 //! | `smithy` | none | 183,002 |
 //! | `foliage` | `leaves` from 1k to 1M (40k), also as `foliage:100k`; `shape` `leaf` or `card` (`leaf`); moves | about 344k at 40k |
+//! | `stadium` | `seats` from 100 to 15k (12k), also as `stadium:1k` | about 426k at 12k |
 //! | `walker` | `triangles` from 8k to 2M (30k), also as `walker:10k`; moves | as asked, within 5 % |
 //! | `cloth-ball` | `triangles` of the cloth from 1k to 1M (10k), also as `cloth-ball:100k`; moves | as asked, within 4 %, and 5,122 |
 //!
@@ -38,6 +39,7 @@ mod shape;
 mod smithy;
 mod solid;
 mod spheres;
+mod stadium;
 mod still_life;
 mod teapot;
 mod teapots;
@@ -55,6 +57,7 @@ pub use pool::pool;
 pub use ruins::{Ruins, ruins};
 pub use smithy::smithy;
 pub use spheres::{Spheres, spheres};
+pub use stadium::{Stadium, stadium};
 pub use still_life::{StillLife, still_life};
 pub use teapots::{Teapots, teapots};
 pub use walker::{Walker, walker};
@@ -63,7 +66,7 @@ use crate::{Scene, SceneError};
 use parameters::Parameters;
 
 /// Names of all built-in scenes, in the order that help texts list them.
-pub const NAMES: [&str; 14] = [
+pub const NAMES: [&str; 15] = [
     "cornell",
     "furnace",
     "spheres",
@@ -76,6 +79,7 @@ pub const NAMES: [&str; 14] = [
     "teapots",
     "smithy",
     "foliage",
+    "stadium",
     "walker",
     "cloth-ball",
 ];
@@ -184,6 +188,12 @@ fn make(name: &str, mut given: Parameters) -> Result<Scene, SceneError> {
             let cards = given.word("shape", "leaf", &["leaf", "card"])? == "card";
             given.finish()?;
             Ok(foliage(Foliage { leaves, cards }))
+        }
+        "stadium" => {
+            given.name_positional("seats")?;
+            let seats = given.count("seats", Stadium::default().seats, Stadium::SEATS)?;
+            given.finish()?;
+            Ok(stadium(Stadium { seats }))
         }
         "cloth-ball" => {
             given.name_positional("triangles")?;

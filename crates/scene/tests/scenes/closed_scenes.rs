@@ -71,3 +71,9 @@ fn the_water_of_the_pool_is_a_closed_volume_at_every_time() {
 fn things_in_the_smithy_are_closed() {
     assert_closed("smithy", &["mortar", "daylight"]);
 }
+
+#[test]
+fn the_bowl_and_its_fittings_are_closed() {
+    let open = ["pitch", "mown pitch", "track", "lines", "teapot", "red seats", "white seats", "blue seats"];
+    assert_closed("stadium", &open);
+}

@@ -9,3 +9,4 @@ mod facing_of_scenes;
 mod needs_default_view;
 mod needs_of_scenes;
 mod poses;
+mod stadium;
