@@ -14,12 +14,23 @@ use crate::{IntegratorError, Traced, Wave, kernels::WaveConstants};
 pub(crate) struct Rounds {
     now: AtomicU32,
     limit: u32,
+    is_masked: bool,
 }
 
 impl Rounds {
     /// So many at first, and at most.
     pub fn new(first: u32, limit: u32) -> Self {
-        Self { now: first.min(limit).into(), limit }
+        Self { now: first.min(limit).into(), limit, is_masked: false }
+    }
+
+    /// The same in which passes work on all slots of the wave, also those whose ray is inactive.
+    pub fn masked(self, is_masked: bool) -> Self {
+        Self { is_masked, ..self }
+    }
+
+    /// Slots that passes over rays of `wave` work on after the first round.
+    pub fn later(&self, wave: Wave) -> Domain {
+        if self.is_masked { Domain::First(wave.pixel_count) } else { Domain::Selected }
     }
 
     /// How many are recorded.
@@ -47,7 +58,7 @@ impl Rounds {
         is_rest: bool,
         mut shade: impl FnMut(&mut Recorder<'_>, Domain, WaveConstants),
     ) -> Result<(), IntegratorError> {
-        let mut live = if is_rest { Domain::Selected } else { Domain::First(wave.pixel_count) };
+        let mut live = if is_rest { self.later(wave) } else { Domain::First(wave.pixel_count) };
         let first = u32::from(is_rest);
         let end = first + self.now();
         for round in first..end {
@@ -60,7 +71,7 @@ impl Rounds {
             }
             shade(recorder, live, WaveConstants { round, marks, ..WaveConstants::from(wave) });
             queue.record_take(recorder);
-            live = Domain::Selected;
+            live = self.later(wave);
         }
         Ok(())
     }

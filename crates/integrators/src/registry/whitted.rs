@@ -1,7 +1,5 @@
 //! Whitted's ray tracing: direct light, and the trees of mirrored and refracted rays.
 
-use std::sync::atomic::{AtomicU32, Ordering};
-
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Device, Recorder};
 use rasray_gpu_scene::{GpuScene, ShadingFeatures};
@@ -11,7 +9,7 @@ use rasray_shaders_glsl::{
     INTEGRATORS_PRIMARY, INTEGRATORS_WHITTED_RESOLVE, INTEGRATORS_WHITTED_SHADE,
     INTEGRATORS_WHITTED_SHADE_PASSING,
     constant_ids::integrators::{WHITTED_MIRROR_ROUGHNESS, WHITTED_PASSES_PANES},
-    constants::scene::{BSDF_SMOOTH_ROUGHNESS, WAVE_ROUND_LAST, WAVE_ROUND_RESUMES},
+    constants::scene::BSDF_SMOOTH_ROUGHNESS,
     records::{WhittedRay, WhittedState},
 };
 
@@ -21,6 +19,7 @@ use crate::{
     kernels::{
         Bindings, Kernel, WaveConstants, binding, camera_constants, device_buffer, film, shadow_queue,
     },
+    rounds::Rounds,
 };
 
 mod options;
@@ -54,9 +53,10 @@ const ROUND_LIMIT: u32 = 1 << 14;
 #[derive(Debug)]
 pub struct Whitted {
     options: WhittedOptions,
-    trees: Trees,
+    /// Whether trees may need more rounds than are recorded at first.
+    has_rest: bool,
     /// Closest-hit rounds of a wave.
-    rounds: AtomicU32,
+    rounds: Rounds,
     /// What the kernels were made for.
     features: ShadingFeatures,
     film: Film,
@@ -149,10 +149,11 @@ impl Whitted {
             let resolve = bindings.kernel(device, &INTEGRATORS_WHITTED_RESOLVE, &[])?;
             (&INTEGRATORS_WHITTED_SHADE, Some((queue, resolve)), bindings)
         };
+        let [first, most] = trees.rounds(options.ray_depth);
         Ok(Self {
             options,
-            trees,
-            rounds: trees.rounds(options.ray_depth)[0].into(),
+            has_rest: first < most,
+            rounds: Rounds::new(first, most).masked(options.masked),
             features,
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
             shade: bindings.kernel(device, shader, &constants)?,
@@ -165,10 +166,11 @@ impl Whitted {
         })
     }
 
-    fn constants(&self, wave: Wave) -> WaveConstants {
+    /// What kernels of a round are told.
+    fn told(&self, round: WaveConstants) -> WaveConstants {
         let WhittedOptions { ray_depth, select, threshold, .. } = self.options;
         let range = if select == Select::Expected { threshold } else { 0.0 };
-        WaveConstants { bounces: ray_depth, range, ..WaveConstants::from(wave) }
+        WaveConstants { bounces: ray_depth, range, marks: round.marks | self.options.marks(), ..round }
     }
 
     /// Rounds of a new wave, or of the rest of one. Trees that end add to the film.
@@ -179,33 +181,16 @@ impl Whitted {
         wave: Wave,
         is_rest: bool,
     ) -> Result<(), IntegratorError> {
-        let all = Domain::First(wave.pixel_count);
-        let later = if self.options.masked { all } else { Domain::Selected };
-        let mut constants = self.constants(wave);
-        let first = u32::from(is_rest);
-        let end = first + self.rounds.load(Ordering::Relaxed);
-        for round in first..end {
-            constants.round = round;
-            constants.marks = self.options.marks();
-            constants.marks |= if is_rest && round == first { WAVE_ROUND_RESUMES } else { 0 };
-            constants.marks |= if round + 1 == end { WAVE_ROUND_LAST } else { 0 };
-            let live = if round == 0 { all } else { later };
-            if round == 0 {
-                traced.record_primary(recorder, &self.queue, wave)?;
-            } else {
-                traced.record_closest(recorder, &self.queue, live)?;
-            }
+        let shadows = self.shadows.as_ref().filter(|_| self.options.shadows != Shadows::None);
+        self.rounds.record(recorder, (traced, wave), &self.queue, is_rest, |recorder, live, constants| {
+            let constants = self.told(constants);
             self.bindings.record(recorder, &self.shade, &self.queue, live, &constants);
-            self.queue.record_take(recorder);
-            if let Some((shadows, resolve)) =
-                self.shadows.as_ref().filter(|_| self.options.shadows != Shadows::None)
-            {
+            if let Some((shadows, resolve)) = shadows {
                 shadows.record_take(recorder);
-                traced.record_occluded(recorder, shadows, later);
-                self.bindings.record(recorder, resolve, shadows, later, &constants);
+                traced.record_occluded(recorder, shadows, self.rounds.later(wave));
+                self.bindings.record(recorder, resolve, shadows, self.rounds.later(wave), &constants);
             }
-        }
-        Ok(())
+        })
     }
 }
 
@@ -228,7 +213,7 @@ impl Integrator for Whitted {
     ) -> Result<(), IntegratorError> {
         check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
         let all = Domain::First(wave.pixel_count);
-        self.bindings.record(recorder, &self.primary, &self.queue, all, &self.constants(wave));
+        self.bindings.record(recorder, &self.primary, &self.queue, all, &WaveConstants::from(wave));
         for queue in self.queues() {
             queue.record_select_none(recorder);
         }
@@ -246,15 +231,11 @@ impl Integrator for Whitted {
     }
 
     fn has_rest(&self, device: &Device) -> Result<bool, IntegratorError> {
-        let [first, most] = self.trees.rounds(self.options.ray_depth);
-        Ok(first < most && self.film.read_faults(device)?.unended > 0)
+        Ok(self.has_rest && self.film.read_faults(device)?.unended > 0)
     }
 
     fn allow_more_rounds(&self) -> bool {
-        let now = self.rounds.load(Ordering::Relaxed);
-        let [_, most] = self.trees.rounds(self.options.ray_depth);
-        self.rounds.store(now.saturating_mul(2).min(most), Ordering::Relaxed);
-        now < most
+        self.rounds.allow_more()
     }
 
     fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
@@ -272,7 +253,7 @@ impl Integrator for Whitted {
     }
 
     fn traces_per_wave(&self) -> u32 {
-        self.rounds.load(Ordering::Relaxed) * self.queues().len() as u32
+        self.rounds.now() * self.queues().len() as u32
     }
 
     fn state_bytes(&self) -> u64 {
