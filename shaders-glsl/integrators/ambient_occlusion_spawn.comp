@@ -15,5 +15,5 @@ void main() {
     if (!wave_slot(slot)) {
         return;
     }
-    shadow_ask(slot, ambient_occlusion_ray(queue_surface(slot), wave.range, wave_pixel(slot), wave.sample_index));
+    shadow_ask(slot, ambient_occlusion_ray(queue_surface(slot), wave.number, wave_pixel(slot), wave.sample_index));
 }

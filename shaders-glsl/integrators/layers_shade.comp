@@ -30,12 +30,12 @@ Ray layers_step(inout LayersState state, Ray ray, Surface s, out bool cut) {
     float speed = length(ray.direction);
     vec3 direction = ray.direction / speed;
     if (s.valid != 0u) {
-        float opacity = s.opacity * wave.layer_opacity;
+        float opacity = s.opacity * wave.number;
         state.radiance += raycast_radiance(s, direction) * (state.left * opacity);
         state.left *= 1.0 - opacity;
         state.passed += 1u;
         if (!(state.left > 0.0)) return ray_inactive();
-        if (state.passed < wave.layers) {
+        if (state.passed < wave.limit) {
             Ray next = spawn_ray(s, direction, uintBitsToFloat(0x7F800000u));
             // It stays a camera ray, which passes the backs that camera rays pass.
             next.flags = ray.flags;

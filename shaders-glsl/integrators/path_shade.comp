@@ -18,7 +18,7 @@ void main() {
     }
     Ray ray = queue_ray(slot);
     PathState state = path_of(slot);
-    PathStep asked = path_step(state, ray, path_surface(slot, ray), wave.bounces);
+    PathStep asked = path_step(state, ray, path_surface(slot, ray), wave.limit);
     path_keep(slot, state);
     pending_radiance[slot] = asked.pending;
     shadow_ask(slot, asked.shadow_ray);

@@ -16,7 +16,7 @@ layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
 // The next ray of a path that has shaded what its own ray hit: its shadow ray where it has one.
 Ray shade_path(uint slot, inout PathState state, Ray ray, Surface surface, out uint cut) {
-    PathStep asked = path_step(state, ray, surface, wave.bounces);
+    PathStep asked = path_step(state, ray, surface, wave.limit);
     cut = asked.cut;
     if (asked.shadow_ray.t_max < 0.0) {
         path_waiting[slot].pending = vec3(0.0);

@@ -51,18 +51,18 @@ layout(set = INTEGRATOR_SET, binding = 6, scalar) buffer ShadowListBuffer { uint
 layout(set = INTEGRATOR_SET, binding = 7, scalar) buffer AovBuffer { AovPixel aov_pixels[]; };
 layout(set = INTEGRATOR_SET, binding = 8, scalar) buffer PathWaitingBuffer { PathWaiting path_waiting[]; };
 
-// Which slots a kernel works on, and what it is told. 40 bytes.
+// Which slots a kernel works on, and what it is told. 32 bytes.
 layout(push_constant, scalar) uniform WaveConstants {
     uint first_pixel;     // of the wave
     uint pixel_count;     // of the wave
     uint sample_index;    // number of the sample
     uint round;           // closest-hit rounds before this one
-    uint bounces;         // maximum number of scatterings of a path; of reflections and refractions of Whitted's rays
-    float range;          // metres, of ambient occlusion; share of light that Whitted's rays must exceed to be traced
+    // the integrator's: most scatterings of a path, reflections and refractions of Whitted's rays, surfaces of a layered ray
+    uint limit;
+    // the integrator's: metres of ambient occlusion, light that Whitted's rays must exceed, opacity of layers
+    float number;
     uint domain;          // of the queue that is bound: pixel_count, or DOMAIN_SELECTED
     uint marks;           // WAVE_ROUND_* of the round, and rules of the integrator
-    uint layers;          // surfaces that are there for a ray through layers
-    float layer_opacity;  // of each of them, times that of its material
 } wave;
 
 // The slot of this invocation; false where there is none.

@@ -53,7 +53,7 @@ void whitted_follow(uint slot, inout WhittedState state, inout WhittedStep asked
 
 // Whether a ray that carries this share of what it finds is worth being traced.
 bool whitted_is_worth(vec3 throughput) {
-    return largest_component(throughput) > wave.range;
+    return largest_component(throughput) > wave.number;
 }
 
 // A ray that leaves the surface by reflection or refraction.
@@ -158,7 +158,7 @@ WhittedStep whitted_step(uint slot, inout WhittedState state, Ray ray, Surface s
         asked.shadow_ray = ray_inactive();
         asked.pending = vec3(0.0);
     }
-    if (state.node.depth >= wave.bounces) return asked;
+    if (state.node.depth >= wave.limit) return asked;
     if (whitted_has(WHITTED_SELECTS_REFLECTIVE) && state.node.depth == 0u && !is_reflective) return asked;
     bool all = whitted_has(WHITTED_SELECTS_ALL);
     if (refracts && (all || whitted_is_worth(throughput * through))) {

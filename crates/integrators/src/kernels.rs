@@ -12,7 +12,8 @@ use rasray_shaders_glsl::{Shader, constant_ids::integrators::PIXEL_CENTRES};
 
 use crate::{Film, IntegratorError, Wave};
 
-/// Bindings of the integrators' set, as `integrators/storage.glsl` and `whitted_storage.glsl` beside it declare them.
+/// Bindings of the integrators' set that several have, as `integrators/storage.glsl` declares them. Those of one alone, from
+/// 9 on, are in its own files.
 pub(crate) mod binding {
     pub const FILM: u32 = 0;
     pub const FILM_FAULTS: u32 = 1;
@@ -23,8 +24,6 @@ pub(crate) mod binding {
     pub const SHADOW_LIST: u32 = 6;
     pub const AOV: u32 = 7;
     pub const WAITING: u32 = 8;
-    pub const WHITTED_STATES: u32 = 9;
-    pub const WHITTED_RAYS: u32 = 10;
 }
 
 /// A binding of the integrators' set with its buffer.

@@ -91,7 +91,7 @@ impl Integrator for AmbientOcclusion {
     ) -> Result<(), IntegratorError> {
         check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
         let all = Domain::First(wave.pixel_count);
-        let constants = WaveConstants { range: self.range, ..WaveConstants::from(wave) };
+        let constants = WaveConstants { number: self.range, ..WaveConstants::from(wave) };
         self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
         traced.record_primary(recorder, &self.queue, wave)?;
         self.shadow_queue.record_select_none(recorder);

@@ -113,7 +113,7 @@ impl Layers {
         traced: (Traced<'_>, Wave),
         is_rest: bool,
     ) -> Result<(), IntegratorError> {
-        let own = |constants| WaveConstants { layers: self.limit, layer_opacity: self.opacity, ..constants };
+        let own = |constants| WaveConstants { limit: self.limit, number: self.opacity, ..constants };
         self.rounds.record(recorder, traced, &self.queue, is_rest, |recorder, live, constants| {
             self.bindings.record(recorder, &self.shade, &self.queue, live, &own(constants));
         })

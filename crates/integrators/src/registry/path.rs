@@ -152,7 +152,7 @@ impl Path {
         (shadows, resolve, accumulate): (&RayQueue, &Kernel, &Kernel),
     ) -> Result<(), IntegratorError> {
         let (paths, all) = (&self.queue, Domain::First(wave.pixel_count));
-        let mut constants = WaveConstants { bounces: self.bounces, ..WaveConstants::from(wave) };
+        let mut constants = WaveConstants { limit: self.bounces, ..WaveConstants::from(wave) };
         shadows.record_select_none(recorder);
         // In the first round these are all slots, later those whose paths continue.
         let mut live = all;
@@ -187,7 +187,7 @@ impl Path {
         is_rest: bool,
     ) -> Result<(), IntegratorError> {
         self.rounds.record(recorder, (traced, wave), &self.queue, is_rest, |recorder, live, constants| {
-            let constants = WaveConstants { bounces: self.bounces, ..constants };
+            let constants = WaveConstants { limit: self.bounces, ..constants };
             self.bindings.record(recorder, &self.shade, &self.queue, live, &constants);
         })
     }
@@ -206,7 +206,7 @@ impl Integrator for Path {
     ) -> Result<(), IntegratorError> {
         check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
         let all = Domain::First(wave.pixel_count);
-        let constants = WaveConstants { bounces: self.bounces, ..WaveConstants::from(wave) };
+        let constants = WaveConstants { limit: self.bounces, ..WaveConstants::from(wave) };
         self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
         self.queue.record_select_none(recorder);
         match &self.shadows {

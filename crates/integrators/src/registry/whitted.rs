@@ -16,9 +16,7 @@ use rasray_shaders_glsl::{
 use crate::{
     Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
     integrator::{check_features, check_wave},
-    kernels::{
-        Bindings, Kernel, WaveConstants, binding, camera_constants, device_buffer, film, shadow_queue,
-    },
+    kernels::{Bindings, Kernel, WaveConstants, camera_constants, device_buffer, film, shadow_queue},
     rounds::Rounds,
 };
 
@@ -36,6 +34,10 @@ pub(super) const ROW: IntegratorRow = IntegratorRow {
     workload: |_| Workload::ALL,
     make: |desc, spec| Ok(Box::new(Whitted::new(desc, WhittedOptions::of(spec))?)),
 };
+
+/// Bindings of the states and of the rays that wait, as `integrators/whitted_storage.glsl` declares them.
+const WHITTED_STATES: u32 = 9;
+const WHITTED_RAYS: u32 = 10;
 
 /// Rays of a tree, and surfaces passed in a straight line, that the rounds of a wave allow for at first.
 const USUAL_RAYS: u32 = 15;
@@ -136,7 +138,7 @@ impl Whitted {
         let states = device_buffer(device, "whitted states", slots * size_of::<WhittedState>() as u64)?;
         let waiting = device_buffer(device, "waiting rays", (slots * slot_bytes).max(4))?;
         let [pixels, faults] = film(desc.film);
-        let own = [pixels, faults, (binding::WHITTED_STATES, &states), (binding::WHITTED_RAYS, &waiting)];
+        let own = [pixels, faults, (WHITTED_STATES, &states), (WHITTED_RAYS, &waiting)];
         let mut constants = Vec::from(features.constants());
         constants.push((WHITTED_MIRROR_ROUGHNESS, options.mirror_roughness.to_bits()));
         let (shader, shadows, bindings) = if let Trees::Passing { .. } = trees {
@@ -169,8 +171,8 @@ impl Whitted {
     /// What kernels of a round are told.
     fn told(&self, round: WaveConstants) -> WaveConstants {
         let WhittedOptions { ray_depth, select, threshold, .. } = self.options;
-        let range = if select == Select::Expected { threshold } else { 0.0 };
-        WaveConstants { bounces: ray_depth, range, marks: round.marks | self.options.marks(), ..round }
+        let number = if select == Select::Expected { threshold } else { 0.0 };
+        WaveConstants { limit: ray_depth, number, marks: round.marks | self.options.marks(), ..round }
     }
 
     /// Rounds of a new wave, or of the rest of one. Trees that end add to the film.
