@@ -61,6 +61,12 @@ void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out 
         vec3 up = vec3(i.xy, abs(i.z));
         vec3 h = normalize(o + up);
         facet_cosine = dot(o, h);
+        if (terms.ward) {
+            float halves = ward_distribution(h, terms.alphas);
+            value = halves / (4.0 * facet_cosine * facet_cosine);
+            pdf = halves * h.z / (4.0 * facet_cosine);
+            return;
+        }
         float distribution = bsdf_distribution(terms, h);
         value = distribution * bsdf_visibility(terms, up);
         pdf = distribution * bsdf_visibility_one(terms);
@@ -147,7 +153,10 @@ BsdfSample bsdf_choose(BsdfTerms terms, Surface s, vec4 random) {
         }
     } else {
         vec2 alphas = SHADING_ANISOTROPY ? terms.alphas : vec2(terms.alpha);
-        vec3 h = terms.mirror ? vec3(0.0, 0.0, 1.0) : ggx_visible_normal(terms.o, alphas, random.zw);
+        vec3 h = vec3(0.0, 0.0, 1.0);
+        if (!terms.mirror) {
+            h = terms.ward ? ward_half(terms.alphas, random.zw) : ggx_visible_normal(terms.o, alphas, random.zw);
+        }
         float cosine = dot(terms.o, h);
         float reflect_share = bsdf_reflect_probability(terms, cosine);
         bool reflects = random.y < reflect_share;

@@ -12,6 +12,7 @@
 #include "scene/features.glsl"
 #include "scene/glass_albedo.glsl"
 #include "scene/microfacet.glsl"
+#include "scene/ward.glsl"
 
 // Bounds of the probability of the cosine family where both families exist. It may exceed its share of the light by
 // this factor: near the horizon it sends more than cosines tell.
@@ -32,7 +33,8 @@ struct BsdfTerms {
     float metallic;
     float transmission;
     float alpha;         // 0 for perfect mirrors; of facets that are rougher along one direction the root mean square
-    vec2 alphas;         // along x and y of the frame; read where SHADING_ANISOTROPY
+    vec2 alphas;         // along x and y of the frame; read where SHADING_ANISOTROPY, and of Ward's lobe
+    bool ward;           // reflects by Ward's lobe
     float eta;           // index on the side of o over the index on the other side; 1: straight on
     bool mirror;
     bool pane;           // a smooth thin wall: what it lets through is followed apart, and is in no lobe
@@ -192,7 +194,6 @@ vec3 bsdf_facet_normal(Surface s, vec3 o) {
 // Turns the frame so that facets are rougher along its x axis, and makes them so. Facets that are smooth across it scatter all
 // the same.
 void bsdf_set_anisotropy(inout BsdfTerms terms, Surface s) {
-    terms.alphas = vec2(terms.alpha);
     vec3 rougher;
     float strength = anisotropy_at(s, rougher);
     vec3 normal = terms.frame[2];
@@ -222,10 +223,14 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
     terms.mirror = s.roughness < BSDF_SMOOTH_ROUGHNESS;
     terms.pane = SHADING_PANES && terms.mirror && s.thickness <= 0.0 && terms.transmission > 0.0;
     terms.alpha = terms.mirror ? 0.0 : s.roughness * s.roughness;
+    terms.alphas = vec2(terms.alpha);
+    terms.ward = SPECULAR_IS_WARD && !(terms.transmission > 0.0);
     bool straight = s.thickness <= 0.0 || terms.transmission <= 0.0 || abs(ior - 1.0) < BSDF_STRAIGHT_INDEX;
     terms.eta = straight ? 1.0 : (s.side == 1u ? 1.0 / ior : ior);
     terms.frame = basis_around(bsdf_facet_normal(s, o));
     if (SHADING_ANISOTROPY) bsdf_set_anisotropy(terms, s);
+    // Nothing makes up for what Ward's lobe loses: the rest is as below a mirror.
+    if (terms.ward) terms.alpha = 0.0;
     terms.base = s.normal * terms.frame;
     terms.o = o * terms.frame;
     bsdf_set_glass(terms, s);

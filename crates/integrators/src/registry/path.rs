@@ -10,7 +10,7 @@ use rasray_shaders_glsl::{
     INTEGRATORS_FILM_ACCUMULATE, INTEGRATORS_PATH_RESOLVE, INTEGRATORS_PATH_SHADE,
     INTEGRATORS_PATH_SHADE_PASSING, INTEGRATORS_PRIMARY,
     constant_ids::integrators::PATHS_PASS_PANES,
-    constant_ids::scene::TERMINATOR_IS_SMOOTH,
+    constant_ids::scene::{SPECULAR_IS_WARD, TERMINATOR_IS_SMOOTH},
     constants::scene::PATH_LAYER_LIMIT,
     records::{PathState, PathWaiting},
 };
@@ -26,14 +26,14 @@ use crate::{
 
 mod options;
 
-pub use options::{BOUNCE_LIMIT, GlassShadows, PathOptions};
-use options::{BOUNCES, GLASS_SHADOWS, SHADOW_TERMINATOR};
+pub use options::{BOUNCE_LIMIT, GlassShadows, PathOptions, SpecularLobe};
+use options::{BOUNCES, GLASS_SHADOWS, SHADOW_TERMINATOR, SPECULAR};
 
 /// The registry's row.
 pub(super) const ROW: IntegratorRow = IntegratorRow {
     name: "path",
     doc: "Path tracing with light sampling",
-    options: &[&BOUNCES, &GLASS_SHADOWS, &SHADOW_TERMINATOR],
+    options: &[&BOUNCES, &GLASS_SHADOWS, &SHADOW_TERMINATOR, &SPECULAR],
     rays: &[RayKind::Camera, RayKind::Scattered, RayKind::Shadow],
     workload: |spec| match PathOptions::of(spec).bounces {
         0 => Workload {
@@ -91,7 +91,7 @@ impl Path {
     /// More than [`BOUNCE_LIMIT`] bounces, sizes that do not fit, out of memory, or the device
     /// refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, options: impl Into<PathOptions>) -> Result<Self, IntegratorError> {
-        let PathOptions { bounces, glass_shadows, shadow_terminator } = options.into();
+        let PathOptions { bounces, glass_shadows, shadow_terminator, specular } = options.into();
         BOUNCES.check(Value::Whole(bounces))?;
         let panes = desc.features.panes && bounces > 0 && glass_shadows == GlassShadows::Tint;
         let passing = desc.features.blend || panes;
@@ -121,6 +121,7 @@ impl Path {
         let mut constants = Vec::from(desc.features.constants());
         constants.push((PATHS_PASS_PANES, panes.into()));
         constants.push((TERMINATOR_IS_SMOOTH, (shadow_terminator == ShadowTerminator::Offset).into()));
+        constants.push((SPECULAR_IS_WARD, (specular == SpecularLobe::Ward).into()));
         Ok(Self {
             bounces,
             rounds: Rounds::new(rounds(bounces, passing), ROUND_LIMIT),

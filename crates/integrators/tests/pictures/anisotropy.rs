@@ -52,6 +52,12 @@ fn brushed_surfaces_are_those_of_the_naive_integrator() {
         assert!(found.share <= 0.02 && found.mean <= 5e-3, "{name}: {found:?}");
         assert!(apart.share > 0.2, "{name}: anisotropy shows, {apart:?}");
     }
+    let ward = path(2).with("specular", "ward").expect("valid");
+    let found = difference(&scene, &scene, &eye, 4, &ward);
+    let apart = difference(&scene, &without(&scene), &eye, 4, &ward);
+    println!("Ward: {found:?}, without {apart:?}");
+    assert!(found.share <= 0.02 && found.mean <= 5e-3, "{found:?}");
+    assert!(apart.share > 0.2, "anisotropy shows, {apart:?}");
     // Light samples of smooth shapes see the same facets.
     let smooth = path(2).with("shadow-terminator", "offset").expect("valid");
     let found = difference(&tangents, &tangents, &eye, 4, &smooth);

@@ -29,12 +29,14 @@ pub struct PathOptions {
     pub passes_panes: bool,
     /// Where shadow rays of smooth surfaces start.
     pub shadow_terminator: ShadowTerminator,
+    /// Whether surfaces reflect by Ward's lobe ([`Surface::is_ward`]).
+    pub is_ward: bool,
 }
 
 impl From<u32> for PathOptions {
     /// This many bounces, and the usual of everything else.
     fn from(bounces: u32) -> Self {
-        Self { bounces, passes_panes: true, shadow_terminator: ShadowTerminator::None }
+        Self { bounces, passes_panes: true, shadow_terminator: ShadowTerminator::None, is_ward: false }
     }
 }
 
@@ -48,6 +50,7 @@ fn path_options(values: &OptionValues) -> PathOptions {
         } else {
             ShadowTerminator::None
         },
+        is_ward: is("specular", "ward"),
         ..PathOptions::from(values.get("bounces").and_then(Value::whole).unwrap_or_default())
     }
 }
@@ -113,7 +116,7 @@ impl PathState {
 impl Tracer<'_> {
     /// One sample, W/(sr m^2).
     pub(super) fn path(&self, view: &View, options: PathOptions, random: Numbers) -> Vec3 {
-        let PathOptions { bounces, shadow_terminator, .. } = options;
+        let PathOptions { bounces, shadow_terminator, is_ward, .. } = options;
         let mut state = PathState {
             random,
             throughput: Vec3::ONE,
@@ -129,7 +132,7 @@ impl Tracer<'_> {
         let mut next = Some(self.camera_ray(view, random));
         while let Some(ray) = next {
             next = match self.closest(&ray) {
-                Some(surface) => self.step(&mut state, &ray, &surface, bounces),
+                Some(surface) => self.step(&mut state, &ray, &Surface { is_ward, ..surface }, bounces),
                 None => {
                     let weight = state.emission_weight(|| self.posed.environment_pdf(ray.direction));
                     state.radiance +=

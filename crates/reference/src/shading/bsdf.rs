@@ -16,6 +16,7 @@ use super::{
         ggx_distribution, ggx_distribution_along, ggx_visibility, ggx_visibility_along, ggx_visibility_one,
         ggx_visibility_one_along, ggx_visible_normal,
     },
+    ward::{ward_distribution, ward_half},
 };
 
 pub use super::bsdf_terms::SMOOTH_ROUGHNESS;
@@ -72,6 +73,11 @@ impl Terms {
         if side == Side::Reflected || self.eta == 1.0 {
             let up = Vec3::new(i.x, i.y, i.z.abs());
             let h = (o + up).normalize();
+            if let Some(alphas) = self.ward {
+                let (cosine, halves) = (o.dot(h), ward_distribution(h, alphas));
+                let value = halves / (4.0 * cosine * cosine);
+                return Facets { cosine, value, pdf: halves * h.z / (4.0 * cosine) };
+            }
             let distribution = self.distribution(h);
             return Facets { cosine: o.dot(h), value: distribution * both, pdf: distribution * one };
         }
@@ -183,7 +189,11 @@ pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> 
         }
     } else {
         let alphas = terms.alphas.unwrap_or(Vec2::splat(terms.alpha));
-        let h = if terms.mirror { Vec3::Z } else { ggx_visible_normal(terms.o, alphas, Vec2::new(u, v)) };
+        let h = match terms.ward {
+            _ if terms.mirror => Vec3::Z,
+            Some(alphas) => ward_half(alphas, Vec2::new(u, v)),
+            None => ggx_visible_normal(terms.o, alphas, Vec2::new(u, v)),
+        };
         let cosine = terms.o.dot(h);
         let reflect_share = terms.reflect_probability(cosine);
         let reflects = side < reflect_share;

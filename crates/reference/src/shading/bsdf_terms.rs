@@ -38,6 +38,8 @@ pub struct Terms {
     pub alpha: f32,
     /// Along x and y of the frame, where they are not the same.
     pub alphas: Option<Vec2>,
+    /// Alphas of Ward's lobe, where the surface reflects by it.
+    pub ward: Option<Vec2>,
     /// Index on the side of o over the index on the other side; 1: straight on.
     pub eta: f32,
     pub mirror: bool,
@@ -115,18 +117,23 @@ impl Terms {
         let frame = anisotropy.map_or_else(|| basis_around(normal), |(frame, _)| frame);
         let alphas = anisotropy.map(|(_, alphas)| alphas);
         let mirror = surface.roughness < SMOOTH_ROUGHNESS && alphas.is_none();
+        let rough = alphas.unwrap_or(Vec2::splat(surface.roughness * surface.roughness));
+        let ward = (surface.is_ward && !(surface.transmission > 0.0) && !mirror).then_some(rough);
         let mut terms = Self {
             f0: (root * root * surface.specular_color).min(Vec3::ONE) * surface.specular,
             f90: surface.specular,
             base_color: surface.base_color,
             metallic: surface.metallic,
             transmission: surface.transmission,
+            // Nothing makes up for what Ward's lobe loses: the rest is as below a mirror.
             alpha: match alphas {
+                _ if ward.is_some() => 0.0,
                 Some(alphas) => (0.5 * alphas.length_squared()).sqrt(),
                 None if mirror => 0.0,
                 None => surface.roughness * surface.roughness,
             },
             alphas,
+            ward,
             eta: match (straight, surface.front) {
                 (true, _) => 1.0,
                 (false, true) => 1.0 / ior,

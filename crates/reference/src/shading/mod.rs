@@ -35,6 +35,7 @@ mod surface;
 mod terminator;
 mod texture;
 mod triangle;
+mod ward;
 
 #[cfg(test)]
 mod tests;

@@ -45,6 +45,8 @@ pub struct Surface {
     pub thickness: f32,
     /// What the surface lets through in a straight line, as a smooth thin wall, is followed apart: scattering leaves it out.
     pub is_pane: bool,
+    /// Reflects by Ward's lobe where it lets no light through.
+    pub is_ward: bool,
     /// Strength of the dielectric reflection.
     pub specular: f32,
     /// Colour of the dielectric reflection.
@@ -77,6 +79,7 @@ impl Default for Surface {
             opacity: 1.0,
             thickness: 0.0,
             is_pane: false,
+            is_ward: false,
             specular: 0.0,
             specular_color: Vec3::ONE,
             front: true,

@@ -32,6 +32,13 @@ pub(super) const SHADOW_TERMINATOR: OptionRow = OptionRow::words(
 )
 .by_default(Value::Word(ShadowTerminator::None.name()));
 
+pub(super) const SPECULAR: OptionRow = OptionRow::words(
+    "specular",
+    &[SpecularLobe::Ggx.word(), SpecularLobe::Ward.word()],
+    "How rough surfaces that let no light through reflect",
+)
+.by_default(Value::Word(SpecularLobe::Ggx.name()));
+
 const fn terminator_word(terminator: ShadowTerminator) -> Word {
     (terminator.name(), terminator.doc())
 }
@@ -73,6 +80,43 @@ impl GlassShadows {
     }
 }
 
+/// How rough surfaces that let no light through reflect.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SpecularLobe {
+    /// Facets with the distribution GGX, which mask each other; what they lose is made up for.
+    #[default]
+    Ggx,
+    /// A Gaussian of slopes, as of the teapot of Hu et al.
+    Ward,
+}
+
+impl SpecularLobe {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Ggx, Self::Ward];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Ggx => "ggx",
+            Self::Ward => "ward",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub const fn doc(self) -> &'static str {
+        match self {
+            Self::Ggx => "Facets of GGX, as glTF has them; what they lose is made up for",
+            Self::Ward => {
+                "Ward's lobe, a Gaussian of slopes, as in Hu et al.; it is darker where light grazes"
+            }
+        }
+    }
+
+    const fn word(self) -> Word {
+        (self.name(), self.doc())
+    }
+}
+
 /// What paths do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PathOptions {
@@ -82,6 +126,8 @@ pub struct PathOptions {
     pub glass_shadows: GlassShadows,
     /// What light samples see of coarse smooth meshes.
     pub shadow_terminator: ShadowTerminator,
+    /// How rough surfaces reflect.
+    pub specular: SpecularLobe,
 }
 
 impl PathOptions {
@@ -95,6 +141,7 @@ impl PathOptions {
                 &ShadowTerminator::ALL,
                 ShadowTerminator::name,
             ),
+            specular: spec.choice(&SPECULAR, &SpecularLobe::ALL, SpecularLobe::name),
         }
     }
 }
