@@ -13,7 +13,7 @@
 #define QUEUE_SET 2
 #endif
 
-// Counts and sums of one queue. 92 bytes.
+// Counts and sums of one queue. 96 bytes.
 struct QueueHeader {
     uint groups_x;        // indirect dispatch of the next round
     uint groups_y;        // always 1
@@ -36,6 +36,7 @@ struct QueueHeader {
     uint selected_z;      // always 1
     uint selected;        // slots selected when they were last taken
     uint takes;           // times they were taken; its parity says which list holds them
+    uint selected_before; // slots selected when they were taken the time before; their list stays until the next selection
     uint corrupted;       // list entries with an invalid index, in the structure last traced, since it was built
     uint corrupted_before; // the same in the part before it, where that was one of several
 };

@@ -124,6 +124,13 @@ impl Ray {
         }
     }
 
+    /// The same, as a shadow ray that leads to the light without extent of that number.
+    #[must_use]
+    pub fn with_light(self, light: u32) -> Self {
+        let below = (1 << RAY_LIGHT_SHIFT) - 1;
+        Self { flags: self.flags & below | (light + 1) << RAY_LIGHT_SHIFT, ..self }
+    }
+
     /// The number of the light without extent that a shadow ray leads to; nothing for every other ray.
     pub fn light(&self) -> Option<u32> {
         (self.flags >> RAY_LIGHT_SHIFT).checked_sub(1)

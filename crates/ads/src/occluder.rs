@@ -1,20 +1,21 @@
-//! What answers shadow rays.
+//! What answers shadow rays in place of a structure.
 
 use rasray_gpu::Recorder;
 
-use crate::{Domain, RayQueue, Structure, TraceMode};
+use crate::{Domain, RayQueue, Structure};
 
-/// What tells whether anything lies on a ray: every structure, or something made for lights alone. How it is built is its
-/// own ([`Structure::record_build`](crate::Structure::record_build)).
+/// What tells whether anything lies between a point and a light, made for lights alone. How it is built is its own.
 pub trait Occluder {
     /// Records whether anything lies on the rays of the slots of `domain` of `queue`: the hit of an occluded one has some
-    /// primitive, that of any other [`PRIMITIVE_NONE`](crate::PRIMITIVE_NONE). Which light a ray leads to is in
-    /// [`Ray::flags`](crate::Ray::flags) ([`Ray::light`](crate::Ray::light)).
-    fn record_occluded(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, domain: Domain);
-}
-
-impl<S: Structure> Occluder for S {
-    fn record_occluded(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, domain: Domain) {
-        self.record_trace(recorder, queue, domain, TraceMode::Occluded, self.rounds());
-    }
+    /// primitive, that of any other [`PRIMITIVE_NONE`](crate::PRIMITIVE_NONE), and nothing else of a hit is meant. Which light
+    /// a ray leads to is in [`Ray::flags`](crate::Ray::flags) ([`Ray::light`](crate::Ray::light)). Rays that it has no answer
+    /// for are traced through `structure`. `domain` stays as it is; no slot of the queue is selected for the next take
+    /// before, and none after.
+    fn record_occluded(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        domain: Domain,
+        structure: &dyn Structure,
+    );
 }

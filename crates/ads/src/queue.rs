@@ -8,6 +8,7 @@ use rasray_gpu::{
     Device, GpuError, MemoryLocation, Recorder, SetLayout,
 };
 use rasray_shaders_glsl::constants::contract::{DOMAIN_SELECTED, QUEUE_GROUP_SIZE};
+use rasray_shaders_glsl::records::QueueTakeConstants;
 
 use crate::queue_buffers::{BUFFERS, HEADER, STEPS};
 use crate::{AdsError, Hit, QueueBuffers, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
@@ -166,7 +167,7 @@ impl RayQueue {
             name: shader.name,
             spirv: &shader.words(),
             sets: &[&layout],
-            push_constant_bytes: 0,
+            push_constant_bytes: size_of::<QueueTakeConstants>() as u32,
             constants: &[],
         })?;
         let Ok([header, rays, hits, states, list, surfaces, work, steps]) =
@@ -245,8 +246,19 @@ impl RayQueue {
     /// Records that the slots selected so far are those of [`Domain::Selected`] from now on, and that a new selection
     /// begins. Shaders that selected them came before it, and a barrier towards compute shaders between.
     pub fn record_take(&self, recorder: &mut Recorder<'_>) {
+        self.record_taken(recorder, QueueTakeConstants { back: 0 });
+    }
+
+    /// Records that the slots of [`Domain::Selected`] are again those before the last take: after a pass that selected some of
+    /// them for others. Once per take, and before any slot is selected after it; no slot is selected for the next take.
+    pub fn record_take_back(&self, recorder: &mut Recorder<'_>) {
+        self.record_taken(recorder, QueueTakeConstants { back: 1 });
+    }
+
+    fn record_taken(&self, recorder: &mut Recorder<'_>, constants: QueueTakeConstants) {
         recorder.bind_compute(&self.take);
         recorder.bind_sets(0, &[&self.set]);
+        recorder.push_constants(bytes_of(&constants));
         recorder.dispatch([1, 1, 1]);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::INDIRECT_READ | Access::TRANSFER);
     }

@@ -3,8 +3,7 @@
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout, TraceMode};
 
 use crate::{
-    AdsError, BuildStatus, Check, Counters, Domain, Geometry, Occluder, RayQueue, SceneBinding, Sizes,
-    Viewpoint,
+    AdsError, BuildStatus, Check, Counters, Domain, Geometry, RayQueue, SceneBinding, Sizes, Viewpoint,
 };
 
 /// What a structure's hits are, and hence what may be demanded of them.
@@ -94,7 +93,7 @@ impl Dependencies {
 /// One value is one set of pools, whose builds and traces follow each other on the device's queue. What the host reads
 /// of a build is kept per slot ([`Structure::set_slots`]): a host that has n frames in flight records the build of
 /// frame k for slot k mod n, and reads the status of a slot after that frame's fence.
-pub trait Structure: Occluder {
+pub trait Structure {
     /// Name, the same as in shaders, pages and reports.
     fn name(&self) -> &'static str;
 

@@ -1,31 +1,41 @@
 //! What is recorded of an image.
 
-use rasray_ads::{QueueCounters, Structure};
-use rasray_gpu::Recorder;
+use rasray_ads::{Occluder, QueueCounters, Structure};
+use rasray_gpu::{Device, Recorder};
 use rasray_gpu_scene::GpuScene;
 use rasray_integrators::{Film, Integrator, Traced, Visibility, Wave, waves_of};
+use rasray_shadow_maps::{Config, Lights, ShadowMaps};
 use rasray_tracer::TracerError;
 
 use crate::{FrameError, Samples};
 
-/// What makes an image of rays through a structure: an integrator with its film, and what answers camera rays. It records,
-/// and neither submits nor waits.
+/// What makes an image of rays through a structure: an integrator with its film, and what answers camera and shadow rays.
+/// It records, and neither submits nor waits.
 pub struct ImagePasses {
     integrator: Box<dyn Integrator>,
     /// What answers camera rays in place of traces.
     visibility: Option<Visibility>,
+    /// What answers shadow rays in place of traces.
+    shadow_maps: Option<ShadowMaps>,
+    /// Whether the maps are to be drawn before they are asked.
+    maps_are_stale: bool,
 }
 
 impl From<Box<dyn Integrator>> for ImagePasses {
     fn from(integrator: Box<dyn Integrator>) -> Self {
-        Self { integrator, visibility: None }
+        Self { integrator, visibility: None, shadow_maps: None, maps_are_stale: true }
     }
 }
 
 impl<I: Integrator + 'static> From<Box<I>> for ImagePasses {
     fn from(integrator: Box<I>) -> Self {
-        Self { integrator, visibility: None }
+        Self::from(integrator as Box<dyn Integrator>)
     }
+}
+
+/// The lights of a scene that have shadow maps.
+fn lights(scene: &GpuScene) -> Lights<'_> {
+    Lights { records: &scene.posed_buffers().lights, known: scene.lights() }
 }
 
 impl ImagePasses {
@@ -33,6 +43,44 @@ impl ImagePasses {
     #[must_use]
     pub fn with_visibility(self, visibility: Option<Visibility>) -> Self {
         Self { visibility, ..self }
+    }
+
+    /// The same with shadow rays that lead to lights without extent answered by shadow maps of the scene.
+    ///
+    /// # Errors
+    /// As [`ShadowMaps::new`].
+    pub fn with_shadow_maps(
+        self,
+        device: &Device,
+        scene: &GpuScene,
+        config: Config,
+    ) -> Result<Self, FrameError> {
+        let (geometry, binding) = (scene.geometry(), scene.binding());
+        let maps = ShadowMaps::new(device, config, geometry, Some(binding), lights(scene))?;
+        Ok(Self { shadow_maps: Some(maps), ..self })
+    }
+
+    /// What answers shadow rays in place of traces.
+    pub fn shadow_maps(&self) -> Option<&ShadowMaps> {
+        self.shadow_maps.as_ref()
+    }
+
+    /// Lights or triangles have moved, or will have by the time that the next image is recorded.
+    pub fn scene_moved(&mut self) {
+        self.maps_are_stale = true;
+    }
+
+    /// Whether [`ImagePasses::record_shadow_maps`] would record anything.
+    pub(crate) fn needs_shadow_maps(&self) -> bool {
+        self.maps_are_stale && self.shadow_maps.is_some()
+    }
+
+    /// Records that shadow maps are drawn, where anything has moved since they were recorded. True where they are.
+    pub(crate) fn record_shadow_maps(&mut self, recorder: &mut Recorder<'_>) -> bool {
+        let are_stale = std::mem::take(&mut self.maps_are_stale);
+        let Some(maps) = self.shadow_maps.as_ref().filter(|_| are_stale) else { return false };
+        maps.record_build(recorder);
+        true
     }
 
     /// The integrator, with the film.
@@ -50,21 +98,29 @@ impl ImagePasses {
         self.integrator.film()
     }
 
-    /// Shows another scene from the next recording on, in a film of the same size. Kernels stay.
+    /// Shows another scene from the next recording on, in a film of the same size. Kernels stay; shadow maps grow where
+    /// there are more lights.
     ///
     /// # Errors
-    /// The scene has what kernels have no code for.
-    pub fn set_scene(&mut self, scene: &GpuScene) -> Result<(), FrameError> {
+    /// The scene has what kernels have no code for, or out of memory.
+    pub fn set_scene(&mut self, device: &Device, scene: &GpuScene) -> Result<(), FrameError> {
         self.integrator.set_scene(scene)?;
         if let Some(visibility) = &mut self.visibility {
             visibility.set_scene(scene)?;
         }
+        if let Some(maps) = &mut self.shadow_maps {
+            maps.set_scene(scene.binding())?;
+            maps.set_lights(device, lights(scene))?;
+            maps.set_geometry(scene.geometry());
+        }
+        self.maps_are_stale = true;
         Ok(())
     }
 
-    /// Rays through a structure, but for those that are drawn.
+    /// Rays through a structure, but for those that are drawn or answered by maps.
     pub(crate) fn traced<'a>(&'a self, structure: &'a dyn Structure) -> Traced<'a> {
-        Traced::from(structure).with_primary(self.visibility.as_ref())
+        let maps = self.shadow_maps.as_ref().map(|maps| maps as &dyn Occluder);
+        Traced::from(structure).with_primary(self.visibility.as_ref()).with_occluder(maps)
     }
 
     /// Records that film and counters start at 0.
@@ -103,6 +159,7 @@ impl std::fmt::Debug for ImagePasses {
             .debug_struct("ImagePasses")
             .field("integrator", &self.integrator.name())
             .field("visibility", &self.visibility)
+            .field("shadow_maps", &self.shadow_maps)
             .finish()
     }
 }

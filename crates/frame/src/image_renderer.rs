@@ -16,7 +16,7 @@ use crate::{FrameError, Samples};
 pub enum Advance {
     /// A wave was added to the film.
     Wave {
-        /// Times of its passes, where they are timed.
+        /// Times of its passes, where they are timed, after those of shadow maps if it was the first that needed them.
         passes: Vec<PassTiming>,
     },
     /// Rays needed more rounds than they had: all starts at 0 again, and the structure allows more from now on.
@@ -65,17 +65,34 @@ impl ImageRenderer {
         Ok(())
     }
 
-    /// Renders one pixel and forgets it: software drivers compile a kernel at its first dispatch, which is no trace.
-    /// Returns milliseconds. All starts at 0 after it.
+    /// Lights or triangles have moved: shadow maps are drawn anew before the next wave. The film stays.
+    pub fn scene_moved(&mut self) {
+        self.passes.scene_moved();
+    }
+
+    /// Draws shadow maps, where anything has moved since; returns the times of its passes.
+    fn draw_shadow_maps(&mut self, timing: Timing) -> Result<Vec<PassTiming>, FrameError> {
+        if !self.passes.needs_shadow_maps() {
+            return Ok(Vec::new());
+        }
+        let Self { device, passes, .. } = self;
+        let submitted = device.submit_passes(timing, |recorder| passes.record_shadow_maps(recorder));
+        Ok(submitted.inspect_err(|_| passes.scene_moved())?.passes)
+    }
+
+    /// Renders one pixel and forgets it, shadow maps included: software drivers compile a kernel at its first dispatch,
+    /// which is no trace. Returns milliseconds. All starts at 0 after it.
     ///
     /// # Errors
     /// The device fails.
     pub fn warm_up(&mut self, structure: &dyn Structure) -> Result<f64, FrameError> {
         let started = Instant::now();
+        self.draw_shadow_maps(Timing::None)?;
         let one = Wave { first_pixel: 0, pixel_count: 1, sample: 0 };
         let (integrator, traced) = (self.passes.integrator(), self.passes.traced(structure));
         let submitted = self.device.submit(|recorder| integrator.record_wave(recorder, traced, one))?;
         submitted.value?;
+        self.scene_moved();
         self.clear()?;
         Ok(started.elapsed().as_secs_f64() * 1.0e3)
     }
@@ -85,13 +102,15 @@ impl ImageRenderer {
     /// # Errors
     /// The device fails, or rays met list entries with an invalid index.
     pub fn advance(&mut self, structure: &dyn Structure, timing: Timing) -> Result<Advance, FrameError> {
+        let mut timings = self.draw_shadow_maps(timing)?;
         let (pixels, integrator) = (self.film().pixel_count(), self.passes.integrator());
         let wave = Wave {
             first_pixel: self.next_pixel,
             pixel_count: integrator.wave_capacity().min(pixels - self.next_pixel),
             sample: self.samples.index(self.samples_done),
         };
-        let passes = integrator.render_wave(&self.device, timing, self.passes.traced(structure), wave)?;
+        let traced = self.passes.traced(structure);
+        timings.extend(integrator.render_wave(&self.device, timing, traced, wave)?);
         // What is on the film lacks light where a ray had no answer, so it is found now and not after the last wave.
         // Queues count on from wave to wave.
         self.unfinished = self.count_unfinished(structure, &integrator.queues())?;
@@ -104,7 +123,7 @@ impl ImageRenderer {
             self.next_pixel = 0;
             self.samples_done += 1;
         }
-        Ok(Advance::Wave { passes })
+        Ok(Advance::Wave { passes: timings })
     }
 
     /// Renders all samples that were asked for, and tells `after` of each step. Where that breaks, ends early, between

@@ -49,6 +49,8 @@ pub struct Picture {
     pub film: FilmCopy,
     /// Whether the structure was built in it.
     pub built: bool,
+    /// Whether shadow maps were drawn in it; never without any.
+    pub drew_maps: bool,
     /// Counters of the integrator's queues.
     pub counters: Vec<QueueCounters>,
     /// Times of passes, where they are timed.
@@ -64,6 +66,8 @@ struct Pending {
     rounds: u32,
     /// Traces that its waves were recorded with.
     traces: u32,
+    /// Whether shadow maps were drawn in it.
+    drew_maps: bool,
 }
 
 /// Frames of a scene through one structure and one integrator.
@@ -75,6 +79,7 @@ struct Pending {
 /// frames in flight share nothing that one of them could find changed. No call waits but [`FrameRenderer::take`], and
 /// [`FrameRenderer::submit`] for structures that the host builds.
 pub struct FrameRenderer {
+    device: Device,
     scene: FrameScene,
     /// What the kernels have code for.
     features: ShadingFeatures,
@@ -111,6 +116,7 @@ impl FrameRenderer {
         let readback = |_| Readback::new(device, image.integrator(), reads_films);
         let readbacks = (0..frames.slots()).map(readback).collect::<Result<_, _>>()?;
         Ok(Self {
+            device: device.clone(),
             scene,
             features,
             image,
@@ -126,6 +132,16 @@ impl FrameRenderer {
     #[must_use]
     pub fn with_visibility(self, visibility: Visibility) -> Self {
         Self { image: self.image.with_visibility(Some(visibility)), ..self }
+    }
+
+    /// The same with shadow rays that lead to lights without extent answered by shadow maps. They are drawn in frames in which
+    /// lights or triangles have moved.
+    ///
+    /// # Errors
+    /// As [`ImagePasses::with_shadow_maps`].
+    pub fn with_shadow_maps(self, config: rasray_shadow_maps::Config) -> Result<Self, FrameError> {
+        let scene = self.scene.gpu().clone().allowing(self.features);
+        Ok(Self { image: self.image.with_shadow_maps(&self.device, &scene, config)?, ..self })
     }
 
     /// The scene of the frame that was submitted last, at first the one that this was made with.
@@ -162,7 +178,7 @@ impl FrameRenderer {
     fn bind(&mut self, scene: &FrameScene) -> Result<(), FrameError> {
         // Kernels have more code than the scene needs.
         let gpu = scene.gpu().clone().allowing(self.features);
-        self.image.set_scene(&gpu)?;
+        self.image.set_scene(&self.device, &gpu)?;
         self.frames.set_scene(gpu.binding())?;
         if !self.structure().is_in_parts() {
             return Ok(self.frames.set_geometry(gpu.geometry())?);
@@ -180,7 +196,7 @@ impl FrameRenderer {
         check_features(self.features, scene.gpu())?;
         if let Err(error) = self.bind(scene) {
             let before = self.scene.clone();
-            // It was bound already, and pools never shrink: this allocates nothing.
+            // It was bound already, and pools never shrink: this allocates small tables at most.
             self.bind(&before)?;
             return Err(error);
         }
@@ -214,6 +230,9 @@ impl FrameRenderer {
         if moved.is_some() && pass.is_some_and(|pass| !pass.moving_triangles().is_empty()) {
             frames.geometry_moved();
         }
+        if moved.is_some() && pass.is_some() {
+            image.scene_moved();
+        }
         let before = |recorder: &mut Recorder<'_>, slot: u32| {
             scene.gpu().record_staged(recorder);
             if let (Some(pass), Some(moved)) = (pass, moved) {
@@ -221,10 +240,12 @@ impl FrameRenderer {
             }
             scene.gpu().record_frame(recorder, &input.view, input.sampling);
         };
+        let mut drew_maps = false;
         let after = |recorder: &mut Recorder<'_>, slot: u32, structure: &dyn Structure| {
             if !input.continues {
                 image.record_reset(recorder);
             }
+            drew_maps = image.record_shadow_maps(recorder);
             image.record(recorder, structure, input.samples)?;
             readbacks[slot as usize].record(recorder, image.integrator());
             Ok(())
@@ -233,7 +254,7 @@ impl FrameRenderer {
         match frames.submit::<FrameError>(viewpoint, before, after) {
             Ok(number) => {
                 let (rounds, traces) = (frames.structure().rounds(), image.integrator().traces_per_wave());
-                self.pending.push_back(Pending { continues: input.continues, rounds, traces });
+                self.pending.push_back(Pending { continues: input.continues, rounds, traces, drew_maps });
                 scene.gpu().end_staging();
                 if let Some(moved) = moved {
                     self.posed = Some(moved.clone());
@@ -244,6 +265,7 @@ impl FrameRenderer {
                 // Whether the device was told is unknown.
                 self.posed = None;
                 self.frames.geometry_moved();
+                self.image.scene_moved();
                 Err(error)
             }
         }
@@ -270,7 +292,8 @@ impl FrameRenderer {
 
     fn shown(&mut self, ended: rasray_tracer::Ended) -> Result<Taken, FrameError> {
         // A new image does not depend on the film before it.
-        let pending = self.pending.pop_front().unwrap_or(Pending { continues: false, rounds: 0, traces: 0 });
+        let none = Pending { continues: false, rounds: 0, traces: 0, drew_maps: false };
+        let pending = self.pending.pop_front().unwrap_or(none);
         self.film_is_right |= !pending.continues;
         let (film, counters) = self.readbacks[ended.slot as usize].read()?;
         let structure = self.frames.structure().structure();
@@ -294,7 +317,7 @@ impl FrameRenderer {
             return Ok(Taken::Nothing);
         }
         let rasray_tracer::Ended { number, built, passes, .. } = ended;
-        Ok(Taken::Picture(Picture { number, film, built, counters, passes }))
+        Ok(Taken::Picture(Picture { number, film, built, drew_maps: pending.drew_maps, counters, passes }))
     }
 }
 

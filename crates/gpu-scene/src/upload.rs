@@ -2,6 +2,7 @@
 
 use std::mem::offset_of;
 use std::ops::Range;
+use std::sync::Arc;
 
 use bytemuck::NoUninit;
 use rasray_ads::{Geometry, GeometryDesc, SceneBinding, Viewpoint};
@@ -13,7 +14,7 @@ use rasray_shaders_glsl::constants::scene::{
 
 use crate::{
     GpuSceneError, Sampling, SceneTables, ShadingFeatures, TexelRuns, View,
-    layout::{Frame, viewpoint_of},
+    layout::{Frame, Light, viewpoint_of},
     staging::Staging,
 };
 
@@ -50,6 +51,7 @@ pub struct GpuScene {
     geometry: Geometry,
     binding: SceneBinding,
     posed_buffers: PosedBuffers,
+    lights: Arc<[Light]>,
     frame: Frame,
     frame_origin: glam::DVec3,
     features: ShadingFeatures,
@@ -163,6 +165,7 @@ impl GpuScene {
                 constants: features.constants().into(),
             },
             posed_buffers,
+            lights: tables.lights.as_slice().into(),
             frame,
             frame_origin: tables.frame_origin,
             features,
@@ -244,6 +247,12 @@ impl GpuScene {
     /// The buffers that a [`PosePass`](crate::PosePass) writes in addition to positions, and [`GpuScene::record_frame`].
     pub fn posed_buffers(&self) -> &PosedBuffers {
         &self.posed_buffers
+    }
+
+    /// Lights without extent as the tables have them; where those are that move, the device alone knows
+    /// ([`PosedBuffers::lights`]).
+    pub fn lights(&self) -> &[Light] {
+        &self.lights
     }
 
     /// What structures build from.

@@ -18,6 +18,8 @@ pub enum Stage {
     Pose,
     /// Posed positions to a structure that can be traced.
     Build,
+    /// Posed positions and lights to maps of what lights see.
+    ShadowMaps,
     /// First hits and their surfaces, by drawing.
     Visible,
     /// Rays to hits.
@@ -32,9 +34,10 @@ pub enum Stage {
 
 impl Stage {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Pose,
         Self::Build,
+        Self::ShadowMaps,
         Self::Visible,
         Self::Trace(TraceMode::Closest),
         Self::Trace(TraceMode::Occluded),
@@ -48,6 +51,7 @@ impl Stage {
         match self {
             Self::Pose => "pose",
             Self::Build => "build",
+            Self::ShadowMaps => "shadow-maps",
             Self::Visible => "visible",
             Self::Trace(TraceMode::Closest) => "trace-closest",
             Self::Trace(TraceMode::Occluded) => "trace-occluded",

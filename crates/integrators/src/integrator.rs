@@ -125,6 +125,12 @@ pub trait Integrator {
         false
     }
 
+    /// Whether shadow rays that lead to lights are answered by [`Traced::occluder`]; not where there are none, nor where
+    /// surfaces let them pass.
+    fn asks_occluder(&self) -> bool {
+        true
+    }
+
     /// Shades another scene from the next recording on, into the same film. Kernels stay. Nothing changes after an error.
     ///
     /// # Errors

@@ -5,26 +5,27 @@ use rasray_gpu::Recorder;
 
 use crate::{Visibility, Wave};
 
-/// A structure for nearest hits, and what answers shadow rays: usually the same structure.
+/// A structure, and what answers some rays in its place.
 #[derive(Clone, Copy)]
 pub struct Traced<'a> {
     /// Finds the nearest hit and its surface.
     pub closest: &'a dyn Structure,
-    /// Answers shadow rays. Not used where surfaces let them pass: they need nearest hits there.
-    pub occluder: &'a dyn Occluder,
+    /// Answers shadow rays; where absent, they are traced. Not used where surfaces let them pass: they need nearest hits
+    /// there ([`Integrator::asks_occluder`](crate::Integrator::asks_occluder)).
+    pub occluder: Option<&'a dyn Occluder>,
     /// Finds what camera rays hit by drawing; where absent, they are traced as all others.
     pub primary: Option<&'a Visibility>,
 }
 
 impl<'a> From<&'a dyn Structure> for Traced<'a> {
     fn from(structure: &'a dyn Structure) -> Self {
-        Self { closest: structure, occluder: structure, primary: None }
+        Self { closest: structure, occluder: None, primary: None }
     }
 }
 
 impl<'a, S: Structure> From<&'a S> for Traced<'a> {
     fn from(structure: &'a S) -> Self {
-        Self { closest: structure, occluder: structure, primary: None }
+        Self { closest: structure, occluder: None, primary: None }
     }
 }
 
@@ -33,6 +34,12 @@ impl<'a> Traced<'a> {
     #[must_use]
     pub fn with_primary(self, primary: Option<&'a Visibility>) -> Self {
         Self { primary, ..self }
+    }
+
+    /// The same with shadow rays answered by `occluder`.
+    #[must_use]
+    pub fn with_occluder(self, occluder: Option<&'a dyn Occluder>) -> Self {
+        Self { occluder, ..self }
     }
 
     /// Records hits and surfaces of the camera rays of a wave.
@@ -70,6 +77,12 @@ impl<'a> Traced<'a> {
 
     /// Records whether rays of the slots of `domain` hit anything.
     pub(crate) fn record_occluded(self, recorder: &mut Recorder<'_>, queue: &RayQueue, domain: Domain) {
-        self.occluder.record_occluded(recorder, queue, domain);
+        match self.occluder {
+            Some(occluder) => occluder.record_occluded(recorder, queue, domain, self.closest),
+            None => {
+                let rounds = self.closest.rounds();
+                self.closest.record_trace(recorder, queue, domain, TraceMode::Occluded, rounds);
+            }
+        }
     }
 }

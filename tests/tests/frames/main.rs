@@ -7,5 +7,6 @@ mod parts;
 mod pictures;
 mod refresh;
 mod scenes;
+mod shadows;
 mod soak;
 mod stale;

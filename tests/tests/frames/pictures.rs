@@ -3,7 +3,7 @@
 use std::ops::{ControlFlow, Range};
 
 use glam::{DAffine3, DQuat, DVec3};
-use rasray_frame::{FrameInput, FrameRenderer, ImageRenderer, Picture, Taken, render_in_order};
+use rasray_frame::{FrameInput, FrameRenderer, ImagePasses, ImageRenderer, Picture, Taken, render_in_order};
 use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, Parts, PosePass, Sampling, SceneTables, View};
 use rasray_integrators::{Film, IntegratorDesc, Path, Visibility};
@@ -12,6 +12,7 @@ use rasray_scene::animation::{
     Channel, ChannelValues, Clip, Interpolation, NodeTransform, Placement, Rig, RigNode,
 };
 use rasray_scene::{Moment, Scene, builtin};
+use rasray_shadow_maps::Config;
 use rasray_systems::Spec;
 use rasray_tests::harness::Bench;
 use rasray_tracer::{Keeping, build_until_complete};
@@ -109,6 +110,18 @@ pub fn still(
     spec: &Spec,
     input: &FrameInput,
 ) -> Vec<[f32; 3]> {
+    still_with(device, scene, tables, spec, input, None)
+}
+
+/// The same with shadow maps.
+pub fn still_with(
+    device: &Device,
+    scene: &Scene,
+    tables: &SceneTables,
+    spec: &Spec,
+    input: &FrameInput,
+    maps: Option<Config>,
+) -> Vec<[f32; 3]> {
     let Set { gpu, pose, path } = set(device, scene, tables);
     let mut structure =
         spec.create(device, gpu.geometry(), Some(gpu.binding())).expect("the options are valid");
@@ -123,7 +136,11 @@ pub fn still(
     let viewpoint = gpu.viewpoint_of(&input.view);
     build_until_complete(device, structure.as_mut(), viewpoint, Timing::None).expect("it is built");
     let samples = 0..input.samples.index(input.samples.count());
-    let mut image = ImageRenderer::new(device, Box::new(path), samples).expect("the device works");
+    let mut passes = ImagePasses::from(Box::new(path));
+    if let Some(config) = maps {
+        passes = passes.with_shadow_maps(device, &gpu, config).expect("the device draws");
+    }
+    let mut image = ImageRenderer::new(device, passes, samples).expect("the device works");
     let go_on = |_: &ImageRenderer, _| ControlFlow::Continue(());
     image.render(&*structure, Timing::None, go_on).expect("the waves fit");
     assert_eq!((image.unfinished(), image.waves_done()), (0, image.waves()));

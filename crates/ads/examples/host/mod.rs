@@ -267,11 +267,14 @@ impl Host {
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
         println!("{hit} of {} rays hit, {same} answers are those of brute force", expected.len());
         let enough = if tolerance > 0.0 { expected.len() * 95 / 100 } else { expected.len() };
-        let complaints = self.log.messages();
-        if !complaints.is_empty() {
-            return Err(complaints.join("\n").into());
-        }
+        self.is_silent()?;
         (same >= enough && hit > 100).then_some(()).ok_or("hits differ".into())
+    }
+
+    /// An error where the validation layer complained.
+    pub fn is_silent(&self) -> Result<()> {
+        let complaints = self.log.messages();
+        if complaints.is_empty() { Ok(()) } else { Err(complaints.join("\n").into()) }
     }
 
     /// Triangles of the host as rasray takes them, in buffers of the host's.

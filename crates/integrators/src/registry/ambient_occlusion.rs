@@ -102,6 +102,10 @@ impl Integrator for AmbientOcclusion {
         Ok(())
     }
 
+    fn asks_occluder(&self) -> bool {
+        false
+    }
+
     fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
         self.bindings.set_scene(scene);
         Ok(())

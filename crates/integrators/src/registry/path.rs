@@ -245,6 +245,10 @@ impl Integrator for Path {
         }
     }
 
+    fn asks_occluder(&self) -> bool {
+        self.bounces > 0 && matches!(self.shadows, Shadows::Occluded { .. })
+    }
+
     fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
         check_features(self.features, scene)?;
         self.bindings.set_scene(scene);

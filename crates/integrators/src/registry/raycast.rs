@@ -77,6 +77,10 @@ impl Integrator for Raycast {
         Ok(())
     }
 
+    fn asks_occluder(&self) -> bool {
+        false
+    }
+
     fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
         self.bindings.set_scene(scene);
         Ok(())

@@ -1,0 +1,70 @@
+//! Options.
+
+use rasray_ads::AdsError;
+
+/// Options of shadow maps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Config {
+    /// Texels along a side of a view, from 16 to [`Config::MOST_TEXELS`].
+    pub resolution: u32,
+    /// Each texel lies this much deeper than the triangle at its centre, in multiples of what the triangle's plane gains
+    /// within half a texel: from 0 to 16. With 1, no flat surface shades itself.
+    pub bias: f32,
+}
+
+impl Config {
+    /// Most texels along a side.
+    pub const MOST_TEXELS: u32 = 16_384;
+
+    /// Texels along a side unless told.
+    pub const DEFAULT_TEXELS: u32 = 1024;
+
+    /// That many texels along a side, and a bias of 1.
+    pub fn new(resolution: u32) -> Self {
+        Self { resolution, bias: 1.0 }
+    }
+
+    /// # Errors
+    /// An option out of range.
+    pub fn validate(&self) -> Result<(), AdsError> {
+        let wrong = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
+        if !(16..=Self::MOST_TEXELS).contains(&self.resolution) {
+            return wrong(
+                "shadow-resolution",
+                self.resolution.to_string(),
+                "from 16 to 16384 texels along a side",
+            );
+        }
+        if !(0.0..=16.0).contains(&self.bias) {
+            return wrong("bias", self.bias.to_string(), "from 0 to 16 times the slope within half a texel");
+        }
+        Ok(())
+    }
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self::new(Self::DEFAULT_TEXELS)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_out_of_range_is_refused_by_name() {
+        assert!(
+            Config::default().validate().is_ok()
+                && Config { bias: 0.0, ..Config::new(16) }.validate().is_ok()
+        );
+        for (config, name) in [
+            (Config::new(15), "shadow-resolution"),
+            (Config::new(16_385), "shadow-resolution"),
+            (Config { bias: -0.5, ..Config::new(64) }, "bias"),
+            (Config { bias: f32::NAN, ..Config::new(64) }, "bias"),
+        ] {
+            assert!(config.validate().expect_err("refused").to_string().starts_with(name), "{config:?}");
+        }
+    }
+}

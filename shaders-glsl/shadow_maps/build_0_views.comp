@@ -1,0 +1,84 @@
+// What: where the views of every light are, as lights and triangles are now.
+// Reads: geometry header, lights, which views each light has. Writes: views, status.
+// Source: Williams 1978; cubes for lights that shine everywhere, a parallel view over all triangles for lights far away.
+#version 460
+#include "contract/extensions.glsl"
+#define SHADOW_MAPS_VIEWS_WRITTEN
+#include "ads/geometry.glsl"
+#include "ads/placement.glsl"
+#include "ads/views.glsl"
+#include "scene/types.glsl"
+#include "shadow_maps/accessors.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = SHADOW_MAPS_SET, binding = 3, scalar) readonly buffer ShadowMapsSourceBuffer { Light shadow_maps_sources[]; };
+
+// Metres that numbers relative to the origin of a view may be off by.
+float rounding_from(vec3 origin) {
+    vec3 lower = geometry_header.lower;
+    vec3 upper = geometry_header.upper;
+    return SHADOW_MAPS_ROUNDING * (length(upper - lower) + length(origin) + box_reach(lower, upper));
+}
+
+// Two axes across a unit direction.
+void axes_across(vec3 forward, out vec3 right, out vec3 up) {
+    vec3 aside = abs(forward.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    right = normalize(cross(aside, forward));
+    up = cross(forward, right);
+}
+
+ShadowMapsView view_of_face(vec3 origin, uint face) {
+    vec3 x = face_from_world(vec3(1.0, 0.0, 0.0), face);
+    vec3 y = face_from_world(vec3(0.0, 1.0, 0.0), face);
+    vec3 z = face_from_world(vec3(0.0, 0.0, 1.0), face);
+    return ShadowMapsView(origin, vec3(x.x, y.x, z.x), vec3(x.y, y.y, z.y), vec3(x.z, y.z, z.z), 0u, rounding_from(origin));
+}
+
+ShadowMapsView view_of_cone(Light light) {
+    float cosine = clamp(-light.cone_offset / light.cone_scale, SHADOW_MAPS_WIDEST_COSINE, SHADOW_MAPS_NARROWEST_COSINE);
+    float tangent = SHADOW_MAPS_WIDENED * sqrt(1.0 - cosine * cosine) / cosine;
+    vec3 forward = normalize(light.direction);
+    vec3 right;
+    vec3 up;
+    axes_across(forward, right, up);
+    return ShadowMapsView(light.position, right / tangent, up / tangent, forward, 0u, rounding_from(light.position));
+}
+
+// As wide, high and deep as what lies within the bounds, and a little more.
+ShadowMapsView view_from_afar(vec3 direction) {
+    vec3 forward = normalize(direction);
+    vec3 right;
+    vec3 up;
+    axes_across(forward, right, up);
+    vec3 lower = geometry_header.lower;
+    vec3 upper = geometry_header.upper;
+    vec3 half_extent = 0.5 * upper - 0.5 * lower;
+    float rounding = rounding_from(vec3(0.0));
+    float more = 8.0 * rounding + PLACEMENT_SMALLEST;
+    vec3 half_sides = vec3(dot(abs(right), half_extent), dot(abs(up), half_extent), dot(abs(forward), half_extent));
+    half_sides = half_sides * 1.0001 + more;
+    vec3 origin = 0.5 * lower + 0.5 * upper - half_sides.z * forward;
+    return ShadowMapsView(origin, right / half_sides.x, up / half_sides.y, forward, 1u, rounding + SHADOW_MAPS_ROUNDING * length(origin));
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index == 0u) {
+        shadow_maps_header.status = geometry_is_sound() ? STATUS_COMPLETE | geometry_header.stamp : 0u;
+    }
+    if (index >= shadow_maps_header.light_count) {
+        return;
+    }
+    ShadowMapsLight views = shadow_maps_lights[index];
+    Light light = shadow_maps_sources[index];
+    if (light.kind == LIGHT_DIRECTIONAL) {
+        shadow_maps_views[views.first_view] = view_from_afar(light.direction);
+    } else if (views.view_count == 1u) {
+        shadow_maps_views[views.first_view] = view_of_cone(light);
+    } else {
+        for (uint face = 0u; face < views.view_count; face++) {
+            shadow_maps_views[views.first_view + face] = view_of_face(light.position, face);
+        }
+    }
+}

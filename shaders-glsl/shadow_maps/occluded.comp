@@ -1,0 +1,91 @@
+// What: answers the shadow rays that lead to a light with a map; selects all others.
+// Reads: rays, geometry, views, texels. Writes: hits; the selection of the queue.
+// Source: Williams 1978, without a filter; the plane of the receiver as in Isidoro 2006.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/geometry.glsl"
+#include "ads/queue.glsl"
+#include "ads/triangle.glsl"
+#include "ads/views.glsl"
+#include "contract/trace_state.glsl"
+#include "shadow_maps/accessors.glsl"
+#include "shadow_maps/view.glsl"
+
+layout(local_size_x = QUEUE_GROUP_SIZE) in;
+
+// Which slots. 4 bytes.
+layout(push_constant, scalar) uniform ShadowMapsQueueConstants {
+    uint domain;          // the number of first slots, or DOMAIN_SELECTED
+} pushed;
+
+// Depth at a texel's centre of the plane of the triangle that a ray starts on; that of its origin where no triangle is known,
+// or its plane is not met there.
+float receiver_depth(Ray ray, ShadowMapsView view, vec3 p, vec2 center) {
+    // The triangles that are bound are the whole geometry, so that ids are their numbers.
+    if (ray.exclude_primitive >= geometry_triangle_count()) {
+        return p.z;
+    }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(ray.exclude_primitive, a, b, c);
+    a = shadow_maps_in_view(view, a);
+    b = shadow_maps_in_view(view, b);
+    c = shadow_maps_in_view(view, c);
+    bool is_parallel = view.parallel != 0u;
+    vec3 origin = is_parallel ? vec3(center, 0.0) : vec3(0.0);
+    vec3 direction = is_parallel ? vec3(0.0, 0.0, 1.0) : vec3(center, 1.0);
+    float z;
+    vec2 barycentrics;
+    bool is_met = triangle_plane(origin, direction, a, b, c, z, barycentrics) && (is_parallel || z > 0.0);
+    return is_met ? z : p.z;
+}
+
+// Whether maps answer a ray. `occluded` is the answer.
+bool is_answered(Ray ray, out bool occluded) {
+    occluded = false;
+    uint number = ray.flags >> RAY_LIGHT_SHIFT;
+    if (number == 0u || number > shadow_maps_header.light_count || !geometry_is_built(shadow_maps_header.status)) {
+        return false;
+    }
+    // Maps hold both sides of every triangle.
+    if ((ray.flags & RAY_CULL_BACK_FACES) != 0u || !ray_is_valid(ray)) {
+        return false;
+    }
+    ShadowMapsLight light = shadow_maps_lights[number - 1u];
+    uint index = light.first_view;
+    if (light.view_count == SHADOW_MAPS_CUBE_VIEWS) {
+        // The views of a light have one origin.
+        index += face_of(ray.origin - shadow_maps_views[index].origin);
+    }
+    ShadowMapsView view = shadow_maps_views[index];
+    vec3 p = shadow_maps_in_view(view, ray.origin);
+    vec2 place;
+    if (!shadow_maps_on_map(view, p, place)) {
+        return false;
+    }
+    uint resolution = shadow_maps_header.resolution;
+    ivec2 nearest = ivec2(floor((place + 1.0) * (0.5 * float(resolution))));
+    uvec2 texel = uvec2(clamp(nearest, ivec2(0), ivec2(resolution) - 1));
+    uint depth = shadow_maps_texels[shadow_maps_texel(index, texel, resolution)];
+    occluded = depth != SHADOW_MAPS_EMPTY && uintBitsToFloat(depth) < p.z;
+    if (occluded) {
+        vec2 center = (vec2(texel) + 0.5) * (2.0 / float(resolution)) - 1.0;
+        occluded = uintBitsToFloat(depth) < receiver_depth(ray, view, p, center);
+    }
+    return true;
+}
+
+void main() {
+    uint slot;
+    if (!queue_slot(pushed.domain, gl_GlobalInvocationID.x, slot)) {
+        return;
+    }
+    Ray ray = queue_ray(slot);
+    bool occluded;
+    if (is_answered(ray, occluded)) {
+        queue_set_hit(slot, Hit(ray.t_max, occluded ? PRIMITIVE_UNKNOWN : PRIMITIVE_NONE, 0.0, 0.0));
+    } else {
+        queue_select(slot);
+    }
+}
