@@ -93,7 +93,7 @@ pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) 
         needs,
         only: _,
     } = job;
-    let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces } = frame;
+    let Frame { integrator, width, height, spp, seed, sampler, primary, occluder, back_faces } = frame;
     let pose = loaded.pose.as_ref();
     let needed = needs.verdicts().iter().filter(|verdict| verdict.needed);
     let cell = Cell {
@@ -123,6 +123,8 @@ pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) 
             spp: *spp,
             sampler: sampler.name().to_owned(),
             primary: primary.name().to_owned(),
+            occluder: occluder.name().to_owned(),
+            shadow_resolution: occluder.resolution(),
         };
         let cell = Cell { image: Some(image), ..cell };
         let noise = Cell { system: NOISE.0.to_owned(), preset: NOISE.1.to_owned(), ..cell.clone() };
@@ -225,7 +227,7 @@ const HASHED: usize = 1 << 16;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{IntegratorRow, Primary, RaySet, Sampler, one_system};
+    use crate::{IntegratorRow, OccluderKind, Primary, RaySet, Sampler, one_system};
     use rasray_ads::{Hit, Ray};
     use rasray_options::OptionValues;
     use rasray_scene::BackFaces;
@@ -262,6 +264,7 @@ mod tests {
                 seed: 1,
                 sampler: Sampler::Sobol,
                 primary: Primary::Trace,
+                occluder: OccluderKind::Structure,
                 back_faces: BackFaces::Camera,
             },
             image: true,
@@ -324,7 +327,7 @@ mod tests {
         ];
         assert!(every.iter().all(|change| changed(change) == all));
         assert_ne!(compare_cells("2", &loaded, &job(&loaded)).record(0).expect("a cell").key, first[0]);
-        let some: [(&Change, &[usize]); 9] = [
+        let some: [(&Change, &[usize]); 11] = [
             (&|job| job.rays = 99, &[0, 1, 2, 3, 4, 5]),
             (&|job| job.ray_sets[1] = RaySet::Bounce, &[3, 4, 5]),
             (&|job| job.rays_file = Some(rays(-1.0)), &[6, 7, 8]),
@@ -337,6 +340,8 @@ mod tests {
             (&|job| job.frame.spp = 4, &[9, 10, 11]),
             (&|job| job.frame.sampler = Sampler::Pcg, &[9, 10, 11]),
             (&|job| job.frame.primary = Primary::Raster, &[9, 10, 11]),
+            (&|job| job.frame.occluder = OccluderKind::ALL[1], &[9, 10, 11]),
+            (&|job| job.frame.occluder = OccluderKind::ShadowMaps { resolution: 7 }, &[9, 10, 11]),
         ];
         for (number, (change, places)) in some.iter().enumerate() {
             assert_eq!(changed(change), *places, "change {number}");

@@ -23,6 +23,8 @@ pub struct Frame {
     pub sampler: Sampler,
     /// How what the camera sees first is found.
     pub primary: Primary,
+    /// What answers shadow rays.
+    pub occluder: OccluderKind,
     /// Which rays pass the backs of single-sided surfaces.
     pub back_faces: BackFaces,
 }
@@ -57,6 +59,52 @@ impl Primary {
                 "Triangles are drawn and tested at each pixel's ray: the same hits where the structure finds every one, \
                  exact first hits where it does not"
             }
+        }
+    }
+}
+
+/// What answers shadow rays that lead to lights without extent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OccluderKind {
+    /// The structure that all other rays are traced through.
+    #[default]
+    Structure,
+    /// A shadow map of each light.
+    ShadowMaps {
+        /// Texels along a side.
+        resolution: u32,
+    },
+}
+
+impl OccluderKind {
+    /// All kinds, at the default resolution.
+    pub const ALL: [Self; 2] =
+        [Self::Structure, Self::ShadowMaps { resolution: rasray_shadow_maps::Config::DEFAULT_TEXELS }];
+
+    /// Its name on the command line and in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Structure => "structure",
+            Self::ShadowMaps { .. } => "shadow-maps",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Structure => "Rays are traced through the structure",
+            Self::ShadowMaps { .. } => {
+                "Each point, spot and directional light has a map of depths, drawn where anything moves: fast, and wrong along \
+                 the edges of shadows. Rays to other lights are traced"
+            }
+        }
+    }
+
+    /// Texels along a side of a map; absent where there is none.
+    pub fn resolution(self) -> Option<u32> {
+        match self {
+            Self::Structure => None,
+            Self::ShadowMaps { resolution } => Some(resolution),
         }
     }
 }
@@ -137,6 +185,8 @@ impl Frame {
         run.spp = Some(self.spp);
         run.bounces = self.integrator.get("bounces").and_then(Value::whole);
         run.primary = Some(self.primary.name().to_owned());
+        run.occluder = Some(self.occluder.name().to_owned());
+        run.shadow_resolution = self.occluder.resolution();
         run.seed = Some(self.seed);
         run.sampler = Some(self.sampler.name().to_owned());
         run.back_faces = Some(self.back_faces.name().to_owned());

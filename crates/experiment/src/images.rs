@@ -10,7 +10,7 @@ use crate::compare::Setting;
 use crate::contestant::Contestant;
 use crate::device_scene::device_error;
 use crate::error::ExperimentError;
-use crate::jobs::{Comparison, Frame, Primary};
+use crate::jobs::{Comparison, Frame, OccluderKind, Primary};
 use crate::render::render_pixels;
 use crate::rendering::Rendering;
 use rasray_report::figures::{Images, SystemImage};
@@ -134,8 +134,9 @@ pub(super) fn compare_images(
             preset: NOISE.1.to_owned(),
             ..Run::default()
         };
-        // What it sees first, it traces.
-        Frame { seed: other.seed, primary: Primary::Trace, ..frame.clone() }.describe(&mut run);
+        // It traces all rays.
+        let (primary, occluder) = (Primary::Trace, OccluderKind::Structure);
+        Frame { seed: other.seed, primary, occluder, ..frame.clone() }.describe(&mut run);
         _ = add(of_noise, run, noise.pixels)?;
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Jobs and results as plain data.
 
-pub use crate::frame::{Frame, Primary, Refresh, Sampler};
+pub use crate::frame::{Frame, OccluderKind, Primary, Refresh, Sampler};
 use crate::shard::Shard;
 use crate::system_config::SystemConfig;
 use rasray_ads::{Hit, Ray, StructureKind};

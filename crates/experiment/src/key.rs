@@ -29,14 +29,14 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         needs: _,
         repetitions: _,
     } = job;
-    let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces } = frame;
+    let Frame { integrator, width, height, spp, seed, sampler, primary, occluder, back_faces } = frame;
     let size = [width, height];
     let options = texts(&system.options);
     scene_hash(KeyHash::default().with("program", program), loaded)
         .with("camera", camera_text(camera))
         .with("system", format!("{} {} {options:?}", system.system.name, system.preset.name()))
         .with("integrator", format!("{} {:?}", integrator.name(), texts(&integrator.values())))
-        .with("frame", format!("{size:?} {spp} {seed} {sampler:?} {primary:?} {back_faces:?}"))
+        .with("frame", format!("{size:?} {spp} {seed} {sampler:?} {primary:?} {occluder:?} {back_faces:?}"))
         .with("aovs", format!("{aovs:?}"))
         .finish()
 }
@@ -63,7 +63,7 @@ pub(crate) fn texts(values: &OptionValues) -> BTreeMap<String, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::jobs::{AovSelection, Primary, Refresh, Sampler};
+    use crate::jobs::{AovSelection, OccluderKind, Primary, Refresh, Sampler};
     use crate::{IntegratorRow, IntegratorSpec, Shard, one_system};
     use rasray_options::Value;
     use rasray_scene::BackFaces;
@@ -86,6 +86,7 @@ mod tests {
             seed: 1,
             sampler: Sampler::Sobol,
             primary: Primary::Trace,
+            occluder: OccluderKind::Structure,
             back_faces: BackFaces::Camera,
         }
     }
@@ -118,12 +119,14 @@ mod tests {
         let set = |job: &mut RenderJob<'_>, option, value: Value| {
             job.frame.integrator = job.frame.integrator.with(option, value).expect("valid");
         };
-        let changes: [&dyn Fn(&mut RenderJob<'_>); 13] = [
+        let changes: [&dyn Fn(&mut RenderJob<'_>); 15] = [
             &|job| job.frame.spp = 4,
             &|job| job.frame.seed = 2,
             &|job| job.frame.width = 5,
             &|job| job.frame.sampler = Sampler::Pcg,
             &|job| job.frame.back_faces = BackFaces::None,
+            &|job| job.frame.occluder = OccluderKind::ShadowMaps { resolution: 1024 },
+            &|job| job.frame.occluder = OccluderKind::ShadowMaps { resolution: 512 },
             &|job| set(job, "shadow-terminator", "offset".into()),
             &|job| set(job, "bounces", 3.into()),
             &|job| set(job, "glass-shadows", "opaque".into()),

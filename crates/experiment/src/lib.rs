@@ -66,7 +66,7 @@ pub use evaluate::device_hits;
 pub use hard_file::compare_file;
 pub use jobs::{
     Answers, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, HardJob, Kept, KeptSet,
-    Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler,
+    OccluderKind, Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler,
 };
 pub use kept_files::NamedBytes;
 pub use key::picture_key;

@@ -164,6 +164,7 @@ fn on_device(
     let rendering = match rendering {
         Some(mut rendering) => {
             rendering.clear()?;
+            rendering.scene_moved();
             rendering
         }
         None => Rendering::new(device, &stage, &job.frame, job.shard, &job.needs)?,
@@ -196,6 +197,9 @@ pub(super) fn render(
     let mut memory = built.memory(device)?;
     for (name, bytes) in stage.scene.bytes_by_part() {
         memory.by_part.insert(format!("scene {name}"), *bytes);
+    }
+    if let Some(maps) = rendering.image().passes().shadow_maps() {
+        memory.by_part.insert("shadow maps".to_owned(), maps.bytes());
     }
     let mut stages = posing.stages();
     stages.extend(built.stages());

@@ -13,7 +13,7 @@ use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
 use crate::device_scene::{DeviceScene, device_error, frame_error, image_error};
 use crate::error::ExperimentError;
-use crate::jobs::{Frame, Primary};
+use crate::jobs::{Frame, OccluderKind, Primary};
 use crate::passes::Passes;
 use crate::shard::Shard;
 use rasray_report::{Pass, PassOf};
@@ -49,6 +49,54 @@ fn visibility(
     }
 }
 
+/// The same with what answers the shadow rays of a frame in place of traces.
+fn with_occluder(
+    passes: ImagePasses,
+    device: &Device,
+    stage: &DeviceScene,
+    frame: &Frame,
+) -> Result<ImagePasses, ExperimentError> {
+    let OccluderKind::ShadowMaps { resolution } = frame.occluder else { return Ok(passes) };
+    let refused =
+        |why: String, fix| Err(ExperimentError::usage(format!("--occluder shadow-maps: {why}"), fix));
+    if !passes.integrator().asks_occluder() {
+        let features = stage.scene.features();
+        return match frame.workload().scatters {
+            true if features.blend => refused(
+                "surfaces of this scene let light pass, and maps do not say which lie on a ray".to_owned(),
+                "leave it out, or write --alpha off, which makes every surface opaque",
+            ),
+            true if features.panes => refused(
+                "panes of this scene let light pass, and maps do not say which lie on a ray".to_owned(),
+                "leave it out, or write --glass-shadows opaque",
+            ),
+            _ => refused(
+                format!("the integrator {} sends no ray to a light", frame.integrator.name()),
+                "leave it out, or choose --integrator path with bounces",
+            ),
+        };
+    }
+    if frame.back_faces.lets_other_rays() {
+        return refused(
+            "maps have both sides of every surface, and with --back-faces all no light meets backs"
+                .to_owned(),
+            "leave one of the two out",
+        );
+    }
+    if stage.scene.lights().is_empty() {
+        tracing::warn!(
+            "the scene has no point, spot or directional light: every shadow ray is traced (shadow-maps)"
+        );
+    }
+    let config = rasray_shadow_maps::Config::new(resolution);
+    passes.with_shadow_maps(device, &stage.scene, config).map_err(|error| {
+        ExperimentError::device(
+            format!("--occluder shadow-maps: {error}"),
+            "choose a smaller --shadow-resolution, or another --device",
+        )
+    })
+}
+
 /// The image of a job in the making, with the times of its passes. Every call submits and waits.
 pub struct Rendering {
     /// What is on the film.
@@ -76,6 +124,7 @@ impl Rendering {
         }
         let passes = ImagePasses::from(integrator(frame, &desc)?);
         let passes = passes.with_visibility(visibility(device, stage, frame)?);
+        let passes = with_occluder(passes, device, stage, frame)?;
         let samples = shard.unwrap_or_default().samples(frame.spp);
         let image = ImageRenderer::new(device, passes, samples).map_err(frame_error)?;
         Ok(Self { image, passes: Passes::default() })
@@ -93,6 +142,11 @@ impl Rendering {
     pub fn clear(&mut self) -> Result<(), ExperimentError> {
         self.passes = Passes::default();
         self.image.clear().map_err(frame_error)
+    }
+
+    /// As [`ImageRenderer::scene_moved`].
+    pub fn scene_moved(&mut self) {
+        self.image.scene_moved();
     }
 
     /// As [`ImageRenderer::warm_up`].

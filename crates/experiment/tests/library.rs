@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_experiment::{
     AovSelection, CompareJob, Comparison, DeviceChoice, Frame, HardJob, IntegratorRow, KeptScene,
-    OptionValues, Primary, RaySet, Refresh, RenderJob, Sampler, Shard, SystemConfig, open,
+    OccluderKind, OptionValues, Primary, RaySet, Refresh, RenderJob, Sampler, Shard, SystemConfig, open,
 };
 use rasray_hard_cases::Scale;
 use rasray_ray_files::HitsFile;
@@ -37,6 +37,7 @@ fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> Comp
         seed: SEED,
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
+        occluder: OccluderKind::Structure,
         back_faces: rasray_scene::BackFaces::Camera,
     };
     let needs = Needs::of(&loaded.scene, frame.workload());

@@ -88,6 +88,11 @@ pub struct CellImage {
     pub sampler: String,
     /// How what the camera sees first is found.
     pub primary: String,
+    /// What answers shadow rays.
+    pub occluder: String,
+    /// Texels along a side of a shadow map, where it is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shadow_resolution: Option<u32>,
 }
 
 /// A cell as one of a comparison's.

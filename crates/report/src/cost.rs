@@ -76,7 +76,7 @@ pub struct Times {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StageTime {
-    /// `pose`, `build`, `visible`, `trace-closest`, `trace-occluded`, `surfaces`, `shade` or `film`.
+    /// `pose`, `build`, `shadow-maps`, `visible`, `trace-closest`, `trace-occluded`, `surfaces`, `shade` or `film`.
     pub stage: String,
     /// Median.
     pub ms: f64,

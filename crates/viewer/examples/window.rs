@@ -2,8 +2,8 @@
 //! saved as .ppm, and how `rasray render` makes them is printed.
 
 use rasray_experiment::{
-    DeviceChoice, Frame, INTEGRATORS, IntegratorSpec, OptionValues, Primary, Sampler, SystemConfig,
-    open_device,
+    DeviceChoice, Frame, INTEGRATORS, IntegratorSpec, OccluderKind, OptionValues, Primary, Sampler,
+    SystemConfig, open_device,
 };
 use rasray_scene::default_view as view;
 use rasray_scene_source::{LoadedScene, load};
@@ -25,6 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         seed: 1,
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
+        occluder: OccluderKind::Structure,
         back_faces: rasray_scene::BackFaces::Camera,
     };
     let options = OptionValues::default();

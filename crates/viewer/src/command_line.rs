@@ -1,6 +1,6 @@
 //! The command line that makes a picture again.
 
-use rasray_experiment::{Frame, Primary, SystemConfig};
+use rasray_experiment::{Frame, OccluderKind, Primary, SystemConfig};
 use rasray_scene::BackFaces;
 
 /// A word as a shell reads it back.
@@ -15,7 +15,7 @@ pub fn quoted(word: &str) -> String {
 
 /// The words that make a frame.
 pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
-    let Frame { integrator, width, height, spp, seed, sampler, primary, back_faces } = frame;
+    let Frame { integrator, width, height, spp, seed, sampler, primary, occluder, back_faces } = frame;
     let mut words = vec![
         "--size".to_owned(),
         format!("{width}x{height}"),
@@ -30,6 +30,12 @@ pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
     words.extend(["--seed".to_owned(), seed.to_string(), "--sampler".to_owned(), sampler.name().to_owned()]);
     if *primary != Primary::default() {
         words.extend(["--primary".to_owned(), primary.name().to_owned()]);
+    }
+    if *occluder != OccluderKind::default() {
+        words.extend(["--occluder".to_owned(), occluder.name().to_owned()]);
+    }
+    if let Some(resolution) = occluder.resolution() {
+        words.extend(["--shadow-resolution".to_owned(), resolution.to_string()]);
     }
     if *back_faces != BackFaces::default() {
         words.extend(["--back-faces".to_owned(), back_faces.name().to_owned()]);
@@ -76,6 +82,9 @@ mod tests {
         settings.frame.back_faces = BackFaces::None;
         let words = frame_words(&settings.frame).join(" ");
         assert!(words.ends_with("--sampler sobol --back-faces none"), "{words}");
+        settings.frame.occluder = OccluderKind::ShadowMaps { resolution: 512 };
+        let words = frame_words(&settings.frame).join(" ");
+        assert!(words.contains("--sampler sobol --occluder shadow-maps --shadow-resolution 512 "), "{words}");
         settings.system.options = settings.system.options.with("grid", 8);
         assert_eq!(system_words(&settings.system).join(" "), "--system bricks --preset robust --grid=8");
     }

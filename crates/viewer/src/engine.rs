@@ -205,6 +205,10 @@ impl Engine {
             && let (Some((stage, _)), Some(moment)) = (&mut self.stage, &self.scene.loaded().moment)
         {
             stage.pose(&self.device, &self.scene.loaded().scene, moment, Timing::None)?;
+            let preview = self.preview.as_mut().map(|(_, film)| film);
+            for film in [self.film.as_mut(), self.exact_film.as_mut(), preview].into_iter().flatten() {
+                film.scene_moved();
+            }
             self.posed = seconds;
         }
         Ok(camera)

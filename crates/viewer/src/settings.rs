@@ -114,7 +114,7 @@ impl Redo {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use rasray_experiment::{IntegratorRow, IntegratorSpec, OptionValues, Primary, Sampler};
+    use rasray_experiment::{IntegratorRow, IntegratorSpec, OccluderKind, OptionValues, Primary, Sampler};
     use rasray_systems::{Preset, SYSTEMS};
 
     /// An integrator with its defaults.
@@ -132,6 +132,7 @@ pub(crate) mod tests {
             seed: 1,
             sampler: Sampler::Sobol,
             primary: Primary::Trace,
+            occluder: OccluderKind::Structure,
             back_faces: rasray_scene::BackFaces::Camera,
         };
         let system = SystemConfig::new(&SYSTEMS[0], Preset::Robust, OptionValues::default());

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use glam::{DQuat, DVec3};
 use rasray_experiment::{
-    AovSelection, Backend, DeviceChoice, Frame, IntegratorRow, IntegratorSpec, KeptScene, OptionValues,
-    Primary, Progress, Refresh, RenderJob, Sampler, SystemConfig, open, open_device,
+    AovSelection, Backend, DeviceChoice, Frame, IntegratorRow, IntegratorSpec, KeptScene, OccluderKind,
+    OptionValues, Primary, Progress, Refresh, RenderJob, Sampler, SystemConfig, open, open_device,
 };
 use rasray_scene::Moment;
 use rasray_scene::animation::{
@@ -41,6 +41,7 @@ fn settings() -> Settings {
         seed: 7,
         sampler: Sampler::Sobol,
         primary: Primary::Trace,
+        occluder: OccluderKind::Structure,
         back_faces: rasray_scene::BackFaces::Camera,
     };
     let system = system("bricks");

@@ -1,12 +1,14 @@
 //! Groups of options that several commands take.
 
 use super::integrator::{IntegratorArguments, integrator_parser};
-use super::structure::{StructureArguments, back_faces_parser, primary_parser, sampler_parser};
+use super::structure::{
+    StructureArguments, back_faces_parser, occluder_parser, primary_parser, sampler_parser,
+};
 use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
 use glam::DVec3;
-use rasray_experiment::{DeviceChoice, Frame, INTEGRATORS, IntegratorRow, Primary, Sampler};
+use rasray_experiment::{DeviceChoice, Frame, INTEGRATORS, IntegratorRow, OccluderKind, Primary, Sampler};
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{BackFaces, Environment, Scene, SceneError};
 use rasray_scene_files::{LoadOptions, load_environment};
@@ -61,6 +63,12 @@ pub struct FrameArguments {
     /// How what the camera sees first is found, of images
     #[arg(long, value_parser = primary_parser(), default_value = Primary::Trace.name())]
     pub primary: Primary,
+    /// What answers the shadow rays of lights without extent, of images
+    #[arg(long, value_parser = occluder_parser(), default_value = OccluderKind::Structure.name())]
+    pub occluder: OccluderKind,
+    /// Texels along a side of a shadow map, with --occluder shadow-maps, 16 to 16384 [default: 1024]
+    #[arg(long, value_name = "N", value_parser = values::whole(16, 16_384))]
+    pub shadow_resolution: Option<u32>,
     /// Which rays pass the backs of single-sided surfaces, as glTF has them (doubleSided: false)
     #[arg(long, value_parser = back_faces_parser(), default_value = BackFaces::Camera.name())]
     pub back_faces: BackFaces,
@@ -70,13 +78,27 @@ impl FrameArguments {
     /// The image that was asked for.
     ///
     /// # Errors
-    /// An option of an integrator that was not chosen.
+    /// An option of an integrator or an occluder that was not chosen.
     pub fn frame(&self) -> Result<Frame, AppError> {
         let integrator = self.options.of(self.integrator)?;
         let Size { width, height } = self.size.unwrap_or(DEFAULT_SIZE);
         let spp = self.spp.unwrap_or(DEFAULT_SAMPLES);
+        let occluder = self.occluder()?;
         let Self { seed, sampler, primary, back_faces, .. } = *self;
-        Ok(Frame { integrator, width, height, spp, seed, sampler, primary, back_faces })
+        Ok(Frame { integrator, width, height, spp, seed, sampler, primary, occluder, back_faces })
+    }
+
+    fn occluder(&self) -> Result<OccluderKind, AppError> {
+        match (self.occluder, self.shadow_resolution) {
+            (OccluderKind::ShadowMaps { .. }, Some(resolution)) => {
+                Ok(OccluderKind::ShadowMaps { resolution })
+            }
+            (OccluderKind::Structure, Some(resolution)) => Err(AppError::usage(
+                format!("--shadow-resolution {resolution} is of shadow maps, and shadow rays are traced"),
+                "write --occluder shadow-maps, or leave --shadow-resolution out",
+            )),
+            (occluder, None) => Ok(occluder),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use clap::builder::TypedValueParser;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
-use rasray_experiment::{OptionValues, Primary, RaySet, Refresh, Sampler, SystemRequest};
+use rasray_experiment::{OccluderKind, OptionValues, Primary, RaySet, Refresh, Sampler, SystemRequest};
 use rasray_scene::BackFaces;
 use rasray_systems::{Group, OPTIONS, Preset, SYSTEMS, System};
 
@@ -47,6 +47,11 @@ pub fn refresh_parser() -> impl TypedValueParser<Value = Refresh> {
 /// Reads how the camera's first hits are found.
 pub fn primary_parser() -> impl TypedValueParser<Value = Primary> {
     choice(Primary::ALL, |primary| (primary.name(), primary.doc()))
+}
+
+/// Reads what answers shadow rays.
+pub fn occluder_parser() -> impl TypedValueParser<Value = OccluderKind> {
+    choice(OccluderKind::ALL, |occluder| (occluder.name(), occluder.doc()))
 }
 
 /// Reads which rays pass the backs of surfaces.

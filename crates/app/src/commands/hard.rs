@@ -186,6 +186,8 @@ fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
         "clip",
         "fps",
         "primary",
+        "occluder",
+        "shadow-resolution",
         "sampler",
         "image",
         "ray-set",

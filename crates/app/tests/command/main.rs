@@ -9,6 +9,7 @@ mod hard;
 mod html_browser;
 mod moments;
 mod motion;
+mod occluder;
 mod output;
 mod replay;
 mod results;

@@ -65,6 +65,17 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         ("render atrium:2 -o a.png", "`2` has no key; write detail=2", "NAME:"),
         ("compare hard:E5 --systems mmrt --time 1", "--time", "leave it out"),
         ("compare hard:E5 --systems mmrt --primary raster", "--primary", "leave it out"),
+        ("compare hard:E5 --systems mmrt --occluder shadow-maps", "--occluder", "leave it out"),
+        (
+            "render cornell -o a.png --shadow-resolution 64",
+            "--shadow-resolution 64",
+            "--occluder shadow-maps",
+        ),
+        (
+            "render cornell -o a.png --occluder shadow-maps --shadow-resolution 15",
+            "'15' for '--shadow-resolution <N>': must be a whole number from 16",
+            "--help",
+        ),
         // What nothing moves is not the fault of an option that was not given.
         ("render cornell -o #.png --frames 0-3", "--frames asks", "leave --frames out"),
         ("render cornell -o a.png --time 1", "--time asks", "leave --time out"),

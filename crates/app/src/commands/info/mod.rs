@@ -9,7 +9,9 @@ use crate::arguments::InfoArguments;
 use crate::error::AppError;
 use crate::progress::during;
 use crate::terminal;
-use rasray_experiment::{AovSelection, Frame, OpenBackend, Primary, Refresh, RenderJob, Sampler, SceneInfo};
+use rasray_experiment::{
+    AovSelection, Frame, OccluderKind, OpenBackend, Primary, Refresh, RenderJob, Sampler, SceneInfo,
+};
 use rasray_report::json_shown;
 use rasray_scene::BackFaces;
 use rasray_scene::needs::Needs;
@@ -46,6 +48,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             seed: 0,
             sampler: Sampler::Sobol,
             primary: Primary::Trace,
+            occluder: OccluderKind::Structure,
             back_faces: BackFaces::Camera,
         };
         let view = during("scene", "looking for a view", || default_view(&loaded.scene));
