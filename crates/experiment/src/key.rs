@@ -66,8 +66,8 @@ mod tests {
     use crate::jobs::{AovSelection, OccluderKind, Primary, Refresh, Sampler};
     use crate::{IntegratorRow, IntegratorSpec, Shard, one_system};
     use rasray_options::Value;
-    use rasray_scene::BackFaces;
     use rasray_scene::needs::Needs;
+    use rasray_scene::{BackFaces, Lens};
     use rasray_scene_source::{default_view, load};
     use rasray_systems::{Preset, SYSTEMS};
     use std::collections::BTreeSet;
@@ -137,6 +137,8 @@ mod tests {
             },
             &|job| job.aovs.depth = true,
             &|job| job.camera.world_from_camera.translation.x = 1.0e-300,
+            &|job| job.camera.lens = Some(Lens { aperture: 0.1, focus: 1.0 }),
+            &|job| job.camera.lens = Some(Lens { aperture: 0.1, focus: 2.0 }),
             &|job| job.system.options = OptionValues::default().with("tile", 4),
         ];
         let keys: BTreeSet<_> = changes.iter().map(|change| key(change)).chain([first.clone()]).collect();
