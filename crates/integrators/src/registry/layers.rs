@@ -156,6 +156,10 @@ impl Integrator for Layers {
         self.rounds.allow_more()
     }
 
+    fn asks_occluder(&self) -> bool {
+        false
+    }
+
     fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
         self.bindings.set_scene(scene);
         Ok(())

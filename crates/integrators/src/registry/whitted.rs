@@ -240,6 +240,10 @@ impl Integrator for Whitted {
         self.rounds.allow_more()
     }
 
+    fn asks_occluder(&self) -> bool {
+        self.shadows.is_some() && self.options.shadows != Shadows::None
+    }
+
     fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
         check_features(self.features, scene)?;
         self.bindings.set_scene(scene);
