@@ -353,7 +353,7 @@ fn backs_are_passed_alike() {
 fn pictures_are_the_same_as_with_traced_camera_rays() {
     let (device, _turn) = drawing_device();
     let mut glass = lambert(0.9, 0.0);
-    glass.transmission = 0.8;
+    (glass.transmission, glass.roughness) = (0.8, 0.5);
     let mut veil = lambert(0.7, 0.0);
     veil.base_color[3] = 0.4;
     veil.alpha_mode = AlphaMode::Blend;
@@ -372,7 +372,7 @@ fn pictures_are_the_same_as_with_traced_camera_rays() {
     let desc = IntegratorDesc { wave_capacity: 111, ..IntegratorDesc::new(&device, &both.scene, &film) };
     let path = Path::new(&desc, 4).expect("valid");
     let occlusion = AmbientOcclusion::new(&desc, 0.5).expect("valid");
-    let whitted = Whitted::new(&desc, WhittedOptions { mirror_roughness: 2.0, ..WhittedOptions::default() });
+    let whitted = Whitted::new(&desc, WhittedOptions { mirror_roughness: 1.0, ..WhittedOptions::default() });
     let whitted = whitted.expect("valid");
     for integrator in [&path as &dyn Integrator, &whitted, &occlusion] {
         let image = |draws: bool| {
