@@ -35,8 +35,10 @@ impl Default for Foliage {
     }
 }
 
-/// Half the side of the ground, metres.
-const GROUND: f64 = 300.0;
+/// Half the side of the ground, metres: near its border it rises over the horizon of the camera.
+const GROUND: f64 = 20.0;
+/// Where the ground begins to rise, metres from the middle, and how high its border is.
+const RISE: (f64, f64) = (12.5, 2.4);
 /// Seed of everything that grows.
 const SEED: u64 = 0x5EED_0008;
 /// Seconds of wind.
@@ -57,15 +59,19 @@ const GRASS: usize = 3;
 /// Meshes that the wind moves: leaves and grass.
 const MOVING: [usize; 2] = [2, 3];
 
-/// Five trees and a meadow in a wind ([`Scene::at`]). Two thirds of the leaves asked for are on the trees, each a folded
+/// Five trees and a meadow in a hollow, in a wind ([`Scene::at`]). Two thirds of the leaves asked for are on the trees, each a folded
 /// outline of six triangles, or a card of two with an alpha mask; the others are blades of grass of five. More than half
 /// of these triangles are narrower than a pixel of a picture of 640 by 360.
 pub fn foliage(parameters: Foliage) -> Scene {
     let leaves = parameters.leaves.clamp(*Foliage::LEAVES.start(), *Foliage::LEAVES.end());
     let plants = Plants::grow(leaves, parameters.cards);
     let mut ground = Shapes::new("ground", EARTH);
-    let corner = |x: f64, z: f64| DVec3::new(GROUND * x, 0.0, GROUND * z);
-    ground.quad([corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)], DVec2::ONE);
+    ground.patch(GROUND_GRID, GROUND_GRID, DVec2::ONE, |u, v| {
+        let step = 1.0 / 1024.0;
+        let along = hollow(u + step, v) - hollow(u - step, v);
+        let back = hollow(u, v + step) - hollow(u, v - step);
+        (hollow(u, v), along.cross(back).normalize())
+    });
     let mut wood = Shapes::new("wood", BARK);
     for limb in &plants.limbs {
         let segments = if limb.radius > 0.03 {
@@ -117,6 +123,16 @@ pub fn foliage(parameters: Foliage) -> Scene {
         },
         ..Scene::default()
     }
+}
+
+/// Quads along a side of the ground.
+const GROUND_GRID: usize = 64;
+
+/// The ground over (u, v) in [0, 1]^2: level in the middle.
+fn hollow(u: f64, v: f64) -> DVec3 {
+    let (x, z) = (GROUND * (2.0 * u - 1.0), GROUND * (1.0 - 2.0 * v));
+    let out = (((x * x + z * z).sqrt() - RISE.0) / (GROUND - RISE.0)).clamp(0.0, 1.0);
+    DVec3::new(x, RISE.1 * out * out * (3.0 - 2.0 * out), z)
 }
 
 /// A branch: where it goes, and its radius at its foot, metres.

@@ -17,7 +17,7 @@
 //! | `pool` | none; moves | 145,410 |
 //! | `teapots` | `pots` from 1 to 2k (37), also as `teapots:100` | 6,320 a pot |
 //! | `smithy` | none | 183,002 |
-//! | `foliage` | `leaves` from 1k to 1M (40k), also as `foliage:100k`; `shape` `leaf` or `card` (`leaf`); moves | about 344k at 40k |
+//! | `foliage` | `leaves` from 1k to 1M (40k), also as `foliage:100k`; `shape` `leaf` or `card` (`leaf`); moves | about 352k at 40k |
 //! | `stadium` | `seats` from 100 to 15k (12k), also as `stadium:1k` | about 426k at 12k |
 //! | `walker` | `triangles` from 8k to 2M (30k), also as `walker:10k`; moves | as asked, within 5 % |
 //! | `cloth-ball` | `triangles` of the cloth from 1k to 1M (10k), also as `cloth-ball:100k`; moves | as asked, within 4 %, and 5,122 |

@@ -235,7 +235,7 @@ fn deck(meshes: &mut Vec<Mesh>) {
         }
     }
     let mut ground = Shapes::new("ground", STONE);
-    let sides = [(-30.0, -x, -30.0, 30.0), (x, 30.0, -30.0, 30.0), (-x, x, z, 30.0), (-x, x, -30.0, -z)];
+    let sides = [(-9.2, -x, -5.7, 7.3), (x, 9.2, -5.7, 7.3), (-x, x, z, 7.3), (-x, x, -5.7, -z)];
     for (left, right, far, near) in sides {
         let corner = |x: f64, z: f64| at(x, -0.035, z);
         ground.quad(
@@ -302,8 +302,8 @@ fn fittings(meshes: &mut Vec<Mesh>) {
 /// The wall with its pergola, and two loungers.
 fn around(meshes: &mut Vec<Mesh>) {
     let mut wall = Shapes::new("wall", PLASTER);
-    wall.block_with_bevel(standing(at(0.0, 1.2, -5.5), 0.0), DVec3::new(12.0, 1.25, 0.15), 0.03, 1.0);
-    wall.block_with_bevel(standing(at(9.0, 1.2, 0.0), 0.0), DVec3::new(0.15, 1.25, 8.0), 0.03, 1.0);
+    wall.block_with_bevel(standing(at(0.0, 1.2, -5.5), 0.0), DVec3::new(9.2, 1.25, 0.15), 0.03, 1.0);
+    wall.block_with_bevel(standing(at(9.05, 1.2, 0.95), 0.0), DVec3::new(0.15, 1.25, 6.4), 0.03, 1.0);
     meshes.push(wall.finish());
 
     let mut timber = Shapes::new("pergola", WOOD);

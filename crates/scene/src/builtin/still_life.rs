@@ -137,11 +137,11 @@ fn wall() -> Mesh {
     let mut shapes = Shapes::new("wall", WALL);
     let at = DVec3::new;
     shapes.quad(
-        [at(-4.0, -0.8, -1.1), at(4.0, -0.8, -1.1), at(4.0, 2.5, -1.1), at(-4.0, 2.5, -1.1)],
+        [at(-2.1, -0.8, -1.1), at(2.1, -0.8, -1.1), at(2.1, 1.6, -1.1), at(-2.1, 1.6, -1.1)],
         DVec2::ONE,
     );
     shapes.quad(
-        [at(-4.0, -0.8, 3.0), at(4.0, -0.8, 3.0), at(4.0, -0.8, -1.1), at(-4.0, -0.8, -1.1)],
+        [at(-2.1, -0.8, 1.7), at(2.1, -0.8, 1.7), at(2.1, -0.8, -1.1), at(-2.1, -0.8, -1.1)],
         DVec2::ONE,
     );
     shapes.finish()
@@ -173,7 +173,8 @@ fn tablecloth(fineness: Fineness) -> Mesh {
         let hang = ((drop - s) / drop).clamp(0.0, 1.0);
         let flat = ((s - drop - quarter) / 0.12).clamp(0.0, 1.0);
         // Nearly flat where things stand on it.
-        let ridge = (0.5 + 0.5 * turn(1.7 * u - 2.3 * v + 0.2).0).powi(6);
+        let crest = 0.5 + 0.5 * turn(1.7 * u - 2.3 * v + 0.2).0;
+        let ridge = (crest * crest) * (crest * crest) * (crest * crest);
         let rise = lift + GAP + 0.002 * flat * ridge + 0.045 * hang * wave;
         let edge = 0.5;
         if s < drop {

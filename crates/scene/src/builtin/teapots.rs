@@ -12,8 +12,8 @@ use super::teapot::{BODY, teapot};
 use crate::default_view::camera_looking_at;
 use crate::{Environment, Instance, Material, Scene};
 
-/// Half the side of the mirror, metres.
-const FLOOR: f64 = 30.0;
+/// How far the mirror reaches beyond the middle of the outermost pot, metres.
+const MARGIN: f64 = 4.0;
 /// Quads along a side of a patch.
 const STEPS: usize = 10;
 /// Width of a pot's body, metres; from handle to spout it is 1.61 times as long.
@@ -93,9 +93,10 @@ pub fn teapots(parameters: Teapots) -> Scene {
         })
         .collect();
 
-    materials.push(Material { metallic: 1.0, roughness: 0.0, ..diffuse("mirror", [0.82, 0.83, 0.85]) });
+    materials.push(Material { metallic: 1.0, roughness: 0.0, ..diffuse("mirror", [0.93, 0.93, 0.94]) });
     let mut mirror = Shapes::new("mirror", kinds);
-    let corner = |x: f64, z: f64| DVec3::new(FLOOR * x, 0.0, FLOOR * z);
+    let half = SPACING * (pots as f64).sqrt() + MARGIN;
+    let corner = |x: f64, z: f64| DVec3::new(half * x, 0.0, half * z);
     mirror.quad([corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)], DVec2::ONE);
     materials.push(Material { emission: [5.5, 5.2, 4.8], ..diffuse("lamp", [0.0; 3]) });
     let mut lamps = Shapes::new("lamps", kinds + 1);
