@@ -48,6 +48,11 @@ fn is_full() -> bool {
     std::env::var_os("RASRAY_FULL").is_some_and(|full| full == "1")
 }
 
+/// That many points in the full tier, and a third of them in the quick one.
+fn points(full: usize) -> usize {
+    if is_full() { full } else { full / 3 }
+}
+
 fn print_and_check(name: &str, lights: &[&str], resolutions: &[u32], shares: &[Vec<f64>], least: f64) {
     println!("{name}: texels {resolutions:?}");
     for (light, shares) in lights.iter().zip(shares) {
@@ -112,7 +117,7 @@ const KINDS: [&str; 3] = ["point", "spot", "directional"];
 fn errors_fall_as_resolution_grows_in_cornell() {
     let (device, _turn) = device();
     let resolutions: &[u32] = if is_full() { &[256, 512, 1024, 2048, 4096] } else { &[64, 128, 256, 512] };
-    let shares = disagreement(&device, &lit_cornell(), resolutions, 200_000);
+    let shares = disagreement(&device, &lit_cornell(), resolutions, points(200_000));
     print_and_check("cornell", &KINDS, resolutions, &shares, 0.75);
     expect_silence(&device);
 }
@@ -120,9 +125,9 @@ fn errors_fall_as_resolution_grows_in_cornell() {
 #[test]
 fn errors_fall_as_resolution_grows_in_clutter() {
     let (device, _turn) = device();
-    let resolutions: &[u32] = if is_full() { &[256, 512, 1024, 2048, 4096] } else { &[128, 256, 512] };
+    let resolutions: &[u32] = if is_full() { &[256, 512, 1024, 2048, 4096] } else { &[64, 128, 256, 512] };
     let scene = scene_of(&cluttered_room(60), lights());
-    let shares = disagreement(&device, &scene, resolutions, 60_000);
+    let shares = disagreement(&device, &scene, resolutions, points(60_000));
     let kinds = ["point", "spot", "directional", "wide spot", "point by a wall"];
     print_and_check("cluttered room", &kinds, resolutions, &shares, 0.75);
     expect_silence(&device);
@@ -143,7 +148,7 @@ fn errors_fall_as_resolution_grows_for_a_moving_truck() {
     scene.lights = lights_around(lower, upper);
     let (device, _turn) = device();
     let resolutions: &[u32] = if is_full() { &[256, 512, 1024, 2048, 4096] } else { &[128, 256, 512] };
-    let shares = disagreement(&device, &scene, resolutions, 40_000);
+    let shares = disagreement(&device, &scene, resolutions, points(40_000));
     // Its decals and panels lie closer together than what a coarse map tells apart: errors fall in steps.
     print_and_check("CesiumMilkTruck", &KINDS, resolutions, &shares, 0.5);
     expect_silence(&device);

@@ -159,7 +159,7 @@ fn lights_that_move_and_more_lights_are_seen_by_the_next_build() {
 #[test]
 fn without_lights_or_triangles_every_ray_is_traced() {
     let (device, _turn) = device();
-    let lit = Lit::new(&device, &scene_of(&cluttered_room(60), Vec::new()), Config::new(16_000));
+    let lit = Lit::new(&device, &scene_of(&cluttered_room(60), Vec::new()), Config::new(4096));
     lit.build();
     let lit_room = Lit::new(&device, &scene_of(&cluttered_room(60), lights()), Config::new(16));
     let rays = lit_room.shadow_rays(2, 300);
