@@ -34,19 +34,19 @@ int bsdf_side(Surface s, vec3 world_i, float cosine) {
 
 // D(h) of the facets, 1/sr.
 float bsdf_distribution(BsdfTerms terms, vec3 h) {
-    if (SHADING_ANISOTROPY) return ggx_distribution(h, terms.alphas);
+    if (terms.anisotropic) return ggx_distribution(h, terms.alphas);
     return ggx_distribution(h, terms.alpha);
 }
 
 // G(o, i) / (4 |cos o cos i|) of the facets.
 float bsdf_visibility(BsdfTerms terms, vec3 i) {
-    if (SHADING_ANISOTROPY) return ggx_visibility(terms.o, i, terms.alphas);
+    if (terms.anisotropic) return ggx_visibility(terms.o, i, terms.alphas);
     return ggx_visibility(terms.o.z, abs(i.z), terms.alpha);
 }
 
 // G1(o) / (4 cos o) of the facets.
 float bsdf_visibility_one(BsdfTerms terms) {
-    if (SHADING_ANISOTROPY) return ggx_visibility_one(terms.o, terms.alphas);
+    if (terms.anisotropic) return ggx_visibility_one(terms.o, terms.alphas);
     return ggx_visibility_one(terms.o.z, terms.alpha);
 }
 
@@ -152,10 +152,9 @@ BsdfSample bsdf_choose(BsdfTerms terms, Surface s, vec4 random) {
             expected = -1;
         }
     } else {
-        vec2 alphas = SHADING_ANISOTROPY ? terms.alphas : vec2(terms.alpha);
         vec3 h = vec3(0.0, 0.0, 1.0);
         if (!terms.mirror) {
-            h = terms.ward ? ward_half(terms.alphas, random.zw) : ggx_visible_normal(terms.o, alphas, random.zw);
+            h = terms.ward ? ward_half(terms.alphas, random.zw) : ggx_visible_normal(terms.o, terms.alphas, random.zw);
         }
         float cosine = dot(terms.o, h);
         float reflect_share = bsdf_reflect_probability(terms, cosine);

@@ -33,7 +33,8 @@ struct BsdfTerms {
     float metallic;
     float transmission;
     float alpha;         // 0 for perfect mirrors; of facets that are rougher along one direction the root mean square
-    vec2 alphas;         // along x and y of the frame; read where SHADING_ANISOTROPY, and of Ward's lobe
+    vec2 alphas;         // along x and y of the frame
+    bool anisotropic;    // they differ
     bool ward;           // reflects by Ward's lobe
     float eta;           // index on the side of o over the index on the other side; 1: straight on
     bool mirror;
@@ -140,7 +141,7 @@ void bsdf_set_glass(inout BsdfTerms terms, Surface s) {
     if (!SHADING_TRANSMISSION || terms.eta == 1.0 || terms.alpha < ALBEDO_LOSSLESS_ALPHA) return;
     uint table = scene_material_albedo(s.material);
     if (table == ATTRIBUTE_NONE) return;
-    terms.glass = glass_rows(table, SHADING_ANISOTROPY ? sqrt(terms.alpha) : s.roughness);
+    terms.glass = glass_rows(table, terms.anisotropic ? sqrt(terms.alpha) : s.roughness);
     float mean = glass_albedo_mean(terms.glass, terms.glass_side);
     float beyond = glass_albedo_mean(terms.glass, GLASS_LOST_BACK - terms.glass_side);
     if (!(mean > 0.0) || !(beyond > 0.0)) return;
@@ -204,6 +205,7 @@ void bsdf_set_anisotropy(inout BsdfTerms terms, Surface s) {
     terms.frame = mat3(along, cross(normal, along), normal);
     float roughness = max(s.roughness, BSDF_SMOOTH_ROUGHNESS);
     float least = roughness * roughness;
+    terms.anisotropic = true;
     terms.alphas = vec2(least + (1.0 - least) * strength * strength, least);
     terms.alpha = sqrt(0.5 * dot(terms.alphas, terms.alphas));
     terms.mirror = false;
@@ -224,6 +226,7 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
     terms.pane = SHADING_PANES && terms.mirror && s.thickness <= 0.0 && terms.transmission > 0.0;
     terms.alpha = terms.mirror ? 0.0 : s.roughness * s.roughness;
     terms.alphas = vec2(terms.alpha);
+    terms.anisotropic = false;
     terms.ward = SPECULAR_IS_WARD && !(terms.transmission > 0.0);
     bool straight = s.thickness <= 0.0 || terms.transmission <= 0.0 || abs(ior - 1.0) < BSDF_STRAIGHT_INDEX;
     terms.eta = straight ? 1.0 : (s.side == 1u ? 1.0 / ior : ior);
