@@ -119,7 +119,7 @@ mod tests {
         let set = |job: &mut RenderJob<'_>, option, value: Value| {
             job.frame.integrator = job.frame.integrator.with(option, value).expect("valid");
         };
-        let changes: [&dyn Fn(&mut RenderJob<'_>); 15] = [
+        let changes: [&dyn Fn(&mut RenderJob<'_>); 17] = [
             &|job| job.frame.spp = 4,
             &|job| job.frame.seed = 2,
             &|job| job.frame.width = 5,

@@ -129,6 +129,7 @@ impl Lit {
             world_from_camera: DAffine3::IDENTITY,
             projection: Projection::Perspective { fov_y: 1.0 },
             aspect_ratio: None,
+            lens: None,
         };
         let view = View { camera, width: 4, height: 4, seed: 1 };
         let tables = SceneTables::new(scene, DVec3::ZERO, &Parts::ALL).expect("the scene is well formed");

@@ -181,7 +181,7 @@ fn ids(id: &str) -> Result<Vec<&'static str>, AppError> {
 
 /// Refuses what is about scenes, images and generated rays.
 fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
-    const UNFIT: [&str; 21] = [
+    const UNFIT: [&str; 23] = [
         "time",
         "clip",
         "fps",
