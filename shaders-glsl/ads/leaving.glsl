@@ -6,8 +6,9 @@
 
 #include "ads/geometry.glsl"
 
-// The ray moved along the normal of the triangle that it excludes, to the side that it goes to, beyond everything within
-// `reach` metres of the plane along each axis. Unchanged where it excludes none.
+// The ray from a point that lies, along the normal of the triangle that it excludes and to the side that it goes to, beyond
+// everything within `reach` metres of the plane along each axis. It is moved beside itself and begins later, so that t stays
+// that of the ray as it was. Unchanged where it excludes no triangle.
 Ray leaving_ray(Ray ray, float reach) {
     if (ray.exclude_primitive >= geometry_triangle_count()) {
         return ray;
@@ -20,7 +21,10 @@ Ray leaving_ray(Ray ray, float reach) {
     float size = length(normal);
     if (size > 0.0) {
         normal /= dot(normal, ray.direction) < 0.0 ? -size : size;
-        ray.origin += reach * (abs(normal.x) + abs(normal.y) + abs(normal.z)) * normal;
+        vec3 off = reach * (abs(normal.x) + abs(normal.y) + abs(normal.z)) * normal;
+        float later = dot(off, ray.direction) / dot(ray.direction, ray.direction);
+        ray.origin += off - later * ray.direction;
+        ray.t_min = max(ray.t_min, later);
     }
     return ray;
 }

@@ -17,21 +17,7 @@ struct VoxelPoint {
     float depth;
 };
 
-// The cell, or where views keep the fragments of some voxels alone the nearest one whose centre lies in the traversal's
-// voxel: a point where the ray leaves the voxel may lie in a cell of the next one, which this view need not keep.
-ivec2 voxel_cell_within(VoxelRef s, VoxelTraversal traversal, ivec2 cell) {
-    if (VOXEL_AXES != VOXEL_AXES_VOXEL) {
-        return cell;
-    }
-    vec2 column = vec2(triangle_permute(vec3(traversal.voxel), traversal.axis).xy);
-    float cells = VOXEL_HEADER(s).voxel * VOXEL_HEADER(s).cells_per_metre;
-    ivec2 first = ivec2(ceil(column * cells - 0.5));
-    ivec2 last = max(first, ivec2(ceil((column + 1.0) * cells - 0.5)) - 1);
-    return clamp(cell, first, min(last, ivec2(VOXEL_HEADER(s).resolution) - 1));
-}
-
 VoxelPoint voxel_point(VoxelRef s, VoxelTraversal traversal, float t, ivec2 cell) {
-    cell = voxel_cell_within(s, traversal, cell);
     uint list = axis_cell_index(traversal.axis, cell, VOXEL_HEADER(s).resolution);
     return VoxelPoint(t, cell, list, traversal.origin[traversal.axis] + t * traversal.direction[traversal.axis]);
 }

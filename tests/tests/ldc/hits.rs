@@ -2,7 +2,7 @@
 
 use rasray_ads::{BruteForce, Counters, Hit, Ray, Structure, Surface, TraceMode};
 use rasray_gpu::Timing;
-use rasray_ldc::{Accept, Config, Coverage, Depth, LayeredDepthCube, Occupancy, Payload, well_formed};
+use rasray_ldc::{Accept, Config, Coverage, Depth, Ends, LayeredDepthCube, Occupancy, Payload, well_formed};
 use rasray_shaders_glsl::constants::ads::SHORT_LIST_LIMIT;
 use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 use rasray_tests::conformance::trace_in_rounds;
@@ -323,13 +323,58 @@ fn invalid_rays_miss_and_finish() {
     assert_eq!(hits[0], hits[last]);
 }
 
+/// Cells are 0.56 wide and walls lean, so fragments of the wall that a ray leaves or ends on lie on either side of its ends.
+#[test]
+fn rays_with_clear_ends_hit_neither_what_they_leave_nor_what_they_end_on() {
+    let bench = Bench::new();
+    let leaning = |depth: f32| {
+        let corner = |x: f32, y: f32| [x, y, depth + 0.5 * x];
+        [
+            [corner(-9.0, -9.0), corner(9.0, -9.0), corner(9.0, 9.0)],
+            [corner(-9.0, -9.0), corner(9.0, 9.0), corner(-9.0, 9.0)],
+        ]
+    };
+    let walls: Vec<Triangle> = [leaning(0.0), leaning(6.0)].concat();
+    let traced = |ends, rays: &[Ray]| {
+        let config = Config { ends, payload: Payload::Index, ..Config::published(32) };
+        let structure = made(&bench, config, &walls);
+        (bench.trace(&structure, rays).hits, bench.occluded(&structure, rays))
+    };
+    let mut random = Random::new(5);
+    let [mut leaving, mut ending] = [Vec::new(), Vec::new()];
+    for _ in 0..200 {
+        let [x, y] = [random.between(-4.0, 4.0), random.between(-4.0, 4.0)];
+        let direction = [random.between(-0.5, 0.5), random.between(-0.5, 0.5), 1.0];
+        let origin = [x, y, 0.5 * x];
+        // The lower wall is left, and the ray ends on the upper one.
+        let t = 6.0 / (1.0 - 0.5 * direction[0]);
+        let below = u32::from(y > x);
+        leaving.push(Ray { exclude_primitive: below, ..Ray::new(origin, direction) });
+        ending.push(Ray {
+            exclude_primitive: below,
+            t_max: t * (1.0 - 1.0 / 1_048_576.0),
+            ..Ray::new(origin, direction)
+        });
+    }
+    let (hits, _) = traced(Ends::Clear, &leaving);
+    // Some pass between the fragments of the upper wall, which leans by more than the tolerance.
+    assert!(hits.iter().all(|hit| !hit.is_hit() || hit.primitive >= 2), "none hits the wall that it leaves");
+    let stopped = |ends| traced(ends, &ending).1.iter().filter(|occluded| **occluded).count();
+    let [clear, touching] = [Ends::Clear, Ends::Touching].map(stopped);
+    assert!(clear * 2 < touching, "{touching} and {clear} of 200 are stopped between the walls");
+    let (hits, _) = traced(Ends::Touching, &leaving);
+    let own = hits.iter().filter(|hit| hit.primitive < 2).count();
+    assert!(own > 0, "{own} rays hit the wall that they leave");
+}
+
 #[test]
 fn limits_and_exclusion_are_kept() {
     let bench = Bench::new();
     let plates: Vec<Triangle> =
         [2.0, 3.0, 4.0].map(|depth| [[-9.0, -9.0, depth], [9.0, -9.0, depth], [0.0, 18.0, depth]]).to_vec();
     for accept in [Accept::Plane, Accept::Slope, Accept::Tolerance] {
-        let structure = made(&bench, Config { accept, ..Config::robust(32) }, &plates);
+        let ends = Ends::Touching;
+        let structure = made(&bench, Config { accept, ends, ..Config::robust(32) }, &plates);
         let mut random = Random::new(9);
         for _ in 0..10 {
             let direction = [random.between(-0.3, 0.3), random.between(-0.3, 0.3), 1.0];

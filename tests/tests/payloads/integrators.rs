@@ -26,7 +26,7 @@ const ALLOWED: &[(&str, Preset, [[f32; 2]; 2])] = &[
     ("selective", Preset::Robust, [[0.0, 0.03], [0.0, 0.01]]),
     ("selective", Preset::Published, [[0.03, 0.2], [0.0, 0.1]]),
     ("ldc", Preset::Robust, [[0.0, 0.01], [0.0, 0.01]]),
-    ("ldc", Preset::Published, [[0.0, 0.02], [0.05, 0.3]]),
+    ("ldc", Preset::Published, [[0.0, 0.02], [0.0, 0.01]]),
 ];
 
 /// Occlusion and light of every pixel.

@@ -150,11 +150,14 @@ fn run(cases: &[Case], sampler: Sampler, packed: &SceneTables) -> Vec<u32> {
     tables[4] = &attributes;
     tables[5] = &materials;
     let scene = device.create_binding_set(&scene_layout, "scene", &tables).expect("set");
+    // Triangles, of which no surface is one.
+    let geometry_layout = device.create_set_layout("geometry", 4).expect("layout");
+    let geometry = device.create_binding_set(&geometry_layout, "geometry", &[&empty; 4]).expect("set");
     let pipeline = device
         .create_compute_pipeline(&ComputePipelineDesc {
             name: "scene/test_scattering",
             spirv: &rasray_shaders_glsl::spirv("scene/test_scattering"),
-            sets: &[&own_layout, &scene_layout],
+            sets: &[&own_layout, &scene_layout, &geometry_layout],
             push_constant_bytes: 0,
             constants: &[],
         })
@@ -162,7 +165,7 @@ fn run(cases: &[Case], sampler: Sampler, packed: &SceneTables) -> Vec<u32> {
     device
         .submit(|recorder| {
             recorder.bind_compute(&pipeline);
-            recorder.bind_sets(0, &[&own, &scene]);
+            recorder.bind_sets(0, &[&own, &scene, &geometry]);
             recorder.dispatch([(cases.len() as u32).div_ceil(64), 1, 1]);
             recorder.barrier(Access::COMPUTE_WRITE, Access::TRANSFER_READ);
         })
