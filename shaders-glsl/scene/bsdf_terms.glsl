@@ -8,11 +8,19 @@
 
 #include "scene/accessors.glsl"
 #include "scene/albedo.glsl"
-#include "scene/anisotropy.glsl"
 #include "scene/features.glsl"
 #include "scene/glass_albedo.glsl"
 #include "scene/microfacet.glsl"
 #include "scene/ward.glsl"
+#ifdef BSDF_WITHOUT_TRIANGLES
+// Kernels whose surfaces are of no triangle bind none: nothing says where tangents point.
+float anisotropy_at(Surface s, out vec3 rougher) {
+    rougher = vec3(0.0);
+    return 0.0;
+}
+#else
+#include "scene/anisotropy.glsl"
+#endif
 
 // Bounds of the probability of the cosine family where both families exist. It may exceed its share of the light by
 // this factor: near the horizon it sends more than cosines tell.

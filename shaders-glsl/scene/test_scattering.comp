@@ -3,10 +3,7 @@
 // Source: docs/shading.md, "Reflection and transmission", "Random numbers".
 #version 460
 #include "contract/extensions.glsl"
-// Set 0 has the cases.
-#define GEOMETRY_SET 2
-// Surfaces are of no triangle, so there are no tangents.
-#define SHADING_ANISOTROPY false
+#define BSDF_WITHOUT_TRIANGLES
 #include "scene/bsdf.glsl"
 #include "scene/random.glsl"
 

@@ -1,5 +1,7 @@
 //! The scattering functions and random numbers of the device against those of this crate, call by call.
 
+use std::mem::offset_of;
+
 use glam::Vec3;
 use rasray_gpu::{Access, BufferUsage, ComputePipelineDesc, Device, DeviceDesc};
 use rasray_gpu_scene::{Parts, SceneTables};
@@ -11,6 +13,7 @@ use rasray_scene::{Material, Scene};
 use rasray_shaders_glsl::constants::scene::{
     ATTRIBUTE_NONE, SAMPLE_DELTA, SAMPLE_TRANSMITTED, SAMPLE_VALID, SAMPLER_PCG, SAMPLER_SOBOL,
 };
+use rasray_shaders_glsl::records::Frame;
 
 const SEED: u32 = 77;
 const CASES: u32 = 6000;
@@ -18,9 +21,9 @@ const CASES: u32 = 6000;
 const CASE_WORDS: usize = 41;
 const RESULT_WORDS: usize = 16;
 /// Words of the frame, and where the fields lie that are read.
-const FRAME_WORDS: usize = 35;
-const FRAME_SEED: usize = 19;
-const FRAME_SAMPLING: usize = 30;
+const FRAME_WORDS: usize = size_of::<Frame>() / size_of::<u32>();
+const FRAME_SEED: usize = offset_of!(Frame, seed) / size_of::<u32>();
+const FRAME_SAMPLING: usize = offset_of!(Frame, sampling) / size_of::<u32>();
 const IORS: [f32; 5] = [1.0, 1.33, 1.5, 2.4, 0.7];
 const SPECULARS: [f32; 3] = [0.0, 0.5, 1.0];
 const SPECULAR_COLORS: [Vec3; 2] = [Vec3::ONE, Vec3::new(0.2, 0.9, 1.0)];
@@ -150,14 +153,11 @@ fn run(cases: &[Case], sampler: Sampler, packed: &SceneTables) -> Vec<u32> {
     tables[4] = &attributes;
     tables[5] = &materials;
     let scene = device.create_binding_set(&scene_layout, "scene", &tables).expect("set");
-    // Triangles, of which no surface is one.
-    let geometry_layout = device.create_set_layout("geometry", 4).expect("layout");
-    let geometry = device.create_binding_set(&geometry_layout, "geometry", &[&empty; 4]).expect("set");
     let pipeline = device
         .create_compute_pipeline(&ComputePipelineDesc {
             name: "scene/test_scattering",
             spirv: &rasray_shaders_glsl::spirv("scene/test_scattering"),
-            sets: &[&own_layout, &scene_layout, &geometry_layout],
+            sets: &[&own_layout, &scene_layout],
             push_constant_bytes: 0,
             constants: &[],
         })
@@ -165,7 +165,7 @@ fn run(cases: &[Case], sampler: Sampler, packed: &SceneTables) -> Vec<u32> {
     device
         .submit(|recorder| {
             recorder.bind_compute(&pipeline);
-            recorder.bind_sets(0, &[&own, &scene, &geometry]);
+            recorder.bind_sets(0, &[&own, &scene]);
             recorder.dispatch([(cases.len() as u32).div_ceil(64), 1, 1]);
             recorder.barrier(Access::COMPUTE_WRITE, Access::TRANSFER_READ);
         })
