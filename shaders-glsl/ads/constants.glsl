@@ -11,6 +11,10 @@
 // then no status is that of a build of these triangles.
 #define GEOMETRY_NOT_GATHERED 1u
 
+// Whether fragments count that are as close to an end of the ray as those of the surface there.
+#define ENDS_TOUCHING 0u
+#define ENDS_CLEAR 1u
+
 // Numbers that one workgroup of a scan adds up, and its threads.
 #define SCAN_BLOCK 1024u
 #define SCAN_THREADS 256u

@@ -16,10 +16,6 @@
 #define LDC_OCCUPANCY_BOUNDS 0u
 #define LDC_OCCUPANCY_SLICES 1u
 
-// Whether fragments count that are as close to an end of the ray as its own surface there.
-#define LDC_ENDS_TOUCHING 0u
-#define LDC_ENDS_CLEAR 1u
-
 // What a fragment carries: its triangle, or colour and normal of what is shaded there.
 #define LDC_PAYLOAD_INDEX 0u
 #define LDC_PAYLOAD_ATTRIBUTES 1u

@@ -117,7 +117,7 @@ bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
 // Whether a fragment at this depth that the ray passes at t is next to where the ray ends, as close as fragments of the
 // surface there may be.
 bool ldc_is_at_end(LdcRef s, Ray ray, LdcSearch search, float z, float t) {
-    if (LDC_ENDS == LDC_ENDS_TOUCHING || !(ray.t_max < 3.0e38)) {
+    if (LDC_ENDS == ENDS_TOUCHING || !(ray.t_max < 3.0e38)) {
         return false;
     }
     float reach = ldc_reach(s);

@@ -140,7 +140,7 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
 }
 
 uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
-    if (LDC_ENDS == LDC_ENDS_CLEAR) {
+    if (LDC_ENDS == ENDS_CLEAR) {
         ray = leaving_ray(ray, ldc_reach(s));
     }
     bool ordered = LDC_HEADER(s).unsorted == 0u;

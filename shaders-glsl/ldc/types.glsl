@@ -5,6 +5,7 @@
 #ifndef LDC_TYPES_GLSL
 #define LDC_TYPES_GLSL
 
+#include "ads/constants.glsl"
 #include "contract/types.glsl"
 #include "ldc/constants.glsl"
 
@@ -21,7 +22,7 @@ layout(constant_id = 58) const uint LDC_PAYLOAD = LDC_PAYLOAD_INDEX;
 // Whether fragments keep their triangle behind a payload without it.
 layout(constant_id = 59) const uint LDC_IDS = 0u;
 // Planes know which triangle a ray leaves and where it is hit, so only other acceptances ask.
-layout(constant_id = 60) const uint LDC_ENDS = LDC_ENDS_TOUCHING;
+layout(constant_id = 60) const uint LDC_ENDS = ENDS_TOUCHING;
 
 // State and sizes of a layered depth cube. 188 bytes.
 struct LdcHeader {

@@ -19,10 +19,6 @@
 #define VOXEL_MARCH_SAMPLES 0u
 #define VOXEL_MARCH_EXACT 1u
 
-// Whether fragments count that are as close to an end of the ray as its own surface there. Parity only.
-#define VOXEL_ENDS_TOUCHING 0u
-#define VOXEL_ENDS_CLEAR 1u
-
 // How far before the end of a ray its search stops, in widths of a cell: the fragments of what it ends on are within a
 // cell of it.
 #define VOXEL_ENDING 2.0

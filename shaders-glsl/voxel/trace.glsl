@@ -20,7 +20,7 @@ Ray voxel_clear_ends(VoxelRef s, Ray ray) {
 }
 
 uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
-    if (VOXEL_ENDS == VOXEL_ENDS_CLEAR) {
+    if (VOXEL_ENDS == ENDS_CLEAR) {
         ray = voxel_clear_ends(s, ray);
     }
     VoxelTraversal traversal;

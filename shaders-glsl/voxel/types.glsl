@@ -4,6 +4,7 @@
 #ifndef VOXEL_TYPES_GLSL
 #define VOXEL_TYPES_GLSL
 
+#include "ads/constants.glsl"
 #include "contract/types.glsl"
 #include "voxel/constants.glsl"
 
@@ -21,7 +22,7 @@ layout(constant_id = 78) const uint VOXEL_IDS = 0u;
 layout(constant_id = 79) const uint VOXEL_MARKED = VOXEL_MARKED_BY_TRIANGLES;
 // Parity only.
 layout(constant_id = 81) const uint VOXEL_INSIDE = VOXEL_INSIDE_COLUMN;
-layout(constant_id = 82) const uint VOXEL_ENDS = VOXEL_ENDS_TOUCHING;
+layout(constant_id = 82) const uint VOXEL_ENDS = ENDS_TOUCHING;
 
 // State and sizes of voxels with axis A-buffers. 136 bytes.
 struct VoxelHeader {

@@ -1,6 +1,6 @@
 //! Options of the layered depth cube and the two presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, Ends, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::ldc as ids;
 use rasray_shaders_glsl::constants::ldc as numbers;
 
@@ -25,16 +25,6 @@ pub enum Coverage {
     /// The same, and it is kept in other cells that it reaches into, where no fragment represents
     /// it: there hits on the triangle itself count.
     Conservative,
-}
-
-/// Whether fragments count that are as close to an end of the ray as those of the surface there. [`Accept::Plane`] does not
-/// ask: it knows which triangle a ray leaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ends {
-    /// They do: rays hit what they leave and what they end on.
-    Touching,
-    /// A ray starts a cell and the tolerance off the triangle that it leaves, and what it ends on does not count.
-    Clear,
 }
 
 /// How fragments keep their depth.
@@ -228,13 +218,10 @@ impl Config {
             Payload::Index => numbers::LDC_PAYLOAD_INDEX,
             Payload::Attributes => numbers::LDC_PAYLOAD_ATTRIBUTES,
         };
-        let ends = match self.ends {
-            Ends::Clear if self.accept != Accept::Plane => numbers::LDC_ENDS_CLEAR,
-            _ => numbers::LDC_ENDS_TOUCHING,
-        };
+        let ends = if self.accept != Accept::Plane { self.ends } else { Ends::Touching };
         vec![
             (ids::LDC_ACCEPT, accept),
-            (ids::LDC_ENDS, ends),
+            (ids::LDC_ENDS, ends.number()),
             (ids::LDC_COVERAGE, coverage),
             (ids::LDC_DEPTH_BITS, self.depth.bits()),
             (ids::LDC_SKIP, u32::from(self.skip)),
@@ -270,7 +257,7 @@ impl Config {
             options.push(("tolerance", self.tolerance.to_string()));
         }
         if self.accept != Accept::Plane {
-            options.push(("ends", lower(&self.ends)));
+            options.push(("ends", self.ends.name().to_owned()));
         }
         if self.making == Making::Peel {
             options.push(("layers", self.layers.to_string()));

@@ -15,10 +15,10 @@ mod structure;
 mod validate;
 
 pub use build::Build;
-pub use config::{Accept, Config, Coverage, Depth, Ends, Making, Occupancy, Payload};
+pub use config::{Accept, Config, Coverage, Depth, Making, Occupancy, Payload};
 pub use layout::{Demand, FormulaBytes, block_count, cell_count, formula_bytes, plan};
 pub use pool::Pool;
-pub use rasray_ads::{Addressing, Builder};
+pub use rasray_ads::{Addressing, Builder, Ends};
 pub use rasray_shaders_glsl::records::LdcHeader as Header;
 pub use structure::LayeredDepthCube;
 pub use validate::{Contents, Fault, well_formed};

@@ -66,7 +66,7 @@ const OPTIONS: &[Setter<Config>] = &[
             .map(|value| config.accept = value)
     }),
     ("ends", |config, given| {
-        given.choice(&[("touching", Ends::Touching), ("clear", Ends::Clear)]).map(|value| config.ends = value)
+        given.choice(&Ends::ALL.map(|ends| (ends.name(), ends))).map(|value| config.ends = value)
     }),
     ("coverage", |config, given| {
         given

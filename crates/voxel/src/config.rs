@@ -1,6 +1,6 @@
 //! Options of voxels with axis A-buffers, and the presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, Ends, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::voxel as ids;
 use rasray_shaders_glsl::constants::voxel as numbers;
 
@@ -50,16 +50,6 @@ pub enum Inside {
     Column,
     /// Those of them at the depths of the voxel, which need not be of closed objects: elsewhere nothing flips.
     Voxel,
-}
-
-/// Whether fragments count that are as close to an end of the ray as those of the surface there. Needs
-/// [`Accept::Parity`]: planes know which triangle a ray leaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ends {
-    /// They do: rays hit what they leave and what they end on.
-    Touching,
-    /// A ray starts a cell off the triangle that it leaves, and is searched up to two cells before its end.
-    Clear,
 }
 
 /// Which cells keep a triangle.
@@ -339,17 +329,14 @@ impl Config {
             Payload::Material => numbers::VOXEL_PAYLOAD_MATERIAL,
             Payload::Mirror => numbers::VOXEL_PAYLOAD_MIRROR,
         };
-        let ends = match self.ends {
-            Ends::Clear if self.accept == Accept::Parity => numbers::VOXEL_ENDS_CLEAR,
-            _ => numbers::VOXEL_ENDS_TOUCHING,
-        };
+        let ends = if self.accept == Accept::Parity { self.ends } else { Ends::Touching };
         let inside = match self.inside {
             Inside::Column => numbers::VOXEL_INSIDE_COLUMN,
             Inside::Voxel => numbers::VOXEL_INSIDE_VOXEL,
         };
         vec![
             (ids::VOXEL_INSIDE, inside),
-            (ids::VOXEL_ENDS, ends),
+            (ids::VOXEL_ENDS, ends.number()),
             (ids::VOXEL_AXES, axes),
             (ids::VOXEL_MARCH, march),
             (ids::VOXEL_ACCEPT, accept),
@@ -379,7 +366,7 @@ impl Config {
         ];
         if self.accept == Accept::Parity {
             options.push(("inside", lower(&self.inside)));
-            options.push(("ends", lower(&self.ends)));
+            options.push(("ends", self.ends.name().to_owned()));
         }
         if self.payload == Payload::Material {
             options.push(("ids", if self.ids { "on" } else { "off" }.to_owned()));

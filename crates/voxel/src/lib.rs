@@ -17,10 +17,10 @@ mod structure;
 mod validate;
 
 pub use build::Build;
-pub use config::{Accept, Axes, Config, Coverage, Ends, Inside, March, Marking, Payload, Storage};
+pub use config::{Accept, Axes, Config, Coverage, Inside, March, Marking, Payload, Storage};
 pub use layout::{Demand, FormulaBytes, formula_bytes, list_count, plan};
 pub use pool::Pool;
-pub use rasray_ads::{Addressing, Builder};
+pub use rasray_ads::{Addressing, Builder, Ends};
 pub use rasray_shaders_glsl::records::VoxelHeader as Header;
 pub use structure::Voxels;
 pub use validate::{Contents, Fault, Fragment, well_formed};

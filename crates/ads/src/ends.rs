@@ -1,0 +1,34 @@
+//! What rays hit at their ends.
+
+use rasray_shaders_glsl::constants::ads::{ENDS_CLEAR, ENDS_TOUCHING};
+
+/// Whether fragments count that are as close to an end of a ray as those of the surface there. Of structures whose fragments
+/// do not say which triangle they are of, or where it is hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// They do: rays hit what they leave and what they end on.
+    Touching,
+    /// A ray starts beyond those of the triangle that it leaves, and those where it ends do not count.
+    Clear,
+}
+
+impl Ends {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Touching, Self::Clear];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Touching => "touching",
+            Self::Clear => "clear",
+        }
+    }
+
+    /// The number of specialisation constants.
+    pub fn number(self) -> u32 {
+        match self {
+            Self::Touching => ENDS_TOUCHING,
+            Self::Clear => ENDS_CLEAR,
+        }
+    }
+}
