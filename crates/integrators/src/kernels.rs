@@ -10,7 +10,7 @@ use rasray_gpu_scene::GpuScene;
 pub(crate) use rasray_shaders_glsl::records::WaveConstants;
 use rasray_shaders_glsl::{Shader, constant_ids::integrators::PIXEL_CENTRES};
 
-use crate::{Film, IntegratorError, Wave};
+use crate::{Film, IntegratorError, Wave, integrator::check_wave};
 
 /// Bindings of the integrators' set that several have, as `integrators/storage.glsl` declares them. Those of one alone, from
 /// 9 on, are in its own files.
@@ -126,6 +126,22 @@ impl Bindings {
             constants,
         })?;
         Ok(Kernel { stage: Stage::Shade, label: shader.name, pipeline })
+    }
+
+    /// Records the camera rays of a wave, by the kernel that makes them.
+    ///
+    /// # Errors
+    /// The wave does not fit the queue or the image.
+    pub fn record_camera_rays(
+        &self,
+        recorder: &mut Recorder<'_>,
+        primary: &Kernel,
+        queue: &RayQueue,
+        (film, wave): (&Film, Wave),
+    ) -> Result<(), IntegratorError> {
+        check_wave(wave, queue.capacity(), film.pixel_count())?;
+        self.record(recorder, primary, queue, Domain::First(wave.pixel_count), &wave.into());
+        Ok(())
     }
 
     /// Records one pass over the slots of `domain` of a queue; its results are visible to compute shaders and

@@ -11,7 +11,6 @@ use rasray_shaders_glsl::{
 
 use crate::{
     Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
-    integrator::check_wave,
     kernels::{self, Bindings, Kernel, WaveConstants, camera_constants, film},
 };
 
@@ -89,10 +88,9 @@ impl Integrator for AmbientOcclusion {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, (&self.film, wave))?;
         let all = Domain::First(wave.pixel_count);
         let constants = WaveConstants { number: self.range, ..WaveConstants::from(wave) };
-        self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
         traced.record_primary(recorder, &self.queue, wave)?;
         self.shadow_queue.record_select_none(recorder);
         self.bindings.record(recorder, &self.spawn, &self.queue, all, &constants);

@@ -1,6 +1,6 @@
 //! Ray casting through all layers.
 
-use rasray_ads::{Domain, RayQueue};
+use rasray_ads::RayQueue;
 use rasray_gpu::{Buffer, Device, Recorder};
 use rasray_gpu_scene::GpuScene;
 use rasray_options::{Least, OptionRow, Unit, Value, Values};
@@ -131,9 +131,7 @@ impl Integrator for Layers {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
-        let all = Domain::First(wave.pixel_count);
-        self.bindings.record(recorder, &self.primary, &self.queue, all, &WaveConstants::from(wave));
+        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, (&self.film, wave))?;
         self.queue.record_select_none(recorder);
         self.record_rounds(recorder, (traced, wave), false)
     }

@@ -205,10 +205,7 @@ impl Integrator for Path {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
-        let all = Domain::First(wave.pixel_count);
-        let constants = WaveConstants { limit: self.bounces, ..WaveConstants::from(wave) };
-        self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
+        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, (&self.film, wave))?;
         self.queue.record_select_none(recorder);
         match &self.shadows {
             Shadows::Occluded { queue, resolve, accumulate, .. } => {

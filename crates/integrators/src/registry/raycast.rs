@@ -8,8 +8,7 @@ use rasray_shaders_glsl::{INTEGRATORS_PRIMARY, INTEGRATORS_RAYCAST_SHADE};
 
 use crate::{
     Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
-    integrator::check_wave,
-    kernels::{Bindings, Kernel, WaveConstants, camera_constants, film},
+    kernels::{Bindings, Kernel, camera_constants, film},
 };
 
 /// The registry's row.
@@ -69,11 +68,10 @@ impl Integrator for Raycast {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
-        let (constants, all) = (WaveConstants::from(wave), Domain::First(wave.pixel_count));
-        self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
+        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, (&self.film, wave))?;
         traced.record_primary(recorder, &self.queue, wave)?;
-        self.bindings.record(recorder, &self.shade, &self.queue, all, &constants);
+        let all = Domain::First(wave.pixel_count);
+        self.bindings.record(recorder, &self.shade, &self.queue, all, &wave.into());
         Ok(())
     }
 

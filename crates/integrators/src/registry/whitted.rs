@@ -1,6 +1,6 @@
 //! Whitted's ray tracing: direct light, and the trees of mirrored and refracted rays.
 
-use rasray_ads::{Domain, RayQueue};
+use rasray_ads::RayQueue;
 use rasray_gpu::{Buffer, Device, Recorder};
 use rasray_gpu_scene::{GpuScene, ShadingFeatures};
 use rasray_options::Value;
@@ -213,9 +213,7 @@ impl Integrator for Whitted {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
-        let all = Domain::First(wave.pixel_count);
-        self.bindings.record(recorder, &self.primary, &self.queue, all, &WaveConstants::from(wave));
+        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, (&self.film, wave))?;
         for queue in self.queues() {
             queue.record_select_none(recorder);
         }
