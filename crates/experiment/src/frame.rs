@@ -77,6 +77,10 @@ pub enum OccluderKind {
 }
 
 impl OccluderKind {
+    /// Fewest and most texels along a side of a map.
+    pub const RESOLUTIONS: [u32; 2] =
+        [rasray_shadow_maps::Config::LEAST_TEXELS, rasray_shadow_maps::Config::MOST_TEXELS];
+
     /// All kinds, at the default resolution.
     pub const ALL: [Self; 2] =
         [Self::Structure, Self::ShadowMaps { resolution: rasray_shadow_maps::Config::DEFAULT_TEXELS }];

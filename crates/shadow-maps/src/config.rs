@@ -5,7 +5,7 @@ use rasray_ads::AdsError;
 /// Options of shadow maps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Texels along a side of a view, from 16 to [`Config::MOST_TEXELS`].
+    /// Texels along a side of a view, from [`Config::LEAST_TEXELS`] to [`Config::MOST_TEXELS`].
     pub resolution: u32,
     /// Each texel lies this much deeper than the triangle at its centre, in multiples of what the triangle's plane gains
     /// within half a texel: from 0 to 16. With 1, no flat surface shades itself.
@@ -13,6 +13,9 @@ pub struct Config {
 }
 
 impl Config {
+    /// Fewest texels along a side.
+    pub const LEAST_TEXELS: u32 = 16;
+
     /// Most texels along a side.
     pub const MOST_TEXELS: u32 = 16_384;
 
@@ -28,7 +31,7 @@ impl Config {
     /// An option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
         let wrong = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
-        if !(16..=Self::MOST_TEXELS).contains(&self.resolution) {
+        if !(Self::LEAST_TEXELS..=Self::MOST_TEXELS).contains(&self.resolution) {
             return wrong(
                 "shadow-resolution",
                 self.resolution.to_string(),

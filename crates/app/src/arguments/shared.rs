@@ -67,7 +67,7 @@ pub struct FrameArguments {
     #[arg(long, value_parser = occluder_parser(), default_value = OccluderKind::Structure.name())]
     pub occluder: OccluderKind,
     /// Texels along a side of a shadow map, with --occluder shadow-maps, 16 to 16384 [default: 1024]
-    #[arg(long, value_name = "N", value_parser = values::whole(16, 16_384))]
+    #[arg(long, value_name = "N", value_parser = values::whole(OccluderKind::RESOLUTIONS[0], OccluderKind::RESOLUTIONS[1]))]
     pub shadow_resolution: Option<u32>,
     /// Which rays pass the backs of single-sided surfaces, as glTF has them (doubleSided: false)
     #[arg(long, value_parser = back_faces_parser(), default_value = BackFaces::Camera.name())]
