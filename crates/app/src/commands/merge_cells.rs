@@ -9,14 +9,16 @@ use crate::terminal;
 use rasray_report::Report;
 use rasray_report::figures::Figures;
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 /// Whether the first line of the parts is of a comparison.
 pub(super) fn cells_are_in(given: &MergeArguments) -> bool {
     let first = |path: &Path| {
-        let text = std::fs::read(path).ok()?;
-        let line = text.split(|byte| *byte == b'\n').next()?;
-        serde_json::from_slice::<Report>(line).ok()
+        let mut line = Vec::new();
+        BufReader::new(File::open(path).ok()?).read_until(b'\n', &mut line).ok()?;
+        serde_json::from_slice::<Report>(&line).ok()
     };
     given.parts.iter().find_map(|part| first(part)).is_some_and(|report| report.cell.is_some())
 }
