@@ -1,4 +1,5 @@
 mod albedo;
+mod anisotropy;
 mod bsdf;
 mod environment;
 mod surface;
