@@ -43,6 +43,11 @@ impl Primary {
     /// All of them.
     pub const ALL: [Self; 2] = [Self::Trace, Self::Raster];
 
+    /// The one of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|primary| primary.name() == name)
+    }
+
     /// Its name on the command line and in reports.
     pub fn name(self) -> &'static str {
         match self {
@@ -84,6 +89,11 @@ impl OccluderKind {
     /// All kinds, at the default resolution.
     pub const ALL: [Self; 2] =
         [Self::Structure, Self::ShadowMaps { resolution: rasray_shadow_maps::Config::DEFAULT_TEXELS }];
+
+    /// The one of that name, at the default resolution.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|occluder| occluder.name() == name)
+    }
 
     /// Its name on the command line and in reports.
     pub fn name(self) -> &'static str {

@@ -36,7 +36,7 @@ fn visibility(
         Primary::Trace => Ok(None),
         Primary::Raster if stage.scene.frame().lens_radius > 0.0 => Err(ExperimentError::usage(
             "--primary raster draws through a pinhole, and the camera has a lens",
-            "leave out --primary raster, or --aperture",
+            "write --primary trace, or leave out --aperture",
         )),
         Primary::Raster => {
             Visibility::new(device, &stage.scene, false).map(Some).map_err(|error| match error {
@@ -64,15 +64,18 @@ fn with_occluder(
         return match frame.workload().scatters {
             true if features.blend => refused(
                 "surfaces of this scene let light pass, and maps do not say which lie on a ray".to_owned(),
-                "leave it out, or write --alpha off, which makes every surface opaque",
+                "write --occluder structure, or --alpha off, which makes every surface opaque",
             ),
             true if features.panes => refused(
                 "panes of this scene let light pass, and maps do not say which lie on a ray".to_owned(),
-                "leave it out, or write --glass-shadows opaque",
+                match frame.integrator.row().option("glass-shadows") {
+                    Some(_) => "write --occluder structure, or --glass-shadows opaque",
+                    None => "write --occluder structure",
+                },
             ),
             _ => refused(
                 format!("the integrator {} sends no ray to a light", frame.integrator.name()),
-                "leave it out, or choose --integrator path with bounces",
+                "write --occluder structure, or choose --integrator path with bounces",
             ),
         };
     }
@@ -80,7 +83,7 @@ fn with_occluder(
         return refused(
             "maps have both sides of every surface, and with --back-faces all no light meets backs"
                 .to_owned(),
-            "leave one of the two out",
+            "write --occluder structure, or leave out --back-faces all",
         );
     }
     if stage.scene.lights().is_empty() {

@@ -13,6 +13,7 @@ pub(crate) const SYSTEM: System = System {
     records: Bricks::RECORDS,
     large_pools: &[("views", "cube"), ("grid", "512"), ("slices", "512")],
     presets: &[Preset::Robust],
+    frame: None,
     occlusion_payload: None,
     camera_views: None,
     without_scene: &[],

@@ -5,7 +5,7 @@ use rasray_ads_primitive::{
 };
 
 use crate::given::{Given, Setter, names};
-use crate::{Preset, Spec, System, SystemsError};
+use crate::{PaperFrame, Preset, Spec, System, SystemsError};
 
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
@@ -15,6 +15,7 @@ pub(crate) const SYSTEM: System = System {
     records: PrimitiveLists::RECORDS,
     large_pools: &[("tile", "1"), ("resolution", "1024"), ("buckets", "8")],
     presets: &[Preset::Robust, Preset::Published],
+    frame: Some(PaperFrame { integrator: "path", options: &[], primary: "raster", occluder: "structure" }),
     occlusion_payload: None,
     camera_views: None,
     without_scene: &[],

@@ -13,6 +13,7 @@ pub(crate) const SYSTEM: System = System {
     records: Grid::RECORDS,
     large_pools: &[("grid", "400")],
     presets: &[Preset::Robust],
+    frame: None,
     occlusion_payload: None,
     camera_views: None,
     without_scene: &[],

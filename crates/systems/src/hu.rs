@@ -2,7 +2,7 @@
 
 use rasray_voxel::{Config, Payload, Voxels};
 
-use crate::{Preset, Spec, System, SystemsError, voxel};
+use crate::{PaperFrame, Preset, Spec, System, SystemsError, voxel};
 
 /// Cells along a side of a view in the paper.
 const PUBLISHED_RESOLUTION: u32 = 1280;
@@ -15,6 +15,7 @@ pub(crate) const SYSTEM: System = System {
     records: Voxels::RECORDS,
     large_pools: &[("resolution", "3500")],
     presets: &[Preset::Robust, Preset::Published],
+    frame: Some(PaperFrame { integrator: "whitted", options: &[], primary: "raster", occluder: "structure" }),
     occlusion_payload: None,
     camera_views: None,
     without_scene: &[("payload", "index")],

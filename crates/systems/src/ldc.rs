@@ -5,7 +5,7 @@ use rasray_ldc::{
 };
 
 use crate::given::{Given, Setter, names};
-use crate::{Preset, Spec, System, SystemsError};
+use crate::{PaperFrame, Preset, Spec, System, SystemsError};
 
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
@@ -15,6 +15,12 @@ pub(crate) const SYSTEM: System = System {
     records: LayeredDepthCube::RECORDS,
     large_pools: &[("resolution", "2400")],
     presets: &[Preset::Robust, Preset::Published],
+    frame: Some(PaperFrame {
+        integrator: "whitted",
+        options: &[("select", "specular"), ("ray-depth", "1")],
+        primary: "raster",
+        occluder: "structure",
+    }),
     occlusion_payload: None,
     camera_views: None,
     without_scene: &[("payload", "index")],

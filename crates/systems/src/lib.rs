@@ -21,7 +21,7 @@ mod voxel;
 pub use error::SystemsError;
 pub use options::{OPTIONS, VIEW_LIMIT, option};
 pub use registry::SYSTEMS;
-pub use spec::{Preset, Spec, System};
+pub use spec::{PaperFrame, Preset, Spec, System};
 pub use structure_option::{Group, Hits, StructureOption};
 
 /// What the readme shows compiles.

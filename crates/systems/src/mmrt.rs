@@ -3,7 +3,7 @@
 use rasray_abuffer::{ABuffer, Accept, Builder, Config, Coverage, March, Payload, Storage, Views};
 
 use crate::given::{Given, Setter, names};
-use crate::{Preset, Spec, System, SystemsError};
+use crate::{PaperFrame, Preset, Spec, System, SystemsError};
 
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
@@ -13,6 +13,7 @@ pub(crate) const SYSTEM: System = System {
     records: ABuffer::RECORDS,
     large_pools: &[("resolution", "2400")],
     presets: &[Preset::Robust, Preset::Published],
+    frame: Some(PaperFrame { integrator: "path", options: &[], primary: "raster", occluder: "shadow-maps" }),
     occlusion_payload: Some("normal"),
     camera_views: Some("cube+camera"),
     without_scene: &[("payload", "index")],

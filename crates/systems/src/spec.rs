@@ -43,6 +43,19 @@ impl Preset {
     }
 }
 
+/// The frame of a paper's pictures: everything of it but the structure, in words of the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PaperFrame {
+    /// The integrator.
+    pub integrator: &'static str,
+    /// Its options where they differ from its defaults.
+    pub options: &'static [(&'static str, &'static str)],
+    /// Where first hits come from.
+    pub primary: &'static str,
+    /// What answers shadow rays.
+    pub occluder: &'static str,
+}
+
 /// A row of the registry. Everything that is known of a system by name is here.
 #[derive(Clone, Copy, Debug)]
 pub struct System {
@@ -52,6 +65,9 @@ pub struct System {
     pub presets: &'static [Preset],
     /// What it is, for help.
     pub doc: &'static str,
+    /// The frame that pictures of its published preset are made with, where no integrator is asked for; absent where no paper
+    /// shows it.
+    pub frame: Option<PaperFrame>,
     /// The published preset's `payload` for renders that ask for occlusion alone; absent where the paper has
     /// none of its own for it.
     pub occlusion_payload: Option<&'static str>,

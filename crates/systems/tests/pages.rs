@@ -1,5 +1,6 @@
 //! Pages follow the registry: `docs/options.md` is what the rows of options say, the page of each system names every
-//! option that it has, and the table of features in `docs/embedding.md` is what structures require.
+//! option that it has, that of published frames has a line for each, and the table of features in `docs/embedding.md` is
+//! what structures require.
 //!
 //! `RASRAY_WRITE_PAGES=1` writes the page of options and the table instead of comparing them.
 
@@ -73,6 +74,22 @@ fn the_page_of_a_system_names_its_options() {
                 page.contains(&format!("`{}`", row.name)) || page.contains(&format!("`{}=", row.name));
             assert!(named, "the page of {} does not name the option {}", system.name, row.name);
         }
+    }
+}
+
+#[test]
+fn the_page_of_published_frames_has_a_line_for_each() {
+    let page =
+        std::fs::read_to_string(docs().join("published-frames.md")).expect("there is a page of frames");
+    for system in SYSTEMS {
+        let Some(frame) = system.frame else { continue };
+        let options: String =
+            frame.options.iter().map(|(name, value)| format!(" `{name}={value}`")).collect();
+        let line = format!(
+            "| `{}` | `{}` |{options} | `{}` | `{}` |\n",
+            system.name, frame.integrator, frame.primary, frame.occluder
+        );
+        assert!(page.contains(&line), "docs/published-frames.md lacks {line}");
     }
 }
 

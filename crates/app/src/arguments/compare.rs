@@ -41,7 +41,9 @@ const SHARES: &str = "Resuming and shares";
 
 /// Options of `rasray compare`.
 #[derive(Debug, Args)]
-#[command(after_help = AFTER_HELP)]
+#[command(after_help = AFTER_HELP, mut_arg("integrator", |argument| argument.help("Integrator, of all systems [default: path]")),
+          mut_arg("primary", |argument| argument.help("How what the camera sees first is found, of images [default: trace]")),
+          mut_arg("occluder", |argument| argument.help("What answers the shadow rays of lights without extent, of images [default: structure]")))]
 pub struct CompareArguments {
     /// A file (.gltf .glb .obj .ply), numbered files ('a.####.ply'), a built-in scene with parameters, or a hard case
     /// (hard:E5, hard:all)

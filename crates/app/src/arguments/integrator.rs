@@ -2,7 +2,9 @@
 
 use clap::builder::TypedValueParser;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
-use rasray_experiment::{INTEGRATORS, IntegratorRow, IntegratorSpec, OptionValues, integrator_options};
+use rasray_experiment::{
+    FrameDefaults, INTEGRATORS, IntegratorRow, IntegratorSpec, OptionValues, integrator_options,
+};
 
 use super::options::{arguments, choice, given};
 use crate::error::AppError;
@@ -27,6 +29,15 @@ impl IntegratorArguments {
     /// # Errors
     /// An option of an integrator that was not chosen.
     pub fn of(&self, integrator: &'static IntegratorRow) -> Result<IntegratorSpec, AppError> {
+        self.over(&FrameDefaults { integrator, ..FrameDefaults::default() })
+    }
+
+    /// The integrator of `defaults` with what was given over its options there.
+    ///
+    /// # Errors
+    /// An option of an integrator that was not chosen.
+    pub fn over(&self, defaults: &FrameDefaults) -> Result<IntegratorSpec, AppError> {
+        let integrator = defaults.integrator;
         if let Some((option, _)) = self.0.iter().find(|(name, _)| integrator.option(name).is_none()) {
             let names = who_has(option).join(" or ");
             return Err(AppError::usage(
@@ -34,7 +45,8 @@ impl IntegratorArguments {
                 format!("leave it out, or say --integrator {names}"),
             ));
         }
-        IntegratorSpec::new(integrator, &self.0).map_err(|error| AppError::usage(error.to_string(), ""))
+        let values = defaults.options.iter().chain(self.0.iter()).collect();
+        IntegratorSpec::new(integrator, &values).map_err(|error| AppError::usage(error.to_string(), ""))
     }
 }
 

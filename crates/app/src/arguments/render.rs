@@ -116,7 +116,7 @@ impl RenderArguments {
     /// # Errors
     /// An option of an integrator that was not chosen.
     pub fn frame(&self) -> Result<Frame, AppError> {
-        let frame = self.work.frame.frame()?;
+        let frame = self.work.frame(self.system.frame_defaults(self.preset))?;
         let (given, view) = (&self.work.frame, &self.work.view);
         let suits = self.scene.to_str().filter(|_| view.eye.is_none()).and_then(picture);
         Ok(match suits {

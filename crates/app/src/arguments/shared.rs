@@ -8,7 +8,7 @@ use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
 use glam::DVec3;
-use rasray_experiment::{DeviceChoice, Frame, INTEGRATORS, IntegratorRow, OccluderKind, Primary, Sampler};
+use rasray_experiment::{DeviceChoice, Frame, FrameDefaults, IntegratorRow, OccluderKind, Primary, Sampler};
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{BackFaces, Environment, Scene, SceneError};
 use rasray_scene_files::{LoadOptions, load_environment};
@@ -42,9 +42,9 @@ pub struct TalkArguments {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Image")]
 pub struct FrameArguments {
-    /// Integrator
-    #[arg(long, value_parser = integrator_parser(), default_value = INTEGRATORS[0].name)]
-    pub integrator: &'static IntegratorRow,
+    /// Integrator [default: path; with --preset published the frame of its paper: integrator, primary, occluder]
+    #[arg(long, value_parser = integrator_parser())]
+    pub integrator: Option<&'static IntegratorRow>,
     /// Pixels [default: 640x360; pictures of cornell: 256x256]
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     pub size: Option<Size>,
@@ -60,12 +60,12 @@ pub struct FrameArguments {
     /// Where random numbers come from
     #[arg(long, value_parser = sampler_parser(), default_value = Sampler::Sobol.name())]
     pub sampler: Sampler,
-    /// How what the camera sees first is found, of images
-    #[arg(long, value_parser = primary_parser(), default_value = Primary::Trace.name())]
-    pub primary: Primary,
-    /// What answers the shadow rays of lights without extent, of images
-    #[arg(long, value_parser = occluder_parser(), default_value = OccluderKind::Structure.name())]
-    pub occluder: OccluderKind,
+    /// How what the camera sees first is found, of images [default: trace; or the paper's]
+    #[arg(long, value_parser = primary_parser())]
+    pub primary: Option<Primary>,
+    /// What answers the shadow rays of lights without extent, of images [default: structure; or the paper's]
+    #[arg(long, value_parser = occluder_parser())]
+    pub occluder: Option<OccluderKind>,
     /// Texels along a side of a shadow map, with --occluder shadow-maps, 16 to 16384 [default: 1024]
     #[arg(long, value_name = "N", value_parser = values::whole(OccluderKind::RESOLUTIONS[0], OccluderKind::RESOLUTIONS[1]))]
     pub shadow_resolution: Option<u32>,
@@ -75,21 +75,26 @@ pub struct FrameArguments {
 }
 
 impl FrameArguments {
-    /// The image that was asked for.
+    /// The image that was asked for; `defaults` where nothing is said of it and no integrator is named.
     ///
     /// # Errors
     /// An option of an integrator or an occluder that was not chosen.
-    pub fn frame(&self) -> Result<Frame, AppError> {
-        let integrator = self.options.of(self.integrator)?;
+    fn frame(&self, defaults: FrameDefaults) -> Result<Frame, AppError> {
+        let defaults = match self.integrator {
+            Some(integrator) => FrameDefaults { integrator, ..FrameDefaults::default() },
+            None => defaults,
+        };
+        let integrator = self.options.over(&defaults)?;
         let Size { width, height } = self.size.unwrap_or(DEFAULT_SIZE);
         let spp = self.spp.unwrap_or(DEFAULT_SAMPLES);
-        let occluder = self.occluder()?;
-        let Self { seed, sampler, primary, back_faces, .. } = *self;
+        let occluder = self.occluder(defaults.occluder)?;
+        let primary = self.primary.unwrap_or(defaults.primary);
+        let Self { seed, sampler, back_faces, .. } = *self;
         Ok(Frame { integrator, width, height, spp, seed, sampler, primary, occluder, back_faces })
     }
 
-    fn occluder(&self) -> Result<OccluderKind, AppError> {
-        match (self.occluder, self.shadow_resolution) {
+    fn occluder(&self, default: OccluderKind) -> Result<OccluderKind, AppError> {
+        match (self.occluder.unwrap_or(default), self.shadow_resolution) {
             (OccluderKind::ShadowMaps { .. }, Some(resolution)) => {
                 Ok(OccluderKind::ShadowMaps { resolution })
             }
@@ -253,6 +258,20 @@ pub struct WorkArguments {
     /// Where the work is done.
     #[command(flatten)]
     pub device: DeviceArguments,
+}
+
+impl WorkArguments {
+    /// The image that was asked for; `defaults` where nothing is said of it and no integrator is named. Through a lens first
+    /// hits are traced unless told.
+    ///
+    /// # Errors
+    /// An option of an integrator or an occluder that was not chosen.
+    pub fn frame(&self, mut defaults: FrameDefaults) -> Result<Frame, AppError> {
+        if self.view.aperture.is_some_and(|aperture| aperture > 0.0) {
+            defaults.primary = Primary::Trace;
+        }
+        self.frame.frame(defaults)
+    }
 }
 
 /// Where the work is done.

@@ -2,7 +2,7 @@
 
 use super::*;
 use clap::CommandFactory;
-use rasray_experiment::{INTEGRATORS, IntegratorSpec, RaySet};
+use rasray_experiment::{FrameDefaults, INTEGRATORS, IntegratorSpec, RaySet};
 use rasray_options::Value;
 use rasray_scene::Environment;
 use rasray_systems::Preset;
@@ -40,7 +40,7 @@ fn the_list_of_commands_is_whole() {
 #[test]
 fn defaults_are_the_documented_ones() {
     let given = render("render cornell --output a.png");
-    let frame = given.work.frame.frame().expect("defaults fit together");
+    let frame = given.work.frame(FrameDefaults::default()).expect("defaults fit together");
     let system = given.system().expect("the exact structure");
     assert_eq!((system.system.name, system.preset), ("bvh", Preset::Robust));
     assert_eq!(system.spec().expect("known").structure(), "bvh");
@@ -116,15 +116,46 @@ fn a_comparison_takes_lists_and_addressed_options() {
 }
 
 #[test]
+fn published_presets_take_the_frame_of_their_paper() {
+    let frame = |line: &str| render(&format!("render cornell -o a.png {line}")).frame().expect("a frame");
+    let of = |frame: &rasray_experiment::Frame| {
+        (frame.integrator.name(), frame.primary.name(), frame.occluder.name())
+    };
+    let plain = ("path", "trace", "structure");
+    for (line, expected) in [
+        ("", plain),
+        ("--system mmrt", plain),
+        ("--system mmrt --preset published", ("path", "raster", "shadow-maps")),
+        ("--system mmrt --preset published --shadow-resolution 64", ("path", "raster", "shadow-maps")),
+        ("--system mmrt --preset published --occluder structure", ("path", "raster", "structure")),
+        ("--system dirt --preset published", ("path", "raster", "structure")),
+        ("--system dirt --preset published --aperture 0.01", ("path", "trace", "structure")),
+        ("--system hu --preset published", ("whitted", "raster", "structure")),
+        ("--system hu --preset published --primary trace", ("whitted", "trace", "structure")),
+        ("--system hu --preset published --integrator path", plain),
+        ("--system ldc --preset published", ("whitted", "raster", "structure")),
+    ] {
+        assert_eq!(of(&frame(line)), expected, "{line}");
+    }
+    let option = |line: &str, option| frame(line).integrator.values().text(option);
+    let selective = "--system selective --preset published";
+    assert_eq!(option(selective, "select").as_deref(), Some("reflective"));
+    assert_eq!(option(selective, "ray-depth").as_deref(), Some("1"));
+    assert_eq!(option(&format!("{selective} --ray-depth 2"), "ray-depth").as_deref(), Some("2"));
+    assert_eq!(
+        option(&format!("{selective} --integrator whitted"), "ray-depth"),
+        option("--integrator whitted", "ray-depth")
+    );
+}
+
+#[test]
 fn options_of_another_integrator_are_refused() {
     let error = render("render cornell -o a.png --integrator ao --bounces 2")
         .work
-        .frame
-        .frame()
+        .frame(FrameDefaults::default())
         .expect_err("bounces");
     assert!(error.help().contains("path"), "{error}");
-    let error =
-        render("render cornell -o a.png --ao-distance 2").work.frame.frame().expect_err("ao distance");
+    let error = render("render cornell -o a.png --ao-distance 2").frame().expect_err("ao distance");
     assert!(error.help().contains("ao"), "{error}");
 }
 

@@ -10,7 +10,7 @@ use crate::output::{self, Cells};
 use crate::terminal::{self, Talk};
 use crate::version::{origin, version_text};
 use rasray_experiment::{
-    CompareJob, Comparison, OpenBackend, RaySet, check_run, compare_cells, count_not_uploaded,
+    CompareJob, Comparison, FrameDefaults, OpenBackend, RaySet, check_run, compare_cells, count_not_uploaded,
 };
 use rasray_ray_files::{load_hits, load_rays};
 use rasray_report::{Run, table_within};
@@ -43,7 +43,7 @@ pub(crate) fn compare(
             "leave it out, or name a hard case such as hard:E5",
         ));
     }
-    let frame = given.work.frame.frame()?;
+    let frame = given.work.frame(FrameDefaults::default())?;
     let systems = given.systems()?;
     let ray_sets = ray_sets(given)?;
     let targets = Targets::check(given, &given.scene)?;

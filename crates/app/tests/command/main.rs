@@ -11,6 +11,7 @@ mod moments;
 mod motion;
 mod occluder;
 mod output;
+mod published;
 mod replay;
 mod results;
 mod scripted;

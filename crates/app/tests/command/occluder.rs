@@ -70,9 +70,18 @@ fn what_maps_cannot_answer_is_refused_with_a_way_out() {
     for (line, says, fix) in [
         ("veil.gltf", "surfaces of this scene let light pass", "--alpha off"),
         ("pane.gltf", "panes of this scene let light pass", "--glass-shadows opaque"),
+        (
+            "pane.gltf --integrator whitted",
+            "panes of this scene let light pass",
+            "write --occluder structure",
+        ),
         ("plain.gltf --integrator ao", "the integrator ao sends no ray to a light", "--integrator path"),
         ("plain.gltf --bounces 0", "the integrator path sends no ray to a light", "with bounces"),
-        ("plain.gltf --back-faces all", "--back-faces all", "leave one of the two out"),
+        (
+            "plain.gltf --back-faces all",
+            "--back-faces all",
+            "write --occluder structure, or leave out --back-faces all",
+        ),
     ] {
         let output = rasray(folder, &format!("render {line} {image}"));
         let said = stderr(&output);

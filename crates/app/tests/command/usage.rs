@@ -112,7 +112,7 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         (
             "render cornell -o a.png --aperture 0.1 --focus 1 --primary raster",
             "--primary raster draws through a pinhole",
-            "leave out --primary raster, or --aperture",
+            "write --primary trace, or leave out --aperture",
         ),
         ("compare hard:E5 --systems mmrt --aperture 1", "--aperture", "leave it out"),
         ("render cornell -o a.png --ao-distance -1", "'-1' for '--ao-distance <METRES>'", "--help"),
