@@ -11,6 +11,11 @@
 
 #define PATH_INFINITY uintBitsToFloat(0x7F800000u)
 
+// What a step asks of a surface, in this order.
+#define PATH_PANE 0u
+#define PATH_LIGHT 1u
+#define PATH_LOBES 2u
+
 PathState path_begin(uint pixel, uint sample_index) {
     return PathState(vec3(1.0), pixel, vec3(0.0), sample_index, 0.0, MATERIAL_NONE, 0u, 0u, 0u, 0.0);
 }
@@ -75,10 +80,9 @@ void path_pass(inout PathState state, Ray ray, Surface s, vec3 direction, float 
 }
 
 // Goes straight through a smooth thin pane with the probability of the light that it lets through, or else makes up for
-// what does. True where the path went through.
-bool path_pass_pane(inout PathState state, Ray ray, Surface s, vec3 direction, float distance, float footprint,
-                    inout PathStep asked) {
-    BsdfTerms terms = bsdf_terms(s, -direction);
+// what does. True where the path went through. `terms` are of the pane and the direction from which it is seen.
+bool path_pass_pane(inout PathState state, Ray ray, Surface s, BsdfTerms terms, vec3 direction, float distance,
+                    float footprint, inout PathStep asked) {
     vec3 straight = bsdf_straight(terms);
     float probability = bsdf_straight_probability(terms, straight);
     if (!(probability > 0.0)) return false;
@@ -178,25 +182,32 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
         }
         state.radiance += state.throughput * s.emission * weight;
     }
-    if (SHADING_PANES && path_is_pane(s)
-        && path_pass_pane(state, ray, s, direction, distance, footprint, asked)) {
-        return asked;
-    }
-    if (state.bounce >= max_bounces) return asked;
-    // What light samples see: the smooth shape, where that is asked for.
-    Surface seen = terminator_surface(s, -direction);
+    Surface seen = s;
     BsdfTerms terms;
     BsdfSample chosen;
-    // What the light chooses, then what the surface does: one copy of the random numbers and of the lobes serves both.
-    [[dont_unroll]] for (uint technique = 0u; technique < 2u; technique++) {
-        uint dimension = random_dimension(state.bounce, technique == 0u ? RANDOM_LIGHT_KIND : RANDOM_BSDF_LOBE);
+    // What a pane lets through, what the light chooses, then what the surface does: one copy of the terms serves all, and
+    // one of the random numbers and of the lobes the last two.
+    uint technique = SHADING_PANES && path_is_pane(s) ? PATH_PANE : PATH_LIGHT;
+    [[dont_unroll]] for (; technique <= PATH_LOBES; technique++) {
+        if (technique == PATH_LIGHT) {
+            if (state.bounce >= max_bounces) return asked;
+            // What light samples see: the smooth shape, where that is asked for.
+            seen = terminator_surface(s, -direction);
+        } else {
+            seen = s;
+        }
+        if (technique != PATH_LOBES || TERMINATOR_IS_SMOOTH) terms = bsdf_terms(seen, -direction);
+        if (SHADING_PANES && technique == PATH_PANE) {
+            if (path_pass_pane(state, ray, s, terms, direction, distance, footprint, asked)) return asked;
+            continue;
+        }
+        bool is_light = technique == PATH_LIGHT;
+        uint dimension = random_dimension(state.bounce, is_light ? RANDOM_LIGHT_KIND : RANDOM_BSDF_LOBE);
         vec4 random = random_vec4(state.pixel, state.sample_index, dimension);
-        if (technique == 1u) seen = s;
-        if (technique == 0u || TERMINATOR_IS_SMOOTH) terms = bsdf_terms(seen, -direction);
         LightSample light;
         bool open;
         vec3 towards;
-        if (technique == 0u) {
+        if (is_light) {
             light = light_sample(seen, random);
             open = light.flags != 0u;
             towards = light.direction;
@@ -207,7 +218,7 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
         }
         if (!open) continue;
         BsdfValue value = bsdf_towards(terms, seen, towards);
-        if (technique == 1u) {
+        if (!is_light) {
             chosen = bsdf_chosen(chosen, value);
             continue;
         }
