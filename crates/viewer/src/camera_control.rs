@@ -72,6 +72,20 @@ impl CameraControl {
         control
     }
 
+    /// Its lens; a closed one, in focus where the camera turns around, where it has none.
+    pub fn lens(&self) -> Lens {
+        self.lens.unwrap_or(Lens { aperture: 0.0, focus: self.distance() as f32 })
+    }
+
+    /// Opens a lens, or closes it to a pinhole with an aperture of 0. Numbers that no lens has change nothing.
+    pub fn set_lens(&mut self, lens: Lens) {
+        if !(lens.aperture >= 0.0 && lens.aperture.is_finite() && lens.focus > 0.0 && lens.focus.is_finite())
+        {
+            return;
+        }
+        self.lens = (lens.aperture > 0.0).then_some(lens);
+    }
+
     fn distance(&self) -> f64 {
         (self.target - self.eye).length()
     }
@@ -204,6 +218,23 @@ mod tests {
         assert!(close(zoomed.target, control().target) && (zoomed.distance() - 4.5).abs() < 1.0e-9);
         zoomed.zoom(1.0e6);
         assert!(zoomed.distance() > 0.0 && zoomed.rounded().camera().is_ok());
+    }
+
+    #[test]
+    fn a_lens_opens_in_focus_of_the_target_and_closes() {
+        let mut control = control();
+        assert_eq!(control.lens(), Lens { aperture: 0.0, focus: 5.0 });
+        let open = Lens { aperture: 0.1, ..control.lens() };
+        control.set_lens(open);
+        assert_eq!(control.rounded().camera().expect("a camera").lens, Some(open));
+        for (aperture, focus) in [(f32::NAN, 1.0), (-0.1, 1.0), (0.1, 0.0), (0.1, f32::INFINITY)] {
+            control.set_lens(Lens { aperture, focus });
+            assert_eq!(control.lens(), open);
+        }
+        control.fly(1.0, 0.0, 0.0);
+        assert_eq!(control.lens(), open, "what is in focus stays as far away");
+        control.set_lens(Lens { aperture: 0.0, focus: 2.0 });
+        assert_eq!(control.rounded().lens, None);
     }
 
     #[test]

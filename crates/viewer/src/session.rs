@@ -127,21 +127,38 @@ impl Session {
         self.control.as_mut()
     }
 
+    /// The camera as it was moved, or else that of the last picture.
+    fn camera(&self) -> Option<CameraControl> {
+        if self.control.is_some() {
+            return self.control.clone();
+        }
+        let picture = self.picture.as_ref()?;
+        let camera = &picture.camera;
+        let frame = &camera.world_from_camera;
+        let (low, high) = self.opening.bounds;
+        let forward = (-frame.matrix3.z_axis).normalize_or_zero();
+        // Around the middle of the scene, or what is in front of a camera that has passed it.
+        let ahead = (0.5 * (low + high) - frame.translation).dot(forward);
+        let distance = ahead.max(0.2 * self.radius());
+        Some(CameraControl::from_camera(camera, [picture.width, picture.height], distance))
+    }
+
     /// Takes the camera from where the last picture was seen.
     fn take_camera(&mut self) -> Option<()> {
-        if self.control.is_none() {
-            let picture = self.picture.as_ref()?;
-            let camera = &picture.camera;
-            let frame = &camera.world_from_camera;
-            let (low, high) = self.opening.bounds;
-            let forward = (-frame.matrix3.z_axis).normalize_or_zero();
-            // Around the middle of the scene, or what is in front of a camera that has passed it.
-            let ahead = (0.5 * (low + high) - frame.translation).dot(forward);
-            let distance = ahead.max(0.2 * self.radius());
-            self.control =
-                Some(CameraControl::from_camera(camera, [picture.width, picture.height], distance));
-        }
+        self.control = Some(self.camera()?);
         Some(())
+    }
+
+    /// The lens of the camera, as [`CameraControl::lens`]; nothing before the first picture says where it is.
+    pub fn lens(&self) -> Option<Lens> {
+        self.camera().map(|camera| camera.lens())
+    }
+
+    /// Changes it at `now` (seconds).
+    pub fn set_lens(&mut self, lens: Lens, now: f64) {
+        if let Some(camera) = self.move_camera(now) {
+            camera.set_lens(lens);
+        }
     }
 
     /// Puts the camera back to where the command line had it.
@@ -316,6 +333,22 @@ mod tests {
         assert_eq!(session.changed_settings(0.1), None);
         session.shown = Shown::Tests;
         assert!(session.changed_settings(0.2).is_some_and(|settings| settings.shown == Shown::Tests));
+    }
+
+    #[test]
+    fn a_lens_is_part_of_the_camera_and_of_the_command_line() {
+        let mut session = session();
+        session.changed_settings(0.0);
+        assert_eq!(session.lens(), None);
+        picture(&mut session);
+        assert_eq!(session.lens(), Some(Lens { aperture: 0.0, focus: 4.0 }));
+        assert!(!session.is_camera_moved(), "a look at it moves nothing");
+        session.set_lens(Lens { aperture: 0.05, focus: 3.5 }, 1.0);
+        let settings = session.changed_settings(2.0).expect("changed");
+        let line = session.command_line(&settings, Path::new("o.png"));
+        assert!(line.contains("--aperture 0.05 --focus 3.5 "), "{line}");
+        session.reset_camera();
+        assert_eq!(session.lens().map(|lens| lens.aperture), Some(0.0));
     }
 
     #[test]

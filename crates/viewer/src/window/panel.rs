@@ -118,7 +118,7 @@ impl Panel {
         ui.label(RichText::new(session.scene_name()).heading().strong());
         show_state(ui, session);
         ui.separator();
-        show_view(ui, session);
+        show_view(ui, session, now);
         if session.playback.can_play() {
             ui.separator();
             show_time(ui, session, now);
@@ -241,7 +241,7 @@ fn show_state(ui: &mut egui::Ui, session: &Session) {
     }
 }
 
-fn show_view(ui: &mut egui::Ui, session: &mut Session) {
+fn show_view(ui: &mut egui::Ui, session: &mut Session, now: f64) {
     egui::Grid::new("view").num_columns(2).show(ui, |ui| {
         ui.label("Show");
         egui::ComboBox::from_id_salt("shown").selected_text(session.shown.name()).show_ui(ui, |ui| {
@@ -276,7 +276,34 @@ fn show_view(ui: &mut egui::Ui, session: &mut Session) {
             ui.weak("as the command line says");
         }
         ui.end_row();
+        show_lens(ui, session, now);
     });
+}
+
+fn show_lens(ui: &mut egui::Ui, session: &mut Session, now: f64) {
+    let Some(mut lens) = session.lens() else { return };
+    let before = lens;
+    ui.label("Aperture").on_hover_text("Diameter of the lens's opening; 0 is a pinhole");
+    let speed = 0.0005 * session.radius();
+    ui.add(
+        DragValue::new(&mut lens.aperture).range(0.0..=f32::MAX).speed(speed).max_decimals(5).suffix(" m"),
+    );
+    ui.end_row();
+    if lens.aperture > 0.0 {
+        ui.label("Focus").on_hover_text("Distance of the plane in focus, along the view");
+        let speed = 0.01 * f64::from(lens.focus);
+        ui.add(
+            DragValue::new(&mut lens.focus)
+                .range(f32::MIN_POSITIVE..=f32::MAX)
+                .speed(speed)
+                .max_decimals(4)
+                .suffix(" m"),
+        );
+        ui.end_row();
+    }
+    if lens != before {
+        session.set_lens(lens, now);
+    }
 }
 
 fn show_legend(ui: &mut egui::Ui, session: &Session) {
