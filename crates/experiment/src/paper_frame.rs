@@ -33,14 +33,17 @@ impl Default for FrameDefaults {
 }
 
 impl FrameDefaults {
-    /// The frame of its paper for the published preset of a system, as far as a paper shows one.
+    /// The frame of its paper for the published preset of a system, as far as a paper shows one. Other presets of the same
+    /// system draw first hits as the paper does, and trace paths through the structure.
     ///
     /// # Panics
     /// The registry of systems names what there is not; a test reads all of its rows.
     pub fn of(system: &System, preset: Preset) -> Self {
-        let Some(frame) = system.frame.filter(|_| preset == Preset::Published) else {
-            return Self::default();
-        };
+        let Some(frame) = system.frame else { return Self::default() };
+        let primary = Primary::named(frame.primary).expect("a way to first hits");
+        if preset != Preset::Published {
+            return Self { primary, ..Self::default() };
+        }
         let integrator = IntegratorRow::named(frame.integrator).expect("a registered integrator");
         let option = |(name, text): &(&str, &str)| {
             let row = integrator.option(name).expect("an option of the integrator");
@@ -49,7 +52,7 @@ impl FrameDefaults {
         Self {
             integrator,
             options: frame.options.iter().map(option).collect(),
-            primary: Primary::named(frame.primary).expect("a way to first hits"),
+            primary,
             occluder: OccluderKind::named(frame.occluder).expect("an occluder"),
         }
     }
@@ -72,13 +75,16 @@ mod tests {
     use rasray_systems::SYSTEMS;
 
     #[test]
-    fn every_published_preset_has_the_frame_of_its_paper_and_no_other_has() {
+    fn published_presets_have_the_frame_of_their_paper_and_others_its_first_hits() {
         for system in SYSTEMS {
             for preset in system.presets {
                 let frame = FrameDefaults::of(system, *preset);
                 IntegratorSpec::new(frame.integrator, &frame.options).expect("values that are taken");
+                let plain = FrameDefaults { primary: frame.primary, ..FrameDefaults::default() };
                 let is_published = *preset == Preset::Published;
-                assert_eq!(frame != FrameDefaults::default(), is_published, "{} {preset:?}", system.name);
+                assert!(is_published || frame == plain, "{} {preset:?}", system.name);
+                let is_drawn = frame.primary == Primary::Raster;
+                assert_eq!(is_drawn, system.frame.is_some(), "{} {preset:?}", system.name);
             }
             assert_eq!(
                 system.frame.is_some(),

@@ -60,7 +60,7 @@ pub struct FrameArguments {
     /// Where random numbers come from
     #[arg(long, value_parser = sampler_parser(), default_value = Sampler::Sobol.name())]
     pub sampler: Sampler,
-    /// How what the camera sees first is found, of images [default: trace; or the paper's]
+    /// How what the camera sees first is found, of images [default: trace; raster with a system after a paper]
     #[arg(long, value_parser = primary_parser())]
     pub primary: Option<Primary>,
     /// What answers the shadow rays of lights without extent, of images [default: structure; or the paper's]

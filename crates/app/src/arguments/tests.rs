@@ -124,7 +124,10 @@ fn published_presets_take_the_frame_of_their_paper() {
     let plain = ("path", "trace", "structure");
     for (line, expected) in [
         ("", plain),
-        ("--system mmrt", plain),
+        ("--system bvh", plain),
+        ("--system mmrt", ("path", "raster", "structure")),
+        ("--system mmrt --integrator path", plain),
+        ("--system ldc --primary trace", plain),
         ("--system mmrt --preset published", ("path", "raster", "shadow-maps")),
         ("--system mmrt --preset published --shadow-resolution 64", ("path", "raster", "shadow-maps")),
         ("--system mmrt --preset published --occluder structure", ("path", "raster", "structure")),
