@@ -47,30 +47,54 @@ layout(set = STRUCTURE_SET, binding = 3, scalar) buffer BvhScratchBuffer { uint 
 #define BVH_SCRATCH(s) bvh_scratch_words
 #endif
 
-// The boxes and references of a node's children side by side, read as whole vectors. A node of two children has none in
-// the last two places. An index past the end is counted and gives a node without children.
-BvhWideNode bvh_node(BvhRef s, uint node) {
+// Adds to the references with an invalid index, which readers count for themselves: an atomic in a loop costs time.
+void bvh_count_corrupted(BvhRef s, uint corrupted) {
+    if (corrupted != 0u) {
+        atomicAdd(BVH_HEADER(s).corrupted, corrupted);
+    }
+}
+
+// What a ray that descends along these axes reaches of a node's children, side by side: sides, then references.
+struct BvhChildren {
+    vec4 first_x;           // sides that it reaches first
+    vec4 last_x;            // sides that it reaches last
+    vec4 first_y;
+    vec4 last_y;
+    vec4 first_z;
+    vec4 last_z;
+    uvec4 references;       // BVH_NONE where there is no child
+};
+
+// The children of a node, read as whole vectors. A node of two children has none in the last two places. An index past the
+// end is counted and gives a node without children.
+BvhChildren bvh_children(BvhRef s, uint node, bvec3 descends, inout uint corrupted) {
     if (node >= BVH_HEADER(s).node_capacity) {
-        atomicAdd(BVH_HEADER(s).corrupted, 1u);
+        corrupted += 1u;
         const vec4 far = vec4(3.0e38);
-        return BvhWideNode(far, far, far, far, far, far, uvec4(BVH_NONE), BVH_NONE, 0u, 0u, 0u);
+        return BvhChildren(far, far, far, far, far, far, uvec4(BVH_NONE));
     }
     if (BVH_WIDTH == BVH_WIDE) {
-        uint at = 8u * node;
-        return BvhWideNode(uintBitsToFloat(BVH_NODE_VECTORS(s)[at]), uintBitsToFloat(BVH_NODE_VECTORS(s)[at + 1u]),
-            uintBitsToFloat(BVH_NODE_VECTORS(s)[at + 2u]), uintBitsToFloat(BVH_NODE_VECTORS(s)[at + 3u]),
-            uintBitsToFloat(BVH_NODE_VECTORS(s)[at + 4u]), uintBitsToFloat(BVH_NODE_VECTORS(s)[at + 5u]),
-            BVH_NODE_VECTORS(s)[at + 6u], BVH_NODE_VECTORS(s)[at + 7u].x, 0u, 0u, 0u);
+        // Lower sides stand before upper ones, so choosing the place is cheaper than choosing between both.
+        uvec3 first = 8u * node + uvec3(0u, 2u, 4u) + uvec3(descends);
+        uvec3 last = first ^ 1u;
+        return BvhChildren(
+            uintBitsToFloat(BVH_NODE_VECTORS(s)[first.x]), uintBitsToFloat(BVH_NODE_VECTORS(s)[last.x]),
+            uintBitsToFloat(BVH_NODE_VECTORS(s)[first.y]), uintBitsToFloat(BVH_NODE_VECTORS(s)[last.y]),
+            uintBitsToFloat(BVH_NODE_VECTORS(s)[first.z]), uintBitsToFloat(BVH_NODE_VECTORS(s)[last.z]),
+            BVH_NODE_VECTORS(s)[8u * node + 6u]);
     }
     uvec4 lower_0 = BVH_NODE_VECTORS(s)[4u * node];
     uvec4 upper_0 = BVH_NODE_VECTORS(s)[4u * node + 1u];
     uvec4 lower_1 = BVH_NODE_VECTORS(s)[4u * node + 2u];
     uvec4 upper_1 = BVH_NODE_VECTORS(s)[4u * node + 3u];
-    return BvhWideNode(uintBitsToFloat(uvec4(lower_0.x, lower_1.x, lower_0.xx)),
-        uintBitsToFloat(uvec4(upper_0.x, upper_1.x, upper_0.xx)), uintBitsToFloat(uvec4(lower_0.y, lower_1.y, lower_0.yy)),
-        uintBitsToFloat(uvec4(upper_0.y, upper_1.y, upper_0.yy)), uintBitsToFloat(uvec4(lower_0.z, lower_1.z, lower_0.zz)),
-        uintBitsToFloat(uvec4(upper_0.z, upper_1.z, upper_0.zz)), uvec4(lower_0.w, upper_0.w, uvec2(BVH_NONE)), lower_1.w,
-        0u, 0u, 0u);
+    uvec3 first_0 = mix(lower_0.xyz, upper_0.xyz, descends);
+    uvec3 last_0 = mix(upper_0.xyz, lower_0.xyz, descends);
+    uvec3 first_1 = mix(lower_1.xyz, upper_1.xyz, descends);
+    uvec3 last_1 = mix(upper_1.xyz, lower_1.xyz, descends);
+    return BvhChildren(uintBitsToFloat(uvec4(first_0.x, first_1.x, first_0.xx)), uintBitsToFloat(uvec4(last_0.x, last_1.x, last_0.xx)),
+        uintBitsToFloat(uvec4(first_0.y, first_1.y, first_0.yy)), uintBitsToFloat(uvec4(last_0.y, last_1.y, last_0.yy)),
+        uintBitsToFloat(uvec4(first_0.z, first_1.z, first_0.zz)), uintBitsToFloat(uvec4(last_0.z, last_1.z, last_0.zz)),
+        uvec4(lower_0.w, upper_0.w, uvec2(BVH_NONE)));
 }
 
 // The link by which a node is reached.
@@ -95,9 +119,9 @@ uint bvh_child(BvhRef s, uint link) {
 }
 
 // A triangle, read as whole vectors. An index past the end is counted and gives a triangle without area.
-BvhRecord bvh_record(BvhRef s, uint record) {
+BvhRecord bvh_record(BvhRef s, uint record, inout uint corrupted) {
     if (record >= BVH_HEADER(s).record_capacity) {
-        atomicAdd(BVH_HEADER(s).corrupted, 1u);
+        corrupted += 1u;
         return BvhRecord(vec3(0.0), vec3(0.0), vec3(0.0), PRIMITIVE_NONE);
     }
     uvec2 a = BVH_RECORD_VECTORS(s)[5u * record];

@@ -4,7 +4,7 @@
 #ifndef BVH_BOX_GLSL
 #define BVH_BOX_GLSL
 
-#include "bvh/types.glsl"
+#include "bvh/accessors.glsl"
 
 // The key of a child that is not to be entered.
 #define BVH_NO_KEY 0xFFFFFFFFu
@@ -43,30 +43,27 @@ BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min, vec3 lower, vec3 upper)
 }
 
 // Keys of a node's children: the t at which the ray enters the child's box, with the child's number in its two lowest bits.
-// They order the children by ray and boxes alone, always in the same way. BVH_NO_KEY where the ray misses a child, or enters it
-// behind `farthest`; the child `always` has its key in any case.
-uvec4 bvh_keys(BvhRay ray, BvhWideNode node, float farthest, uint always) {
-    precise vec4 first_x = ((ray.descends.x ? node.upper_x : node.lower_x) - ray.origin_first.x) * ray.inverse.x;
-    precise vec4 first_y = ((ray.descends.y ? node.upper_y : node.lower_y) - ray.origin_first.y) * ray.inverse.y;
-    precise vec4 first_z = ((ray.descends.z ? node.upper_z : node.lower_z) - ray.origin_first.z) * ray.inverse.z;
-    precise vec4 last_x = ((ray.descends.x ? node.lower_x : node.upper_x) - ray.origin_last.x) * ray.inverse.x;
-    precise vec4 last_y = ((ray.descends.y ? node.lower_y : node.upper_y) - ray.origin_last.y) * ray.inverse.y;
-    precise vec4 last_z = ((ray.descends.z ? node.lower_z : node.upper_z) - ray.origin_last.z) * ray.inverse.z;
+// They order the children by ray and boxes alone, always in the same way. `entered`: whether there is such a child, whose box
+// the ray hits, and not behind `farthest`.
+uvec4 bvh_keys(BvhRay ray, BvhChildren node, float farthest, out bvec4 entered) {
+    precise vec4 first_x = (node.first_x - ray.origin_first.x) * ray.inverse.x;
+    precise vec4 first_y = (node.first_y - ray.origin_first.y) * ray.inverse.y;
+    precise vec4 first_z = (node.first_z - ray.origin_first.z) * ray.inverse.z;
+    precise vec4 last_x = (node.last_x - ray.origin_last.x) * ray.inverse.x;
+    precise vec4 last_y = (node.last_y - ray.origin_last.y) * ray.inverse.y;
+    precise vec4 last_z = (node.last_z - ray.origin_last.z) * ray.inverse.z;
     vec4 entry = max(max(first_x, first_y), max(first_z, vec4(ray.t_min)));
     vec4 leave = min(min(last_x, last_y), min(last_z, vec4(farthest)));
-    const uvec4 numbers = uvec4(0u, 1u, 2u, 3u);
-    // A zero may have a sign.
-    uvec4 keys = (floatBitsToUint(entry) & 0x7FFFFFFCu) | numbers;
-    bvec4 is_missed = greaterThan(entry, leave);
     // Every node has two children.
-    bvec4 is_none = bvec4(false, false, equal(node.children.zw, uvec2(BVH_NONE)));
-    bvec4 is_wanted = equal(numbers, uvec4(always));
-    return mix(mix(mix(keys, uvec4(BVH_NO_KEY), is_missed), uvec4(BVH_NO_KEY), is_none), keys, is_wanted);
+    bvec4 is_child = bvec4(true, true, notEqual(node.references.zw, uvec2(BVH_NONE)));
+    entered = mix(bvec4(false), not(greaterThan(entry, leave)), is_child);
+    // A zero may have a sign.
+    return (floatBitsToUint(entry) & 0x7FFFFFFCu) | uvec4(0u, 1u, 2u, 3u);
 }
 
 // The t of a key, at most four units of rounding before the ray enters the child.
 float bvh_entry(uint key) {
-    return key == BVH_NO_KEY ? uintBitsToFloat(0x7F800000u) : uintBitsToFloat(key & ~3u);
+    return uintBitsToFloat(key & ~3u);
 }
 
 #endif

@@ -2,10 +2,10 @@
 // Reads: header, nodes, records; the scene where alpha is tested. Writes: header.corrupted.
 // Source: Laine 2010 and Hapala et al. 2011 (descent that can resume without its stack); Woop et al. 2013
 // (the triangle test).
-// A plain loop descends one subtree with the references of waiting children on a stack; that of a fresh ray is the whole
-// tree. Another one goes upwards from a finished subtree to the next one. A node's children are entered in an order that
-// depends on ray and boxes alone, so the link of a subtree is the whole position of a traversal: the stack may be
-// forgotten where it is full or a ray pauses.
+// A plain loop visits nodes, the references of waiting children on a stack. A node's children are entered in an order that
+// depends on ray and boxes alone, so the link of a subtree is the whole position of a traversal, and the stack may be
+// forgotten where it is full or a ray pauses: once the subtree is done, its parent is visited again for the children after
+// it. A ray for which neither happens visits no node twice.
 // cursor[0]: BVH_AT_*, cursor[1]: link of the subtree to enter or just left.
 #ifndef BVH_TRACE_GLSL
 #define BVH_TRACE_GLSL
@@ -51,13 +51,19 @@ float bvh_most(vec4 values) {
         stack_size += 1u; \
     }
 
-// The next subtree that waits on the stack and may hold a nearer hit; false where none does.
-#define BVH_POP(found) \
-    found = false; \
-    while (!found && stack_size > 0u) { \
+// Goes to the next subtree that waits on the stack and may hold a nearer hit; where none does, to the parent of the subtree
+// that all of them were in; where that was the tree, the ray is done.
+#define BVH_NEXT \
+    child = BVH_NONE; \
+    while (child == BVH_NONE && stack_size > 0u) { \
         stack_size -= 1u; \
-        child = stack_children[stack_size]; \
-        found = stack_entries[stack_size] <= best.t; \
+        child = stack_entries[stack_size] <= best.t ? stack_children[stack_size] : BVH_NONE; \
+    } \
+    left = BVH_WIDTH; \
+    if (child == BVH_NONE) { \
+        done = within == BVH_NONE; \
+        child = within / BVH_WIDTH; \
+        left = within % BVH_WIDTH; \
     }
 
 uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
@@ -65,23 +71,29 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     if (root == BVH_NONE) {
         return TRACE_MISS;
     }
+    uint corrupted = 0u;
     vec3 lower = vec3(0.0);
     vec3 upper = vec3(0.0);
     if ((root & BVH_LEAF) == 0u) {
-        BvhWideNode node = bvh_node(s, root);
-        lower = vec3(bvh_least(node.lower_x), bvh_least(node.lower_y), bvh_least(node.lower_z));
-        upper = vec3(bvh_most(node.upper_x), bvh_most(node.upper_y), bvh_most(node.upper_z));
+        BvhChildren node = bvh_children(s, root, bvec3(false), corrupted);
+        lower = vec3(bvh_least(node.first_x), bvh_least(node.first_y), bvh_least(node.first_z));
+        upper = vec3(bvh_most(node.last_x), bvh_most(node.last_y), bvh_most(node.last_z));
     }
     BvhRay slabs = bvh_ray(ray.origin, ray.direction, ray.t_min, lower, upper);
     Hit best = state.best;
-    // Link of the subtree that is entered or was left.
-    uint link = BVH_NONE;
+    // The subtree to enter, or where `left` is one of its children, the node to visit for those after that.
     uint child = root;
-    bool entering = true;
+    uint left = BVH_WIDTH;
+    // Link of the subtree that `child` and all that waits on the stack are in.
+    uint within = BVH_NONE;
     if (state.cursor[0] != BVH_AT_START) {
-        entering = state.cursor[0] == BVH_AT_ENTRY;
-        link = state.cursor[1];
-        child = link == BVH_NONE ? root : bvh_child(s, link);
+        within = state.cursor[1];
+        if (state.cursor[0] == BVH_AT_EXIT) {
+            child = within / BVH_WIDTH;
+            left = within % BVH_WIDTH;
+        } else if (within != BVH_NONE) {
+            child = bvh_child(s, within);
+        }
     }
     uint stack_children[BVH_STACK];
     float stack_entries[BVH_STACK];
@@ -89,92 +101,73 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint nodes = 0u;
     uint tests = 0u;
     bool paused = false;
-    bool ended = false;
-    while (!ended) {
-        while (entering) {
-            while (entering && (child & BVH_LEAF) == 0u && nodes + tests < work_budget) {
-                BvhWideNode node = bvh_node(s, child);
-                nodes += 1u;
-                uvec4 keys = bvh_keys(slabs, node, best.t, BVH_WIDE);
-                uvec4 children = node.children;
-                BVH_ORDER(x, y)
-                if (BVH_WIDTH == BVH_WIDE) {
-                    BVH_ORDER(z, w)
-                    BVH_ORDER(x, z)
-                    BVH_ORDER(y, w)
-                    BVH_ORDER(y, z)
-                }
-                trace_log(STEP_NODE, child, node.children.x, 0u, bvh_entry(keys.x), best.t);
-                if (keys.x == BVH_NO_KEY) {
-                    BVH_POP(entering)
-                } else {
-                    if (stack_size + BVH_WIDTH > BVH_STACK + 1u) {
-                        // Those that wait are found again upwards from the child that is entered.
-                        link = BVH_WIDTH * child + (keys.x & 3u);
-                        stack_size = 0u;
-                    } else {
-                        if (BVH_WIDTH == BVH_WIDE) {
-                            BVH_PUSH(w)
-                            BVH_PUSH(z)
-                        }
-                        BVH_PUSH(y)
-                    }
-                    child = children.x;
-                }
-            }
-            if (entering && (child & BVH_LEAF) == 0u) {
-                // The budget is spent: a node knows its own link.
-                link = bvh_parent(s, child);
-                paused = true;
-                break;
-            }
-            if (entering) {
-                uint first = child & ((1u << BVH_LEAF_SHIFT) - 1u);
-                uint count = ((child & ~BVH_LEAF) >> BVH_LEAF_SHIFT) + 1u;
-                for (uint record = first; record < first + count; record++) {
-                    BvhRecord triangle = bvh_record(s, record);
-                    test_corners(ray, triangle.primitive, triangle.a, triangle.b, triangle.c, -BVH_INFINITY, BVH_INFINITY, best);
-                }
-                tests += count;
-                if (any_hit && best.primitive != PRIMITIVE_NONE) {
-                    link = BVH_NONE;
-                    break;
-                }
-                BVH_POP(entering)
-            }
-        }
-        ended = paused || link == BVH_NONE;
-        // Upwards: of the siblings that are entered later, the first one comes next.
-        while (!ended && !entering) {
-            if (nodes + tests >= work_budget) {
-                paused = true;
-                ended = true;
-                break;
-            }
-            uint parent = link / BVH_WIDTH;
-            uint left = link % BVH_WIDTH;
-            BvhWideNode node = bvh_node(s, parent);
+    bool done = false;
+    while (!done) {
+        while (!done && (child & BVH_LEAF) == 0u && nodes + tests < work_budget) {
+            BvhChildren node = bvh_children(s, child, slabs.descends, corrupted);
             nodes += 1u;
-            uvec4 keys = bvh_keys(slabs, node, best.t, left);
-            trace_log(STEP_NODE, parent, node.children.x, 0u, bvh_entry(keys[left]), best.t);
-            uvec4 later = mix(uvec4(BVH_NO_KEY), keys, greaterThan(keys, uvec4(keys[left])));
-            uint next = min(min(later.x, later.y), min(later.z, later.w));
-            if (next != BVH_NO_KEY) {
-                link = BVH_WIDTH * parent + (next & 3u);
-                child = node.children[next & 3u];
-                entering = true;
+            bvec4 entered;
+            uvec4 keys = bvh_keys(slabs, node, best.t, entered);
+            if (left < BVH_WIDTH) {
+                within = bvh_parent(s, child);
+                entered = mix(bvec4(false), entered, greaterThan(keys, uvec4(keys[left])));
+            }
+            keys = mix(uvec4(BVH_NO_KEY), keys, entered);
+            uvec4 children = node.references;
+            BVH_ORDER(x, y)
+            if (BVH_WIDTH == BVH_WIDE) {
+                BVH_ORDER(z, w)
+                BVH_ORDER(x, z)
+                BVH_ORDER(y, w)
+                BVH_ORDER(y, z)
+            }
+            trace_log(STEP_NODE, child, node.references.x, 0u, keys.x == BVH_NO_KEY ? BVH_INFINITY : bvh_entry(keys.x), best.t);
+            if (keys.x == BVH_NO_KEY) {
+                BVH_NEXT
             } else {
-                link = node.parent;
-                ended = link == BVH_NONE;
+                if (stack_size + BVH_WIDTH > BVH_STACK + 1u) {
+                    // Those that wait are found again once the child that is entered is done.
+                    within = BVH_WIDTH * child + (keys.x & 3u);
+                    stack_size = 0u;
+                } else {
+                    if (BVH_WIDTH == BVH_WIDE) {
+                        BVH_PUSH(w)
+                        BVH_PUSH(z)
+                    }
+                    BVH_PUSH(y)
+                }
+                child = children.x;
+                left = BVH_WIDTH;
             }
         }
+        if (done) {
+            break;
+        }
+        if ((child & BVH_LEAF) == 0u) {
+            // The budget is spent.
+            paused = true;
+            break;
+        }
+        uint first = child & ((1u << BVH_LEAF_SHIFT) - 1u);
+        uint count = ((child & ~BVH_LEAF) >> BVH_LEAF_SHIFT) + 1u;
+        for (uint record = first; record < first + count; record++) {
+            BvhRecord triangle = bvh_record(s, record, corrupted);
+            test_corners(ray, triangle.primitive, triangle.a, triangle.b, triangle.c, -BVH_INFINITY, BVH_INFINITY, best);
+        }
+        tests += count;
+        if (any_hit && best.primitive != PRIMITIVE_NONE) {
+            break;
+        }
+        BVH_NEXT
     }
+    bvh_count_corrupted(s, corrupted);
     state.best = best;
     state.entries += nodes;
     state.tests += tests;
     if (paused) {
-        state.cursor[0] = entering ? BVH_AT_ENTRY : BVH_AT_EXIT;
-        state.cursor[1] = link;
+        // Nodes know their own links.
+        state.cursor[0] = left < BVH_WIDTH ? BVH_AT_EXIT : BVH_AT_ENTRY;
+        state.cursor[1] = left < BVH_WIDTH ? BVH_WIDTH * child + left : bvh_parent(s, child);
         return TRACE_PAUSED;
     }
     return best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
@@ -182,7 +175,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
 
 #undef BVH_ORDER
 #undef BVH_PUSH
-#undef BVH_POP
+#undef BVH_NEXT
 
 uint bvh_status(BvhRef s) {
     return BVH_HEADER(s).status;
