@@ -1,7 +1,8 @@
 // What: the pools of voxels with axis A-buffers, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
 // Reads, writes: header, voxels, normals, lists, fragments, scratch. Every access checks the capacity.
-// A list is a cell of a view: its word is that of voxel/lists.glsl.
+// A list is a cell of a view: its word is that of voxel/lists.glsl. Where voxels are the leaves there are no lists, and
+// these words are the triangles of voxels.
 // A place is the number of a fragment; in pages, of a slot.
 #ifndef VOXEL_ACCESSORS_GLSL
 #define VOXEL_ACCESSORS_GLSL
@@ -66,6 +67,23 @@ void voxel_mark(VoxelRef s, uint index, uint bits) {
 // The bits of a voxel: those of the axes it is searched along, and VOXEL_OCCUPIED.
 uint voxel_bits(VoxelRef s, uint index) {
     return index < voxel_count(s) ? VOXEL_VOXELS(s)[index / 8u] >> (VOXEL_BITS * (index % 8u)) & 15u : 0u;
+}
+
+// Lets a triangle stand for a voxel, if its id is the lowest so far. Voxels begin with zeros: they hold complements.
+void voxel_hold_triangle(VoxelRef s, uint index, uint primitive) {
+    if (index < voxel_count(s) && VOXEL_LISTS(s)[index] < ~primitive) {
+        atomicMax(VOXEL_LISTS(s)[index], ~primitive);
+    }
+}
+
+// The triangle that stands for an occupied voxel.
+uint voxel_triangle(VoxelRef s, uint index) {
+    return ~VOXEL_LISTS(s)[index];
+}
+
+// The size of what rays hit, metres: how far their points may lie from the surface.
+float voxel_leaf_size(VoxelRef s) {
+    return VOXEL_LEAVES == VOXEL_LEAVES_VOXELS ? VOXEL_HEADER(s).voxel : VOXEL_HEADER(s).cell;
 }
 
 // Whether the view along an axis keeps the fragments that lie in a voxel.

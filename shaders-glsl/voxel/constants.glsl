@@ -15,12 +15,16 @@
 #define VOXEL_MARKED_BY_FRAGMENTS 0u
 #define VOXEL_MARKED_BY_TRIANGLES 1u
 
+// What a ray hits in an occupied voxel: a fragment of it, or the voxel itself, where the ray enters it.
+#define VOXEL_LEAVES_FRAGMENTS 0u
+#define VOXEL_LEAVES_VOXELS 1u
+
 // How a ray steps within a voxel.
 #define VOXEL_MARCH_SAMPLES 0u
 #define VOXEL_MARCH_EXACT 1u
 
-// How far before the end of a ray its search stops, in widths of a cell: the fragments of what it ends on are within a
-// cell of it.
+// How far before the end of a ray its search stops, in widths of what it hits, a cell or a voxel: the fragments of what it
+// ends on are within a cell of it.
 #define VOXEL_ENDING 2.0
 
 // Which fragments parity counts: all before the point in its cell, or those of them at the depths of the voxel.

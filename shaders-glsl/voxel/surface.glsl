@@ -1,7 +1,7 @@
 // What: the surface at a hit of the axis A-buffers.
 // Reads: the scene (payload index, and what emits), fragments (the others). Writes: header.corrupted.
 // A hit names a triangle and the barycentrics of the point on its plane; they may lie outside the triangle by up to a
-// cell and are clamped to its nearest edge for shading, while the position stays on the ray.
+// cell, or voxel, and are clamped to its nearest edge for shading, while the position stays on the ray.
 #ifndef VOXEL_SURFACE_GLSL
 #define VOXEL_SURFACE_GLSL
 
@@ -10,7 +10,7 @@
 
 Surface voxel_surface_at(VoxelRef s, Ray ray, Hit hit) {
     bool stored = VOXEL_PAYLOAD != VOXEL_PAYLOAD_INDEX;
-    float cell = VOXEL_HEADER(s).cell;
+    float size = voxel_leaf_size(s);
     if (stored) {
         uint place = floatBitsToUint(hit.a);
         if (place >= voxel_stored(s)) {
@@ -21,12 +21,13 @@ Surface voxel_surface_at(VoxelRef s, Ray ray, Hit hit) {
         uvec3 words = uvec3(voxel_word(s, place, 1u), voxel_word(s, place, 2u), voxel_word(s, place, 3u));
         uint emitter = voxel_emitter(words);
         if (emitter == PRIMITIVE_NONE) {
-            return voxel_attributes_surface(words, ray, hit, cell);
+            return voxel_attributes_surface(words, ray, hit, size);
         }
         hit = stored_triangle_hit(emitter, ray, hit.t);
     }
-    // With parity, the point is known to within a cell.
-    return stored_triangle_surface(ray, hit, stored || VOXEL_ACCEPT == VOXEL_ACCEPT_PARITY, cell);
+    // With parity, the point is known to within a cell; of voxels to within a voxel.
+    bool is_near = stored || VOXEL_ACCEPT == VOXEL_ACCEPT_PARITY || VOXEL_LEAVES == VOXEL_LEAVES_VOXELS;
+    return stored_triangle_surface(ray, hit, is_near, size);
 }
 
 #endif

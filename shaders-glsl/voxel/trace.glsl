@@ -1,6 +1,6 @@
 // What: follows a ray through the voxels, and searches the occupied ones along their axes.
 // Reads: all pools, geometry. Writes: header.corrupted.
-// Source: Hu et al. section 3.2.
+// Source: Hu et al. section 3.2; voxels as leaves: section 5.2, voxel grids alone.
 #ifndef VOXEL_TRACE_GLSL
 #define VOXEL_TRACE_GLSL
 
@@ -10,13 +10,32 @@
 #include "voxel/search.glsl"
 #include "voxel/parity.glsl"
 
+// Lets the march's voxel become the best hit, where the ray enters it. A ray that begins in a voxel does not enter it.
+void voxel_take_voxel(VoxelRef s, Ray ray, float t, uint index, inout TraceState state) {
+    if (!(t > ray.t_min)) {
+        return;
+    }
+    uint primitive = voxel_triangle(s, index);
+    uint verdict = primitive >= geometry_triangle_count() ? TEST_OUTSIDE
+        : (primitive == ray.exclude_primitive ? TEST_EXCLUDED
+        : (!hit_is_better(state.best, t, primitive) ? TEST_NOT_BETTER
+        : (ray_culls_back_faces(ray) && back_face_is_passed_by_plane(ray, primitive) ? TEST_BACK_FACE : TEST_ACCEPTED)));
+    state.tests++;
+    trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, t);
+    if (verdict == TEST_ACCEPTED) {
+        trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
+        vec2 found = plane_barycentrics(primitive, ray.origin + t * ray.direction);
+        state.best = Hit(t, primitive, found.x, found.y);
+    }
+}
+
 // The ray without the fragments of the triangle that it leaves and of what it ends on.
 Ray voxel_clear_ends(VoxelRef s, Ray ray) {
-    float cell = VOXEL_HEADER(s).cell;
+    float size = voxel_leaf_size(s);
     if (ray.t_max < 3.0e38) {
-        ray.t_max -= VOXEL_ENDING * cell / length(ray.direction);
+        ray.t_max -= VOXEL_ENDING * size / length(ray.direction);
     }
-    return leaving_ray(ray, cell);
+    return leaving_ray(ray, size);
 }
 
 uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
@@ -55,7 +74,13 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
         if (bits == 0u) {
             trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);
         }
-        for (; traversal.axis < AXIS_VIEWS; traversal.axis++) {
+        if (VOXEL_LEAVES == VOXEL_LEAVES_VOXELS && bits != 0u) {
+            voxel_take_voxel(s, ray, traversal.voxels.t_in, voxel_index(s, traversal.voxel), state);
+            if (state.best.primitive != PRIMITIVE_NONE) {
+                break;
+            }
+        }
+        for (; VOXEL_LEAVES == VOXEL_LEAVES_FRAGMENTS && traversal.axis < AXIS_VIEWS; traversal.axis++) {
             if ((bits >> traversal.axis & 1u) == 0u || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
                 continue;
             }

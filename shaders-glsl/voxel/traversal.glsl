@@ -91,9 +91,9 @@ bool voxel_begin(VoxelRef s, Ray ray, out VoxelTraversal traversal) {
     return intersects;
 }
 
-// Goes to the next voxel; false at the end.
+// Goes to the next voxel; false at the end. A ray does not enter a voxel that it only touches within rounding.
 bool voxel_next(inout VoxelTraversal traversal) {
-    if (grid_take_neighbour(traversal.voxels, traversal.voxel)) {
+    if (VOXEL_LEAVES == VOXEL_LEAVES_FRAGMENTS && grid_take_neighbour(traversal.voxels, traversal.voxel)) {
         return true;
     }
     bool more = grid_next(traversal.voxels);

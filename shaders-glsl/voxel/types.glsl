@@ -23,6 +23,7 @@ layout(constant_id = 79) const uint VOXEL_MARKED = VOXEL_MARKED_BY_TRIANGLES;
 // Parity only.
 layout(constant_id = 81) const uint VOXEL_INSIDE = VOXEL_INSIDE_COLUMN;
 layout(constant_id = 82) const uint VOXEL_ENDS = ENDS_TOUCHING;
+layout(constant_id = 83) const uint VOXEL_LEAVES = VOXEL_LEAVES_FRAGMENTS;
 
 // State and sizes of voxels with axis A-buffers. 136 bytes.
 struct VoxelHeader {

@@ -1,6 +1,6 @@
 // What: marks the voxels of a column that a triangle reaches into, with the axis it faces most, or adds its
 // normal or a vote for that axis to them. The same for every builder.
-// Reads: geometry, header. Writes: voxels, normals.
+// Reads: geometry, header. Writes: voxels, normals, lists (voxels as leaves).
 // Source: Frid Kastrati and Goswami section 3.2, voxel generation. Sums of whole numbers replace the moving average
 // under a spin lock.
 #ifndef VOXEL_VISIT_VOXELS_GLSL
@@ -29,6 +29,9 @@ void voxel_visit_voxels(uint primitive, uint axis, ivec2 column) {
         uint index = voxel_index(build.structure, axis_to_world(ivec3(column, depth), axis));
         if (VOXEL_AXES == VOXEL_AXES_TRIANGLE) {
             voxel_mark(build.structure, index, VOXEL_OCCUPIED | 1u << axis);
+            if (VOXEL_LEAVES == VOXEL_LEAVES_VOXELS) {
+                voxel_hold_triangle(build.structure, index, primitive);
+            }
         } else {
             voxel_mark(build.structure, index, VOXEL_OCCUPIED);
             voxel_add_normal(build.structure, index, normal);

@@ -257,7 +257,7 @@ pub const OPTIONS: &[StructureOption] = &[
                 "A ray starts beyond those of the triangle that it leaves, and those where it ends do not count",
             ),
         ],
-        "With --accept tolerance, slope or parity: fragments as close to an end of the ray as the surface there",
+        "With --accept tolerance, slope or parity, or --leaves voxels: fragments as close to an end of the ray as the surface there",
     ),
     words(
         "march",
@@ -340,6 +340,16 @@ pub const OPTIONS: &[StructureOption] = &[
         SameForTriangles,
         &[("fragments", "The fragments in it"), ("triangles", "The triangles that reach into it")],
         "What makes a voxel occupied; by default fragments with --axes all, else triangles",
+    ),
+    words(
+        "leaves",
+        Method,
+        MayChange,
+        &[
+            ("fragments", "Its fragments, which the views keep"),
+            ("voxels", "The voxel itself, where the ray enters it; there are no views and no fragments"),
+        ],
+        "What a ray hits in an occupied voxel",
     ),
     words(
         "build",

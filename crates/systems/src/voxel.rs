@@ -1,6 +1,8 @@
 //! Options of the systems that trace voxels with axis A-buffers.
 
-use rasray_voxel::{Accept, Axes, Builder, Config, Coverage, Ends, Inside, March, Marking, Payload, Storage};
+use rasray_voxel::{
+    Accept, Axes, Builder, Config, Coverage, Ends, Inside, Leaves, March, Marking, Payload, Storage,
+};
 
 use crate::given::{Given, Setter};
 use crate::{Spec, SystemsError};
@@ -27,6 +29,11 @@ const OPTIONS: &[Setter<Config>] = &[
         given
             .choice(&[("fragments", Marking::Fragments), ("triangles", Marking::Triangles)])
             .map(|value| config.voxels = Some(value))
+    }),
+    ("leaves", |config, given| {
+        given
+            .choice(&[("fragments", Leaves::Fragments), ("voxels", Leaves::Voxels)])
+            .map(|value| config.leaves = value)
     }),
     ("march", |config, given| {
         given

@@ -10,7 +10,7 @@ use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
 use crate::layout::{list_count, scratch};
-use crate::{Axes, Config, Header, Marking, Payload, Pool, Storage};
+use crate::{Axes, Config, Header, Leaves, Marking, Payload, Pool, Storage};
 
 /// Pipelines of the build: the design of [`Voxels`](crate::Voxels).
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub struct Build {
     voxels: Option<Visit>,
     axes: Option<ComputePipeline>,
     lengths: Option<Lengths>,
-    store: Visit,
+    store: Option<Visit>,
     sort: Option<ListSort>,
     longest: Option<ComputePipeline>,
     status: ComputePipeline,
@@ -45,15 +45,19 @@ impl Build {
             let count = visits.visit("build_raster", "build_4_count", masked)?;
             Lengths::new(pipelines, count, "build_5_scan")
         };
+        let store = || visits.visit("build_raster", "build_6_store", variant);
+        let keeps = config.leaves == Leaves::Fragments;
         let sort = || ListSort::new(pipelines, "build_7_sort", "", "build_8_sort_long");
         Ok(Self {
             large: visits.large("build_1_large")?,
             voxels: (config.marking() == Marking::Triangles).then(voxels).transpose()?,
             axes: (config.axes != Axes::Triangle).then(|| pipelines.compute("build_3_axes")).transpose()?,
-            lengths: (config.storage == Storage::Contiguous).then(lengths).transpose()?,
-            store: visits.visit("build_raster", "build_6_store", variant)?,
+            lengths: (keeps && config.storage == Storage::Contiguous).then(lengths).transpose()?,
+            store: keeps.then(store).transpose()?,
             sort: config.sorts().then(sort).transpose()?,
-            longest: (!config.bisects()).then(|| pipelines.compute("build_9_longest")).transpose()?,
+            longest: (keeps && !config.bisects())
+                .then(|| pipelines.compute("build_9_longest"))
+                .transpose()?,
             status: pipelines.compute("build_10_status")?,
         })
     }
@@ -92,7 +96,9 @@ impl Build {
         if let Some(lengths) = &self.lengths {
             lengths.record(recorder, target, &views, lists, shaders);
         }
-        self.store.record(recorder, target, &views);
+        if let Some(store) = &self.store {
+            store.record(recorder, target, &views);
+        }
         if config.axes == Axes::All {
             axes(recorder);
         }

@@ -25,6 +25,16 @@ pub enum Marking {
     Triangles,
 }
 
+/// What a ray hits in an occupied voxel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Leaves {
+    /// Its fragments, which the views keep.
+    Fragments,
+    /// The voxel itself, where the ray enters it; its triangle with the lowest id stands for it. There are no views and no
+    /// fragments. Needs [`Axes::Triangle`] and [`Payload::Index`].
+    Voxels,
+}
+
 /// How a ray steps within a voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
@@ -114,8 +124,11 @@ pub enum Payload {
 pub struct Config {
     /// Cells along a side of each view, 1 to 8192.
     pub resolution: u32,
-    /// Voxels along a side, 1 to 1024; the square root of three times the resolution where absent.
+    /// Voxels along a side, 1 to 1024. Where absent, the square root of three times the resolution; with
+    /// [`Leaves::Voxels`] the resolution, and no more than [`VOXEL_LEAVES_GRID`].
     pub grid: Option<u32>,
+    /// What rays hit.
+    pub leaves: Leaves,
     /// Which views keep a fragment.
     pub axes: Axes,
     /// What makes a voxel occupied; fragments where absent and all views keep all, else triangles.
@@ -128,7 +141,7 @@ pub struct Config {
     pub accept: Accept,
     /// Which fragments decide whether a point is inside; only for [`Accept::Parity`].
     pub inside: Inside,
-    /// Whether rays hit what they leave and end on; only for [`Accept::Parity`].
+    /// Whether rays hit what they leave and end on; only for [`Accept::Parity`] and [`Leaves::Voxels`].
     pub ends: Ends,
     /// Which cells keep a triangle.
     pub coverage: Coverage,
@@ -155,6 +168,9 @@ pub struct Config {
     pub work_budget: Option<u32>,
 }
 
+/// Most voxels along a side that follow from the resolution where voxels are hit themselves: 72 MiB of them.
+pub const VOXEL_LEAVES_GRID: u32 = 256;
+
 rasray_ads::configured!(Config);
 
 impl Config {
@@ -163,6 +179,7 @@ impl Config {
         Self {
             resolution,
             grid: None,
+            leaves: Leaves::Fragments,
             axes: Axes::Triangle,
             voxels: None,
             march: March::Exact,
@@ -210,8 +227,11 @@ impl Config {
 
     /// Voxels along a side.
     pub fn grid(&self) -> u32 {
-        let balanced = (3.0 * f64::from(self.resolution)).sqrt().round();
-        self.grid.unwrap_or(balanced as u32).clamp(1, numbers::VOXEL_GRID_LIMIT)
+        let balanced = match self.leaves {
+            Leaves::Fragments => (3.0 * f64::from(self.resolution)).sqrt().round() as u32,
+            Leaves::Voxels => self.resolution.min(VOXEL_LEAVES_GRID),
+        };
+        self.grid.unwrap_or(balanced).clamp(1, numbers::VOXEL_GRID_LIMIT)
     }
 
     /// What makes a voxel occupied.
@@ -222,12 +242,17 @@ impl Config {
 
     /// Whether lists are sorted: not those in pages.
     pub fn sorts(&self) -> bool {
-        self.sort && self.storage != Storage::Paged
+        self.sort && self.storage != Storage::Paged && self.leaves == Leaves::Fragments
     }
 
     /// Whether a list is searched by bisection; else a search may have to read all of it.
     pub(crate) fn bisects(&self) -> bool {
         self.sort && self.storage == Storage::Contiguous
+    }
+
+    /// Whether what rays hit may lie before or behind the surface, so that [`Config::ends`] matter.
+    fn has_ends(&self) -> bool {
+        self.accept == Accept::Parity || self.leaves == Leaves::Voxels
     }
 
     /// Checks ranges and combinations.
@@ -272,6 +297,14 @@ impl Config {
                 option: "coverage",
                 value: "conservative".to_owned(),
                 expected: "cells that keep all that reaches into them need the axes `triangle` and the acceptance `plane`",
+            });
+        }
+        let is_plain = self.axes == Axes::Triangle && self.payload == Payload::Index;
+        if self.leaves == Leaves::Voxels && (!is_plain || self.coverage == Coverage::Conservative) {
+            return Err(AdsError::Option {
+                option: "leaves",
+                value: "voxels".to_owned(),
+                expected: "voxels are hit themselves only with the axes `triangle`, the payload `index` and another coverage than `conservative`",
             });
         }
         if self.ids && self.payload != Payload::Material {
@@ -329,7 +362,11 @@ impl Config {
             Payload::Material => numbers::VOXEL_PAYLOAD_MATERIAL,
             Payload::Mirror => numbers::VOXEL_PAYLOAD_MIRROR,
         };
-        let ends = if self.accept == Accept::Parity { self.ends } else { Ends::Touching };
+        let leaves = match self.leaves {
+            Leaves::Fragments => numbers::VOXEL_LEAVES_FRAGMENTS,
+            Leaves::Voxels => numbers::VOXEL_LEAVES_VOXELS,
+        };
+        let ends = if self.has_ends() { self.ends } else { Ends::Touching };
         let inside = match self.inside {
             Inside::Column => numbers::VOXEL_INSIDE_COLUMN,
             Inside::Voxel => numbers::VOXEL_INSIDE_VOXEL,
@@ -337,6 +374,7 @@ impl Config {
         vec![
             (ids::VOXEL_INSIDE, inside),
             (ids::VOXEL_ENDS, ends.number()),
+            (ids::VOXEL_LEAVES, leaves),
             (ids::VOXEL_AXES, axes),
             (ids::VOXEL_MARCH, march),
             (ids::VOXEL_ACCEPT, accept),
@@ -354,6 +392,13 @@ impl Config {
     pub fn options(&self) -> Vec<(&'static str, String)> {
         let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         let payload = if self.payload == Payload::Index { "index" } else { "attributes" };
+        if self.leaves == Leaves::Voxels {
+            return vec![
+                ("leaves", lower(&self.leaves)),
+                ("grid", self.grid().to_string()),
+                ("ends", self.ends.name().to_owned()),
+            ];
+        }
         let mut options = vec![
             ("storage", self.storage.name().to_owned()),
             ("resolution", self.resolution.to_string()),

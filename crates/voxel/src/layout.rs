@@ -2,7 +2,7 @@
 
 use rasray_ads::{AdsError, Scan, Scratch, Sizes};
 
-use crate::{Axes, Builder, Config, Header, Payload, Pool, Storage};
+use crate::{Axes, Builder, Config, Header, Leaves, Payload, Pool, Storage};
 
 /// Lists of all three views: one per cell.
 pub fn list_count(resolution: u32) -> u64 {
@@ -27,14 +27,18 @@ pub struct Demand {
 pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
     let voxels = u64::from(config.grid()).pow(3);
-    let lists = list_count(config.resolution);
+    // Voxels that are hit themselves have a word each in place of lists, and no fragments.
+    let (lists, entries) = match config.leaves {
+        Leaves::Fragments => (list_count(config.resolution), demand.entries),
+        Leaves::Voxels => (voxels, 0),
+    };
     let normals = if config.axes == Axes::Triangle { 0 } else { voxels };
     let sizes = [
         (Pool::Header, 1, size_of::<Header>() as u64),
         (Pool::Voxels, voxels.div_ceil(8), 4),
         (Pool::Normals, normals, 12),
         (Pool::Lists, lists, 4),
-        (Pool::Fragments, demand.entries, 4 * entry_words(config)),
+        (Pool::Fragments, entries, 4 * entry_words(config)),
         (Pool::Scratch, scratch(config).words(demand.large, demand.long_lists), 4),
     ];
     let sizes = Sizes::of("voxel", sizes)?;
@@ -54,10 +58,8 @@ pub(crate) fn entry_words(config: &Config) -> u64 {
 /// What the pool of scratch holds: the sums of the scan where lists are counted, and the words that binning and sorting
 /// use.
 pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
-    let sums = match config.storage {
-        Storage::Contiguous => Scan::sums(list_count(config.resolution)),
-        Storage::Linked | Storage::Paged => 0,
-    };
+    let counted = config.storage == Storage::Contiguous && config.leaves == Leaves::Fragments;
+    let sums = if counted { Scan::sums(list_count(config.resolution)) } else { 0 };
     Scratch { pool: Pool::Scratch, sums, builder: config.builder, sorts: config.sorts() }
 }
 
@@ -65,7 +67,8 @@ pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
 /// triangle reaches into in the view it faces most.
 pub(crate) fn widest_view(config: &Config) -> u64 {
     let cells = |side: u32| (u64::from(side) + 2).pow(2);
-    cells(config.resolution).max(8 * cells(config.grid()))
+    let columns = 8 * cells(config.grid());
+    if config.leaves == Leaves::Voxels { columns } else { cells(config.resolution).max(columns) }
 }
 
 /// The first guess where nothing has been counted: one per cell of one view.
@@ -79,7 +82,7 @@ pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
 pub struct FormulaBytes {
     /// Per eight voxels a word of 4; and 12 per voxel where normals are averaged.
     pub voxels: u64,
-    /// Per cell of three views: 4.
+    /// Per cell of three views: 4. Where voxels are the leaves, per voxel: 4.
     pub lists: u64,
     /// Per fragment: 8, or 16 with attributes; and 4 where it is linked. Per page: 4, and that of its fragments.
     pub fragments: u64,
@@ -110,6 +113,16 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     };
     let long = if config.sort && config.storage != Storage::Paged { 8 * demand.long_lists } else { 0 };
     let large = if config.builder == Builder::Binning { 4 * demand.large } else { 0 };
+    if config.leaves == Leaves::Voxels {
+        let voxels = grid * grid * grid;
+        return FormulaBytes {
+            voxels: voxels.div_ceil(8) * 4,
+            lists: 4 * voxels,
+            fragments: 0,
+            ids: 0,
+            rest: 136 + large,
+        };
+    }
     FormulaBytes {
         voxels: (grid * grid * grid).div_ceil(8) * 4 + if averaged { grid * grid * grid * 12 } else { 0 },
         lists: cells * 4,
@@ -150,12 +163,19 @@ mod tests {
                 Config { grid, storage: Storage::Contiguous, ..Config::published_selective(resolution) },
                 Config { grid, storage: Storage::Linked, ..Config::robust(resolution) },
                 Config { grid, storage: Storage::Paged, page: 5, ..Config::robust(resolution) },
+                Config { grid, leaves: Leaves::Voxels, ..Config::robust(resolution) },
+                Config {
+                    grid,
+                    leaves: Leaves::Voxels,
+                    builder: Builder::Binning,
+                    ..Config::robust(resolution)
+                },
             ] {
                 let demand = Demand { entries: 12_345, long_lists: 3, large: 7 };
                 let sizes = plan(&config, demand).expect("options are in range");
                 assert_eq!(sizes.bytes(), formula_bytes(&config, demand).total());
                 let more = formula_bytes(&config, Demand { entries: 12_346, ..demand }).total();
-                assert_ne!(sizes.bytes(), more);
+                assert_eq!(sizes.bytes() != more, config.leaves == Leaves::Fragments);
                 let longer = formula_bytes(&config, Demand { long_lists: 4, ..demand }).total();
                 assert_eq!(sizes.bytes() != longer, config.sorts());
             }

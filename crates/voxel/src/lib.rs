@@ -17,7 +17,9 @@ mod structure;
 mod validate;
 
 pub use build::Build;
-pub use config::{Accept, Axes, Config, Coverage, Inside, March, Marking, Payload, Storage};
+pub use config::{
+    Accept, Axes, Config, Coverage, Inside, Leaves, March, Marking, Payload, Storage, VOXEL_LEAVES_GRID,
+};
 pub use layout::{Demand, FormulaBytes, formula_bytes, list_count, plan};
 pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder, Ends};

@@ -9,7 +9,7 @@ rasray_ads::pool_names! {
         Voxels = "voxels",
         /// Sums of normals.
         Normals = "normals",
-        /// Heads or ends of lists.
+        /// Heads or ends of lists; where voxels are the leaves, the triangles of voxels.
         Lists = "lists",
         /// Fragments, or pages of them.
         Fragments = "fragments",

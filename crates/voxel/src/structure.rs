@@ -11,7 +11,7 @@ use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
 
 use crate::build::Build;
 use crate::layout::{Demand, first_plan, formula_bytes, plan, scratch, widest_view};
-use crate::{Accept, Config, Contents, Coverage, Header, March, Pool, Storage, well_formed};
+use crate::{Accept, Config, Contents, Coverage, Header, Leaves, March, Pool, Storage, well_formed};
 
 /// Lists of maximum length that a ray gets rounds for.
 const LONG_LISTS_PER_RAY: u32 = 64;
@@ -143,6 +143,10 @@ impl Design for Build {
         let parity = config.accept == Accept::Parity && !config.bisects();
         let reads = if parity { points + u64::from(VOXEL_REFINEMENTS) + 1 } else { 1 };
         let triangles = parts.geometry.triangle_count();
+        if config.leaves == Leaves::Voxels {
+            // One triangle per voxel.
+            return 16 + (2 * steps).div_ceil(budget) as u32;
+        }
         let longest = match config.bisects() {
             true => triangles,
             false => header.longest.saturating_mul(LONG_LISTS_PER_RAY).min(triangles),
@@ -166,7 +170,7 @@ impl Design for Build {
             paths: parts.config.paths(),
             formula_bytes: formula.total(),
             diagnostic_bytes: formula.ids,
-            stored: Some(header.fragments.into()),
+            stored: (parts.config.leaves == Leaves::Fragments).then_some(header.fragments.into()),
             ..StructureReport::default()
         }
     }

@@ -1,7 +1,7 @@
 //! Checks the contents of built voxels and axis A-buffers.
 
 use crate::layout::entry_words;
-use crate::{Config, Header, Payload, Storage, list_count};
+use crate::{Config, Header, Leaves, Payload, Storage, list_count};
 
 /// What rays read, as downloaded, in words.
 #[derive(Clone, Debug)]
@@ -12,7 +12,7 @@ pub struct Contents {
     pub header: Header,
     /// Four bits per voxel: the axes it is searched along, and whether something lies in it.
     pub voxels: Vec<u32>,
-    /// Of each cell: where its fragments end; or a link to the newest, the place + 1; or the word that leads
+    /// Where voxels are the leaves, the complement of each voxel's triangle. Else of each cell: where its fragments end; or a link to the newest, the place + 1; or the word that leads
     /// to the newest page. 0 where a linked list is empty.
     pub lists: Vec<u32>,
     /// Depth and triangle of each fragment, or depth, triangle or terms of the material, colour and normal; where it is
@@ -96,6 +96,14 @@ pub enum Fault {
         list: usize,
         /// The depth, as text: it may be NaN.
         z: String,
+    },
+    /// An occupied voxel that is hit itself has an invalid triangle index, or an empty one has a triangle.
+    #[error("voxel {voxel} is occupied without a triangle or empty with one: {primitive}")]
+    Triangle {
+        /// The voxel.
+        voxel: usize,
+        /// Its triangle.
+        primitive: u32,
     },
     /// An empty voxel is searched, or an occupied one is not.
     #[error("voxel {voxel} has the bits {bits:04b}")]
@@ -212,7 +220,9 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
     let named = contents.config.payload != Payload::Material;
     let mut listed = 0;
     let mut seen = vec![false; contents.stored() as usize];
-    for list in 0..list_count(contents.config.resolution) as usize {
+    let keeps = contents.config.leaves == Leaves::Fragments;
+    let lists = if keeps { list_count(contents.config.resolution) as usize } else { 0 };
+    for list in 0..lists {
         let places = contents.places(list)?;
         listed += places.len();
         for &place in &places {
@@ -245,6 +255,10 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
         let bits = contents.voxels[voxel / 8] >> (4 * (voxel % 8)) & 15;
         if (bits & 8 != 0) != (bits & 7 != 0) {
             return Err(Fault::Voxel { voxel, bits });
+        }
+        let primitive = if keeps { u32::MAX } else { !contents.lists[voxel] };
+        if !keeps && (bits != 0) != (primitive < triangles) {
+            return Err(Fault::Triangle { voxel, primitive });
         }
     }
     Ok(())

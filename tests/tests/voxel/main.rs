@@ -1,6 +1,8 @@
-//! Voxels over A-buffers along the axes: marks, storages, exactness, pools of every edge capacity.
+//! Voxels over A-buffers along the axes: marks, storages, exactness, voxels as leaves, pools of every edge
+//! capacity.
 
 mod capacity;
 mod exact;
+mod leaves;
 mod marks;
 mod storage;
