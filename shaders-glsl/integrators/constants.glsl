@@ -19,4 +19,15 @@
 // WhittedState.waiting where no ray is left to be traced.
 #define WHITTED_ENDED 0xFFFFFFFFu
 
+// FetchConstants.step.
+// Counts the hits of each pixel.
+#define FETCH_COUNT 0u
+// Gives each list its place.
+#define FETCH_PLACE 1u
+// Stores the slots of each list.
+#define FETCH_STORE 2u
+// Most hits of a list that one fragment looks at. Software drivers end the loops of an invocation after 65,535 iterations
+// in all, and every surface has loops of its own.
+#define FETCH_PART 256u
+
 #endif

@@ -5,6 +5,7 @@ use rasray_ads::AdsError;
 use rasray_frame::FrameError;
 use rasray_gpu::{Device, GpuError};
 use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, PosePass, Sampling, SceneTables, View};
+use rasray_integrators::IntegratorError;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
 use rasray_scene_source::LoadError;
@@ -66,6 +67,9 @@ pub(super) fn tracer_error(error: &TracerError) -> ExperimentError {
 pub(super) fn frame_error(error: FrameError) -> ExperimentError {
     match error {
         FrameError::Tracer(error) => tracer_error(&error),
+        FrameError::Integrator(IntegratorError::Ads(error @ AdsError::Option { option: "fetch", .. })) => {
+            ExperimentError::usage(error.to_string(), "leave out --fetch raster, or choose another --system")
+        }
         FrameError::Unfinished { .. } => ExperimentError::refused(
             error.to_string(),
             "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, \

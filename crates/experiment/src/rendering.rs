@@ -22,6 +22,9 @@ use rasray_report::{Pass, PassOf};
 fn integrator(frame: &Frame, desc: &IntegratorDesc<'_>) -> Result<Box<dyn Integrator>, ExperimentError> {
     frame.integrator.make(desc).map_err(|error| match error {
         IntegratorError::Value(_) => ExperimentError::usage(error.to_string(), ""),
+        IntegratorError::CannotFetch { .. } => {
+            ExperimentError::device(error, "leave out --fetch raster, or choose another --device")
+        }
         other => image_error(other),
     })
 }

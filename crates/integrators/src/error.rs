@@ -75,6 +75,12 @@ pub enum IntegratorError {
         /// What the device lacks.
         reason: String,
     },
+    /// Surfaces cannot be fetched by drawing.
+    #[error("surfaces cannot be fetched by drawing: {reason}")]
+    CannotFetch {
+        /// What the device lacks.
+        reason: String,
+    },
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] rasray_gpu::GpuError),

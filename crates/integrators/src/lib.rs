@@ -38,6 +38,7 @@
 
 mod aov;
 mod error;
+mod fetch;
 mod film;
 mod integrator;
 mod kernels;
@@ -49,6 +50,7 @@ mod wave;
 
 pub use aov::AovPass;
 pub use error::IntegratorError;
+pub use fetch::{Fetch, FetchCounts};
 pub use film::{Film, PIXEL_LIMIT};
 pub use integrator::{Integrator, IntegratorDesc, check_features};
 pub use rasray_shaders_glsl::constants::scene::PATH_LAYER_LIMIT;

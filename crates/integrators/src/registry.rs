@@ -16,7 +16,7 @@ mod whitted;
 
 pub use ambient_occlusion::AmbientOcclusion;
 pub use layers::Layers;
-pub use path::{BOUNCE_LIMIT, GlassShadows, Path, PathOptions, SpecularLobe};
+pub use path::{BOUNCE_LIMIT, Fetching, GlassShadows, Path, PathOptions, SpecularLobe};
 pub use raycast::Raycast;
 pub use whitted::{RAY_DEPTH_LIMIT, Select, Shadows, Whitted, WhittedOptions};
 

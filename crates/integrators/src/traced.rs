@@ -3,7 +3,7 @@
 use rasray_ads::{AdsError, Domain, Occluder, RayQueue, Structure, TraceMode};
 use rasray_gpu::Recorder;
 
-use crate::{Visibility, Wave};
+use crate::{Fetch, Visibility, Wave};
 
 /// A structure, and what answers some rays in its place.
 #[derive(Clone, Copy)]
@@ -15,17 +15,19 @@ pub struct Traced<'a> {
     pub occluder: Option<&'a dyn Occluder>,
     /// Finds what camera rays hit by drawing; where absent, they are traced as all others.
     pub primary: Option<&'a Visibility>,
+    /// Fetches the surfaces of what is traced by drawing; where absent, the structure looks them up.
+    pub fetch: Option<&'a Fetch>,
 }
 
 impl<'a> From<&'a dyn Structure> for Traced<'a> {
     fn from(structure: &'a dyn Structure) -> Self {
-        Self { closest: structure, occluder: None, primary: None }
+        Self { closest: structure, occluder: None, primary: None, fetch: None }
     }
 }
 
 impl<'a, S: Structure> From<&'a S> for Traced<'a> {
     fn from(structure: &'a S) -> Self {
-        Self { closest: structure, occluder: None, primary: None }
+        Self { closest: structure, occluder: None, primary: None, fetch: None }
     }
 }
 
@@ -42,10 +44,16 @@ impl<'a> Traced<'a> {
         Self { occluder, ..self }
     }
 
+    /// The same with surfaces fetched by `fetch`.
+    #[must_use]
+    pub fn with_fetch(self, fetch: Option<&'a Fetch>) -> Self {
+        Self { fetch, ..self }
+    }
+
     /// Records hits and surfaces of the camera rays of a wave.
     ///
     /// # Errors
-    /// The structure was made without a scene.
+    /// The structure was made without a scene, or surfaces are drawn and its hits are fragments.
     pub(crate) fn record_primary(
         self,
         recorder: &mut Recorder<'_>,
@@ -64,7 +72,7 @@ impl<'a> Traced<'a> {
     /// Records hits and surfaces of the slots of `domain`.
     ///
     /// # Errors
-    /// The structure was made without a scene.
+    /// The structure was made without a scene, or surfaces are drawn and its hits are fragments.
     pub(crate) fn record_closest(
         self,
         recorder: &mut Recorder<'_>,
@@ -72,7 +80,10 @@ impl<'a> Traced<'a> {
         domain: Domain,
     ) -> Result<(), AdsError> {
         self.closest.record_trace(recorder, queue, domain, TraceMode::Closest, self.closest.rounds());
-        self.closest.record_surfaces(recorder, queue, domain)
+        match self.fetch {
+            Some(fetch) => fetch.record(recorder, queue, domain, self.closest.kind()),
+            None => self.closest.record_surfaces(recorder, queue, domain),
+        }
     }
 
     /// Records whether rays of the slots of `domain` hit anything.

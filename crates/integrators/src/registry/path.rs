@@ -16,7 +16,7 @@ use rasray_shaders_glsl::{
 };
 
 use crate::{
-    Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
+    Fetch, Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
     integrator::{check_features, check_wave},
     kernels::{
         Bindings, Bound, Kernel, WaveConstants, binding, camera_constants, device_buffer, film, shadow_queue,
@@ -26,14 +26,14 @@ use crate::{
 
 mod options;
 
-pub use options::{BOUNCE_LIMIT, GlassShadows, PathOptions, SpecularLobe};
-use options::{BOUNCES, GLASS_SHADOWS, SHADOW_TERMINATOR, SPECULAR};
+pub use options::{BOUNCE_LIMIT, Fetching, GlassShadows, PathOptions, SpecularLobe};
+use options::{BOUNCES, FETCH, GLASS_SHADOWS, SHADOW_TERMINATOR, SPECULAR};
 
 /// The registry's row.
 pub(super) const ROW: IntegratorRow = IntegratorRow {
     name: "path",
     doc: "Path tracing with light sampling",
-    options: &[&BOUNCES, &GLASS_SHADOWS, &SHADOW_TERMINATOR, &SPECULAR],
+    options: &[&BOUNCES, &GLASS_SHADOWS, &SHADOW_TERMINATOR, &SPECULAR, &FETCH],
     rays: &[RayKind::Camera, RayKind::Scattered, RayKind::Shadow],
     workload: |spec| match PathOptions::of(spec).bounces {
         0 => Workload {
@@ -73,6 +73,8 @@ pub struct Path {
     bindings: Bindings,
     primary: Kernel,
     shade: Kernel,
+    /// Finds surfaces in place of the structure.
+    fetch: Option<Fetch>,
 }
 
 /// How light samples are tested.
@@ -91,7 +93,7 @@ impl Path {
     /// More than [`BOUNCE_LIMIT`] bounces, sizes that do not fit, out of memory, or the device
     /// refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, options: impl Into<PathOptions>) -> Result<Self, IntegratorError> {
-        let PathOptions { bounces, glass_shadows, shadow_terminator, specular } = options.into();
+        let PathOptions { bounces, glass_shadows, shadow_terminator, specular, fetch } = options.into();
         BOUNCES.check(Value::Whole(bounces))?;
         let panes = desc.features.panes && bounces > 0 && glass_shadows == GlassShadows::Tint;
         let passing = desc.features.blend || panes;
@@ -128,6 +130,9 @@ impl Path {
             features: desc.features,
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
             shade: bindings.kernel(device, shader, &constants)?,
+            fetch: (fetch == Fetching::Raster)
+                .then(|| Fetch::new(device, desc.scene, capacity))
+                .transpose()?,
             film: desc.film.clone(),
             queue,
             states,
@@ -145,6 +150,11 @@ fn rounds(bounces: u32, passing: bool) -> u32 {
 }
 
 impl Path {
+    /// What fetches surfaces by drawing, where they are.
+    pub fn fetch(&self) -> Option<&Fetch> {
+        self.fetch.as_ref()
+    }
+
     /// The rounds of paths whose shadow rays end at whatever they hit, and all of the film.
     fn record_occluded(
         &self,
@@ -207,6 +217,7 @@ impl Integrator for Path {
     ) -> Result<(), IntegratorError> {
         self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, (&self.film, wave))?;
         self.queue.record_select_none(recorder);
+        let traced = traced.with_fetch(self.fetch.as_ref());
         match &self.shadows {
             Shadows::Occluded { queue, resolve, accumulate, .. } => {
                 self.record_occluded(recorder, (traced, wave), (queue, resolve, accumulate))
@@ -224,7 +235,9 @@ impl Integrator for Path {
         check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
         match &self.shadows {
             Shadows::Occluded { .. } => Ok(()),
-            Shadows::Passing { .. } => self.record_passing(recorder, traced, wave, true),
+            Shadows::Passing { .. } => {
+                self.record_passing(recorder, traced.with_fetch(self.fetch.as_ref()), wave, true)
+            }
         }
     }
 
@@ -248,6 +261,9 @@ impl Integrator for Path {
 
     fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
         check_features(self.features, scene)?;
+        if let Some(fetch) = &mut self.fetch {
+            fetch.set_scene(scene)?;
+        }
         self.bindings.set_scene(scene);
         Ok(())
     }
@@ -273,7 +289,17 @@ impl Integrator for Path {
     fn state_bytes(&self) -> u64 {
         let (Shadows::Occluded { pending: shadows, .. } | Shadows::Passing { waiting: shadows }) =
             &self.shadows;
-        self.states.size() + shadows.size()
+        self.states.size() + shadows.size() + self.fetch.as_ref().map_or(0, Fetch::bytes)
+    }
+
+    fn record_reset(&self, recorder: &mut Recorder<'_>) {
+        self.film.record_clear(recorder);
+        for queue in self.queues() {
+            queue.record_reset(recorder);
+        }
+        if let Some(fetch) = &self.fetch {
+            fetch.record_reset(recorder);
+        }
     }
 }
 

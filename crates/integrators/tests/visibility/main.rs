@@ -2,7 +2,10 @@
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-use crate::pictures::common::{scenes::textured_room, *};
+use crate::pictures::common::{
+    assert_silent, box_inside, camera, device, forward_camera, lambert, mean, scene, scenes::textured_room,
+    square,
+};
 use glam::{DAffine3, DVec3};
 use rasray_ads::{BruteForce, Counters, Hit, Surface};
 use rasray_gpu::{Device, DeviceDesc};
@@ -14,7 +17,7 @@ use rasray_integrators::{
 use rasray_scene::{AlphaMode, Camera, Mesh, Projection, Scene, builtin};
 
 /// A device with validation on that can draw. Tests take turns, so that a message belongs to one of them.
-fn drawing_device() -> (Device, MutexGuard<'static, ()>) {
+pub(crate) fn drawing_device() -> (Device, MutexGuard<'static, ()>) {
     static TURN: Mutex<()> = Mutex::new(());
     static DEVICE: OnceLock<Device> = OnceLock::new();
     let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -124,39 +127,39 @@ impl Both {
 }
 
 /// All bits of a hit.
-fn bits(hit: &Hit) -> [u32; 4] {
+pub(crate) fn bits(hit: &Hit) -> [u32; 4] {
     [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
 }
 
 /// Numbers that are the same on every machine.
-struct Random(u64);
+pub(crate) struct Random(pub u64);
 
 impl Random {
     /// In [-1, 1).
-    fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / f64::from(1 << 26) / f64::from(1 << 26) - 1.0
     }
 
-    fn point(&mut self) -> DVec3 {
+    pub fn point(&mut self) -> DVec3 {
         DVec3::new(self.next(), self.next(), self.next())
     }
 }
 
 /// Triangles of one mesh.
-fn soup(triangles: &[[DVec3; 3]]) -> Scene {
+pub(crate) fn soup(triangles: &[[DVec3; 3]]) -> Scene {
     let positions: Vec<[f32; 3]> = triangles.iter().flatten().map(|p| p.as_vec3().to_array()).collect();
     let indices = (0..positions.len() as u32).collect();
     let mesh = Mesh { name: "soup".to_owned(), positions, indices, ..Mesh::default() };
     scene(vec![mesh], vec![lambert(0.5, 0.0)], [0.3; 3])
 }
 
-fn perspective(eye: DVec3, fov_y: f32) -> Camera {
+pub(crate) fn perspective(eye: DVec3, fov_y: f32) -> Camera {
     camera(eye, DVec3::X, DVec3::Y, Projection::Perspective { fov_y })
 }
 
 /// A camera at the origin that is turned in no simple way.
-fn turned(projection: Projection) -> Camera {
+pub(crate) fn turned(projection: Projection) -> Camera {
     let forward = DVec3::new(0.3, -0.2, -0.9).normalize();
     let right = forward.cross(DVec3::new(0.1, 1.0, 0.05)).normalize();
     camera(DVec3::new(0.01, -0.02, 0.03), right, right.cross(forward), projection)

@@ -39,6 +39,13 @@ pub(super) const SPECULAR: OptionRow = OptionRow::words(
 )
 .by_default(Value::Word(SpecularLobe::Ggx.name()));
 
+pub(super) const FETCH: OptionRow = OptionRow::words(
+    "fetch",
+    &[Fetching::Direct.word(), Fetching::Raster.word()],
+    "How surfaces of hits are found",
+)
+.by_default(Value::Word(Fetching::Direct.name()));
+
 const fn terminator_word(terminator: ShadowTerminator) -> Word {
     (terminator.name(), terminator.doc())
 }
@@ -117,6 +124,43 @@ impl SpecularLobe {
     }
 }
 
+/// How surfaces of hits are found. Changes no picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fetching {
+    /// By the structure: of triangles, by the id of the triangle.
+    #[default]
+    Direct,
+    /// By drawing the triangles that were hit against lists of hits, as DIRT does ([`crate::Fetch`]).
+    Raster,
+}
+
+impl Fetching {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Direct, Self::Raster];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Direct => "direct",
+            Self::Raster => "raster",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub const fn doc(self) -> &'static str {
+        match self {
+            Self::Direct => "By the structure: of triangles, by their ids",
+            Self::Raster => {
+                "By drawing the triangles that were hit against lists of hits, as in DIRT; the same surfaces"
+            }
+        }
+    }
+
+    const fn word(self) -> Word {
+        (self.name(), self.doc())
+    }
+}
+
 /// What paths do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PathOptions {
@@ -128,6 +172,8 @@ pub struct PathOptions {
     pub shadow_terminator: ShadowTerminator,
     /// How rough surfaces reflect.
     pub specular: SpecularLobe,
+    /// How surfaces of hits are found; drawing needs a structure of triangles.
+    pub fetch: Fetching,
 }
 
 impl PathOptions {
@@ -142,6 +188,7 @@ impl PathOptions {
                 ShadowTerminator::name,
             ),
             specular: spec.choice(&SPECULAR, &SpecularLobe::ALL, SpecularLobe::name),
+            fetch: spec.choice(&FETCH, &Fetching::ALL, Fetching::name),
         }
     }
 }

@@ -6,7 +6,7 @@ use rasray_reference::integrators::NaiveIntegrator;
 use rasray_reference::shading::{PosedScene, Sampler, View};
 use rasray_scene::{BackFaces, Camera, Scene};
 
-use super::{Setup, assert_silent, device, mean};
+use super::{Setup, assert_silent, drawing_device, mean};
 
 pub const WIDTH: u32 = 16;
 pub const HEIGHT: u32 = 12;
@@ -87,7 +87,7 @@ fn made_difference(
     sampler: Sampler,
     [passed, back_faces]: [BackFaces; 2],
 ) -> Difference {
-    let device = device();
+    let device = drawing_device();
     let of_device = match sampler {
         Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
         Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,

@@ -8,13 +8,19 @@ use glam::{DAffine3, DMat3, DVec3};
 use rasray_ads::BruteForce;
 use rasray_gpu::{Device, DeviceDesc, Timing};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, ShadingFeatures, View};
-use rasray_integrators::{Film, Integrator, IntegratorDesc, waves};
+use rasray_integrators::{Fetch, Film, Integrator, IntegratorDesc, waves};
 use rasray_scene::{Camera, Environment, Instance, Material, Mesh, Projection, Scene};
 
 /// A device with validation on.
 pub fn device() -> Device {
     let desc = DeviceDesc { validation: true, ..DeviceDesc::default() };
     Device::create(&desc).expect("these tests need a Vulkan device and the validation layer")
+}
+
+/// The same that can draw, for options that need it.
+pub fn drawing_device() -> Device {
+    let desc = DeviceDesc { validation: true, requirements: Fetch::requirements(), ..DeviceDesc::default() };
+    Device::create(&desc).expect("these tests need a Vulkan device that draws")
 }
 
 /// A camera at `eye` that looks along the rows of `axes`.
