@@ -7,6 +7,7 @@
 layout(local_size_x = 64) in;
 
 #define GEOMETRY_WRITTEN
+#include "ads/float_keys.glsl"
 #ifdef BOUNDS_OF_GATHERED
 #include "ads/gathered.glsl"
 #define BOUNDS_TRIANGLE(primitive) gathered_triangle(primitive)
@@ -16,12 +17,6 @@ layout(local_size_x = 64) in;
 #endif
 
 shared uint shared_keys[6];
-
-// Integers in the order of floats: -0 comes just before 0.
-uint key_of(float x) {
-    uint bits = floatBitsToUint(x);
-    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
-}
 
 void include_corner(vec3 corner) {
     // NaN corners are ignored; the check finds those that no bounds hold.

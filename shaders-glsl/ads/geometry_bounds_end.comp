@@ -6,11 +6,8 @@
 layout(local_size_x = 1) in;
 
 #define GEOMETRY_WRITTEN
+#include "ads/float_keys.glsl"
 #include "ads/geometry.glsl"
-
-float float_of(uint key) {
-    return uintBitsToFloat((key & 0x80000000u) != 0u ? key & 0x7FFFFFFFu : ~key);
-}
 
 void main() {
     bool any_corner = geometry_header.lower_keys[0] <= geometry_header.upper_keys[0];

@@ -1,6 +1,6 @@
 // What: numbers that integrators share with Rust.
 // Only `#define NAME number` stands here: Rust constants of the same names are generated from it.
-// Source: docs/whitted.md.
+// Source: docs/whitted.md, docs/cube-map.md.
 #ifndef INTEGRATORS_CONSTANTS_GLSL
 #define INTEGRATORS_CONSTANTS_GLSL
 
@@ -29,5 +29,7 @@
 // Most hits of a list that one fragment looks at. Software drivers end the loops of an invocation after 65,535 iterations
 // in all, and every surface has loops of its own.
 #define FETCH_PART 256u
+// WhittedNode.branch of the rays of a cube map: their random numbers are those of no camera ray.
+#define CUBE_MAP_BRANCH 1u
 
 #endif

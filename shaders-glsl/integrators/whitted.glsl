@@ -1,15 +1,18 @@
 // What: Whitted's ray tracing, one step per closest hit: emission, one light sample, and the rays that go on from there.
-// Reads: scene tables through scene/*.glsl. Writes: state and waiting rays, through integrators/whitted_storage.glsl.
-// Source: docs/whitted.md; Whitted 1980.
+// With CUBE_MAP_LOOKUP a cube map answers mirrored and refracted rays; with CUBE_MAP_DRAWN the rays are those of its texels.
+// Reads: scene tables through scene/*.glsl; the cube map. Writes: state and waiting rays, through
+// integrators/whitted_storage.glsl.
+// Source: docs/whitted.md; Whitted 1980; docs/cube-map.md.
 #ifndef INTEGRATORS_WHITTED_GLSL
 #define INTEGRATORS_WHITTED_GLSL
 
+#ifdef CUBE_MAP_LOOKUP
+#include "integrators/cube_map.glsl"
+#endif
+#include "integrators/mirror_roughness.glsl"
 #include "integrators/path.glsl"
 #include "integrators/whitted_storage.glsl"
 #include "scene/surface.glsl"
-
-// Surfaces less rough than this are perfectly smooth.
-layout(constant_id = 105) const float WHITTED_MIRROR_ROUGHNESS = BSDF_SMOOTH_ROUGHNESS;
 
 // Anything sends more than one ray on.
 #define WHITTED_BRANCHES (SHADING_TRANSMISSION || SHADING_PASSES)
@@ -126,6 +129,13 @@ WhittedStep whitted_step(uint slot, inout WhittedState state, Ray ray, Surface s
     if (SHADING_TRANSMISSION && state.node.medium != MATERIAL_NONE) {
         state.node.throughput *= path_transmittance(state.node.medium, distance);
     }
+#ifdef CUBE_MAP_DRAWN
+    // The point lies inside what mirrors its surroundings.
+    if (s.side == 0u && mirror_is_smooth(s.roughness)) {
+        whitted_pass(slot, state, ray, s, direction, footprint, vec3(1.0), asked);
+        return asked;
+    }
+#endif
     BsdfTerms terms = bsdf_terms(s, -direction);
     float opacity = SHADING_BLEND ? s.opacity : 1.0;
     vec3 throughput = state.node.throughput * opacity;
@@ -158,6 +168,11 @@ WhittedStep whitted_step(uint slot, inout WhittedState state, Ray ray, Surface s
         asked.shadow_ray = ray_inactive();
         asked.pending = vec3(0.0);
     }
+#ifdef CUBE_MAP_LOOKUP
+    if (is_reflective) state.radiance += throughput * mirror * cube_map_radiance(mirrored);
+    if (largest_component(through) > 0.0) state.radiance += throughput * through * cube_map_radiance(refracted);
+    return asked;
+#endif
     if (state.node.depth >= wave.limit) return asked;
     if (whitted_has(WHITTED_SELECTS_REFLECTIVE) && state.node.depth == 0u && !is_reflective) return asked;
     bool all = whitted_has(WHITTED_SELECTS_ALL);

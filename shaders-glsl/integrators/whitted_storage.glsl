@@ -36,7 +36,11 @@ layout(set = INTEGRATOR_SET, binding = 9, scalar) buffer WhittedStateBuffer { Wh
 layout(set = INTEGRATOR_SET, binding = 10, scalar) buffer WhittedRayBuffer { WhittedRay whitted_rays[]; };
 
 WhittedNode whitted_root() {
+#ifdef CUBE_MAP_DRAWN
+    return WhittedNode(vec3(1.0), MATERIAL_NONE, 0u, CUBE_MAP_BRANCH, 0u);
+#else
     return WhittedNode(vec3(1.0), MATERIAL_NONE, 0u, 0u, 0u);
+#endif
 }
 
 // The tree of a slot; a new one in the first round.

@@ -37,11 +37,22 @@ impl Film {
         })
     }
 
-    /// Records that all sums start at 0.
+    /// Another image that counts its faults with those of this one.
+    pub(crate) fn beside(&self, device: &Device, width: u32, height: u32) -> Result<Self, IntegratorError> {
+        Ok(Self { faults: self.faults.clone(), ..Self::new(device, width, height)? })
+    }
+
+    /// Records that all sums and faults start at 0.
     pub fn record_clear(&self, recorder: &mut Recorder<'_>) {
+        self.record_clear_pixels(recorder);
+        recorder.fill(&self.faults, 0, self.faults.size(), 0);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
+    }
+
+    /// The same of sums alone.
+    pub(crate) fn record_clear_pixels(&self, recorder: &mut Recorder<'_>) {
         recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::TRANSFER_WRITE);
         recorder.fill(&self.pixels, 0, self.pixels.size(), 0);
-        recorder.fill(&self.faults, 0, self.faults.size(), 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
     }
 

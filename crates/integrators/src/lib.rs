@@ -1,4 +1,5 @@
-//! From hits to radiance: ray casting, layers, ambient occlusion, Whitted's ray tracing, path tracing, and the film.
+//! From hits to radiance: ray casting, layers, ambient occlusion, environment mapping, Whitted's ray tracing, path tracing,
+//! and the film.
 //!
 //! An [`Integrator`] records waves: runs of pixels of which one sample is taken. Each wave fills a
 //! ray queue, has it traced by whatever [`rasray_ads::Structure`] it is handed, shades what was hit,

@@ -9,12 +9,14 @@ use rasray_scene::needs::Workload;
 use crate::{Integrator, IntegratorDesc, IntegratorError};
 
 mod ambient_occlusion;
+mod cube_map;
 mod layers;
 mod path;
 mod raycast;
 mod whitted;
 
 pub use ambient_occlusion::AmbientOcclusion;
+pub use cube_map::{CUBE_MAP_LIMIT, CubeMap, CubeMapOptions};
 pub use layers::Layers;
 pub use path::{BOUNCE_LIMIT, Fetching, GlassShadows, Path, PathOptions, SpecularLobe};
 pub use raycast::Raycast;
@@ -22,7 +24,7 @@ pub use whitted::{RAY_DEPTH_LIMIT, Select, Shadows, Whitted, WhittedOptions};
 
 /// Every integrator; the first is the default.
 pub static INTEGRATORS: &[IntegratorRow] =
-    &[path::ROW, whitted::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
+    &[path::ROW, whitted::ROW, cube_map::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
 
 /// Why a ray is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

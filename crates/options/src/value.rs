@@ -14,6 +14,8 @@ pub enum Value {
     Number(f32),
     /// Columns and rows.
     Cells([u32; 2]),
+    /// A point, metres.
+    Point([f32; 3]),
 }
 
 impl Value {
@@ -36,6 +38,11 @@ impl Value {
     pub fn cells(self) -> Option<[u32; 2]> {
         if let Self::Cells(cells) = self { Some(cells) } else { None }
     }
+
+    /// The point, where it is one.
+    pub fn point(self) -> Option<[f32; 3]> {
+        if let Self::Point(point) = self { Some(point) } else { None }
+    }
 }
 
 impl fmt::Display for Value {
@@ -45,6 +52,7 @@ impl fmt::Display for Value {
             Self::Whole(whole) => whole.fmt(formatter),
             Self::Number(number) => number.fmt(formatter),
             Self::Cells([columns, rows]) => write!(formatter, "{columns}x{rows}"),
+            Self::Point([x, y, z]) => write!(formatter, "{x},{y},{z}"),
         }
     }
 }
@@ -152,11 +160,13 @@ mod tests {
                 value.whole().is_some(),
                 value.number().is_some(),
                 value.cells().is_some(),
+                value.point().is_some(),
             ]
         };
-        assert_eq!(kinds(Value::from("on")), [true, false, false, false]);
-        assert_eq!(kinds(Value::from(1)), [false, true, false, false]);
-        assert_eq!(kinds(Value::from(1.0)), [false, false, true, false]);
-        assert_eq!(kinds(Value::Cells([1, 2])), [false, false, false, true]);
+        assert_eq!(kinds(Value::from("on")), [true, false, false, false, false]);
+        assert_eq!(kinds(Value::from(1)), [false, true, false, false, false]);
+        assert_eq!(kinds(Value::from(1.0)), [false, false, true, false, false]);
+        assert_eq!(kinds(Value::Cells([1, 2])), [false, false, false, true, false]);
+        assert_eq!(kinds(Value::Point([1.0; 3])), [false, false, false, false, true]);
     }
 }

@@ -34,6 +34,8 @@ pub enum Values {
     Number(Unit, Least),
     /// Columns and rows, such as `720x480`, or one number for both: from 1 to this many each.
     Cells(u32),
+    /// A point, such as `0,1.5,-2`: three finite numbers, metres.
+    Point,
 }
 
 impl Values {
@@ -56,6 +58,11 @@ impl Values {
                 let side = |text: &str| text.trim().parse().ok();
                 side(columns).zip(side(rows)).map(|(columns, rows)| Value::Cells([columns, rows]))
             }
+            Self::Point => {
+                let numbers: Option<Vec<f32>> =
+                    text.split(',').map(|text| text.trim().parse().ok()).collect();
+                numbers.and_then(|numbers| numbers.try_into().ok()).map(Value::Point)
+            }
         };
         value.filter(|value| self.takes(*value)).ok_or_else(|| self.expected())
     }
@@ -70,6 +77,7 @@ impl Values {
                 is_least && given.is_finite() && (unit != Unit::Share || given <= 1.0)
             }
             (Self::Cells(most), Value::Cells(sides)) => sides.iter().all(|side| (1..=most).contains(side)),
+            (Self::Point, Value::Point(point)) => point.iter().all(|number| number.is_finite()),
             _ => false,
         }
     }
@@ -94,6 +102,7 @@ impl Values {
             Self::Cells(most) => {
                 format!("write columns x rows from 1 to {most} each, such as 720x480, or one number for both")
             }
+            Self::Point => "must be three finite numbers such as 0,1.5,-2".to_owned(),
         }
     }
 
@@ -111,6 +120,7 @@ impl Values {
                 format!("{unit}, {}", if least == Least::Zero { "not negative" } else { "above 0" })
             }
             Self::Cells(most) => format!("columns x rows, or one number for both, 1 to {most} each"),
+            Self::Point => "x,y,z, metres".to_owned(),
         }
     }
 
@@ -140,6 +150,7 @@ mod tests {
             (Values::Number(Unit::Share, Least::AboveZero), "0.1", Value::Number(0.1), "0.1"),
             (Values::Cells(8192), "720x480", Value::Cells([720, 480]), "720x480"),
             (Values::Cells(64), "64", Value::Cells([64, 64]), "64x64"),
+            (Values::Point, "0, 1.5,-2", Value::Point([0.0, 1.5, -2.0]), "0,1.5,-2"),
         ] {
             assert_eq!(values.parse(text), Ok(value), "{text}");
             assert_eq!(value.to_string(), written);
@@ -178,6 +189,11 @@ mod tests {
                 "write columns x rows from 1 to 8192 each, such as 720x480, or one number for both",
                 &["", "0", "x", "720x", "8193", "720x480x2", "-1x4"],
             ),
+            (
+                Values::Point,
+                "must be three finite numbers such as 0,1.5,-2",
+                &["", "1", "1,2", "1,2,3,4", "1,2,nan", "1,2,inf", "1,2,z"],
+            ),
         ] {
             for text in refused {
                 assert_eq!(values.parse(text), Err(expected.to_owned()), "{text}");
@@ -187,9 +203,20 @@ mod tests {
 
     #[test]
     fn a_value_of_another_kind_is_not_taken() {
-        let all = [Value::Word("on"), Value::Whole(1), Value::Number(1.0), Value::Cells([1, 1])];
-        let kinds =
-            [Values::SWITCH, Values::Whole(0, 2), Values::Number(Unit::Share, Least::Zero), Values::Cells(2)];
+        let all = [
+            Value::Word("on"),
+            Value::Whole(1),
+            Value::Number(1.0),
+            Value::Cells([1, 1]),
+            Value::Point([1.0; 3]),
+        ];
+        let kinds = [
+            Values::SWITCH,
+            Values::Whole(0, 2),
+            Values::Number(Unit::Share, Least::Zero),
+            Values::Cells(2),
+            Values::Point,
+        ];
         for (kind, values) in kinds.iter().enumerate() {
             for (place, value) in all.iter().enumerate() {
                 assert_eq!(values.takes(*value), kind == place, "{values:?} {value:?}");

@@ -15,8 +15,8 @@ pub enum Control {
     Whole(u32, u32),
     /// A number, what it counts, and whether it may be 0.
     Number(Unit, Least),
-    /// Columns and rows as text, such as `720x480`.
-    Cells,
+    /// Text that says what it is for, such as `WxH` for `720x480`.
+    Text(&'static str),
 }
 
 impl Control {
@@ -27,7 +27,8 @@ impl Control {
             Values::Words(words) => Self::Choice(words),
             Values::Whole(lowest, highest) => Self::Whole(lowest, highest),
             Values::Number(unit, least) => Self::Number(unit, least),
-            Values::Cells(_) => Self::Cells,
+            Values::Cells(_) => Self::Text("WxH"),
+            Values::Point => Self::Text("X,Y,Z"),
         }
     }
 }
@@ -104,7 +105,7 @@ mod tests {
                     assert!(lowest < highest, "{}", row.name);
                     kinds[2] += 1;
                 }
-                Control::Number(..) | Control::Cells => (),
+                Control::Number(..) | Control::Text(_) => (),
             }
         }
         assert!(kinds.iter().all(|count| *count > 0), "{kinds:?}");

@@ -36,6 +36,7 @@ pub fn arguments(row: &'static OptionRow, help: String) -> impl Iterator<Item = 
         Values::Number(Unit::Metres, _) => argument.value_name("METRES").value_parser(read),
         Values::Number(Unit::Share, _) => argument.value_name("SHARE").value_parser(read),
         Values::Cells(_) => argument.value_name("WxH").value_parser(read),
+        Values::Point => argument.value_name("X,Y,Z").allow_hyphen_values(true).value_parser(read),
     };
     let off = row.off_name.map(|name| {
         let off = Arg::new(name).long(name).action(ArgAction::SetTrue).conflicts_with(row.name);

@@ -7,7 +7,7 @@ use rasray_options::Value;
 use rasray_scene::needs::Workload;
 use rasray_shaders_glsl::{
     INTEGRATORS_PRIMARY, INTEGRATORS_WHITTED_RESOLVE, INTEGRATORS_WHITTED_SHADE,
-    INTEGRATORS_WHITTED_SHADE_PASSING,
+    INTEGRATORS_WHITTED_SHADE_PASSING, Shader,
     constant_ids::integrators::{WHITTED_MIRROR_ROUGHNESS, WHITTED_PASSES_PANES},
     constants::scene::BSDF_SMOOTH_ROUGHNESS,
     records::{WhittedRay, WhittedState},
@@ -15,14 +15,15 @@ use rasray_shaders_glsl::{
 
 use crate::{
     Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
-    integrator::{check_features, check_wave},
-    kernels::{Bindings, Kernel, WaveConstants, camera_constants, device_buffer, film, shadow_queue},
+    integrator::{check_capacity, check_features, check_wave},
+    kernels::{Bindings, Bound, Kernel, WaveConstants, camera_constants, device_buffer, film, shadow_queue},
     rounds::Rounds,
 };
 
 mod options;
 
-use options::{COMPACTION, MIRROR_ROUGHNESS, RAY_DEPTH, SELECT, SHADOWS, THRESHOLD};
+use options::{COMPACTION, RAY_DEPTH, SELECT, THRESHOLD};
+pub(super) use options::{MIRROR_ROUGHNESS, SHADOWS};
 pub use options::{RAY_DEPTH_LIMIT, Select, Shadows, WhittedOptions};
 
 /// The registry's row.
@@ -68,9 +69,30 @@ pub struct Whitted {
     /// How light samples are tested where whatever a ray hits stops it; else shadow rays are in the queue of all others.
     shadows: Option<(RayQueue, Kernel)>,
     bindings: Bindings,
-    primary: Kernel,
+    first_rays: Kernel,
     shade: Kernel,
 }
+
+/// The kernels of trees of rays, and what they are bound to beside what all trees have.
+pub(super) struct TreeKernels<'a> {
+    /// Makes the first ray of every tree.
+    pub first_rays: &'static Shader,
+    /// Shades, where surfaces stop light.
+    pub shade: &'static Shader,
+    /// Shades, where they let it pass.
+    pub shade_passing: &'static Shader,
+    pub bound: &'a [Bound<'a>],
+    /// First rays go on behind the backs of smooth surfaces.
+    pub passes_backs: bool,
+}
+
+const WHITTED: TreeKernels<'_> = TreeKernels {
+    first_rays: &INTEGRATORS_PRIMARY,
+    shade: &INTEGRATORS_WHITTED_SHADE,
+    shade_passing: &INTEGRATORS_WHITTED_SHADE_PASSING,
+    bound: &[],
+    passes_backs: false,
+};
 
 /// How the surfaces of a scene send rays on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,9 +115,10 @@ impl Trees {
     }
 
     /// Rounds that a wave has at first, and at most.
-    fn rounds(self, depth: u32) -> [u32; 2] {
+    fn rounds(self, depth: u32, passes_backs: bool) -> [u32; 2] {
         let rays = (2 << depth) - 1;
         match self {
+            Self::Chains | Self::Binary if passes_backs => [rays + USUAL_LAYERS, ROUND_LIMIT],
             Self::Chains => [depth + 1; 2],
             Self::Binary => [USUAL_RAYS.min(rays), rays],
             Self::Passing { .. } => [2 * USUAL_RAYS.min(rays) + USUAL_LAYERS, ROUND_LIMIT],
@@ -119,6 +142,16 @@ impl Whitted {
     /// # Errors
     /// An option out of its range, sizes that do not fit, out of memory, or the device refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, options: WhittedOptions) -> Result<Self, IntegratorError> {
+        desc.check()?;
+        Self::of_trees(desc, options, &WHITTED)
+    }
+
+    /// The same with other kernels, and with a film of any size.
+    pub(super) fn of_trees(
+        desc: &IntegratorDesc<'_>,
+        options: WhittedOptions,
+        kernels: &TreeKernels<'_>,
+    ) -> Result<Self, IntegratorError> {
         RAY_DEPTH.check(Value::Whole(options.ray_depth))?;
         THRESHOLD.check(Value::Number(options.threshold))?;
         MIRROR_ROUGHNESS.check(Value::Number(options.mirror_roughness))?;
@@ -132,32 +165,34 @@ impl Whitted {
         let trees = Trees::of(features, panes);
         let device = desc.device;
         let slot_bytes = u64::from(trees.waiting(options.ray_depth)) * size_of::<WhittedRay>() as u64;
-        let capacity = fitting(desc.check()?, slot_bytes, device.limits().max_storage_buffer_range);
+        let capacity = check_capacity(desc.wave_capacity)?;
+        let capacity = fitting(capacity, slot_bytes, device.limits().max_storage_buffer_range);
         let queue = RayQueue::new(device, "whitted rays", capacity, true)?;
         let slots = u64::from(capacity);
         let states = device_buffer(device, "whitted states", slots * size_of::<WhittedState>() as u64)?;
         let waiting = device_buffer(device, "waiting rays", (slots * slot_bytes).max(4))?;
         let [pixels, faults] = film(desc.film);
         let own = [pixels, faults, (WHITTED_STATES, &states), (WHITTED_RAYS, &waiting)];
+        let own = [&own, kernels.bound].concat();
         let mut constants = Vec::from(features.constants());
         constants.push((WHITTED_MIRROR_ROUGHNESS, options.mirror_roughness.to_bits()));
         let (shader, shadows, bindings) = if let Trees::Passing { .. } = trees {
             constants.push((WHITTED_PASSES_PANES, panes.into()));
-            (&INTEGRATORS_WHITTED_SHADE_PASSING, None, Bindings::new(device, desc.scene, &own)?)
+            (kernels.shade_passing, None, Bindings::new(device, desc.scene, &own)?)
         } else {
             let queue = RayQueue::new(device, "shadow rays", capacity, false)?;
             let bound = [&own[..], &shadow_queue(&queue)].concat();
             let bindings = Bindings::new(device, desc.scene, &bound)?;
             let resolve = bindings.kernel(device, &INTEGRATORS_WHITTED_RESOLVE, &[])?;
-            (&INTEGRATORS_WHITTED_SHADE, Some((queue, resolve)), bindings)
+            (kernels.shade, Some((queue, resolve)), bindings)
         };
-        let [first, most] = trees.rounds(options.ray_depth);
+        let [first, most] = trees.rounds(options.ray_depth, kernels.passes_backs);
         Ok(Self {
             options,
             has_rest: first < most,
             rounds: Rounds::new(first, most).masked(options.masked),
             features,
-            primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
+            first_rays: bindings.kernel(device, kernels.first_rays, &camera_constants(false))?,
             shade: bindings.kernel(device, shader, &constants)?,
             film: desc.film.clone(),
             queue,
@@ -166,6 +201,11 @@ impl Whitted {
             shadows,
             bindings,
         })
+    }
+
+    /// What its kernels are bound to.
+    pub(super) fn bindings(&self) -> &Bindings {
+        &self.bindings
     }
 
     /// What kernels of a round are told.
@@ -213,7 +253,7 @@ impl Integrator for Whitted {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, (&self.film, wave))?;
+        self.bindings.record_camera_rays(recorder, &self.first_rays, &self.queue, (&self.film, wave))?;
         for queue in self.queues() {
             queue.record_select_none(recorder);
         }
@@ -271,11 +311,12 @@ mod tests {
 
     #[test]
     fn chains_have_a_round_a_ray_and_trees_what_is_usual() {
-        assert_eq!(Trees::Chains.rounds(8), [9, 9]);
-        assert_eq!(Trees::Binary.rounds(3), [15, 15]);
-        assert_eq!(Trees::Binary.rounds(RAY_DEPTH_LIMIT), [15, 511]);
+        assert_eq!(Trees::Chains.rounds(8, false), [9, 9]);
+        assert_eq!(Trees::Chains.rounds(0, true), [1 + USUAL_LAYERS, ROUND_LIMIT]);
+        assert_eq!(Trees::Binary.rounds(3, false), [15, 15]);
+        assert_eq!(Trees::Binary.rounds(RAY_DEPTH_LIMIT, false), [15, 511]);
         let passing = Trees::Passing { refracts: true };
-        assert_eq!(passing.rounds(0), [2 + USUAL_LAYERS, ROUND_LIMIT]);
+        assert_eq!(passing.rounds(0, false), [2 + USUAL_LAYERS, ROUND_LIMIT]);
         assert_eq!([Trees::Chains, Trees::Binary, passing].map(|trees| trees.waiting(3)), [0, 3, 7]);
     }
 

@@ -3,6 +3,7 @@
 mod anisotropy;
 pub(crate) mod common;
 mod corpus;
+mod cube_map;
 mod images;
 mod layers;
 mod lens;

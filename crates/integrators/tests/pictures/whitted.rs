@@ -14,7 +14,7 @@ fn whitted() -> IntegratorSpec {
     IntegratorRow::named("whitted").expect("it is registered").into()
 }
 
-fn mirror(tint: f32) -> Material {
+pub(super) fn mirror(tint: f32) -> Material {
     Material { metallic: 1.0, roughness: 0.0, specular: 1.0, ..lambert(tint, 0.0) }
 }
 
@@ -156,7 +156,7 @@ fn a_plate_of_glass_in_a_white_furnace_gives_the_geometric_series() {
     assert_silent(&device);
 }
 
-fn ball(centre: DVec3, radius: f64, material: usize) -> Mesh {
+pub(super) fn ball(centre: DVec3, radius: f64, material: usize) -> Mesh {
     let (columns, rows) = (24_u32, 12_u32);
     let mut mesh = Mesh { name: "ball".to_owned(), material, ..Mesh::default() };
     let mut normals = Vec::new();

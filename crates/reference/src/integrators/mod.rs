@@ -9,6 +9,7 @@
 )]
 
 mod ambient_occlusion;
+mod cube_map;
 mod image;
 mod layers;
 mod path;
@@ -47,7 +48,7 @@ pub struct NaiveIntegrator {
 
 /// Every naive integrator.
 pub static INTEGRATORS: &[NaiveIntegrator] =
-    &[path::ROW, whitted::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
+    &[path::ROW, whitted::ROW, cube_map::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
 
 impl NaiveIntegrator {
     /// The one of that name.

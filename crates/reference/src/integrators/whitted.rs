@@ -3,55 +3,70 @@
 use glam::Vec3;
 use rasray_options::{OptionValues, Value};
 
-use super::{Image, NaiveIntegrator, Tracer, path::LAYER_LIMIT};
+use super::{Image, NaiveIntegrator, Tracer, cube_map::CubeMap, path::LAYER_LIMIT};
 use crate::shading::{
-    BsdfSample, PosedScene, Ray, ReferenceError, Surface, View, bsdf_sample, bsdf_straight,
-    bsdf_times_cosine,
+    BsdfSample, PosedScene, Ray, ReferenceError, Surface, View,
+    bsdf::SMOOTH_ROUGHNESS,
+    bsdf_sample, bsdf_straight, bsdf_times_cosine,
     random::{Numbers, RANDOM_LIGHT_KIND, random_dimension},
     spawn_ray,
 };
 
 pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
     name: "whitted",
-    render: |posed, view, values| posed.render_whitted(view, rules(values)),
+    render: |posed, view, values| posed.render_whitted(view, Rules::of(values)),
 };
 
 /// Which rays are followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Rules {
-    ray_depth: u32,
+pub(super) struct Rules {
+    pub ray_depth: u32,
     /// What a ray must carry more of to be followed. Rays without weight change no picture, so none is followed here.
-    threshold: f32,
+    pub threshold: f32,
     /// What the camera sees sends no ray on unless it mirrors.
-    from_reflective: bool,
+    pub from_reflective: bool,
     /// Surfaces that neither mirror nor refract are lit without shadow rays.
-    specular_shadows: bool,
+    pub specular_shadows: bool,
     /// Reflections and refractions up to which surfaces are in shadow.
-    shadow_depth: Option<u32>,
-    mirror_roughness: f32,
+    pub shadow_depth: Option<u32>,
+    pub mirror_roughness: f32,
+    /// What answers mirrored and refracted rays in place of their trees.
+    pub map: Option<CubeMap>,
+    /// Rays go on behind smooth surfaces that they hit from behind.
+    pub passes_backs: bool,
 }
 
-fn rules(values: &OptionValues) -> Rules {
-    let is = |option, word: &str| values.get(option).and_then(Value::word) == Some(word);
-    let number = |option| values.get(option).and_then(Value::number).unwrap_or_default();
-    let ray_depth = values.get("ray-depth").and_then(Value::whole).unwrap_or_default();
-    Rules {
-        ray_depth,
-        threshold: if is("select", "expected") { number("threshold") } else { 0.0 },
-        from_reflective: is("select", "reflective"),
-        specular_shadows: is("select", "specular"),
-        shadow_depth: match values.get("shadows").and_then(Value::word) {
-            Some("none") => None,
-            Some("first") => Some(0),
-            _ => Some(ray_depth),
-        },
-        mirror_roughness: number("mirror-roughness"),
+impl Rules {
+    /// Options that are absent have no effect.
+    pub fn of(values: &OptionValues) -> Self {
+        let is = |option, word: &str| values.get(option).and_then(Value::word) == Some(word);
+        let number = |option| values.get(option).and_then(Value::number).unwrap_or_default();
+        let ray_depth = values.get("ray-depth").and_then(Value::whole).unwrap_or_default();
+        Self {
+            ray_depth,
+            threshold: if is("select", "expected") { number("threshold") } else { 0.0 },
+            from_reflective: is("select", "reflective"),
+            specular_shadows: is("select", "specular"),
+            shadow_depth: match values.get("shadows").and_then(Value::word) {
+                Some("none") => None,
+                Some("first") => Some(0),
+                _ => Some(ray_depth),
+            },
+            mirror_roughness: number("mirror-roughness"),
+            map: None,
+            passes_backs: false,
+        }
+    }
+
+    /// Whether a surface of this roughness counts as perfectly smooth.
+    pub fn are_smooth(&self, roughness: f32) -> bool {
+        roughness < self.mirror_roughness.max(SMOOTH_ROUGHNESS)
     }
 }
 
 /// What a ray is in the tree of a sample.
 #[derive(Clone, Copy)]
-struct Node {
+pub(super) struct Node {
     throughput: Vec3,
     /// Material whose inside the ray is in.
     medium: Option<usize>,
@@ -62,6 +77,11 @@ struct Node {
 }
 
 impl Node {
+    /// What a tree begins with.
+    pub fn root(branch: u32) -> Self {
+        Self { throughput: Vec3::ONE, medium: None, depth: 0, branch }
+    }
+
     fn branched(self, is_refracted: bool) -> u32 {
         let event = 2 * self.depth + u32::from(is_refracted);
         self.branch.wrapping_mul(747_796_405).wrapping_add(2_891_336_453).wrapping_add(event)
@@ -70,7 +90,7 @@ impl Node {
 
 impl Tracer<'_> {
     /// What a ray of a tree finds, W/(sr m^2), as far as the camera sees it.
-    fn tree(&self, rules: &Rules, random: Numbers, mut ray: Ray, mut node: Node) -> Vec3 {
+    pub(super) fn tree(&self, rules: &Rules, random: Numbers, mut ray: Ray, mut node: Node) -> Vec3 {
         let mut radiance = Vec3::ZERO;
         for _ in 0..=LAYER_LIMIT {
             let Some(surface) = self.closest(&ray) else {
@@ -79,10 +99,11 @@ impl Tracer<'_> {
             if let Some(medium) = node.medium {
                 node.throughput *= self.posed.transmittance(medium, surface.t);
             }
-            radiance += self.surface(rules, random, &ray, node, &surface);
-
-            let (share, _) = bsdf_straight(&surface, -ray.direction);
-            node.throughput *= surface.opacity * share + (1.0 - surface.opacity);
+            if !(rules.passes_backs && !surface.front && rules.are_smooth(surface.roughness)) {
+                radiance += self.surface(rules, random, &ray, node, &surface);
+                let (share, _) = bsdf_straight(&surface, -ray.direction);
+                node.throughput *= surface.opacity * share + (1.0 - surface.opacity);
+            }
             if !(node.throughput.max_element() > rules.threshold) {
                 break;
             }
@@ -103,6 +124,13 @@ impl Tracer<'_> {
         let in_shadow = rules.shadow_depth.is_some_and(|depth| node.depth <= depth)
             && !(rules.specular_shadows && mirrored.is_none() && refracted.is_none());
         radiance += throughput * self.light(surface, -ray.direction, random, node, in_shadow);
+        if let Some(map) = &rules.map {
+            for lobe in [mirrored, refracted].into_iter().flatten() {
+                let looked_up = self.looked_up(rules, map, random, lobe.direction);
+                radiance += throughput * (lobe.weight * lobe.pdf) * looked_up;
+            }
+            return radiance;
+        }
         if node.depth >= rules.ray_depth || (rules.from_reflective && node.depth == 0 && mirrored.is_none()) {
             return radiance;
         }
@@ -157,10 +185,9 @@ fn left(ray: &Ray, surface: &Surface, direction: Vec3) -> Ray {
 
 impl PosedScene<'_> {
     /// Whitted's ray tracing; W/(sr m^2).
-    fn render_whitted(&self, view: &View, rules: Rules) -> Result<Image, ReferenceError> {
+    pub(super) fn render_whitted(&self, view: &View, rules: Rules) -> Result<Image, ReferenceError> {
         self.render_smoothed(view, (true, rules.mirror_roughness), |tracer, random| {
-            let root = Node { throughput: Vec3::ONE, medium: None, depth: 0, branch: 0 };
-            tracer.tree(&rules, random, tracer.camera_ray(view, random), root)
+            tracer.tree(&rules, random, tracer.camera_ray(view, random), Node::root(0))
         })
     }
 }

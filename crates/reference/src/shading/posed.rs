@@ -137,6 +137,11 @@ impl<'a> PosedScene<'a> {
         self.draw_of_triangle.len() as u32
     }
 
+    /// The material of a triangle.
+    pub(crate) fn material_of(&self, primitive: u32) -> &'a Material {
+        self.material(self.draw_of(primitive))
+    }
+
     pub(super) fn draw_of_index(&self, primitive: u32) -> usize {
         self.draw_of_triangle[primitive as usize] as usize
     }

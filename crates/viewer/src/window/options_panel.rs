@@ -149,15 +149,14 @@ fn show_control(ui: &mut egui::Ui, row: &OptionRow, value: Option<Value>) -> Opt
                 .suffix(if unit == Unit::Metres { " m" } else { "" });
             ui.add(drag).changed().then_some(Value::Number(number))
         }
-        Control::Cells => {
+        Control::Text(hint) => {
             let (id, text) = (ui.id().with(row.name), value.map(|value| value.to_string()));
             let mut typed =
                 ui.data_mut(|data| data.get_temp::<String>(id)).or_else(|| text.clone()).unwrap_or_default();
-            let response =
-                ui.add(egui::TextEdit::singleline(&mut typed).desired_width(90.0).hint_text("WxH"));
+            let response = ui.add(egui::TextEdit::singleline(&mut typed).desired_width(90.0).hint_text(hint));
             if response.lost_focus() {
                 ui.data_mut(|data| data.remove::<String>(id));
-                // What is no size leaves the option as it is.
+                // What the option does not take leaves the option as it is.
                 return row.parse(&typed).ok().filter(|typed| Some(*typed) != value);
             }
             if response.changed() {

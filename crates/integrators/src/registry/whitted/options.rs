@@ -37,14 +37,14 @@ pub(super) const THRESHOLD: OptionRow = OptionRow::new(
 .by_default(Value::Number(0.0))
 .trying(&["0.1"]);
 
-pub(super) const SHADOWS: OptionRow = OptionRow::words(
+pub(in crate::registry) const SHADOWS: OptionRow = OptionRow::words(
     "shadows",
     &[Shadows::All.word(), Shadows::First.word(), Shadows::None.word()],
     "Which surfaces are in shadow",
 )
 .by_default(Value::Word(Shadows::All.name()));
 
-pub(super) const MIRROR_ROUGHNESS: OptionRow = OptionRow::new(
+pub(in crate::registry) const MIRROR_ROUGHNESS: OptionRow = OptionRow::new(
     "mirror-roughness",
     Values::Number(Unit::Share, Least::Zero),
     "Surfaces less rough than this are perfectly smooth, as all below 0.03 are",
