@@ -1,5 +1,5 @@
 // What: data of integrators per slot of a wave and per pixel of the image, and the functions that access it. Slot i of
-// a wave holds pixel first_pixel + i.
+// a wave holds pixel first_pixel + i of the image, or of the list of those that a sample is taken of.
 // Reads, writes: the buffers of INTEGRATOR_SET.
 // Source: wavefront path tracing as in pbrt-v4, section 15.
 #ifndef INTEGRATORS_STORAGE_GLSL
@@ -50,10 +50,15 @@ layout(set = INTEGRATOR_SET, binding = 5, scalar) buffer ShadowHeaderBuffer { Qu
 layout(set = INTEGRATOR_SET, binding = 6, scalar) buffer ShadowListBuffer { uint shadow_list[]; };
 layout(set = INTEGRATOR_SET, binding = 7, scalar) buffer AovBuffer { AovPixel aov_pixels[]; };
 layout(set = INTEGRATOR_SET, binding = 8, scalar) buffer PathWaitingBuffer { PathWaiting path_waiting[]; };
+// Bindings from 9 to 14 are those of one integrator alone.
+layout(set = INTEGRATOR_SET, binding = 15, scalar) readonly buffer WavePixelBuffer { uint wave_pixels[]; };
+
+// A sample is taken of the pixels that a list names, not of all.
+layout(constant_id = 107) const bool WAVE_IS_LISTED = false;
 
 // Which slots a kernel works on, and what it is told. 32 bytes.
 layout(push_constant, scalar) uniform WaveConstants {
-    uint first_pixel;     // of the wave
+    uint first_pixel;     // of the wave: of the image, or its place in the list
     uint pixel_count;     // of the wave
     uint sample_index;    // number of the sample
     uint round;           // closest-hit rounds before this one
@@ -71,7 +76,9 @@ bool wave_slot(out uint slot) {
 }
 
 uint wave_pixel(uint slot) {
-    return wave.first_pixel + slot;
+    uint place = wave.first_pixel + slot;
+    if (!WAVE_IS_LISTED) return place;
+    return wave_pixels[place];
 }
 
 bool is_finite(vec3 v) {

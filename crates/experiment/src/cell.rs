@@ -93,7 +93,8 @@ pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) 
         needs,
         only: _,
     } = job;
-    let Frame { integrator, width, height, spp, seed, sampler, primary, occluder, back_faces } = frame;
+    let Frame { integrator, width, height, spp, adaptive, seed, sampler, primary, occluder, back_faces } =
+        frame;
     let pose = loaded.pose.as_ref();
     let needed = needs.verdicts().iter().filter(|verdict| verdict.needed);
     let cell = Cell {
@@ -121,6 +122,7 @@ pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) 
             integrator: integrator.name().to_owned(),
             options: texts(&integrator.values()),
             spp: *spp,
+            adaptive: adaptive.map(|rule| format!("{} {}", rule.threshold, rule.least)),
             sampler: sampler.name().to_owned(),
             primary: primary.name().to_owned(),
             occluder: occluder.name().to_owned(),
@@ -261,6 +263,7 @@ mod tests {
                 width: 4,
                 height: 3,
                 spp: 8,
+                adaptive: None,
                 seed: 1,
                 sampler: Sampler::Sobol,
                 primary: Primary::Trace,

@@ -1,5 +1,6 @@
 //! An image to make, as plain data.
 
+use rasray_frame::Adaptive;
 use rasray_integrators::IntegratorSpec;
 use rasray_options::Value;
 use rasray_report::Run;
@@ -17,6 +18,8 @@ pub struct Frame {
     pub height: u32,
     /// Samples per pixel, at least 1.
     pub spp: u32,
+    /// How many of them a pixel gets; absent: all.
+    pub adaptive: Option<Adaptive>,
     /// Seed of all random numbers.
     pub seed: u32,
     /// Where they come from.

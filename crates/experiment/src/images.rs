@@ -114,6 +114,7 @@ pub(super) fn compare_images(
         let of_camera = Contestant { config, spec, built };
         let mut run = of_camera.run(device)?;
         frame.describe(&mut run);
+        run.adaptive = frame.adaptive.map(|rule| pixels.adaptive(rule));
         pixels.write_times(&mut run.times);
         let beauty = pixels.means();
         run.stages.extend(pixels.passes.stages());

@@ -7,13 +7,13 @@ use rasray_ads::{Hit, Ray, StructureKind};
 use rasray_hard_cases::HardCase;
 use rasray_ray_files::{HitsFile, RaysFile, TrueHit};
 use rasray_report::figures::Figures;
-use rasray_report::{Counters, Memory, Pass, Run, Spread, StageTime, Times};
+use rasray_report::{AdaptiveRecord, Counters, Memory, Pass, Run, Spread, StageTime, Times};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Moment, Scene};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Images in addition to the colours, from rays through pixel centres.
+/// Images in addition to the colours. But for the numbers of samples, they are from rays through pixel centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AovSelection {
     /// Distance along the ray.
@@ -22,6 +22,8 @@ pub struct AovSelection {
     pub normal: bool,
     /// Global triangle id.
     pub primitive: bool,
+    /// Samples of each pixel.
+    pub samples: bool,
 }
 
 /// One image of one system.
@@ -241,8 +243,13 @@ pub struct RenderOutput {
     pub normal: Option<Vec<[f32; 3]>>,
     /// Global triangle id in scene order; `u32::MAX` where nothing was hit.
     pub primitive: Option<Vec<u32>>,
-    /// Samples per pixel in `beauty`; fewer than asked for after an early end.
+    /// Samples in the mean of each pixel: those that were made and are finite.
+    pub samples: Option<Vec<u32>>,
+    /// Samples per pixel in `beauty`, of adaptive samples the most that a pixel could get; fewer than asked for after an early
+    /// end.
     pub samples_done: u32,
+    /// How they were shared among the pixels, where some got more than others.
+    pub adaptive: Option<AdaptiveRecord>,
     /// Options of the structure as resolved from preset and command line.
     pub options: BTreeMap<String, Value>,
     /// Paths taken where the device decides: builder, coverage, atomics.
@@ -281,6 +288,7 @@ impl RenderOutput {
         };
         frame.describe(&mut run);
         run.spp = Some(self.samples_done);
+        run.adaptive = self.adaptive;
         run
     }
 }

@@ -29,7 +29,8 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         needs: _,
         repetitions: _,
     } = job;
-    let Frame { integrator, width, height, spp, seed, sampler, primary, occluder, back_faces } = frame;
+    let Frame { integrator, width, height, spp, adaptive, seed, sampler, primary, occluder, back_faces } =
+        frame;
     let size = [width, height];
     let options = texts(&system.options);
     scene_hash(KeyHash::default().with("program", program), loaded)
@@ -37,6 +38,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         .with("system", format!("{} {} {options:?}", system.system.name, system.preset.name()))
         .with("integrator", format!("{} {:?}", integrator.name(), texts(&integrator.values())))
         .with("frame", format!("{size:?} {spp} {seed} {sampler:?} {primary:?} {occluder:?} {back_faces:?}"))
+        .with("adaptive", format!("{adaptive:?}"))
         .with("aovs", format!("{aovs:?}"))
         .finish()
 }
@@ -64,7 +66,7 @@ pub(crate) fn texts(values: &OptionValues) -> BTreeMap<String, String> {
 mod tests {
     use super::*;
     use crate::jobs::{AovSelection, OccluderKind, Primary, Refresh, Sampler};
-    use crate::{IntegratorRow, IntegratorSpec, Shard, one_system};
+    use crate::{Adaptive, IntegratorRow, IntegratorSpec, Shard, one_system};
     use rasray_options::Value;
     use rasray_scene::needs::Needs;
     use rasray_scene::{BackFaces, Lens};
@@ -83,6 +85,7 @@ mod tests {
             width: 4,
             height: 3,
             spp: 8,
+            adaptive: None,
             seed: 1,
             sampler: Sampler::Sobol,
             primary: Primary::Trace,
@@ -119,8 +122,12 @@ mod tests {
         let set = |job: &mut RenderJob<'_>, option, value: Value| {
             job.frame.integrator = job.frame.integrator.with(option, value).expect("valid");
         };
-        let changes: [&dyn Fn(&mut RenderJob<'_>); 17] = [
+        let changes: [&dyn Fn(&mut RenderJob<'_>); 21] = [
             &|job| job.frame.spp = 4,
+            &|job| job.frame.adaptive = Some(Adaptive { threshold: 0.1, least: 4 }),
+            &|job| job.frame.adaptive = Some(Adaptive { threshold: 0.2, least: 4 }),
+            &|job| job.frame.adaptive = Some(Adaptive { threshold: 0.1, least: 5 }),
+            &|job| job.aovs.samples = true,
             &|job| job.frame.seed = 2,
             &|job| job.frame.width = 5,
             &|job| job.frame.sampler = Sampler::Pcg,

@@ -75,6 +75,7 @@ pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use moving_scene::PoseTimes;
 pub use paper_frame::FrameDefaults;
 pub use placed::{Placed, case_camera};
+pub use rasray_frame::Adaptive;
 pub use rasray_gpu::{PassCommands, Stage};
 pub use rasray_integrators::{INTEGRATORS, IntegratorRow, IntegratorSpec, integrator_options};
 pub use rasray_options::OptionValues;

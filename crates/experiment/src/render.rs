@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use rasray_frame::Adaptive;
 use rasray_gpu::{Device, Stage};
 use rasray_gpu_scene::View;
 use rasray_integrators::FilmPixel;
@@ -16,7 +17,7 @@ use crate::passes::Passes;
 use crate::rendering::Rendering;
 use crate::shard::Shard;
 use crate::system_config::SystemConfig;
-use rasray_report::{Counters, PassOf, Times};
+use rasray_report::{AdaptiveRecord, Counters, PassOf, Times};
 
 /// Pixels and what they cost.
 pub(super) struct Pixels {
@@ -35,9 +36,22 @@ impl Pixels {
     }
 
     fn sums(&self) -> FilmSums {
-        FilmSums {
-            sums: self.film.iter().map(|pixel| pixel.sum).collect(),
-            counts: self.film.iter().map(|pixel| pixel.samples).collect(),
+        FilmSums { sums: self.film.iter().map(|pixel| pixel.sum).collect(), counts: self.counts() }
+    }
+
+    /// Samples in each pixel's sum.
+    fn counts(&self) -> Vec<u32> {
+        self.film.iter().map(|pixel| pixel.samples).collect()
+    }
+
+    /// How samples were shared among the pixels by a rule.
+    pub(super) fn adaptive(&self, rule: Adaptive) -> AdaptiveRecord {
+        let all: u64 = self.film.iter().map(|pixel| u64::from(pixel.samples)).sum();
+        AdaptiveRecord {
+            threshold: rule.threshold,
+            least_samples: rule.least,
+            samples_mean: all as f64 / self.film.len().max(1) as f64,
+            samples_most: self.film.iter().map(|pixel| pixel.samples).max().unwrap_or(0),
         }
     }
 
@@ -218,7 +232,9 @@ pub(super) fn render(
         depth: None,
         normal: None,
         primitive: None,
+        samples: job.aovs.samples.then(|| pixels.counts()),
         samples_done: pixels.samples_done,
+        adaptive: frame.adaptive.map(|rule| pixels.adaptive(rule)),
         options,
         paths,
         stages,
@@ -228,7 +244,7 @@ pub(super) fn render(
         memory: Some(memory),
         counters: Some(pixels.counters),
     };
-    if job.aovs != AovSelection::default() {
+    if (AovSelection { samples: false, ..job.aovs }) != AovSelection::default() {
         _ = progress(Progress { task: "render", done: 0, total: 0, unit: "additional images" });
         let found = rendering.image().aovs(&stage.scene, built.structure()).map_err(frame_error)?;
         output.depth = job.aovs.depth.then(|| found.iter().map(|pixel| pixel.distance).collect());

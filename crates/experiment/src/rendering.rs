@@ -123,7 +123,12 @@ impl Rendering {
         shard: Option<Shard>,
         needs: &Needs,
     ) -> Result<Self, ExperimentError> {
-        let film = Film::new(device, frame.width, frame.height).map_err(image_error)?;
+        let film = Film::new(device, frame.width, frame.height);
+        let film = match frame.adaptive {
+            Some(_) => film.and_then(|film| film.listed(device)),
+            None => film,
+        };
+        let film = film.map_err(image_error)?;
         let mut desc = IntegratorDesc::new(device, &stage.scene, &film);
         if *needs == Needs::all() {
             desc.features = rasray_gpu_scene::ShadingFeatures::ALL;
@@ -132,7 +137,12 @@ impl Rendering {
         let passes = passes.with_visibility(visibility(device, stage, frame)?);
         let passes = with_occluder(passes, device, stage, frame)?;
         let samples = shard.unwrap_or_default().samples(frame.spp);
-        let image = ImageRenderer::new(device, passes, samples).map_err(frame_error)?;
+        let image = ImageRenderer::new(device, passes, samples);
+        let image = match frame.adaptive {
+            Some(rule) => image.and_then(|image| image.adapting(rule)),
+            None => image,
+        };
+        let image = image.map_err(frame_error)?;
         Ok(Self { image, passes: Passes::default() })
     }
 

@@ -39,6 +39,7 @@ impl RenderOutput {
             ("depth", aovs.depth, self.depth.as_ref().map(Vec::len)),
             ("normal", aovs.normal, self.normal.as_ref().map(Vec::len)),
             ("primitive", aovs.primitive, self.primitive.as_ref().map(Vec::len)),
+            ("samples", aovs.samples, self.samples.as_ref().map(Vec::len)),
         ];
         for (name, wanted, length) in lengths {
             if wanted && length != Some(pixels) {

@@ -34,6 +34,7 @@ fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> Comp
         width: 32,
         height: 32,
         spp: 1,
+        adaptive: None,
         seed: SEED,
         sampler: Sampler::Sobol,
         primary: Primary::Trace,

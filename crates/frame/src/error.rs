@@ -31,6 +31,11 @@ pub enum FrameError {
         /// Number of rays.
         rays: u64,
     },
+    /// Camera rays that are drawn are those of all pixels.
+    #[error(
+        "camera rays are drawn, which are those of all pixels: trace them, or take as many samples of each pixel"
+    )]
+    DrawnAdaptively,
     /// A frame was not complete however often it was repeated.
     #[error("a frame through {structure} was not complete after {repeats} repeats; its demand is not stable")]
     Unstable {

@@ -8,6 +8,7 @@ use rasray_gpu::{Device, PassTiming, Timing};
 use rasray_gpu_scene::GpuScene;
 use rasray_integrators::{AovPass, AovPixel, Film, Wave, wave_capacity, waves};
 
+use crate::adaptive::{Adaptive, Pilot};
 use crate::image_passes::{ImagePasses, unanswered};
 use crate::{FrameError, Samples};
 
@@ -33,10 +34,30 @@ pub struct ImageRenderer {
     device: Device,
     passes: ImagePasses,
     samples: Samples,
-    /// The first pixel of the next wave.
+    /// The first pixel of the next wave, among those of the sample.
     next_pixel: u32,
+    /// Pixels that the sample is taken of.
+    of_sample: u32,
     samples_done: u32,
+    waves_done: u64,
     unfinished: u64,
+    sharing: Option<Sharing>,
+}
+
+/// How samples are given to pixels where some get more than others.
+#[derive(Debug)]
+struct Sharing {
+    rule: Adaptive,
+    pilot: Pilot,
+    /// Samples of each pixel; empty before the pilot is done.
+    counts: Vec<u32>,
+}
+
+impl Sharing {
+    /// Pixels that have a sample at this place.
+    fn pixels_at(&self, sample: u32) -> Vec<u32> {
+        (0..).zip(&self.counts).filter(|(_, count)| **count > sample).map(|(pixel, _)| pixel).collect()
+    }
 }
 
 impl ImageRenderer {
@@ -50,9 +71,34 @@ impl ImageRenderer {
         samples: impl Into<Samples>,
     ) -> Result<Self, FrameError> {
         let (device, passes, samples) = (device.clone(), passes.into(), samples.into());
-        let mut made = Self { device, passes, samples, next_pixel: 0, samples_done: 0, unfinished: 0 };
+        let mut made = Self {
+            device,
+            passes,
+            samples,
+            next_pixel: 0,
+            of_sample: 0,
+            samples_done: 0,
+            waves_done: 0,
+            unfinished: 0,
+            sharing: None,
+        };
         made.clear()?;
         Ok(made)
+    }
+
+    /// The same with more samples where there is more noise: those that were asked for are the most that a pixel gets.
+    ///
+    /// # Errors
+    /// [`FrameError::DrawnAdaptively`] where camera rays are drawn, `NotListed` where the film was not made by
+    /// [`Film::listed`], or the device fails.
+    pub fn adapting(mut self, rule: Adaptive) -> Result<Self, FrameError> {
+        if self.passes.visibility().is_some() {
+            return Err(FrameError::DrawnAdaptively);
+        }
+        let pilot = Pilot::new(self.film().width(), self.film().pixel_count());
+        self.sharing = Some(Sharing { rule, pilot, counts: Vec::new() });
+        self.clear()?;
+        Ok(self)
     }
 
     /// Film and counters start at 0 again.
@@ -61,7 +107,37 @@ impl ImageRenderer {
     /// The device fails.
     pub fn clear(&mut self) -> Result<(), FrameError> {
         self.device.submit(|recorder| self.passes.record_reset(recorder))?;
-        (self.next_pixel, self.samples_done, self.unfinished) = (0, 0, 0);
+        (self.next_pixel, self.samples_done, self.waves_done, self.unfinished) = (0, 0, 0, 0);
+        self.of_sample = self.film().pixel_count();
+        if let Some(sharing) = &mut self.sharing {
+            let film = self.passes.film();
+            sharing.pilot = Pilot::new(film.width(), film.pixel_count());
+            sharing.counts.clear();
+            film.write_list(&self.device, &(0..film.pixel_count()).collect::<Vec<_>>())?;
+        }
+        Ok(())
+    }
+
+    /// Chooses the pixels of the next sample. Where none has one, no sample is left to be made.
+    fn choose_pixels(&mut self) -> Result<(), FrameError> {
+        let Some(sharing) = &mut self.sharing else { return Ok(()) };
+        let (film, done) = (self.passes.film(), self.samples_done);
+        if done <= sharing.rule.least {
+            sharing.pilot.add(&film.read_pixels(&self.device)?);
+        }
+        if done < sharing.rule.least {
+            return Ok(());
+        }
+        if done == sharing.rule.least {
+            sharing.counts = sharing.pilot.counts(sharing.rule, self.samples.count());
+        }
+        let pixels = sharing.pixels_at(done);
+        if pixels.is_empty() {
+            self.samples_done = self.samples.count();
+        } else if pixels.len() != self.of_sample as usize {
+            film.write_list(&self.device, &pixels)?;
+        }
+        self.of_sample = pixels.len() as u32;
         Ok(())
     }
 
@@ -103,7 +179,7 @@ impl ImageRenderer {
     /// The device fails, or rays met list entries with an invalid index.
     pub fn advance(&mut self, structure: &dyn Structure, timing: Timing) -> Result<Advance, FrameError> {
         let mut timings = self.draw_shadow_maps(timing)?;
-        let (pixels, integrator) = (self.film().pixel_count(), self.passes.integrator());
+        let (pixels, integrator) = (self.of_sample, self.passes.integrator());
         let wave = Wave {
             first_pixel: self.next_pixel,
             pixel_count: integrator.wave_capacity().min(pixels - self.next_pixel),
@@ -119,9 +195,11 @@ impl ImageRenderer {
             return Ok(Advance::StartedOver);
         }
         self.next_pixel += wave.pixel_count;
+        self.waves_done += 1;
         if self.next_pixel == pixels {
             self.next_pixel = 0;
             self.samples_done += 1;
+            self.choose_pixels()?;
         }
         Ok(Advance::Wave { passes: timings })
     }
@@ -189,22 +267,21 @@ impl ImageRenderer {
         self.passes.film()
     }
 
-    /// Waves of all samples that were asked for.
+    /// Waves of all samples that were asked for; where pixels get as many as they need, at most so many.
     pub fn waves(&self) -> u64 {
-        u64::from(self.waves_per_sample()) * u64::from(self.samples.count())
+        let of = |pixels: u64| pixels.div_ceil(self.passes.integrator().wave_capacity().into());
+        let left = self.samples.count().saturating_sub(self.samples_done + u32::from(self.next_pixel > 0));
+        let in_sample = if self.next_pixel > 0 { of((self.of_sample - self.next_pixel).into()) } else { 0 };
+        self.waves_done + in_sample + u64::from(left) * of(self.of_sample.into())
     }
 
     /// Waves that are on the film.
     pub fn waves_done(&self) -> u64 {
-        let of_sample = self.next_pixel.div_ceil(self.passes.integrator().wave_capacity());
-        u64::from(self.waves_per_sample()) * u64::from(self.samples_done) + u64::from(of_sample)
+        self.waves_done
     }
 
-    fn waves_per_sample(&self) -> u32 {
-        self.film().pixel_count().div_ceil(self.passes.integrator().wave_capacity())
-    }
-
-    /// Samples that all pixels have.
+    /// Samples that all pixels have; where some get more than others, those that are on the film of the first so many. All
+    /// where every pixel has what it needs.
     pub fn samples_done(&self) -> u32 {
         self.samples_done
     }

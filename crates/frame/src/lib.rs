@@ -6,12 +6,14 @@
 //! Interactive programs leave them out, and keep showing the last picture.
 //!
 //! [`ImageRenderer`] makes an image wave by wave, with the same passes ([`ImagePasses`]): where a submission must not last as
-//! long as an image, or somebody wants to look at it in between.
+//! long as an image, or somebody wants to look at it in between. It can take more samples where there is more noise
+//! ([`Adaptive`]).
 //!
 //! Where triangles change in number, a frame brings another [`FrameScene`].
 //!
 //! Structures alone, with a host's own frames: `rasray_tracer::FrameStructure`.
 
+mod adaptive;
 mod error;
 mod image_passes;
 mod image_renderer;
@@ -21,6 +23,7 @@ mod renderer;
 mod samples;
 mod scene;
 
+pub use adaptive::Adaptive;
 pub use error::FrameError;
 pub use image_passes::ImagePasses;
 pub use image_renderer::{Advance, ImageRenderer};

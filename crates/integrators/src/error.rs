@@ -44,6 +44,17 @@ pub enum IntegratorError {
         /// Width and height of the scene's view.
         view: [u32; 2],
     },
+    /// A pixel that the image does not have was listed.
+    #[error("pixel {pixel} was listed, of an image of {count} pixels")]
+    NoPixel {
+        /// Its number.
+        pixel: u32,
+        /// Pixels of the image.
+        count: u32,
+    },
+    /// Some pixels of a film were asked for that has no list of pixels.
+    #[error("the film has no list of pixels: make it with `Film::listed`")]
+    NotListed,
     /// Waves without rays, or with more than there can be.
     #[error("a wave of up to {capacity} rays cannot be made: from 1 to {WAVE_LIMIT} are possible")]
     WaveCapacity {

@@ -19,6 +19,7 @@ pub struct Film {
     height: u32,
     pixels: Buffer,
     faults: Buffer,
+    list: Option<Buffer>,
 }
 
 impl Film {
@@ -34,12 +35,44 @@ impl Film {
             height,
             pixels: device_buffer(device, "film", u64::from(count) * size_of::<FilmPixel>() as u64)?,
             faults: device_buffer(device, "film faults", size_of::<FilmFaults>() as u64)?,
+            list: None,
         })
     }
 
     /// Another image that counts its faults with those of this one.
     pub(crate) fn beside(&self, device: &Device, width: u32, height: u32) -> Result<Self, IntegratorError> {
         Ok(Self { faults: self.faults.clone(), ..Self::new(device, width, height)? })
+    }
+
+    /// The same with a list of pixels, which waves of integrators made for this film are ranges of: a sample may be taken of
+    /// some pixels only ([`Film::write_list`]). All are listed, in their order. Submits and waits.
+    ///
+    /// # Errors
+    /// The device is lost or out of memory.
+    pub fn listed(self, device: &Device) -> Result<Self, IntegratorError> {
+        let bytes = u64::from(self.pixel_count()) * size_of::<u32>() as u64;
+        let listed = Self { list: Some(device_buffer(device, "listed pixels", bytes)?), ..self };
+        listed.write_list(device, &(0..listed.pixel_count()).collect::<Vec<_>>())?;
+        Ok(listed)
+    }
+
+    /// The list of pixels, where there is one.
+    pub fn list(&self) -> Option<&Buffer> {
+        self.list.as_ref()
+    }
+
+    /// Says which pixels the next waves are ranges of: numbers of pixels, each at most once. Submits and waits.
+    ///
+    /// # Errors
+    /// [`IntegratorError::NotListed`] without a list, [`IntegratorError::NoPixel`] for a number beyond the image; more pixels
+    /// than the image has; the device is lost or out of memory.
+    pub fn write_list(&self, device: &Device, pixels: &[u32]) -> Result<(), IntegratorError> {
+        let list = self.list.as_ref().ok_or(IntegratorError::NotListed)?;
+        let count = self.pixel_count();
+        if let Some(&pixel) = pixels.iter().find(|pixel| **pixel >= count) {
+            return Err(IntegratorError::NoPixel { pixel, count });
+        }
+        Ok(device.upload_slice(list, 0, pixels)?)
     }
 
     /// Records that all sums and faults start at 0.
@@ -83,7 +116,7 @@ impl Film {
 
     /// Bytes of all buffers.
     pub fn bytes(&self) -> u64 {
-        self.pixels.size() + self.faults.size()
+        self.pixels.size() + self.faults.size() + self.list.as_ref().map_or(0, Buffer::size)
     }
 
     /// Downloads the means of all pixels, row by row from the top left: submits and waits.

@@ -8,12 +8,15 @@ use rasray_gpu::{
 };
 use rasray_gpu_scene::GpuScene;
 pub(crate) use rasray_shaders_glsl::records::WaveConstants;
-use rasray_shaders_glsl::{Shader, constant_ids::integrators::PIXEL_CENTRES};
+use rasray_shaders_glsl::{
+    Shader,
+    constant_ids::integrators::{PIXEL_CENTRES, WAVE_IS_LISTED},
+};
 
 use crate::{Film, IntegratorError, Wave, integrator::check_wave};
 
 /// Bindings of the integrators' set that several have, as `integrators/storage.glsl` declares them. Those of one alone, from
-/// 9 on, are in its own files.
+/// 9 to 14, are in its own files.
 pub(crate) mod binding {
     pub const FILM: u32 = 0;
     pub const FILM_FAULTS: u32 = 1;
@@ -24,14 +27,16 @@ pub(crate) mod binding {
     pub const SHADOW_LIST: u32 = 6;
     pub const AOV: u32 = 7;
     pub const WAITING: u32 = 8;
+    pub const WAVE_PIXELS: u32 = 15;
 }
 
 /// A binding of the integrators' set with its buffer.
 pub(crate) type Bound<'a> = (u32, &'a Buffer);
 
 /// The film, as kernels bind it.
-pub(crate) fn film(film: &Film) -> [Bound<'_>; 2] {
-    [(binding::FILM, film.pixels()), (binding::FILM_FAULTS, film.faults())]
+pub(crate) fn film(film: &Film) -> Vec<Bound<'_>> {
+    let all = [(binding::FILM, film.pixels()), (binding::FILM_FAULTS, film.faults())];
+    all.into_iter().chain(film.list().map(|list| (binding::WAVE_PIXELS, list))).collect()
 }
 
 /// A second queue, as the passes that fill it bind it.
@@ -76,6 +81,8 @@ pub(crate) struct Bindings {
     layouts: [SetLayout; 4],
     /// Geometry, storage, scene.
     sets: [BindingSet; 3],
+    /// Whether waves are of the pixels in a list.
+    is_listed: bool,
 }
 
 impl Bindings {
@@ -86,7 +93,7 @@ impl Bindings {
     /// Out of memory, or a buffer exceeds what one binding can hold.
     pub fn new(device: &Device, scene: &GpuScene, bound: &[Bound<'_>]) -> Result<Self, IntegratorError> {
         let placeholder = device_buffer(device, "unused binding", 16)?;
-        let count = bound.iter().map(|(binding, _)| binding + 1).max().unwrap_or(0);
+        let count = binding::WAVE_PIXELS + 1;
         let buffer = |binding| bound.iter().find(|(known, _)| *known == binding).map(|(_, buffer)| *buffer);
         let buffers: Vec<_> = (0..count).map(|binding| buffer(binding).unwrap_or(&placeholder)).collect();
         let layout = device.create_set_layout("integrator", count)?;
@@ -99,6 +106,7 @@ impl Bindings {
                 scene.binding().layout.clone(),
             ],
             sets: [scene.geometry().set().clone(), set, scene.binding().set.clone()],
+            is_listed: buffer(binding::WAVE_PIXELS).is_some(),
         })
     }
 
@@ -118,12 +126,13 @@ impl Bindings {
         shader: &'static Shader,
         constants: &[(u32, u32)],
     ) -> Result<Kernel, IntegratorError> {
+        let constants = [constants, &[(WAVE_IS_LISTED, self.is_listed.into())]].concat();
         let pipeline = device.create_compute_pipeline(&ComputePipelineDesc {
             name: shader.name,
             spirv: &shader.words(),
             sets: &self.layouts.each_ref(),
             push_constant_bytes: size_of::<WaveConstants>() as u32,
-            constants,
+            constants: &constants,
         })?;
         Ok(Kernel { stage: Stage::Shade, label: shader.name, pipeline })
     }

@@ -28,10 +28,11 @@ fn suitable(software: bool, memory: u64, binding: u64) -> u32 {
 }
 
 /// A range of pixels of which one sample is taken. Pixels are numbered row by row from the top left;
-/// slot `i` of the queues holds the ray of pixel `first_pixel + i`.
+/// slot `i` of the queues holds the ray of pixel `first_pixel + i`, or of the pixel at that place of the film's list
+/// ([`Film::listed`](crate::Film::listed)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wave {
-    /// Number of the first pixel in the whole image.
+    /// Number of the first pixel in the whole image, or its place in the list.
     pub first_pixel: u32,
     /// Pixels in the wave, at least 1, at most the capacity of the queues.
     pub pixel_count: u32,

@@ -84,6 +84,9 @@ pub struct CellImage {
     pub options: BTreeMap<String, String>,
     /// Samples per pixel.
     pub spp: u32,
+    /// Where pixels get as many samples as their noise needs: the threshold and the least samples, as in `0.02 16`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptive: Option<String>,
     /// Where random numbers come from.
     pub sampler: String,
     /// How what the camera sees first is found.

@@ -20,8 +20,8 @@ pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
 pub use cell::{Cell, CellImage, CellRays, CellRecord, CellView};
 pub use cost::{Counters, Memory, Pass, PassOf, Spread, StageTime, Timer, Times};
 pub use schema::{
-    CameraRecord, Device, FramesRecord, PoseRecord, Report, Run, SCHEMA, SceneRecord, SmallerImageRecord,
-    Statistics,
+    AdaptiveRecord, CameraRecord, Device, FramesRecord, PoseRecord, Report, Run, SCHEMA, SceneRecord,
+    SmallerImageRecord, Statistics,
 };
 
 pub use markdown::markdown;

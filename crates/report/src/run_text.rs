@@ -51,7 +51,10 @@ pub(super) fn heading(run: &Run) -> String {
         _ = write!(text, ", {width}x{height}");
     }
     if let Some(spp) = run.spp {
-        _ = write!(text, ", {spp} spp");
+        _ = match &run.adaptive {
+            Some(adaptive) => write!(text, ", {:.1} of {spp} spp", adaptive.samples_mean),
+            None => write!(text, ", {spp} spp"),
+        };
     }
     if let Some(seed) = run.seed {
         _ = write!(text, ", seed {seed}");

@@ -178,6 +178,20 @@ pub struct CameraRecord {
     pub up: [f64; 3],
 }
 
+/// Samples by noise.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AdaptiveRecord {
+    /// Standard error that a pixel may have, as a share of its luminance.
+    pub threshold: f64,
+    /// Samples that every pixel got, by which the rest was shared.
+    pub least_samples: u32,
+    /// Mean over the pixels.
+    pub samples_mean: f64,
+    /// Of the pixel that got most.
+    pub samples_most: u32,
+}
+
 /// One system, preset and ray set or image.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -221,6 +235,9 @@ pub struct Run {
     /// Samples per pixel that were made.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spp: Option<u32>,
+    /// How samples were shared among the pixels, where some got more than others; then `spp` is the most that one could get.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptive: Option<AdaptiveRecord>,
     /// Scatterings at most; absent unless paths are traced.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bounces: Option<u32>,

@@ -22,6 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         width: 320,
         height: 180,
         spp: 16,
+        adaptive: None,
         seed: 1,
         sampler: Sampler::Sobol,
         primary: Primary::Trace,

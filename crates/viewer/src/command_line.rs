@@ -1,6 +1,6 @@
 //! The command line that makes a picture again.
 
-use rasray_experiment::{Frame, OccluderKind, Primary, SystemConfig};
+use rasray_experiment::{Adaptive, Frame, OccluderKind, Primary, SystemConfig};
 use rasray_scene::BackFaces;
 
 /// A word as a shell reads it back.
@@ -15,7 +15,8 @@ pub fn quoted(word: &str) -> String {
 
 /// The words that make a frame.
 pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
-    let Frame { integrator, width, height, spp, seed, sampler, primary, occluder, back_faces } = frame;
+    let Frame { integrator, width, height, spp, adaptive, seed, sampler, primary, occluder, back_faces } =
+        frame;
     let mut words = vec![
         "--size".to_owned(),
         format!("{width}x{height}"),
@@ -26,6 +27,10 @@ pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
     ];
     for (option, value) in integrator.options().iter() {
         words.extend([format!("--{option}"), value.to_string()]);
+    }
+    if let Some(Adaptive { threshold, least }) = adaptive {
+        words.extend(["--adaptive".to_owned(), threshold.to_string()]);
+        words.extend(["--least-samples".to_owned(), least.to_string()]);
     }
     words.extend(["--seed".to_owned(), seed.to_string(), "--sampler".to_owned(), sampler.name().to_owned()]);
     if *primary != Primary::default() {

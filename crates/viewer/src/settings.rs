@@ -129,6 +129,7 @@ pub(crate) mod tests {
             width: 40,
             height: 30,
             spp: 4,
+            adaptive: None,
             seed: 1,
             sampler: Sampler::Sobol,
             primary: Primary::Trace,

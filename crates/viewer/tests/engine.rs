@@ -38,6 +38,7 @@ fn settings() -> Settings {
         width: 33,
         height: 20,
         spp: 2,
+        adaptive: None,
         seed: 7,
         sampler: Sampler::Sobol,
         primary: Primary::Trace,

@@ -6,7 +6,9 @@ use super::values;
 use crate::error::AppError;
 use crate::output::ImageFormat;
 use clap::{Args, ValueEnum};
-use rasray_experiment::{AovSelection, Frame, Refresh, Shard, SystemConfig, SystemRequest};
+use rasray_experiment::{
+    Adaptive, AovSelection, Frame, Primary, Refresh, Shard, SystemConfig, SystemRequest,
+};
 use rasray_scene::builtin::{Picture, picture};
 use rasray_systems::Preset;
 use std::ffi::OsString;
@@ -28,8 +30,8 @@ Examples:
 
 PNG holds 8-bit sRGB: colours times 2^exposure, clamped to 0 to 1, then the sRGB curve; no other tone
 mapping, so that other programs reproduce it. EXR holds linear 32-bit floats: R, G, B, and with --aov
-Z (metres along the ray, 0: miss), N.X N.Y N.Z (geometric normal, world) and id (triangle, 4294967295:
-miss). Files are written next to their place and renamed, so a file there is always whole; of a link it is
+Z (metres along the ray, 0: miss), N.X N.Y N.Z (geometric normal, world), id (triangle, 4294967295:
+miss) and samples (of each pixel). Files are written next to their place and renamed, so a file there is always whole; of a link it is
 the file that the link leads to. The camera that was used is printed as options that put one there.
 
 SIGINT (Ctrl-C), SIGTERM or SIGHUP: the samples done so far are written, exit code 130; where none is, the command
@@ -37,6 +39,10 @@ ends within two seconds and writes nothing. A second one stops at once and write
 of --shard only whole images are written; run again with --resume.";
 
 const FRAMES: &str = "Frames and shares";
+const IMAGE: &str = "Image";
+
+/// Samples of the pilot unless told.
+const LEAST_SAMPLES: u32 = 16;
 
 /// Options of `rasray render`.
 #[derive(Debug, Args)]
@@ -60,6 +66,13 @@ pub struct RenderArguments {
     /// Images in addition to the colours, kept in the .exr
     #[arg(long, value_enum, value_delimiter = ',', requires = "output")]
     pub aov: Vec<Aov>,
+    /// More samples where there is more noise: each pixel gets as many, up to --spp, as the first samples of the pixels around
+    /// it need for this standard error, as a share of their radiance, such as 0.02. The image is as unbiased as without
+    #[arg(long, value_name = "SHARE", value_parser = values::noise, help_heading = IMAGE)]
+    pub adaptive: Option<f64>,
+    /// Samples that every pixel gets and that say how many more are needed, 2 to 1048576 [default: 16, at most --spp]
+    #[arg(long, value_name = "N", value_parser = values::whole(2, 1_048_576), requires = "adaptive", help_heading = IMAGE)]
+    pub least_samples: Option<u32>,
     /// Stops of exposure for .png
     #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true, requires = "output")]
     pub exposure: Option<f32>,
@@ -99,6 +112,8 @@ pub enum Aov {
     Normal,
     /// id: global triangle id
     Primitive,
+    /// samples: how many are in each pixel's mean
+    Samples,
 }
 
 impl RenderArguments {
@@ -114,17 +129,22 @@ impl RenderArguments {
     /// built-in scene.
     ///
     /// # Errors
-    /// An option of an integrator that was not chosen.
+    /// An option of an integrator that was not chosen, or what adaptive samples do not go with.
     pub fn frame(&self) -> Result<Frame, AppError> {
-        let frame = self.work.frame(self.system.frame_defaults(self.preset))?;
+        let mut defaults = self.system.frame_defaults(self.preset);
+        if self.adaptive.is_some() {
+            defaults.primary = Primary::Trace;
+        }
+        let frame = self.work.frame(defaults)?;
         let (given, view) = (&self.work.frame, &self.work.view);
         let suits = self.scene.to_str().filter(|_| view.eye.is_none()).and_then(picture);
-        Ok(match suits {
+        let frame = match suits {
             Some(Picture { size: [width, height], samples }) if given.size.is_none() => {
                 Frame { width, height, spp: given.spp.unwrap_or(samples), ..frame }
             }
             _ => frame,
-        })
+        };
+        Ok(Frame { adaptive: self.adaptive(&frame)?, ..frame })
     }
 
     /// The images wanted in addition to the colours.
@@ -133,6 +153,34 @@ impl RenderArguments {
             depth: self.aov.contains(&Aov::Depth),
             normal: self.aov.contains(&Aov::Normal),
             primitive: self.aov.contains(&Aov::Primitive),
+            samples: self.aov.contains(&Aov::Samples),
+        }
+    }
+
+    /// How many samples each pixel of a frame gets; absent: all.
+    fn adaptive(&self, frame: &Frame) -> Result<Option<Adaptive>, AppError> {
+        let Some(threshold) = self.adaptive else { return Ok(None) };
+        let refused = |why: String, fix: &str| Err(AppError::usage(why, fix));
+        if frame.primary == Primary::Raster {
+            return refused(
+                "--primary raster draws camera rays of all pixels, and --adaptive asks for those of some"
+                    .to_owned(),
+                "leave one of the two out",
+            );
+        }
+        if self.shard.is_some() && self.frames.is_none() {
+            return refused(
+                "--adaptive shares samples by the first of all, which a --shard of them does not have"
+                    .to_owned(),
+                "leave one of the two out, or make shares of --frames",
+            );
+        }
+        match self.least_samples {
+            Some(least) if least > frame.spp => refused(
+                format!("--least-samples {least} are more than the {} of --spp", frame.spp),
+                "ask for fewer, or for more --spp",
+            ),
+            least => Ok(Some(Adaptive { threshold, least: least.unwrap_or(LEAST_SAMPLES).min(frame.spp) })),
         }
     }
 }

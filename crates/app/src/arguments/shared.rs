@@ -89,8 +89,9 @@ impl FrameArguments {
         let spp = self.spp.unwrap_or(DEFAULT_SAMPLES);
         let occluder = self.occluder(defaults.occluder)?;
         let primary = self.primary.unwrap_or(defaults.primary);
+        let adaptive = None;
         let Self { seed, sampler, back_faces, .. } = *self;
-        Ok(Frame { integrator, width, height, spp, seed, sampler, primary, occluder, back_faces })
+        Ok(Frame { integrator, width, height, spp, adaptive, seed, sampler, primary, occluder, back_faces })
     }
 
     fn occluder(&self, default: OccluderKind) -> Result<OccluderKind, AppError> {

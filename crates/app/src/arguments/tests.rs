@@ -132,6 +132,7 @@ fn published_presets_take_the_frame_of_their_paper() {
         ("--system mmrt --preset published --shadow-resolution 64", ("path", "raster", "shadow-maps")),
         ("--system mmrt --preset published --occluder structure", ("path", "raster", "structure")),
         ("--system dirt --preset published", ("path", "raster", "structure")),
+        ("--system dirt --preset published --adaptive 0.1", ("path", "trace", "structure")),
         ("--system dirt --preset published --aperture 0.01", ("path", "trace", "structure")),
         ("--system hu --preset published", ("whitted", "raster", "structure")),
         ("--system hu --preset published --primary trace", ("whitted", "trace", "structure")),

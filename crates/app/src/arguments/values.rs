@@ -125,6 +125,17 @@ pub fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Reads a standard error that is allowed, as a share of what is measured.
+///
+/// # Errors
+/// Says what is allowed.
+pub fn noise(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if (1.0e-6..=1.0).contains(&value) => Ok(value),
+        _ => Err("must be a share from 0.000001 to 1, such as 0.02".to_owned()),
+    }
+}
+
 /// Reads stops of exposure.
 ///
 /// # Errors
@@ -232,5 +243,8 @@ mod tests {
     fn ranges_refuse_what_lies_outside() {
         assert!(angle_of_view("45").is_ok() && angle_of_view("0").is_err() && angle_of_view("180").is_err());
         assert!(stops("-2").is_ok() && stops("65").is_err() && stops("nan").is_err());
+        assert!(
+            noise("0.02").is_ok() && noise("0").is_err() && noise("1.5").is_err() && noise("nan").is_err()
+        );
     }
 }

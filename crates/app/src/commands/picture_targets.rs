@@ -116,6 +116,12 @@ fn image_target(
         ));
     }
     check_format(path, format, aovs != AovSelection::default(), given.exposure)?;
+    if aovs.samples && given.shard.is_some() && given.frames.is_none() {
+        return Err(AppError::usage(
+            "--aov samples is of a whole image, and a --shard has counts of its own",
+            "leave one of the two out",
+        ));
+    }
     if format == ImageFormat::Png && given.shard.is_some() && given.frames.is_none() {
         return Err(AppError::input(
             path,

@@ -1,7 +1,7 @@
 //! OpenEXR: linear 32-bit floats in one part, losslessly compressed. Channels: R, G, B; Z distance
 //! from the eye along the ray in metres (0: miss); N.X, N.Y, N.Z unit geometric normal in the world,
-//! facing the eye; id 32-bit unsigned global triangle id (4294967295: miss). A share of the samples has sums in R, G, B,
-//! and in samples how many each sum holds.
+//! facing the eye; id 32-bit unsigned global triangle id (4294967295: miss); samples how many are in the pixel's mean. A
+//! share of the samples has sums in R, G, B, and in samples how many each sum holds.
 
 use super::exr_header::{CHECKSUM, NO_CHECKSUM, finish};
 use super::stamp::KEY;
@@ -47,7 +47,7 @@ pub struct PartOf {
 /// The attributes of a part.
 pub(super) const PICTURE: &str = "rasrayPicture";
 pub(super) const SHARD: &str = "rasrayShard";
-/// Of parts: samples in each pixel's sum.
+/// Samples in each pixel's mean; of parts, in its sum.
 pub(super) const SAMPLES: &str = "samples";
 pub(super) const VERSION: &str = "rasrayVersion";
 
@@ -70,8 +70,8 @@ pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result
     for (axis, name) in ["R", "G", "B"].into_iter().enumerate() {
         channels.push(AnyChannel::new(name, component(colours, axis)));
     }
-    if let Some(film) = sums {
-        channels.push(AnyChannel::new(SAMPLES, FlatSamples::U32(film.counts.clone())));
+    if let Some(counts) = sums.map(|film| &film.counts).or(output.samples.as_ref()) {
+        channels.push(AnyChannel::new(SAMPLES, FlatSamples::U32(counts.clone())));
     }
     if let Some(depth) = &output.depth {
         channels.push(AnyChannel::new("Z", FlatSamples::F32(depth.clone())));

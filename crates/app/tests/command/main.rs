@@ -1,5 +1,6 @@
 //! The command as a user starts it: what it takes, writes, says and survives.
 
+mod adaptive;
 mod cells;
 mod compare;
 mod far;

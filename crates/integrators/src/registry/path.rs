@@ -103,8 +103,7 @@ impl Path {
         let slots = u64::from(capacity);
         let buffer = |name, bytes: usize| device_buffer(device, name, slots * bytes as u64);
         let states = buffer("path states", size_of::<PathState>())?;
-        let [pixels, faults] = film(desc.film);
-        let own = [pixels, faults, (binding::PATH_STATES, &states)];
+        let own = [&film(desc.film)[..], &[(binding::PATH_STATES, &states)]].concat();
         let bind = |more: &[Bound<'_>]| Bindings::new(device, desc.scene, &[&own, more].concat());
         let (shadows, bindings) = if passing {
             let waiting = buffer("waiting paths", size_of::<PathWaiting>())?;

@@ -171,9 +171,8 @@ impl Whitted {
         let slots = u64::from(capacity);
         let states = device_buffer(device, "whitted states", slots * size_of::<WhittedState>() as u64)?;
         let waiting = device_buffer(device, "waiting rays", (slots * slot_bytes).max(4))?;
-        let [pixels, faults] = film(desc.film);
-        let own = [pixels, faults, (WHITTED_STATES, &states), (WHITTED_RAYS, &waiting)];
-        let own = [&own, kernels.bound].concat();
+        let states_bound = [(WHITTED_STATES, &states), (WHITTED_RAYS, &waiting)];
+        let own = [&film(desc.film)[..], &states_bound, kernels.bound].concat();
         let mut constants = Vec::from(features.constants());
         constants.push((WHITTED_MIRROR_ROUGHNESS, options.mirror_roughness.to_bits()));
         let (shader, shadows, bindings) = if let Trees::Passing { .. } = trees {

@@ -45,6 +45,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             width: 1,
             height: 1,
             spp: 1,
+            adaptive: None,
             seed: 0,
             sampler: Sampler::Sobol,
             primary: Primary::Trace,
