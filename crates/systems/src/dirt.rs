@@ -15,7 +15,12 @@ pub(crate) const SYSTEM: System = System {
     records: PrimitiveLists::RECORDS,
     large_pools: &[("tile", "1"), ("resolution", "1024"), ("buckets", "8")],
     presets: &[Preset::Robust, Preset::Published],
-    frame: Some(PaperFrame { integrator: "path", options: &[], primary: "raster", occluder: "structure" }),
+    frame: Some(PaperFrame {
+        integrator: "path",
+        options: &[("fetch", "raster")],
+        primary: "raster",
+        occluder: "structure",
+    }),
     occlusion_payload: None,
     camera_views: None,
     without_scene: &[],

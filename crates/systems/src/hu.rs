@@ -15,7 +15,12 @@ pub(crate) const SYSTEM: System = System {
     records: Voxels::RECORDS,
     large_pools: &[("resolution", "3500")],
     presets: &[Preset::Robust, Preset::Published],
-    frame: Some(PaperFrame { integrator: "whitted", options: &[], primary: "raster", occluder: "structure" }),
+    frame: Some(PaperFrame {
+        integrator: "whitted",
+        options: &[("mirror-roughness", "0.3")],
+        primary: "raster",
+        occluder: "structure",
+    }),
     occlusion_payload: None,
     camera_views: None,
     without_scene: &[("payload", "index")],

@@ -17,7 +17,7 @@ pub(crate) const SYSTEM: System = System {
     presets: &[Preset::Robust, Preset::Published],
     frame: Some(PaperFrame {
         integrator: "whitted",
-        options: &[("select", "specular"), ("ray-depth", "1")],
+        options: &[("select", "specular"), ("ray-depth", "1"), ("mirror-roughness", "0.3")],
         primary: "raster",
         occluder: "structure",
     }),

@@ -17,7 +17,12 @@ pub(crate) const SYSTEM: System = System {
     presets: &[Preset::Robust, Preset::Published],
     frame: Some(PaperFrame {
         integrator: "whitted",
-        options: &[("select", "reflective"), ("ray-depth", "1"), ("shadows", "none")],
+        options: &[
+            ("select", "reflective"),
+            ("ray-depth", "1"),
+            ("shadows", "none"),
+            ("mirror-roughness", "0.3"),
+        ],
         primary: "raster",
         occluder: "structure",
     }),
