@@ -23,7 +23,7 @@ float bvh_inverse(float component, float smallest) {
     return 1.0 / (component < 0.0 ? -size : size);
 }
 
-// `lower` and `upper` hold all boxes of the tree: one margin serves them all. A direction without a component along an
+// `lower` and `upper` hold all triangles of the tree: one margin serves all its boxes. A direction without a component along an
 // axis is treated as having a tiny one: over the length of the boxes hit it moves the ray by less than the margin, and no
 // product below can become 0 times infinity.
 BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min, vec3 lower, vec3 upper) {

@@ -4,9 +4,17 @@
 // Source: Lauterbach et al. 2009.
 #version 460
 #include "contract/extensions.glsl"
+#include "ads/placement.glsl"
 #include "bvh/build.glsl"
 
 layout(local_size_x = BVH_GROUP_SIZE) in;
+
+// Cells of the grid per metre, the same along all axes, so that cells are cubes. Kept a normal number: what lies outside is
+// clamped to the grid, which costs quality but no hit.
+float cells_per_metre() {
+    float extent = largest_axis(BVH_HEADER(build.structure).upper - BVH_HEADER(build.structure).lower);
+    return clamp(BVH_CODE_CELLS / max(extent, 1.1754944e-38), 1.1754944e-38, PLACEMENT_LONGEST);
+}
 
 // Spreads 10 bits so that two zeros follow each.
 uint spread(uint bits) {
@@ -30,7 +38,7 @@ void main() {
     vec3 upper;
     bvh_triangle_box(primitive, lower, upper);
     vec3 middle = 0.5 * lower + 0.5 * upper - BVH_HEADER(build.structure).lower;
-    vec3 cells = clamp(middle * BVH_HEADER(build.structure).cells_per_metre, vec3(0.0), vec3(BVH_CODE_CELLS - 1.0));
+    vec3 cells = clamp(middle * cells_per_metre(), vec3(0.0), vec3(BVH_CODE_CELLS - 1.0));
     uvec3 cell = uvec3(cells);
     uint code = spread(cell.x) | (spread(cell.y) << 1u) | (spread(cell.z) << 2u);
     // The first buffer of keys begins at word 0, whatever the number of triangles.

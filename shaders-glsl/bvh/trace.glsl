@@ -24,14 +24,6 @@
 
 #define BVH_INFINITY uintBitsToFloat(0x7F800000u)
 
-float bvh_least(vec4 values) {
-    return min(min(values.x, values.y), min(values.z, values.w));
-}
-
-float bvh_most(vec4 values) {
-    return max(max(values.x, values.y), max(values.z, values.w));
-}
-
 // Exchanges two children of `keys` and `children` where the second comes first.
 #define BVH_ORDER(i, j) { \
         bool swaps = keys.j < keys.i; \
@@ -71,15 +63,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     if (root == BVH_NONE) {
         return TRACE_MISS;
     }
-    uint corrupted = 0u;
-    vec3 lower = vec3(0.0);
-    vec3 upper = vec3(0.0);
-    if ((root & BVH_LEAF) == 0u) {
-        BvhChildren node = bvh_children(s, root, bvec3(false), corrupted);
-        lower = vec3(bvh_least(node.first_x), bvh_least(node.first_y), bvh_least(node.first_z));
-        upper = vec3(bvh_most(node.last_x), bvh_most(node.last_y), bvh_most(node.last_z));
-    }
-    BvhRay slabs = bvh_ray(ray.origin, ray.direction, ray.t_min, lower, upper);
+    BvhRay slabs = bvh_ray(ray.origin, ray.direction, ray.t_min, BVH_HEADER(s).lower, BVH_HEADER(s).upper);
     Hit best = state.best;
     // The subtree to enter, or where `left` is one of its children, the node to visit for those after that.
     uint child = root;
@@ -100,6 +84,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint stack_size = 0u;
     uint nodes = 0u;
     uint tests = 0u;
+    uint corrupted = 0u;
     bool paused = false;
     bool done = false;
     while (!done) {

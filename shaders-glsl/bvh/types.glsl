@@ -19,9 +19,9 @@ struct BvhHeader {
     uint scratch_capacity;  // words the pool holds
     uint order_offset;      // word of the scratch pool with the primitive of the first record
     uint order_stride;      // words from one to the next
-    vec3 lower;             // lower corner of the geometry, metres relative to the frame origin; Morton codes only
+    vec3 lower;             // lower corner of the geometry, metres relative to the frame origin
     uint order;             // number of the order that the triangles are in, which the host counts
-    vec3 cells_per_metre;   // cells of the Morton grid per metre, along each axis
+    vec3 upper;             // upper corner of the geometry
     uint corrupted;         // references with an invalid index
     uvec2 nodes_address;    // device address of the nodes; zero with descriptors, as all that follow
     uvec2 records_address;  // device address of the triangle records
