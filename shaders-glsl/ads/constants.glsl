@@ -80,6 +80,9 @@
 // Share of the bounds, on each side, that a centre keeps away from their sides: about a quarter, and no fraction at which a
 // scene is likely to have a wall.
 #define PLACEMENT_MARGIN 0.2718
+// Share of the bounds, from their lower corner, at which a centre lies that does not follow the eye: about the middle, and
+// no fraction at which a scene is likely to have a wall.
+#define PLACEMENT_MIDDLE 0.4718
 // Bounds flatter than this, shortest over longest side, have no inside: a centre among their triangles would see them
 // all edge-on and across many tiles.
 #define PLACEMENT_FLATTEST 0.25

@@ -40,6 +40,18 @@ vec3 centre_within(vec3 eye, vec3 lower, vec3 upper) {
     return centre;
 }
 
+// The centre of faces for geometry within bounds, wherever the eye is: about their middle, and beside bounds that are flat,
+// as far as half their longest side.
+vec3 centre_of_bounds(vec3 lower, vec3 upper) {
+    precise vec3 extent = upper - lower;
+    float longest = largest_axis(extent);
+    precise vec3 middle = (1.0 - PLACEMENT_MIDDLE) * lower + PLACEMENT_MIDDLE * upper;
+    precise vec3 beside = upper + 0.5 * longest;
+    // Sides whose length overflows count as thick.
+    bvec3 is_flat = lessThan(extent, vec3(longest <= PLACEMENT_LONGEST ? PLACEMENT_FLATTEST * longest : 0.0));
+    return mix(middle, beside, is_flat);
+}
+
 // Lower corner (xyz) and side (w) of a cube that holds the bounds, a little wider than their longest side, so that no side
 // of the geometry lies on a side of the cube.
 vec4 cube_placement(vec3 lower, vec3 upper) {

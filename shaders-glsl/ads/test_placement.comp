@@ -14,9 +14,10 @@ struct PlacementCase {
     uint cells[3];        // cells of the box along each axis
 };
 
-// Where it is placed. 72 bytes.
+// Where it is placed. 84 bytes.
 struct PlacementResult {
     vec3 centre;          // `centre_within`
+    vec3 middle;          // `centre_of_bounds`
     vec3 cube_lower;      // `cube_placement`
     float cube_side;      // `cube_placement`
     vec3 box_centre;      // `box_placement`
@@ -43,5 +44,6 @@ void main() {
     BoxPlacement box = box_placement(c.bounds[0], c.bounds[1], c.around[0], c.around[1], uvec3(c.cells[0], c.cells[1], c.cells[2]), c.eye);
     vec4 cube = cube_placement(c.bounds[0], c.bounds[1]);
     vec3 centre = centre_within(c.eye, c.bounds[0], c.bounds[1]);
-    results[index] = PlacementResult(centre, cube.xyz, cube.w, box.centre, box.rounding, box.lower, box.per_metre, box.reach);
+    vec3 middle = centre_of_bounds(c.bounds[0], c.bounds[1]);
+    results[index] = PlacementResult(centre, middle, cube.xyz, cube.w, box.centre, box.rounding, box.lower, box.per_metre, box.reach);
 }

@@ -29,9 +29,10 @@
 // Words per triangle for large triangles: one per face.
 #define PRIMITIVE_LARGE_LIMIT 6u
 
-// Where the faces touch: at the eye, or within the geometry.
+// Where the faces touch: at the eye, at the eye within the geometry, or within the geometry wherever the eye is.
 #define PRIMITIVE_CENTRE_EYE 0u
 #define PRIMITIVE_CENTRE_SCENE 1u
+#define PRIMITIVE_CENTRE_FIXED 2u
 
 // Threads in a workgroup of the build's compute passes.
 #define PRIMITIVE_GROUP_SIZE 64u

@@ -11,6 +11,8 @@ void primitive_from_bounds(PrimitiveRef s, vec3 lower, vec3 upper) {
     vec3 centre = PRIMITIVE_HEADER(s).eye;
     if (PRIMITIVE_CENTRE == PRIMITIVE_CENTRE_SCENE) {
         centre = centre_within(centre, lower, upper);
+    } else if (PRIMITIVE_CENTRE == PRIMITIVE_CENTRE_FIXED) {
+        centre = centre_of_bounds(lower, upper);
     }
     vec3 first = lower - centre;
     vec3 last = upper - centre;

@@ -23,6 +23,9 @@ pub enum Centre {
     /// At the eye within the geometry's bounds, or where those are flat; for an eye outside of them, at the
     /// nearest point well within.
     Scene,
+    /// Within the geometry's bounds or, where those are flat, beside them, wherever the eye is: a build is not stale where
+    /// only the eye moved.
+    Fixed,
 }
 
 /// All options.
@@ -178,6 +181,7 @@ impl Config {
         let centre = match self.centre {
             Centre::Eye => numbers::PRIMITIVE_CENTRE_EYE,
             Centre::Scene => numbers::PRIMITIVE_CENTRE_SCENE,
+            Centre::Fixed => numbers::PRIMITIVE_CENTRE_FIXED,
         };
         vec![
             (ids::PRIMITIVE_BUCKETS, self.buckets),

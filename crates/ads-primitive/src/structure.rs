@@ -10,7 +10,7 @@ use rasray_gpu::{BindingSet, Recorder, Requirements};
 
 use crate::build::Build;
 use crate::layout::{Demand, bin_groups, first_plan, formula_bytes, plan};
-use crate::{Config, Contents, Header, Pool, well_formed};
+use crate::{Centre, Config, Contents, Header, Pool, well_formed};
 
 /// Lists of triangles per tile and depth bucket; made from a [`Config`].
 pub type PrimitiveLists = Pooled<Passes>;
@@ -67,8 +67,8 @@ impl Design for Passes {
         if config.is_exact() { StructureKind::Primitive } else { StructureKind::LossyPrimitive }
     }
 
-    fn depends_on(_config: &Config) -> Dependencies {
-        Dependencies { eye: true, camera: false }
+    fn depends_on(config: &Config) -> Dependencies {
+        Dependencies { eye: config.centre != Centre::Fixed, camera: false }
     }
 
     fn requirements(config: &Config) -> Requirements {

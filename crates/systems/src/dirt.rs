@@ -65,7 +65,9 @@ const OPTIONS: &[Setter<Config>] = &[
     }),
     ("pyramid", |config, given| given.switch().map(|value| config.pyramid = value)),
     ("centre", |config, given| {
-        given.choice(&[("eye", Centre::Eye), ("scene", Centre::Scene)]).map(|value| config.centre = value)
+        given
+            .choice(&[("eye", Centre::Eye), ("scene", Centre::Scene), ("fixed", Centre::Fixed)])
+            .map(|value| config.centre = value)
     }),
     ("builder", |config, given| {
         given

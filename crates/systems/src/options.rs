@@ -317,6 +317,10 @@ pub const OPTIONS: &[StructureOption] = &[
         &[
             ("eye", "At the eye"),
             ("scene", "At the eye within the scene; for an eye outside, within the middle of the scene"),
+            (
+                "fixed",
+                "Within the middle of the scene wherever the eye is, so that a camera that moves builds nothing",
+            ),
         ],
         "Lists of triangles: the centre from which the faces of the cube are seen",
     ),

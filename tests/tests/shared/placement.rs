@@ -80,6 +80,32 @@ fn odd_bounds_leave_the_eye() {
     assert_eq!(centres(&cases), eyes);
 }
 
+/// Thick bounds have it within, flat ones beside them; it is a number for every size that is one.
+#[test]
+fn a_centre_that_does_not_follow_the_eye_is_within_bounds_or_beside_flat_ones() {
+    let middle = |bounds: [[f32; 3]; 2]| {
+        let cases = [[1.0, 2.0, 30.0], [-5.0, 0.0, 3.0]].map(|eye| Case {
+            bounds,
+            around: bounds,
+            eye,
+            cells: [4; 3],
+        });
+        let found = placed(&cases);
+        assert_eq!(found[0].middle, found[1].middle, "{bounds:?}: the eye does not matter");
+        found[0].middle
+    };
+    let within = |bounds: [[f32; 3]; 2]| {
+        let at = middle(bounds);
+        [0, 1, 2].map(|axis| bounds[0][axis] < at[axis] && at[axis] < bounds[1][axis])
+    };
+    assert_eq!(within(BOUNDS), [true; 3]);
+    assert_eq!(within([[-3.0e38; 3], [3.0e38; 3]]), [true; 3]);
+    assert_eq!(within([[4.0, 0.0, 0.0], [4.0, 2.5, 3.5]]), [false, true, true]);
+    assert_eq!(middle([[4.0, 0.0, 0.0], [4.0, 2.5, 3.5]])[0], 5.75);
+    assert_eq!(middle([[-10.0, -10.0, 0.0], [10.0, 10.0, 2.0]])[2], 12.0);
+    assert_eq!(middle([[1.0; 3]; 2]), [1.0; 3]);
+}
+
 /// Every corner lies within the first and the last cell by more than the margin of a cell, whatever the eye.
 #[test]
 fn cells_hold_the_geometry_with_its_margins() {
