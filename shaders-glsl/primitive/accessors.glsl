@@ -29,7 +29,7 @@ layout(set = STRUCTURE_SET, binding = 5, scalar) buffer PrimitiveNearBuffer { ui
 #endif
 
 uint primitive_cell_count(PrimitiveRef s) {
-    return VIEW_FACES * face_cells(PRIMITIVE_HEADER(s).tiles);
+    return primitive_view_count() * face_cells(PRIMITIVE_HEADER(s).tiles);
 }
 
 uint primitive_list_count(PrimitiveRef s) {

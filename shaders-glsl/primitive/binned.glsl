@@ -30,7 +30,7 @@ layout(set = STRUCTURE_SET, binding = 6, scalar) buffer PrimitiveLargeBuffer { u
 #define BIN_TELLS_BLOCKS
 
 uint bin_view_count() {
-    return VIEW_FACES;
+    return primitive_view_count();
 }
 
 // A triangle in a face, and the first and last column and row that may hold any of it.
@@ -49,7 +49,11 @@ struct Bin {
 };
 
 bool bin_load(uint primitive, out BinTriangle triangle) {
-    return bin_centred(PRIMITIVE_HEADER(build.structure).centre, primitive, triangle);
+    bool listed = bin_centred(PRIMITIVE_HEADER(build.structure).centre, primitive, triangle);
+    triangle.a = primitive_seen(build.structure, triangle.a);
+    triangle.b = primitive_seen(build.structure, triangle.b);
+    triangle.c = primitive_seen(build.structure, triangle.c);
+    return listed;
 }
 
 // False where the triangle reaches into no column of the face.

@@ -6,6 +6,7 @@
 #include "ads/append.glsl"
 #include "ads/bin_triangle.glsl"
 #include "primitive/accessors.glsl"
+#include "primitive/overlap.glsl"
 #include "primitive/names.glsl"
 #include "ads/build_constants.glsl"
 
@@ -18,7 +19,16 @@ void main() {
     }
     vec3 lower;
     vec3 upper;
-    bin_box(PRIMITIVE_HEADER(build.structure).centre, primitive, lower, upper);
+    if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CUBE) {
+        bin_box(PRIMITIVE_HEADER(build.structure).centre, primitive, lower, upper);
+    } else {
+        vec3 a;
+        vec3 b;
+        vec3 c;
+        primitive_face_vertices(build.structure, primitive, 4u, a, b, c);
+        lower = min(a, min(b, c));
+        upper = max(a, max(b, c));
+    }
     float size = PRIMITIVE_HEADER(build.structure).near_size + PRIMITIVE_HEADER(build.structure).rounding;
     if (bin_box_is_near(lower, upper, size)) {
         LIST_APPEND(PRIMITIVE_HEADER(build.structure).near_demand, PRIMITIVE_HEADER(build.structure).near_capacity,

@@ -34,6 +34,12 @@
 #define PRIMITIVE_CENTRE_SCENE 1u
 #define PRIMITIVE_CENTRE_FIXED 2u
 
+// What is drawn: the six faces of a cube, or what the camera sees.
+#define PRIMITIVE_VIEWS_CUBE 0u
+#define PRIMITIVE_VIEWS_CAMERA 1u
+// Rounding of points that are turned into the camera's view, over that of differences of positions.
+#define PRIMITIVE_CAMERA_ROUNDING 1.25
+
 // Threads in a workgroup of the build's compute passes.
 #define PRIMITIVE_GROUP_SIZE 64u
 

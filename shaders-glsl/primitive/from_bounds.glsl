@@ -16,10 +16,22 @@ void primitive_from_bounds(PrimitiveRef s, vec3 lower, vec3 upper) {
     }
     vec3 first = lower - centre;
     vec3 last = upper - centre;
+    // How much longer an error is as views see it.
+    float scale = 1.0;
+    float distance_from_centre = box_reach(first, last);
+    if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CAMERA) {
+        mat3 turn = primitive_camera(s);
+        mat3 size = mat3(abs(turn[0]), abs(turn[1]), abs(turn[2]));
+        vec3 middle = primitive_turned(turn, 0.5 * first + 0.5 * last);
+        vec3 half_extent = primitive_turned(size, 0.5 * last - 0.5 * first);
+        first = middle - half_extent;
+        last = middle + half_extent;
+        scale = PRIMITIVE_CAMERA_ROUNDING * largest_axis(size[0] + size[1] + size[2]);
+    }
     float reach = box_reach(first, last);
     // A difference of two coordinates is rounded relative to itself, so it does not matter how far the centre is from the
     // frame origin.
-    float rounding = TRIANGLE_ROUNDING * reach;
+    float rounding = TRIANGLE_ROUNDING * max(reach, scale * distance_from_centre);
     PRIMITIVE_HEADER(s).centre = centre;
     PRIMITIVE_HEADER(s).reach = reach;
     PRIMITIVE_HEADER(s).rounding = rounding;

@@ -29,4 +29,22 @@ layout(set = STRUCTURE_SET, binding = 0, scalar) PRIMITIVE_HEADER_ACCESS buffer 
 #define PRIMITIVE_HEADER(s) primitive_header
 #endif
 
+mat3 primitive_camera(PrimitiveRef s) {
+    return mat3(PRIMITIVE_HEADER(s).camera_x, PRIMITIVE_HEADER(s).camera_y, PRIMITIVE_HEADER(s).camera_z);
+}
+
+vec3 primitive_turned(mat3 turn, vec3 v) {
+    precise vec3 turned = turn[0] * v.x + turn[1] * v.y + turn[2] * v.z;
+    return turned;
+}
+
+// A point relative to the centre, or a direction, in the space of the faces; with the camera's view alone in one that is
+// turned and scaled so that the pyramid of face 0 is what the camera sees.
+vec3 primitive_seen(PrimitiveRef s, vec3 v) {
+    if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CUBE) {
+        return v;
+    }
+    return primitive_turned(primitive_camera(s), v);
+}
+
 #endif

@@ -14,9 +14,9 @@
 void primitive_face_vertices(PrimitiveRef s, uint primitive, uint face, out vec3 a, out vec3 b, out vec3 c) {
     geometry_vertices(primitive, a, b, c);
     vec3 eye = PRIMITIVE_HEADER(s).centre;
-    a = face_from_world(a - eye, face);
-    b = face_from_world(b - eye, face);
-    c = face_from_world(c - eye, face);
+    a = face_from_world(primitive_seen(s, a - eye), face);
+    b = face_from_world(primitive_seen(s, b - eye), face);
+    c = face_from_world(primitive_seen(s, c - eye), face);
 }
 
 // Whether a triangle is in any list: one without area is never hit, so it is in none.

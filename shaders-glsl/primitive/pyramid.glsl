@@ -12,7 +12,8 @@ uint primitive_pyramid_cells(PrimitiveRef s, uint view) {
 }
 
 PyramidLevel primitive_pyramid_first(PrimitiveRef s, uint view) {
-    return pyramid_first(primitive_pyramid_cells(s, view), VIEW_FACES, primitive_bounds_stride() * primitive_cell_count(s));
+    return pyramid_first(primitive_pyramid_cells(s, view), primitive_view_count(),
+        primitive_bounds_stride() * primitive_cell_count(s));
 }
 
 uvec2 primitive_pyramid_read(PrimitiveRef s, uint word) {

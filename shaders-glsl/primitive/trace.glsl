@@ -9,6 +9,7 @@
 #include "contract/trace_functions.glsl"
 #include "ads/bounds_interval.glsl"
 #include "ads/constants.glsl"
+#include "ads/placement.glsl"
 #include "primitive/skip.glsl"
 
 #define ListedRef PrimitiveRef
@@ -59,15 +60,28 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
     return false;
 }
 
+// Whether a face has tiles: with the camera's view alone, what lies outside of it is passed.
+bool primitive_is_drawn(uint face) {
+    return face >= SEGMENT_NEAR || face < primitive_view_count();
+}
+
 uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_hit) {
-    vec3 origin = ray.origin - PRIMITIVE_HEADER(s).centre;
-    vec3 direction = ray.direction;
+    vec3 from_centre = ray.origin - PRIMITIVE_HEADER(s).centre;
+    vec3 origin = primitive_seen(s, from_centre);
+    vec3 direction = primitive_seen(s, ray.direction);
     float reach = PRIMITIVE_HEADER(s).reach;
     float slack = hit_slack(origin, direction, reach);
+    bool distant = largest_coordinate(origin) > ORIGIN_LIMIT * reach;
+    if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CAMERA) {
+        // Rounding is that of metres, too.
+        float metres = box_reach(geometry_header.lower - PRIMITIVE_HEADER(s).centre,
+            geometry_header.upper - PRIMITIVE_HEADER(s).centre);
+        slack = max(slack, hit_slack(from_centre, ray.direction, metres));
+        distant = distant || largest_coordinate(from_centre) > ORIGIN_LIMIT * metres;
+    }
     vec2 near = near_region_interval(origin, direction, PRIMITIVE_HEADER(s).near_size);
     vec2 clip = bounds_interval(PRIMITIVE_HEADER(s).lower, PRIMITIVE_HEADER(s).upper, origin, direction, ray.t_min - slack,
         ray.t_max + slack);
-    bool distant = largest_coordinate(origin) > ORIGIN_LIMIT * reach;
     PrimitiveTraversal traversal;
     uint work = 0u;
     float t = clip.x;
@@ -84,6 +98,10 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
             }
             traversal.segment = segment_at(origin, direction, t, clip.y, near);
             traversal.segment.face = distant ? SEGMENT_ALL : traversal.segment.face;
+            if (!primitive_is_drawn(traversal.segment.face)) {
+                t = traversal.segment.t_end;
+                continue;
+            }
             primitive_begin_traversal(s, origin, direction, traversal);
             trace_log(STEP_VIEW, traversal.segment.face, 0u, 0u, traversal.segment.t_begin, traversal.segment.t_end);
         }

@@ -8,7 +8,7 @@
 #include "contract/types.glsl"
 #include "primitive/constants.glsl"
 
-// Constant ids 30 to 39 belong to primitive lists.
+// Constant ids 30 to 39 and 110 belong to primitive lists.
 layout(constant_id = 30) const uint PRIMITIVE_BUCKETS = 16u;
 layout(constant_id = 31) const uint PRIMITIVE_STORAGE = PRIMITIVE_STORAGE_CONTIGUOUS;
 layout(constant_id = 32) const uint PRIMITIVE_COVERAGE = PRIMITIVE_COVERAGE_CONSERVATIVE;
@@ -20,8 +20,14 @@ layout(constant_id = 36) const uint PRIMITIVE_STOP = PRIMITIVE_STOP_BEST;
 layout(constant_id = 37) const uint PRIMITIVE_DEPTHS = PRIMITIVE_DEPTHS_CLIPPED;
 layout(constant_id = 38) const uint PRIMITIVE_MARCH = PRIMITIVE_MARCH_EXACT;
 layout(constant_id = 39) const uint PRIMITIVE_CENTRE = PRIMITIVE_CENTRE_SCENE;
+layout(constant_id = 110) const uint PRIMITIVE_VIEWS = PRIMITIVE_VIEWS_CUBE;
 
-// State and sizes of primitive lists. 160 bytes.
+// Views with tiles: faces of the cube, or the camera's view, which is face 0 of a space of its own.
+uint primitive_view_count() {
+    return PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CAMERA ? 1u : 6u;
+}
+
+// State and sizes of primitive lists. 196 bytes.
 struct PrimitiveHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
@@ -31,7 +37,7 @@ struct PrimitiveHeader {
     uint corrupted;       // list entries with an invalid index
     uint tiles;           // cells along a side of a face, border not counted
     uint tile;            // pixels along a side of a cell
-    float reach;          // metres: largest distance of the geometry from the centre along an axis
+    float reach;          // metres: largest distance of the geometry from the centre along an axis, as views see it
     float near_size;      // metres: half side of the near region
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
     vec3 eye;             // metres relative to the frame origin
@@ -48,6 +54,9 @@ struct PrimitiveHeader {
     // entries of the large-triangle queue: a triangle and a face of which it may reach into many columns
     uint large_demand;
     uint groups[3];       // workgroups for those entries
+    vec3 camera_x;        // with the camera's view alone: how a metre along x is seen, depth first
+    vec3 camera_y;        // the same along y
+    vec3 camera_z;        // the same along z
 };
 
 // Depths of the triangles that a cell lists.

@@ -40,7 +40,7 @@ impl Build {
 
     /// Records all passes.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
-        let cells = cell_count(config.tiles());
+        let cells = cell_count(config);
         let lists = cells * u64::from(config.buckets);
         let group = u64::from(PRIMITIVE_GROUP_SIZE);
         let shaders = Access::COMPUTE | Access::FRAGMENT;

@@ -28,6 +28,16 @@ pub enum Centre {
     Fixed,
 }
 
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Views {
+    /// The six faces of a cube.
+    Cube,
+    /// What the camera sees: all else is missed (section 5.2, single-view ray tracing). A build needs a
+    /// [`rasray_ads::Viewpoint`] with a camera, and the centre is at the eye.
+    Camera,
+}
+
 /// All options.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
@@ -37,6 +47,8 @@ pub struct Config {
     pub tile: u32,
     /// Depth buckets per tile, 1 to 64. Changes no hit where [`Config::is_exact`].
     pub buckets: u32,
+    /// What is drawn.
+    pub views: Views,
     /// How lists are kept.
     pub storage: Storage,
     /// The point at which the faces touch.
@@ -77,6 +89,7 @@ impl Config {
             resolution,
             tile: 2,
             buckets: 16,
+            views: Views::Cube,
             storage: Storage::Contiguous,
             centre: Centre::Scene,
             builder: Builder::Raster,
@@ -122,9 +135,26 @@ impl Config {
             (self.depths == robust.depths, ("depths", "corners")),
             (self.march == robust.march, ("march", "jump")),
             (self.coverage == robust.coverage, ("coverage", "hardware")),
+            (self.views == robust.views, ("views", "camera")),
         ]
         .into_iter()
         .find_map(|(kept, rule)| (!kept).then_some(rule))
+    }
+
+    /// Views with tiles of their own.
+    pub fn view_count(&self) -> u32 {
+        match self.views {
+            Views::Cube => 6,
+            Views::Camera => 1,
+        }
+    }
+
+    /// The point at which views touch: of the camera's view, the eye.
+    pub(crate) fn centre(&self) -> Centre {
+        match self.views {
+            Views::Cube => self.centre,
+            Views::Camera => Centre::Eye,
+        }
     }
 
     /// Tiles along a side of a face: the cells of the march. A last tile may reach beyond the face's pixels.
@@ -148,6 +178,10 @@ impl Config {
         if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
             let expected = "the binning builder does not draw: use builder `raster`";
             return Err(AdsError::Option { option: "coverage", value: "hardware".to_owned(), expected });
+        }
+        if self.views == Views::Camera && self.centre == Centre::Fixed {
+            let expected = "the camera's view is seen from the eye: use centre `eye`, or views `cube`";
+            return Err(AdsError::Option { option: "centre", value: "fixed".to_owned(), expected });
         }
         check_work_budget(self.work_budget, false)
     }
@@ -178,7 +212,11 @@ impl Config {
             March::Exact => numbers::PRIMITIVE_MARCH_EXACT,
             March::Jump => numbers::PRIMITIVE_MARCH_JUMP,
         };
-        let centre = match self.centre {
+        let views = match self.views {
+            Views::Cube => numbers::PRIMITIVE_VIEWS_CUBE,
+            Views::Camera => numbers::PRIMITIVE_VIEWS_CAMERA,
+        };
+        let centre = match self.centre() {
             Centre::Eye => numbers::PRIMITIVE_CENTRE_EYE,
             Centre::Scene => numbers::PRIMITIVE_CENTRE_SCENE,
             Centre::Fixed => numbers::PRIMITIVE_CENTRE_FIXED,
@@ -194,6 +232,7 @@ impl Config {
             (ids::PRIMITIVE_DEPTHS, depths),
             (ids::PRIMITIVE_MARCH, march),
             (ids::PRIMITIVE_CENTRE, centre),
+            (ids::PRIMITIVE_VIEWS, views),
         ]
     }
 
@@ -217,7 +256,8 @@ impl Config {
             ("depths", lower(&self.depths)),
             ("march", lower(&self.march)),
             ("skip", switch(self.skip)),
-            ("centre", lower(&self.centre)),
+            ("centre", lower(&self.centre())),
+            ("views", lower(&self.views)),
         ]
     }
 

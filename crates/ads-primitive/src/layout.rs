@@ -4,7 +4,7 @@ use rasray_ads::{AdsError, Geometry, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::ads::BIN_BLOCK;
 use rasray_shaders_glsl::constants::primitive as numbers;
 
-use crate::{Builder, Config, Header, Pool, Storage};
+use crate::{Builder, Config, Header, Pool, Storage, Views};
 
 /// The demand of a build.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,10 +17,10 @@ pub struct Demand {
     pub triangles: u64,
 }
 
-/// Cells of all six faces with `tiles` tiles along a side, each with a border of one.
-pub fn cell_count(tiles: u32) -> u64 {
-    let side = u64::from(tiles) + 2;
-    6 * side * side
+/// Cells of all views, each with a border of one.
+pub fn cell_count(config: &Config) -> u64 {
+    let side = u64::from(config.tiles()) + 2;
+    u64::from(config.view_count()) * side * side
 }
 
 /// Words of the bounds of a cell: both ends, and the scale where there are several buckets.
@@ -57,7 +57,7 @@ pub(crate) fn bin_groups(config: &Config) -> u32 {
 
 /// The faces, whose cells and blocks are built together.
 pub(crate) fn faces(config: &Config) -> ViewDraw {
-    ViewDraw { side: config.tiles() + 2, views: 6, first: 0 }
+    ViewDraw { side: config.tiles() + 2, views: config.view_count(), first: 0 }
 }
 
 /// Words of the bounds of all blocks.
@@ -71,7 +71,7 @@ fn pyramid_words(config: &Config) -> u64 {
 /// An option is out of range, or a pool has more elements than 32-bit indices can address.
 pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
-    let cells = cell_count(config.tiles());
+    let cells = cell_count(config);
     let lists = cells * u64::from(config.buckets);
     let sums = if config.storage == Storage::Contiguous { Scan::sums(lists) } else { 0 };
     let pool = |pool, elements, words: u64| (pool, elements, 4 * words);
@@ -89,7 +89,7 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
 
 /// The first guess where nothing has been counted: four entries per cell.
 pub(crate) fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-    let entries = config.entries.unwrap_or_else(|| 4 * cell_count(config.tiles()));
+    let entries = config.entries.unwrap_or_else(|| 4 * cell_count(config));
     plan(config, &Demand { entries, near: 64, triangles: geometry.triangle_count().into() })
 }
 
@@ -117,20 +117,21 @@ impl FormulaBytes {
 /// The page's formula. It shares nothing with [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
     let tiles = u64::from(config.resolution).div_ceil(u64::from(config.tile));
-    let cells = (tiles + 2) * (tiles + 2) * 6;
+    let views = if config.views == Views::Camera { 1 } else { 6 };
+    let cells = (tiles + 2) * (tiles + 2) * views;
     let buckets = u64::from(config.buckets);
     let contiguous = config.storage == Storage::Contiguous;
     let (mut side, mut blocks) = (tiles + 2, 0);
     while config.pyramid && config.skip && side > 1 {
         side = side.div_ceil(2);
-        blocks += 6 * side * side;
+        blocks += views * side * side;
     }
     let large = if config.builder == Builder::Binning { 24 * demand.triangles } else { 0 };
     FormulaBytes {
         cells: cells * (8 + 4 * buckets + if buckets > 1 { 4 } else { 0 }) + 8 * blocks,
         entries: demand.entries * if contiguous { 4 } else { 8 },
         scan: if contiguous { (cells * buckets).div_ceil(1024) * 4 } else { 0 },
-        rest: 160 + 4 * demand.near + large,
+        rest: 196 + 4 * demand.near + large,
     }
 }
 
@@ -152,7 +153,8 @@ mod tests {
                 (false, Builder::Binning, true),
                 (true, Builder::Raster, false),
             ] {
-                let own = Config::robust(resolution);
+                let views = if pyramid { Views::Cube } else { Views::Camera };
+                let own = Config { views, ..Config::robust(resolution) };
                 let config = Config { tile, buckets, storage, skip, builder, pyramid, ..own };
                 let sizes = plan(&config, &demand).expect("options are in range");
                 assert_eq!(sizes.bytes(), formula_bytes(&config, &demand).total(), "{config:?}");
@@ -169,7 +171,7 @@ mod tests {
         // a node of 8.
         let published = Config { tile: 1, buckets: 4, ..Config::published(512) };
         let demand = Demand { entries: 3_100_000, ..Demand::default() };
-        let (formula, cells) = (formula_bytes(&published, &demand), cell_count(512));
+        let (formula, cells) = (formula_bytes(&published, &demand), cell_count(&published));
         assert_eq!(formula.entries, 8 * 3_100_000);
         // One word more per cell than the paper: the scale of its buckets.
         let pyramid = formula.cells - cells * (8 + 4 * 4 + 4);

@@ -3,14 +3,14 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, pools_of_words,
+    AdsError, BuildPipelines, CameraView, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, pools_of_words,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
 use crate::build::Build;
 use crate::layout::{Demand, bin_groups, first_plan, formula_bytes, plan};
-use crate::{Centre, Config, Contents, Header, Pool, well_formed};
+use crate::{Centre, Config, Contents, Header, Pool, Views, well_formed};
 
 /// Lists of triangles per tile and depth bucket; made from a [`Config`].
 pub type PrimitiveLists = Pooled<Passes>;
@@ -19,15 +19,37 @@ pub type PrimitiveLists = Pooled<Passes>;
 #[derive(Debug)]
 pub struct Passes(Build);
 
+/// What of the header says how the camera sees metres along the axes; zeros without its view.
+///
+/// # Errors
+/// There is no camera.
+fn camera_columns(config: &Config, viewpoint: Viewpoint) -> Result<[[f32; 3]; 3], AdsError> {
+    if config.views == Views::Cube {
+        return Ok([[0.0; 3]; 3]);
+    }
+    let camera = viewpoint.camera.filter(CameraView::is_valid).ok_or_else(|| AdsError::Option {
+        option: "views",
+        value: "camera".to_owned(),
+        expected: "this build has no perspective camera; without one use `cube`",
+    })?;
+    let [right, up, forward] = camera.rows();
+    // Face 0 looks along the first axis.
+    Ok([0, 1, 2].map(|axis| [forward[axis], right[axis], up[axis]]))
+}
+
 /// The header that the next build starts from.
-fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
+fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
     let Parts { config, pools, .. } = parts;
-    Header {
+    let [camera_x, camera_y, camera_z] = camera_columns(config, viewpoint)?;
+    Ok(Header {
         capacity: parts.elements(Pool::Entries) as u32,
         near_capacity: parts.elements(Pool::Near) as u32,
         tiles: config.tiles(),
         tile: config.tile,
-        eye,
+        eye: viewpoint.eye,
+        camera_x,
+        camera_y,
+        camera_z,
         bounds_address: pools.address_of(Pool::Bounds),
         lists_address: pools.address_of(Pool::Lists),
         entries_address: pools.address_of(Pool::Entries),
@@ -37,7 +59,7 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
         large_capacity: parts.elements(Pool::Large) as u32,
         groups: [0, 0, bin_groups(config)],
         ..Header::default()
-    }
+    })
 }
 
 impl rasray_ads::Demand for Demand {
@@ -68,7 +90,7 @@ impl Design for Passes {
     }
 
     fn depends_on(config: &Config) -> Dependencies {
-        Dependencies { eye: config.centre != Centre::Fixed, camera: false }
+        Dependencies { eye: config.centre() != Centre::Fixed, camera: config.views == Views::Camera }
     }
 
     fn requirements(config: &Config) -> Requirements {
@@ -102,7 +124,7 @@ impl Design for Passes {
     }
 
     fn first_header(&mut self, parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
-        Ok(first_header(parts, viewpoint.eye))
+        first_header(parts, viewpoint)
     }
 
     fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {

@@ -102,7 +102,7 @@ impl Contents {
 pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
     let stored = contents.header.demand.min(contents.header.capacity) as usize;
     let mut listed = 0;
-    let (buckets, cells) = (contents.config.buckets as usize, cell_count(contents.config.tiles()) as usize);
+    let (buckets, cells) = (contents.config.buckets as usize, cell_count(&contents.config) as usize);
     for cell in 0..cells {
         for bucket in 0..buckets {
             let mut list = contents.list(cell, bucket)?;

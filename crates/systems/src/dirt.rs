@@ -1,7 +1,7 @@
 //! DIRT: primitive lists with the paper's presets.
 
 use rasray_ads_primitive::{
-    Accept, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage,
+    Accept, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage, Views,
 };
 
 use crate::given::{Given, Setter, names};
@@ -64,6 +64,9 @@ const OPTIONS: &[Setter<Config>] = &[
         given.choice(&[("exact", March::Exact), ("jump", March::Jump)]).map(|value| config.march = value)
     }),
     ("pyramid", |config, given| given.switch().map(|value| config.pyramid = value)),
+    ("views", |config, given| {
+        given.choice(&[("cube", Views::Cube), ("camera", Views::Camera)]).map(|value| config.views = value)
+    }),
     ("centre", |config, given| {
         given
             .choice(&[("eye", Centre::Eye), ("scene", Centre::Scene), ("fixed", Centre::Fixed)])

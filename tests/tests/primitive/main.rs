@@ -2,6 +2,7 @@
 
 mod bricks_capacity;
 mod bricks_cells;
+mod camera;
 mod capacity;
 mod edges;
 mod exact;
