@@ -34,11 +34,24 @@ PyramidLevel pyramid_above(PyramidLevel below) {
     return PyramidLevel(below.level + 1u, (below.side + 1u) >> 1, below.views, below.base + words);
 }
 
-// The word behind all levels.
-uint pyramid_end(PyramidLevel level) {
+// The level below, of a pyramid over views of `cells` cells along a side; level 1 has none.
+PyramidLevel pyramid_below(PyramidLevel above, uint cells) {
+    uint level = above.level - 1u;
+    uint side = (cells + (1u << level) - 1u) >> level;
+    return PyramidLevel(level, side, above.views, above.base - PYRAMID_WORDS * above.views * side * side);
+}
+
+// The level with one block per view.
+PyramidLevel pyramid_top(PyramidLevel level) {
     while (level.side > 1u) {
         level = pyramid_above(level);
     }
+    return level;
+}
+
+// The word behind all levels.
+uint pyramid_end(PyramidLevel level) {
+    level = pyramid_top(level);
     return level.base + PYRAMID_WORDS * level.views;
 }
 

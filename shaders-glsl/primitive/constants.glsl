@@ -26,6 +26,11 @@
 #define PRIMITIVE_MARCH_EXACT 0u
 #define PRIMITIVE_MARCH_JUMP 1u
 
+// Which blocks of tiles a ray compares with first; off: there are none.
+#define PRIMITIVE_PYRAMID_OFF 0u
+#define PRIMITIVE_PYRAMID_FINEST 1u
+#define PRIMITIVE_PYRAMID_COARSEST 2u
+
 // Words per triangle for large triangles: one per face.
 #define PRIMITIVE_LARGE_LIMIT 6u
 

@@ -1,33 +1,39 @@
 // What: the largest block of tiles that a ray can skip, because none of them lists a triangle at the ray's depths.
 // Reads: bounds. Writes: nothing.
 // Source: DIRT section 4.2.1, Hi-Z tracing. Levels are tried from the finest up, since a ray that was among
-// triangles is likely to be so still.
+// triangles is likely to be so still; or from the coarsest down, as the paper begins.
 #ifndef PRIMITIVE_SKIP_GLSL
 #define PRIMITIVE_SKIP_GLSL
 
 #include "primitive/pyramid.glsl"
 #include "primitive/traversal.glsl"
 
-// The largest block around the traversal's cell that lists nothing at the ray's depths; false where none does. A
-// face has at most 14 levels.
-bool primitive_skip(PrimitiveRef s, PrimitiveTraversal traversal, out MarchSkip skip) {
+// Where the search for a block begins. A face has at most 14 levels.
+PyramidLevel primitive_skip_from(PrimitiveRef s) {
+    PyramidLevel first = primitive_pyramid_first(s, 0u);
+    return PRIMITIVE_PYRAMID == PRIMITIVE_PYRAMID_COARSEST ? pyramid_top(first) : first;
+}
+
+// The largest block around the traversal's cell that lists nothing at the ray's depths; false where none does.
+bool primitive_skip(PrimitiveRef s, PrimitiveTraversal traversal, PyramidLevel level, out MarchSkip skip) {
     float rounding = PRIMITIVE_HEADER(s).rounding;
+    bool descends = PRIMITIVE_PYRAMID == PRIMITIVE_PYRAMID_COARSEST;
     bool found = false;
-    PyramidLevel level = primitive_pyramid_first(s, 0u);
     while (true) {
         MarchSkip over = march_skip_over_block(traversal.cells, level.level);
         vec2 depths = primitive_ray_depths(traversal.origin.z, traversal.direction.z, traversal.search.t_low, over.t_out
             + over.error_out, rounding);
         uint word = pyramid_word(level, traversal.segment.face, pyramid_block(level, traversal.cells.cell));
-        if (!pyramid_leaves_out(primitive_pyramid_read(s, word), depths)) {
+        bool is_left_out = pyramid_leaves_out(primitive_pyramid_read(s, word), depths);
+        if (is_left_out) {
+            skip = over;
+            found = true;
+        }
+        // Blocks around one that holds something hold it, too, and those within one that is left out are.
+        if (is_left_out == descends || level.level == 1u && descends || level.side == 1u && !descends) {
             break;
         }
-        skip = over;
-        found = true;
-        if (level.side == 1u) {
-            break;
-        }
-        level = pyramid_above(level);
+        level = descends ? pyramid_below(level, primitive_pyramid_cells(s, 0u)) : pyramid_above(level);
     }
     return found;
 }

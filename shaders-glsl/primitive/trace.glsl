@@ -23,6 +23,10 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
     inout uint work, out bool ended) {
     ended = false;
     bool more = true;
+    PyramidLevel skip_from;
+    if (PRIMITIVE_PYRAMID != PRIMITIVE_PYRAMID_OFF) {
+        skip_from = primitive_skip_from(s);
+    }
     while (more) {
         primitive_begin_search(s, traversal);
         if (!traversal.searching) {
@@ -40,8 +44,8 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
                 traversal.search.t_low, traversal.search.t_high);
             MarchSkip skip;
             // What is touched outside of a cell lies within the bounds of its block.
-            if (PRIMITIVE_PYRAMID != 0u && all(equal(traversal.searched, traversal.cells.cell)) && primitive_skip(s,
-                traversal, skip)) {
+            if (PRIMITIVE_PYRAMID != PRIMITIVE_PYRAMID_OFF && all(equal(traversal.searched, traversal.cells.cell))
+                && primitive_skip(s, traversal, skip_from, skip)) {
                 trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, traversal.search.t_low, skip.t_out);
                 more = primitive_take_skip(s, traversal, skip);
                 continue;

@@ -38,6 +38,15 @@ pub enum Views {
     Camera,
 }
 
+/// With a pyramid, the level that a ray compares its depths with first. Changes no hit where [`Config::is_exact`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PyramidStart {
+    /// The finest: up until a block holds something.
+    Finest,
+    /// The coarsest, as in the paper: down until a block holds nothing.
+    Coarsest,
+}
+
 /// All options.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
@@ -58,6 +67,8 @@ pub struct Config {
     /// With [`Config::skip`]: depth bounds of blocks of tiles, which a ray skips. Changes no hit where
     /// [`Config::is_exact`].
     pub pyramid: bool,
+    /// Which of those a ray compares with first.
+    pub pyramid_start: PyramidStart,
     /// Which tiles list a triangle.
     pub coverage: Coverage,
     /// When a triangle that a ray intersects is a hit.
@@ -94,6 +105,7 @@ impl Config {
             centre: Centre::Scene,
             builder: Builder::Raster,
             pyramid: true,
+            pyramid_start: PyramidStart::Finest,
             coverage: Coverage::Conservative,
             accept: Accept::T,
             stop: Stop::Best,
@@ -212,6 +224,11 @@ impl Config {
             March::Exact => numbers::PRIMITIVE_MARCH_EXACT,
             March::Jump => numbers::PRIMITIVE_MARCH_JUMP,
         };
+        let pyramid = match self.pyramid_start {
+            _ if !self.has_pyramid() => numbers::PRIMITIVE_PYRAMID_OFF,
+            PyramidStart::Finest => numbers::PRIMITIVE_PYRAMID_FINEST,
+            PyramidStart::Coarsest => numbers::PRIMITIVE_PYRAMID_COARSEST,
+        };
         let views = match self.views {
             Views::Cube => numbers::PRIMITIVE_VIEWS_CUBE,
             Views::Camera => numbers::PRIMITIVE_VIEWS_CAMERA,
@@ -226,7 +243,7 @@ impl Config {
             (ids::PRIMITIVE_STORAGE, storage),
             (ids::PRIMITIVE_COVERAGE, coverage),
             (ids::PRIMITIVE_SKIP, u32::from(self.skip)),
-            (ids::PRIMITIVE_PYRAMID, u32::from(self.has_pyramid())),
+            (ids::PRIMITIVE_PYRAMID, pyramid),
             (ids::PRIMITIVE_ACCEPT, accept),
             (ids::PRIMITIVE_STOP, stop),
             (ids::PRIMITIVE_DEPTHS, depths),
@@ -250,6 +267,7 @@ impl Config {
             ("tile", self.tile.to_string()),
             ("buckets", self.buckets.to_string()),
             ("pyramid", switch(self.has_pyramid())),
+            ("pyramid-start", lower(&self.pyramid_start)),
             ("coverage", lower(&self.coverage)),
             ("accept", lower(&self.accept)),
             ("stop", lower(&self.stop)),

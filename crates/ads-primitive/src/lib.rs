@@ -15,7 +15,7 @@ mod rules;
 mod structure;
 mod validate;
 
-pub use config::{Centre, Config, Storage, Views};
+pub use config::{Centre, Config, PyramidStart, Storage, Views};
 pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};

@@ -1,7 +1,8 @@
 //! DIRT: primitive lists with the paper's presets.
 
 use rasray_ads_primitive::{
-    Accept, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage, Views,
+    Accept, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, PyramidStart, Stop, Storage,
+    Views,
 };
 
 use crate::given::{Given, Setter, names};
@@ -64,6 +65,11 @@ const OPTIONS: &[Setter<Config>] = &[
         given.choice(&[("exact", March::Exact), ("jump", March::Jump)]).map(|value| config.march = value)
     }),
     ("pyramid", |config, given| given.switch().map(|value| config.pyramid = value)),
+    ("pyramid-start", |config, given| {
+        given
+            .choice(&[("finest", PyramidStart::Finest), ("coarsest", PyramidStart::Coarsest)])
+            .map(|value| config.pyramid_start = value)
+    }),
     ("views", |config, given| {
         given.choice(&[("cube", Views::Cube), ("camera", Views::Camera)]).map(|value| config.views = value)
     }),

@@ -400,6 +400,16 @@ pub const OPTIONS: &[StructureOption] = &[
         "Lists of triangles: skip blocks of tiles by their depth bounds",
     ),
     words(
+        "pyramid-start",
+        Speed,
+        SameWithoutLoss,
+        &[
+            ("finest", "The finest, then coarser ones until one holds something"),
+            ("coarsest", "The coarsest, then finer ones until one holds nothing"),
+        ],
+        "With --pyramid: the blocks that a ray compares its depths with first",
+    ),
+    words(
         "occupancy",
         Speed,
         Same,
