@@ -3,8 +3,8 @@
 use rasray_ads::{Ray, Structure};
 use rasray_gpu::Timing;
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
-use rasray_integrators::{Film, Integrator, waves};
-use rasray_scene::builtin::builtin;
+use rasray_integrators::{Film, Integrator, Traced, waves};
+use rasray_scene::{Scene, builtin::builtin};
 
 use crate::harness::Bench;
 use crate::random::Random;
@@ -14,10 +14,17 @@ use crate::random::Random;
 /// # Panics
 /// If there is no such scene or the device refuses it.
 pub fn stage(bench: &Bench, name: &str, size: u32) -> GpuScene {
-    let scene = builtin(name).expect("it is built in").expect("it needs no parameters");
+    staged(bench, &builtin(name).expect("it is built in").expect("it needs no parameters"), size)
+}
+
+/// The same of any scene that has a camera.
+///
+/// # Panics
+/// If it has none or the device refuses it.
+pub fn staged(bench: &Bench, scene: &Scene, size: u32) -> GpuScene {
     let camera = scene.cameras[0].clone();
-    let origin = SceneTables::default_frame_origin(&scene, camera.world_from_camera.translation);
-    let tables = SceneTables::new(&scene, origin, &Parts::ALL).expect("the scene is whole");
+    let origin = SceneTables::default_frame_origin(scene, camera.world_from_camera.translation);
+    let tables = SceneTables::new(scene, origin, &Parts::ALL).expect("the scene is whole");
     let view = View { camera, width: size, height: size, seed: 1 };
     GpuScene::upload(bench.device(), &tables, &view).expect("the scene fits")
 }
@@ -45,10 +52,23 @@ pub fn rendered(
     samples: u32,
     structure: &mut dyn Structure,
 ) -> Vec<[f32; 3]> {
+    rendered_through(bench, integrator, film, samples, (&*structure).into())
+}
+
+/// The same through more than a structure.
+///
+/// # Panics
+/// If the device fails.
+pub fn rendered_through(
+    bench: &Bench,
+    integrator: &dyn Integrator,
+    film: &Film,
+    samples: u32,
+    traced: Traced<'_>,
+) -> Vec<[f32; 3]> {
     let device = bench.device();
     device.submit(|recorder| integrator.record_reset(recorder)).expect("the device works");
     for wave in waves(film.pixel_count(), samples, integrator.wave_capacity()) {
-        let traced = (&*structure).into();
         integrator.render_wave(device, Timing::None, traced, wave).expect("the wave fits");
     }
     for queue in integrator.queues() {
