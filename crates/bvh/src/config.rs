@@ -60,10 +60,12 @@ impl Width {
 pub struct Config {
     /// What builds the tree.
     pub builder: Builder,
-    /// Children per node; only for [`Builder::Sah`], the others make trees of two.
-    pub width: Width,
-    /// Maximum number of triangles per leaf, 1 to 16; only for [`Builder::Sah`], whose heuristic may use fewer.
-    pub leaf: u32,
+    /// Children per node; by default what the builder makes: four by [`Builder::Sah`], two by the others, which make no
+    /// other trees.
+    pub width: Option<Width>,
+    /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`], whose heuristic may use fewer, and
+    /// 1 by the others, whose leaves hold one.
+    pub leaf: Option<u32>,
     /// How pools are reached.
     pub addressing: Addressing,
     /// How much of their work rays record: nodes read and triangles tested.
@@ -80,8 +82,8 @@ impl Config {
     pub fn new(builder: Builder) -> Self {
         Self {
             builder,
-            width: Width::Four,
-            leaf: 4,
+            width: None,
+            leaf: None,
             addressing: Addressing::Descriptor,
             counters: Counters::Off,
             work_budget: None,
@@ -90,29 +92,52 @@ impl Config {
 
     /// Children of a node of the trees that are made.
     pub fn made_width(&self) -> Width {
-        match self.builder {
-            Builder::Sah => self.width,
+        self.width.unwrap_or(match self.builder {
+            Builder::Sah => Width::Four,
             Builder::Lbvh | Builder::Refit => Width::Two,
-        }
+        })
     }
 
-    /// Checks ranges.
+    /// Maximum number of triangles per leaf of the trees that are made.
+    pub fn made_leaf(&self) -> u32 {
+        self.leaf.unwrap_or(match self.builder {
+            Builder::Sah => 4,
+            Builder::Lbvh | Builder::Refit => 1,
+        })
+    }
+
+    /// Checks ranges, and that the builder makes such trees.
     ///
     /// # Errors
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
-        check_range("leaf", self.leaf, 1..=BVH_LEAF_LIMIT, "1 to 16 triangles per leaf")?;
+        let (children, leaf) = (self.made_width().children(), self.made_leaf());
+        if self.builder == Builder::Sah {
+            check_range("leaf", leaf, 1..=BVH_LEAF_LIMIT, "1 to 16 triangles per leaf")?;
+        } else {
+            check_range(
+                "children",
+                children,
+                2..=2,
+                "2 per node of a tree by Morton codes, or builder `sah`",
+            )?;
+            check_range(
+                "leaf",
+                leaf,
+                1..=1,
+                "1 triangle per leaf of a tree by Morton codes, or builder `sah`",
+            )?;
+        }
         check_work_budget(self.work_budget, false)
     }
 
     /// Options as name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
-        let mut options = vec![("builder", self.builder.name().to_owned())];
-        if self.builder == Builder::Sah {
-            options.push(("children", self.width.children().to_string()));
-            options.push(("leaf", self.leaf.to_string()));
-        }
-        options
+        vec![
+            ("builder", self.builder.name().to_owned()),
+            ("children", self.made_width().children().to_string()),
+            ("leaf", self.made_leaf().to_string()),
+        ]
     }
 
     /// Paths as name and value, for reports.

@@ -84,9 +84,9 @@ impl FormulaBytes {
 
 /// The page's formula. It shares nothing with [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, nodes: u64, triangles: u64) -> FormulaBytes {
-    let node = match (config.builder, config.width) {
-        (Builder::Sah, Width::Four) => 128,
-        _ => 64,
+    let node = match config.made_width() {
+        Width::Four => 128,
+        Width::Two => 64,
     };
     let scratch = match config.builder {
         Builder::Sah => 28 * triangles,
@@ -109,19 +109,18 @@ mod tests {
 
     #[test]
     fn plan_equals_formula() {
-        for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
-            for width in [Width::Two, Width::Four] {
-                for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
-                    let config = Config { width, ..Config::new(builder) };
-                    let sizes = plan(&config, triangles).expect("options are in range");
-                    let nodes = most_nodes(config.made_width(), triangles);
-                    assert_eq!(
-                        sizes.bytes(),
-                        formula_bytes(&config, nodes, triangles).total(),
-                        "{config:?} {triangles}"
-                    );
-                    assert_ne!(sizes.bytes(), formula_bytes(&config, nodes + 1, triangles).total());
-                }
+        let two = Config { width: Some(Width::Two), ..Config::new(Builder::Sah) };
+        let kinds = [Builder::Sah, Builder::Lbvh, Builder::Refit].map(Config::new);
+        for config in kinds.into_iter().chain([two]) {
+            for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
+                let sizes = plan(&config, triangles).expect("options are in range");
+                let nodes = most_nodes(config.made_width(), triangles);
+                assert_eq!(
+                    sizes.bytes(),
+                    formula_bytes(&config, nodes, triangles).total(),
+                    "{config:?} {triangles}"
+                );
+                assert_ne!(sizes.bytes(), formula_bytes(&config, nodes + 1, triangles).total());
             }
         }
     }
@@ -131,8 +130,18 @@ mod tests {
         let config = Config::new(Builder::Sah);
         assert!(plan(&config, 0).is_ok());
         assert!(plan(&config, 1 << 27).unwrap_err().to_string().contains("records"));
-        assert!(plan(&Config { leaf: 17, ..config }, 1).unwrap_err().to_string().contains("leaf is 17"));
-        assert!(plan(&Config { leaf: 0, ..config }, 1).is_err());
-        assert!(plan(&Config { work_budget: Some(0), ..config }, 1).is_err());
+        let refused = |config| plan(&config, 1).expect_err("the option is out of range").to_string();
+        assert!(refused(Config { leaf: Some(17), ..config }).contains("leaf is 17"));
+        assert!(refused(Config { leaf: Some(0), ..config }).contains("leaf is 0"));
+        assert!(refused(Config { work_budget: Some(0), ..config }).contains("work budget"));
+        for builder in [Builder::Lbvh, Builder::Refit] {
+            let config = Config::new(builder);
+            // What such a tree has may be said.
+            assert!(plan(&Config { width: Some(Width::Two), leaf: Some(1), ..config }, 1).is_ok());
+            let four = refused(Config { width: Some(Width::Four), ..config });
+            assert!(four.contains("children is 4") && four.contains("builder `sah`"), "{four}");
+            let leaf = refused(Config { leaf: Some(4), ..config });
+            assert!(leaf.contains("leaf is 4") && leaf.contains("builder `sah`"), "{leaf}");
+        }
     }
 }

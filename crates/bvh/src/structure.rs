@@ -205,8 +205,8 @@ impl Design for Tree {
         device.submit(|recorder| self.build.record_boxes(recorder, parts.target(None)))?;
         let triangles = parts.geometry.download_count(device)?;
         let boxes = device.download_as::<Box3>(parts.pools.pool(Pool::Scratch), 0, triangles as usize)?;
-        let tree = host::build(&boxes, parts.config.leaf);
-        let nodes = match parts.config.width {
+        let tree = host::build(&boxes, parts.config.made_leaf());
+        let nodes = match parts.config.made_width() {
             Width::Two => {
                 device.upload_slice(parts.pools.pool(Pool::Nodes), 0, &tree.nodes)?;
                 tree.nodes.len()

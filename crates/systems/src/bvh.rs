@@ -30,9 +30,9 @@ const OPTIONS: &[Setter<Config>] = &[
         given.choice(&builders).map(|value| config.builder = value)
     }),
     ("children", |config, given| {
-        given.choice(&[("2", Width::Two), ("4", Width::Four)]).map(|value| config.width = value)
+        given.choice(&[("2", Width::Two), ("4", Width::Four)]).map(|value| config.width = Some(value))
     }),
-    ("leaf", |config, given| given.whole().map(|value| config.leaf = value)),
+    ("leaf", |config, given| given.whole().map(|value| config.leaf = Some(value))),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 

@@ -381,7 +381,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Speed,
         Same,
         &[("2", "Two"), ("4", "Four, tested together")],
-        "With --builder sah: children per node of the tree",
+        "Children per node of the tree: 4 with --builder sah unless given, 2 with the others",
     ),
     row(
         "leaf",
@@ -389,7 +389,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Same,
         Values::Whole(1, 16),
         &["1", "16"],
-        "With --builder sah: maximum triangles per leaf",
+        "Maximum triangles per leaf: 4 with --builder sah unless given, 1 with the others",
     ),
     switch("sort", Speed, Same, "Sort the fragments of a cell by depth"),
     switch("skip", Speed, SameWithoutLoss, "Skip empty space"),

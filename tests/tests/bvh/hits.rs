@@ -119,9 +119,13 @@ fn configurations(builder: Builder) -> Vec<(String, Config, Option<u32>)> {
     }
     if builder == Builder::Sah {
         for leaf in [1, 2, 8, 16] {
-            configurations.push((format!("{leaf} triangles per leaf"), Config { leaf, ..base }, None));
+            configurations.push((
+                format!("{leaf} triangles per leaf"),
+                Config { leaf: Some(leaf), ..base },
+                None,
+            ));
         }
-        let two = Config { width: Width::Two, ..base };
+        let two = Config { width: Some(Width::Two), ..base };
         configurations.push(("two children per node".to_owned(), two, None));
         let paused = Config { work_budget: Some(3), addressing: Addressing::Address, ..two };
         configurations.push(("two children per node, 3 units per dispatch".to_owned(), paused, Some(500)));
@@ -164,7 +168,7 @@ fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
     for (builder, width) in
         [(Builder::Sah, Width::Two), (Builder::Sah, Width::Four), (Builder::Lbvh, Width::Two)]
     {
-        let config = Config { work_budget: Some(16), width, ..Config::new(builder) };
+        let config = Config { work_budget: Some(16), width: Some(width), ..Config::new(builder) };
         let mut bvh = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
         build_until_complete(bench.device(), &mut bvh, [0.0; 3], Timing::None).expect("the build completes");
         let first = bvh.rounds();
@@ -246,7 +250,7 @@ fn rays_that_remember_more_than_their_stack_lose_nothing() {
             [(Builder::Sah, Width::Two), (Builder::Sah, Width::Four), (Builder::Lbvh, Width::Two)]
         {
             for budget in [None, Some(50)] {
-                let config = Config { work_budget: budget, width, ..Config::new(builder) };
+                let config = Config { work_budget: budget, width: Some(width), ..Config::new(builder) };
                 let found = of_bvh(&bench, config, &geometry, &rays, budget.map(|_| 400));
                 same(&expected, &found, &rays, &format!("{builder:?}, {width:?}, {budget:?}"));
             }

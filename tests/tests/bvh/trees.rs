@@ -71,7 +71,7 @@ fn checked(contents: &Contents, triangles: &[Triangle], what: &str) -> Shape {
 
 /// Every builder with every width that it makes.
 fn kinds() -> [Config; 4] {
-    let two = Config { width: Width::Two, ..Config::new(Builder::Sah) };
+    let two = Config { width: Some(Width::Two), ..Config::new(Builder::Sah) };
     [Config::new(Builder::Sah), two, Config::new(Builder::Lbvh), Config::new(Builder::Refit)]
 }
 
@@ -123,7 +123,7 @@ fn trees_by_surface_area_are_sound() {
 
 #[test]
 fn trees_by_surface_area_of_two_children_per_node_are_sound() {
-    all_trees_of(Config { width: Width::Two, ..Config::new(Builder::Sah) });
+    all_trees_of(Config { width: Some(Width::Two), ..Config::new(Builder::Sah) });
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn surface_area_gives_cheaper_trees_and_leaves_of_the_size_asked_for() {
     let (sah, lbvh) = (shape(Config::new(Builder::Sah)), shape(Config::new(Builder::Lbvh)));
     assert!(sah.cost < lbvh.cost, "{sah:?} {lbvh:?}");
     assert!(sah.leaves < triangles.len());
-    let single = shape(Config { leaf: 1, ..Config::new(Builder::Sah) });
+    let single = shape(Config { leaf: Some(1), ..Config::new(Builder::Sah) });
     assert_eq!(single.leaves, triangles.len());
 }
 

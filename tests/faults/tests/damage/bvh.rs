@@ -74,7 +74,7 @@ fn check(config: Config) {
 #[test]
 fn damaged_trees_are_survived_and_told() {
     if in_child("damage::bvh::damaged_trees_are_survived_and_told") {
-        let two = Config { width: Width::Two, ..Config::new(Builder::Sah) };
+        let two = Config { width: Some(Width::Two), ..Config::new(Builder::Sah) };
         for config in
             [two, Config::new(Builder::Sah), Config::new(Builder::Lbvh), Config::new(Builder::Refit)]
         {
