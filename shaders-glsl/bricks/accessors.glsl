@@ -14,8 +14,10 @@
 
 #ifdef ADDRESSING_ADDRESS
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BrickWordAddress { uint words[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BrickVectorAddress { uvec4 vectors[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BrickTriangleAddress { vec3 corners[]; };
 #define BRICK_WORDS(s) BrickWordAddress(BRICK_HEADER(s).bricks_address).words
+#define BRICK_VECTORS(s) BrickVectorAddress(BRICK_HEADER(s).bricks_address).vectors
 #define BRICK_LISTS(s) BrickWordAddress(BRICK_HEADER(s).lists_address).words
 #define BRICK_ENTRIES(s) BrickWordAddress(BRICK_HEADER(s).entries_address).words
 #define BRICK_SUMS(s) BrickWordAddress(BRICK_HEADER(s).sums_address).words
@@ -24,6 +26,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BrickTriangl
 #define BRICK_CORNERS(s) BrickTriangleAddress(BRICK_HEADER(s).triangles_address).corners
 #else
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer BrickWordsBuffer { uint brick_own_words[]; };
+layout(set = STRUCTURE_SET, binding = 1, scalar) readonly buffer BrickVectorsBuffer { uvec4 brick_vectors[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer BrickListsBuffer { uint brick_list_words[]; };
 layout(set = STRUCTURE_SET, binding = 3, scalar) buffer BrickEntriesBuffer { uint brick_entry_words[]; };
 layout(set = STRUCTURE_SET, binding = 4, scalar) buffer BrickSumsBuffer { uint brick_sum_words[]; };
@@ -31,6 +34,7 @@ layout(set = STRUCTURE_SET, binding = 5, scalar) buffer BrickNearBuffer { uint b
 layout(set = STRUCTURE_SET, binding = 6, scalar) buffer BrickRecordsBuffer { uint brick_record_words[]; };
 layout(set = STRUCTURE_SET, binding = 7, scalar) buffer BrickTrianglesBuffer { vec3 brick_corners[]; };
 #define BRICK_WORDS(s) brick_own_words
+#define BRICK_VECTORS(s) brick_vectors
 #define BRICK_LISTS(s) brick_list_words
 #define BRICK_ENTRIES(s) brick_entry_words
 #define BRICK_SUMS(s) brick_sum_words
@@ -108,6 +112,25 @@ uvec2 brick_mask(BrickRef s, uint brick) {
 uvec2 brick_divided(BrickRef s, uint brick) {
     return BRICK_DEPTH == 0u ? uvec2(0u)
         : uvec2(BRICK_WORDS(s)[brick_divided_at(brick, 0u)], BRICK_WORDS(s)[brick_divided_at(brick, 1u)]);
+}
+
+// What a ray reads of a brick.
+struct BrickWords {
+    uint word;            // its own word
+    uvec2 mask;           // cells that list something
+    uvec2 divided;        // cells that are divided, as the rest only where cells may be
+    uint child;           // the first of their bricks
+    uint layer;           // of an empty brick: how far its layer of columns and slices is empty
+};
+
+// All of it at once, as whole vectors where cells may be divided.
+BrickWords brick_words(BrickRef s, uint brick) {
+    if (BRICK_DEPTH == 0u) {
+        return BrickWords(BRICK_WORDS(s)[brick_at(brick)], brick_mask(s, brick), uvec2(0u), 0u, 0u);
+    }
+    uvec4 first = BRICK_VECTORS(s)[2u * brick];
+    uvec4 second = BRICK_VECTORS(s)[2u * brick + 1u];
+    return BrickWords(first.x, first.yz, uvec2(first.w, second.x), second.y, second.z);
 }
 
 // Whether a brick of a view lists nothing.

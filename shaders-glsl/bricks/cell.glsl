@@ -1,5 +1,5 @@
 // What: the contents of a cell of the bricks for a ray: the empty cells around it, or the list to test.
-// Reads: bricks, lists, triangles, geometry. Writes: header.corrupted.
+// Reads: bricks, lists, triangles, geometry. Writes: nothing.
 // Source: DIRT section 3.3, by cells of (column, row, slice) in bricks.
 #ifndef BRICKS_CELL_GLSL
 #define BRICKS_CELL_GLSL
@@ -25,10 +25,10 @@ struct BrickTraversal {
 
 // Bricks beyond an empty one that are empty too: along all axes towards an octant, or farther along columns and slices alone
 // where that is what a ray crosses in one step.
-ivec3 brick_empty_bricks(BrickRef s, uint brick, uint word, uint octant, float steepness) {
-    int cube = brick_distance(word, octant);
+ivec3 brick_empty_bricks(BrickWords words, uint octant, float steepness) {
+    int cube = brick_distance(words.word, octant);
     if (BRICK_DEPTH != 0u) {
-        int layer = brick_layer_distance(BRICK_WORDS(s)[brick_layer_at(brick)], octant);
+        int layer = brick_layer_distance(words.layer, octant);
         if (layer > cube && min(1.0 / max(steepness, 1.0e-6), float(layer + 1)) * max(1.0, steepness) > float(cube + 1)) {
             return ivec3(layer, 0, layer);
         }
@@ -46,28 +46,26 @@ struct BrickBox {
 
 // The box of a brick whose cells are as large as 2^shift of the smallest along a side; it has one cell along an axis where that
 // would be less than 1. False, and the brick of the cell, if that is divided.
-bool brick_box_in(BrickRef s, inout uint brick, ivec3 shift, ivec3 cell, bvec3 up, inout BrickBox box) {
+bool brick_box_in(BrickWords words, ivec3 shift, ivec3 cell, bvec3 up, inout uint brick, inout BrickBox box) {
     ivec3 size = max(shift, 0);
     ivec3 within = mix(ivec3(3), ivec3(0), lessThan(shift, ivec3(0)));
     ivec3 place = cell >> size;
     ivec3 at = place & within;
     uint word = brick_word(at);
     uint bit = brick_bit(at);
-    uvec2 divided = brick_divided(s, brick);
-    if ((divided[word] >> bit & 1u) != 0u && any(greaterThan(shift, ivec3(0)))) {
-        brick = BRICK_WORDS(s)[brick_child_at(brick)] + brick_rank(divided, word, bit);
+    if ((words.divided[word] >> bit & 1u) != 0u && any(greaterThan(shift, ivec3(0)))) {
+        brick = words.child + brick_rank(words.divided, word, bit);
         return false;
     }
-    uvec2 cells = brick_mask(s, brick);
-    uvec2 all = cells | divided;
+    uvec2 all = words.mask | words.divided;
     ivec3 first = at;
     ivec3 last = at;
-    bool listed = (cells[word] >> bit & 1u) != 0u;
+    bool listed = (words.mask[word] >> bit & 1u) != 0u;
     if (BRICK_SKIP != 0u && !listed) {
         brick_empty_cells(all, at, up, first, last);
     } else if (listed) {
         box.listed = true;
-        box.list = BRICK_WORDS(s)[brick_at(brick)] + brick_rank(all, word, bit);
+        box.list = words.word + brick_rank(all, word, bit);
     }
     ivec3 corner = place - at;
     box.first = corner + (first & within) << size;
@@ -75,51 +73,51 @@ bool brick_box_in(BrickRef s, inout uint brick, ivec3 shift, ivec3 cell, bvec3 u
     return true;
 }
 
-BrickBox brick_box(BrickRef s, BrickTraversal traversal, uint face, ivec3 cell, bvec3 up) {
+// What is crossed from a cell in one step. Bricks, lists and triangles with an invalid index are counted, here and below.
+BrickBox brick_box(BrickRef s, BrickTraversal traversal, uint face, ivec3 cell, bvec3 up, inout uint corrupted) {
     uvec3 of_view = uvec3(traversal.cells >> traversal.shift);
     uint brick = brick_index(face, cell >> traversal.shift, of_view);
     BrickBox box = BrickBox(cell, cell, false, 0u);
-    if (BRICK_SKIP != 0u) {
-        uint word = BRICK_WORDS(s)[brick_at(brick)];
-        if (brick_is_empty(word)) {
-            ivec3 inside = (ivec3(4) << traversal.shift) - 1;
-            ivec3 beyond = brick_empty_bricks(s, brick, word, brick_octant(up), traversal.steepness) * (inside + 1);
-            box.first = max((cell & ~inside) - beyond, ivec3(0));
-            box.last = min((cell | inside) + beyond, traversal.cells - 1);
-            return box;
-        }
+    BrickWords words = brick_words(s, brick);
+    if (BRICK_SKIP != 0u && brick_is_empty(words.word)) {
+        ivec3 inside = (ivec3(4) << traversal.shift) - 1;
+        ivec3 beyond = brick_empty_bricks(words, brick_octant(up), traversal.steepness) * (inside + 1);
+        box.first = max((cell & ~inside) - beyond, ivec3(0));
+        box.last = min((cell | inside) + beyond, traversal.cells - 1);
+        return box;
     }
     ivec3 shift = traversal.shift;
     for (uint level = 0u; level <= BRICK_DEPTH; level++) {
-        if (brick_box_in(s, brick, shift, cell, up, box)) {
+        if (brick_box_in(words, shift, cell, up, brick, box)) {
             break;
         }
         if (brick >= traversal.bricks) {
-            atomicAdd(BRICK_HEADER(s).corrupted, 1u);
+            corrupted += 1u;
             break;
         }
+        words = brick_words(s, brick);
         shift -= 2;
     }
     return box;
 }
 
-// Where the list of a cell begins and ends. One that leaves the pool is counted and is empty.
-uvec2 brick_entries(BrickRef s, BrickTraversal traversal, uint list) {
+// Where the list of a cell begins and ends. One that leaves the pool is empty.
+uvec2 brick_entries(BrickRef s, BrickTraversal traversal, uint list, inout uint corrupted) {
     if (list < traversal.listed) {
         uvec2 entries = uvec2(list == 0u ? 0u : BRICK_LISTS(s)[list - 1u], BRICK_LISTS(s)[list]);
         if (entries.y <= traversal.stored) {
             return entries;
         }
     }
-    atomicAdd(BRICK_HEADER(s).corrupted, 1u);
+    corrupted += 1u;
     return uvec2(0u);
 }
 
-// Tests a candidate with the corners kept here, or with those of the geometry. An invalid index is counted.
-void brick_test(BrickRef s, uint primitive, Ray ray, inout TraceState state) {
+// Tests a candidate with the corners kept here, or with those of the geometry.
+void brick_test(BrickRef s, uint primitive, Ray ray, inout TraceState state, inout uint corrupted) {
     bool kept = BRICK_CORNERS_KEPT != 0u;
     if (primitive >= (kept ? BRICK_HEADER(s).triangle_capacity : geometry_triangle_count())) {
-        atomicAdd(BRICK_HEADER(s).corrupted, 1u);
+        corrupted += 1u;
         return;
     }
     vec3 a;

@@ -47,6 +47,8 @@ uint brick_alone(BrickRef s, uint alone) {
 bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, vec2 near, float slack, uint alone,
     bool any_hit, bool resumed, inout TraceState state) {
     uint work = 0u;
+    // Added up here: an atomic in a loop costs time.
+    uint corrupted = 0u;
     BrickTraversal traversal;
     const bool axes = BRICK_VIEWS == BRICK_VIEWS_AXES;
     traversal.shift = 2 * ivec3(brick_divisions(s, BRICK_DEPTH));
@@ -128,7 +130,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
                 }
                 work++;
             }
-            box = brick_box(s, traversal, face, cell, up);
+            box = brick_box(s, traversal, face, cell, up, corrupted);
             ivec3 planes = mix(box.first, box.last + 1, up);
             exits = axes ? box_line_exits(line, planes) : brick_exits(r, planes, traversal.column, traversal.slices);
             t_out = max(min(exits.x, min(exits.y, exits.z)), t);
@@ -137,7 +139,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
                 trace_log(STEP_CELL, face, uint(cell.x), uint(cell.y), t, t_out);
             }
             if (box.listed) {
-                entries = brick_entries(s, traversal, box.list);
+                entries = brick_entries(s, traversal, box.list, corrupted);
                 if (enters) {
                     trace_log(STEP_LIST, uint(cell.z), entries.x, 0u, 0.0, 0.0);
                 }
@@ -162,7 +164,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
                     primitive = BRICK_NEAR_LIST(s)[entry];
                 }
                 if (primitive != tested.x && primitive != tested.y) {
-                    brick_test(s, primitive, ray, state);
+                    brick_test(s, primitive, ray, state, corrupted);
                     tested = uvec2(primitive, tested.x);
                 }
                 if (alone != BRICK_ALONE_NONE && any_hit && state.best.primitive != PRIMITIVE_NONE) {
@@ -211,6 +213,9 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
             turns = true;
             begins = true;
         }
+    }
+    if (corrupted != 0u) {
+        atomicAdd(BRICK_HEADER(s).corrupted, corrupted);
     }
     if (paused) {
         state.cursor[0] = bits_put(true, BRICK_CURSOR_STARTED) | bits_put(face, BRICK_CURSOR_FACE)
