@@ -1,7 +1,8 @@
 // What: proposes, for each triangle, the cells of its view whose centres it may cover, with CONSERVATIVE those that it may
 // reach into.
 // Reads: geometry, header. Writes: nothing.
-// Source: Bürger et al. section 1.2.1; the vertex stage chooses the view instead of a geometry shader.
+// Source: Bürger et al. section 1.2.1; the vertex stage chooses the view instead of a geometry shader. With three passes an
+// instance is a view, and the triangles of the others are left out.
 #version 460
 #include "contract/extensions.glsl"
 #define LDC_READ_ONLY
@@ -18,7 +19,8 @@ void main() {
     geometry_vertices(primitive, a, b, c);
     AxisView view = ldc_built_view(axis_of_triangle(a, b, c));
     primitive_and_axis = uvec2(primitive, view.axis);
-    if (!triangle_has_area(a, b, c)) {
+    bool is_elsewhere = LDC_PASSES == 3u && view.axis != uint(gl_InstanceIndex);
+    if (is_elsewhere || !triangle_has_area(a, b, c)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         return;
     }

@@ -23,6 +23,8 @@ layout(constant_id = 58) const uint LDC_PAYLOAD = LDC_PAYLOAD_INDEX;
 layout(constant_id = 59) const uint LDC_IDS = 0u;
 // Planes know which triangle a ray leaves and where it is hit, so only other acceptances ask.
 layout(constant_id = 60) const uint LDC_ENDS = ENDS_TOUCHING;
+// How often a pass draws the scene: once for all views, or once for each of the three.
+layout(constant_id = 61) const uint LDC_PASSES = 1u;
 
 // State and sizes of a layered depth cube. 188 bytes.
 struct LdcHeader {

@@ -12,9 +12,6 @@ use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 use crate::layout::{cell_count, layer_capacity, scratch};
 use crate::{Config, Coverage, Depth, Header, Making, Payload, Pool};
 
-/// The view of a triangle is chosen by the vertex stage, so every triangle is drawn once.
-const DRAWS: u32 = 1;
-
 /// Pipelines of the build: the design of [`LayeredDepthCube`](crate::LayeredDepthCube).
 #[derive(Debug)]
 pub struct Build {
@@ -92,13 +89,13 @@ impl Build {
         if let Some(large) = &self.large {
             large.record(recorder, target);
         }
-        let views = [ViewDraw { side, views: DRAWS, first: 0 }];
+        let views = [ViewDraw { side, views: config.passes, first: 0 }];
         self.lengths.record(recorder, target, &views, cells, shaders);
         match &self.layers {
             Layers::Single { store, .. } => store.record(recorder, target, &views),
             Layers::Peel { peel, grow } => {
                 let layers = layer_capacity(config, target.pools.sizes()) as u32;
-                record_peeling(recorder, peel, grow, layers, side, target);
+                record_peeling(recorder, peel, grow, layers, views[0], target);
             }
         }
         if let Some(conservative) = &self.conservative {
@@ -123,7 +120,7 @@ fn record_peeling(
     peel: &RasterPipeline,
     grow: &RasterPipeline,
     layers: u32,
-    side: u32,
+    ViewDraw { side, views, .. }: ViewDraw,
     target: BuildTarget<'_>,
 ) {
     let shaders = Access::COMPUTE | Access::FRAGMENT;
@@ -134,10 +131,10 @@ fn record_peeling(
     }
     recorder.barrier(Access::TRANSFER_WRITE, shaders);
     for step in 0..2 * layers {
-        target.draw(recorder, peel, side, DRAWS, step);
+        target.draw(recorder, peel, side, views, step);
         recorder.barrier(Access::FRAGMENT, shaders);
     }
-    target.draw(recorder, grow, side, DRAWS, 1);
+    target.draw(recorder, grow, side, views, 1);
     recorder.barrier(Access::FRAGMENT, shaders);
     recorder.end_pass();
 }

@@ -89,6 +89,9 @@ pub struct Config {
     pub coverage: Coverage,
     /// How triangles are binned into cells; [`Making::Peel`] draws. Changes no hit.
     pub builder: Builder,
+    /// How often a pass of the build draws the scene: 1, and the vertex stage chooses the view of each triangle, or 3, once
+    /// for each view, which keeps its own triangles. 3 only with [`Builder::Raster`]. Changes no hit.
+    pub passes: u32,
     /// How depths are kept.
     pub depth: Depth,
     /// What a fragment carries. Hits that do not name their triangle have `PRIMITIVE_UNKNOWN` and cannot be excluded.
@@ -125,6 +128,7 @@ impl Config {
             ends: Ends::Clear,
             coverage: Coverage::Conservative,
             builder: Builder::Raster,
+            passes: 1,
             depth: Depth::Bits32,
             payload: Payload::Index,
             ids: false,
@@ -182,6 +186,13 @@ impl Config {
             let expected = "coverage `hardware` and peeled layers need builder `raster`: the binning builder does not draw";
             return refused("builder", self.builder.name().to_owned(), expected);
         }
+        if ![1, 3].contains(&self.passes) {
+            return refused("geometry-passes", self.passes.to_string(), "1, or 3 for one of each view");
+        }
+        if self.passes == 3 && self.builder == Builder::Binning {
+            let expected = "the binning builder visits each triangle once and draws nothing: leave it at 1";
+            return refused("geometry-passes", self.passes.to_string(), expected);
+        }
         check_work_budget(self.work_budget, true)
     }
 
@@ -231,6 +242,7 @@ impl Config {
             (ids::LDC_BUILD, making),
             (ids::LDC_PAYLOAD, payload),
             (ids::LDC_IDS, u32::from(self.ids)),
+            (ids::LDC_PASSES, self.passes),
         ]
     }
 
@@ -269,6 +281,7 @@ impl Config {
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         vec![
             ("builder", self.builder.name().to_owned()),
+            ("geometry-passes", self.passes.to_string()),
             ("coverage", format!("{:?}", self.coverage).to_lowercase()),
             ("addressing", self.addressing.name().to_owned()),
         ]

@@ -54,6 +54,9 @@ const OPTIONS: &[Setter<Config>] = &[
             .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
             .map(|value| config.builder = value)
     }),
+    ("geometry-passes", |config, given| {
+        given.choice(&[("1", 1), ("3", 3)]).map(|value| config.passes = value)
+    }),
     // These take one word each so far, which is checked and selects nothing.
     ("storage", |_, given| given.choice(&[("sb", ())])),
     ("views", |_, given| given.choice(&[("axes", ())])),

@@ -377,6 +377,16 @@ pub const OPTIONS: &[StructureOption] = &[
         "How the structure is built",
     ),
     words(
+        "geometry-passes",
+        Speed,
+        Same,
+        &[
+            ("1", "Once; the view of a triangle is chosen as it is drawn"),
+            ("3", "Once for each view along the axes, which leaves out the triangles of the others"),
+        ],
+        "How often a pass of the build draws the scene, with --builder raster",
+    ),
+    words(
         "children",
         Speed,
         Same,

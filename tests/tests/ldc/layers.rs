@@ -1,6 +1,6 @@
 //! Layers that are peeled are those that one pass makes, to the bit; those beyond the maximum are counted and refused.
 
-use rasray_ads::{Check, Geometry, Hit, Ray, Structure, TraceMode};
+use rasray_ads::{Check, Geometry, Hit, Ray, Structure, TraceMode, Viewpoint};
 use rasray_gpu::Timing;
 use rasray_ldc::{Addressing, Config, Contents, Coverage, Depth, LayeredDepthCube, Making, well_formed};
 use rasray_tests::conformance::trace_in_rounds;
@@ -92,6 +92,53 @@ fn peeled_layers_are_those_of_a_single_pass() {
         assert_eq!(expected.conservative, peeled.conservative, "{depth:?}, {coverage:?}");
         let key = |hit: &Hit| (hit.t.to_bits(), hit.primitive);
         assert!(single.1.iter().map(key).eq(peel.1.iter().map(key)), "{depth:?}, {coverage:?}");
+    }
+}
+
+/// Vertices that one build is told to draw, and how often it draws.
+fn drawn(bench: &Bench, structure: &mut LayeredDepthCube) -> (u64, u32) {
+    structure.prepare_build(bench.device()).expect("the device works");
+    let recorded = bench.device().submit(|recorder| {
+        structure.record_build(recorder, 0, Viewpoint::from([0.0; 3])).expect("the header is written");
+        recorder.passes().to_vec()
+    });
+    let passes = recorded.expect("the device works").value;
+    (passes.iter().map(|pass| pass.vertices).sum(), passes.iter().map(|pass| pass.draws).sum())
+}
+
+#[test]
+fn three_passes_draw_three_times_the_triangles_and_store_the_same() {
+    let bench = Bench::new();
+    let triangles = scene();
+    let geometry = bench.geometry(&triangles);
+    let mut random = Random::new(6);
+    let rays: Vec<Ray> = (0..400).map(|_| Ray::new(random.point(-5.0, 5.0), random.direction())).collect();
+    for (making, depth, coverage) in [
+        (Making::Single, Depth::Bits32, Coverage::Conservative),
+        (Making::Single, Depth::Bits16, Coverage::Hardware),
+        (Making::Peel, Depth::Bits32, Coverage::Exact),
+    ] {
+        let one = Config { making, depth, coverage, ..Config::robust(24) };
+        let [one, three] = [one, Config { passes: 3, ..one }].map(|config| {
+            let mut structure = made(&bench, &geometry, config);
+            let drawn = drawn(&bench, &mut structure);
+            let contents = structure.download(bench.device()).expect("the device works");
+            let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
+            assert_eq!((counters.not_ready, counters.unfinished), (0, 0));
+            (drawn, contents, hits)
+        });
+        let (((vertices, draws), contents, hits), ((tripled, same_draws), others, other_hits)) = (one, three);
+        let fragments = contents.header.demand;
+        println!(
+            "{making:?}, {coverage:?}: {draws} draws, {vertices} and {tripled} vertices, {fragments} fragments"
+        );
+        assert_eq!((tripled, same_draws), (3 * vertices, draws));
+        assert_eq!(fragments, others.header.demand);
+        let (expected, found) = (layers(&contents), layers(&others));
+        assert!(expected.lists == found.lists && expected.blocks == found.blocks, "{making:?}, {coverage:?}");
+        assert_eq!(expected.conservative, found.conservative, "{making:?}, {coverage:?}");
+        let key = |hit: &Hit| (hit.t.to_bits(), hit.primitive);
+        assert!(hits.iter().map(key).eq(other_hits.iter().map(key)), "{making:?}, {coverage:?}");
     }
 }
 
