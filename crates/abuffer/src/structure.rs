@@ -137,6 +137,10 @@ impl Design for Build {
         config.constants()
     }
 
+    fn has_first_hits(config: &Config) -> bool {
+        config.views.has_camera()
+    }
+
     fn trace_variant(config: &Config) -> String {
         config.trace_variant()
     }

@@ -73,6 +73,8 @@ pub struct TraceModules {
     pub trace: &'static Shader,
     /// Surfaces; absent where the scene's shaders are not compiled in.
     pub surfaces: Option<&'static Shader>,
+    /// First hits of camera rays; absent where the structure has none.
+    pub first_hits: Option<&'static Shader>,
 }
 
 impl Modules {
@@ -135,6 +137,7 @@ impl Modules {
         Ok(TraceModules {
             trace: self.find(&format!("trace{variant}{masked}"))?,
             surfaces: self.find("surfaces").ok(),
+            first_hits: None,
         })
     }
 }

@@ -126,6 +126,11 @@ pub trait Design: fmt::Debug + Sized {
     /// Specialisation constants: id and bits.
     fn constants(config: &Self::Config) -> Vec<(u32, u32)>;
 
+    /// Whether it has first hits of camera rays without a trace, by a module `first_hits`.
+    fn has_first_hits(_config: &Self::Config) -> bool {
+        false
+    }
+
     /// Suffix of the names of the modules that trace.
     fn trace_variant(_config: &Self::Config) -> String {
         String::new()

@@ -23,6 +23,12 @@ pub enum AdsError {
         /// Number of slots.
         slots: u32,
     },
+    /// First hits of camera rays were asked for, and the structure has no view of the camera to take them from.
+    #[error("{structure} has no view of the camera that first hits could be taken from: trace camera rays")]
+    NoFirstHits {
+        /// The structure.
+        structure: &'static str,
+    },
     /// An option has a value outside its range.
     #[error("{option} is {value}: {expected}")]
     Option {

@@ -36,6 +36,7 @@ pub struct TraceKernels {
     /// Labels of traces for nearest hits and for occlusion.
     trace_labels: [String; 2],
     surfaces: Option<Kernel>,
+    first_hits: Option<Kernel>,
     next_round: ComputePipeline,
     scene: Option<SceneBinding>,
     counters: Counters,
@@ -71,10 +72,10 @@ impl TraceKernels {
                 constants: &constants,
             })
         };
-        let surfaces = |shader: &'static Shader| -> Result<Kernel, AdsError> {
+        let kernel = |shader: &'static Shader| -> Result<Kernel, AdsError> {
             Ok(Kernel { label: shader.name, pipeline: pipeline(shader)? })
         };
-        let TraceModules { trace, surfaces: surface_module } = desc.modules;
+        let TraceModules { trace, surfaces, first_hits } = desc.modules;
         let next_round = device.create_compute_pipeline(&ComputePipelineDesc {
             name: "ads/queue_next_round",
             spirv: &rasray_shaders_glsl::ADS_QUEUE_NEXT_ROUND.words(),
@@ -86,7 +87,8 @@ impl TraceKernels {
             trace: pipeline(trace)?,
             trace_labels: ["/trace_closest", "/trace_occluded"]
                 .map(|label| trace.name.replacen("/trace", label, 1)),
-            surfaces: surface_module.filter(|_| desc.scene.is_some()).map(surfaces).transpose()?,
+            surfaces: surfaces.filter(|_| desc.scene.is_some()).map(kernel).transpose()?,
+            first_hits: first_hits.map(kernel).transpose()?,
             next_round,
             scene: desc.scene.cloned(),
             counters: desc.counters,
@@ -202,12 +204,46 @@ impl TraceKernels {
         queue: &RayQueue,
         domain: Domain,
     ) -> bool {
-        let Some(kernel) = &self.surfaces else {
+        let bound = (geometry.whole(), structure, address);
+        self.record_pass(recorder, self.surfaces.as_ref(), Stage::Surfaces, bound, queue, domain)
+    }
+
+    /// Whether there are first hits of camera rays.
+    pub fn has_first_hits(&self) -> bool {
+        self.first_hits.is_some()
+    }
+
+    /// Records first hits of the slots of `domain`, in place of a trace; false where there are none.
+    #[must_use]
+    pub fn record_first_hits(
+        &self,
+        recorder: &mut Recorder<'_>,
+        geometry: &Geometry,
+        structure: Option<&BindingSet>,
+        address: u64,
+        queue: &RayQueue,
+        domain: Domain,
+    ) -> bool {
+        let bound = (geometry, structure, address);
+        self.record_pass(recorder, self.first_hits.as_ref(), Stage::Visible, bound, queue, domain)
+    }
+
+    /// Records one dispatch of a kernel, where there is one.
+    fn record_pass(
+        &self,
+        recorder: &mut Recorder<'_>,
+        kernel: Option<&Kernel>,
+        stage: Stage,
+        (geometry, structure, address): (&Geometry, Option<&BindingSet>, u64),
+        queue: &RayQueue,
+        domain: Domain,
+    ) -> bool {
+        let Some(kernel) = kernel else {
             return false;
         };
         let constants = self.constants(address, domain);
-        recorder.begin_pass(Stage::Surfaces, kernel.label);
-        self.bind(recorder, &kernel.pipeline, geometry.whole(), structure, queue, constants);
+        recorder.begin_pass(stage, kernel.label);
+        self.bind(recorder, &kernel.pipeline, geometry, structure, queue, constants);
         queue.record_dispatch(recorder, domain);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
         recorder.end_pass();

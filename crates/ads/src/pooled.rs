@@ -66,11 +66,15 @@ impl<D: Design> Pooled<D> {
         let pipelines = BuildPipelines::new(device, modules, geometry, &pools, build_scene, &constants);
         let design = D::make(&pipelines, &config, build_scene)?;
         let header_pass = pipelines.compute("build_0_header")?;
+        let mut trace_modules = modules.trace_variant(&D::trace_variant(&config), scene)?;
+        if D::has_first_hits(&config) {
+            trace_modules.first_hits = Some(modules.find("first_hits")?);
+        }
         let kernels = TraceKernels::new(
             device,
             geometry,
             &TraceKernelsDesc {
-                modules: modules.trace_variant(&D::trace_variant(&config), scene)?,
+                modules: trace_modules,
                 structure_layout: pools.layout(),
                 constants: &constants,
                 counters,
@@ -344,6 +348,23 @@ impl<D: Design> Structure for Pooled<D> {
     ) -> Result<(), AdsError> {
         let Parts { pools, geometry, .. } = &self.parts;
         pools.record_surfaces(recorder, &self.kernels, geometry, queue, domain, D::CORRUPTED)
+    }
+
+    fn has_first_hits(&self) -> bool {
+        self.kernels.has_first_hits()
+    }
+
+    fn record_first_hits(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        domain: Domain,
+    ) -> Result<(), AdsError> {
+        let Parts { pools, geometry, .. } = &self.parts;
+        if self.is_scene_new {
+            pools.record_forget(recorder);
+        }
+        pools.record_first_hits(recorder, &self.kernels, geometry, queue, domain, D::CORRUPTED)
     }
 
     fn inline_trace(&self) -> Option<InlineTrace<'_>> {

@@ -343,6 +343,28 @@ impl Pools {
             Err(AdsError::NoScene { structure: self.structure })
         }
     }
+
+    /// Records first hits of the slots of `domain`, as [`Pools::record_trace`].
+    ///
+    /// # Errors
+    /// The kernels were made without first hits.
+    pub fn record_first_hits(
+        &self,
+        recorder: &mut Recorder<'_>,
+        kernels: &TraceKernels,
+        geometry: &Geometry,
+        queue: &RayQueue,
+        domain: Domain,
+        corrupted: usize,
+    ) -> Result<(), AdsError> {
+        self.keep(recorder);
+        if kernels.record_first_hits(recorder, geometry, self.set(), self.address(), queue, domain) {
+            self.record_corrupted(recorder, queue, corrupted);
+            Ok(())
+        } else {
+            Err(AdsError::NoFirstHits { structure: self.structure })
+        }
+    }
 }
 
 /// Pools, and the set that binds them; none by address.

@@ -240,6 +240,25 @@ pub trait Structure {
         domain: Domain,
     ) -> Result<(), AdsError>;
 
+    /// Whether it has first hits of camera rays ([`Structure::record_first_hits`]).
+    fn has_first_hits(&self) -> bool {
+        false
+    }
+
+    /// Records hits of the slots of `domain` of `queue` in place of a trace: of rays from the eye that it was built for, what its
+    /// view of the camera holds nearest to the eye at the ray. They are as fine as that view, also where traces are exact.
+    ///
+    /// # Errors
+    /// [`AdsError::NoFirstHits`] where it has no such view.
+    fn record_first_hits(
+        &self,
+        _recorder: &mut Recorder<'_>,
+        _queue: &RayQueue,
+        _domain: Domain,
+    ) -> Result<(), AdsError> {
+        Err(AdsError::NoFirstHits { structure: self.name() })
+    }
+
     /// How a shader of one's own traces through it, as it is until the next resize; absent where a structure has
     /// no functions to call. Whether it is ready is in its status, which its functions check.
     fn inline_trace(&self) -> Option<InlineTrace<'_>> {

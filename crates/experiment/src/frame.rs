@@ -40,11 +40,13 @@ pub enum Primary {
     Trace,
     /// Triangles are drawn, whatever the structure stores, and tested at each pixel's ray.
     Raster,
+    /// The nearest fragment of the pixel's cell in the structure's view of the camera, for those that have one.
+    Fragments,
 }
 
 impl Primary {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Trace, Self::Raster];
+    pub const ALL: [Self; 3] = [Self::Trace, Self::Raster, Self::Fragments];
 
     /// The one of that name.
     pub fn named(name: &str) -> Option<Self> {
@@ -56,6 +58,7 @@ impl Primary {
         match self {
             Self::Trace => "trace",
             Self::Raster => "raster",
+            Self::Fragments => "fragments",
         }
     }
 
@@ -66,6 +69,9 @@ impl Primary {
             Self::Raster => {
                 "Triangles are drawn and tested at each pixel's ray: the same hits where the structure finds every one, \
                  exact first hits where it does not"
+            }
+            Self::Fragments => {
+                "The nearest fragment in the pixel's cell of the camera's view, of --system mmrt with such a view"
             }
         }
     }

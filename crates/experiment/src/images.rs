@@ -106,6 +106,7 @@ pub(super) fn compare_images(
             built.build_again(device)?;
         }
         let task = format!("image {}", config.system.name);
+        Rendering::check(frame, &built)?;
         let mut rendering = Rendering::new(device, stage, frame, None, &job.needs)?;
         let pixels = render_pixels(device, &mut rendering, &built, (true, &task), progress)?;
         if pixels.samples_done < frame.spp {

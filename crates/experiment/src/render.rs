@@ -175,6 +175,7 @@ fn on_device(
             Built::refreshed(device, &spec, &mut stage, job.refresh)?
         }
     };
+    Rendering::check(&job.frame, &built)?;
     let rendering = match rendering {
         Some(mut rendering) => {
             rendering.clear()?;

@@ -37,10 +37,14 @@ fn visibility(
 ) -> Result<Option<Visibility>, ExperimentError> {
     match frame.primary {
         Primary::Trace => Ok(None),
-        Primary::Raster if stage.scene.frame().lens_radius > 0.0 => Err(ExperimentError::usage(
-            "--primary raster draws through a pinhole, and the camera has a lens",
-            "write --primary trace, or leave out --aperture",
-        )),
+        Primary::Raster | Primary::Fragments if stage.scene.frame().lens_radius > 0.0 => {
+            let name = frame.primary.name();
+            Err(ExperimentError::usage(
+                format!("--primary {name} draws through a pinhole, and the camera has a lens"),
+                "write --primary trace, or leave out --aperture",
+            ))
+        }
+        Primary::Fragments => Ok(None),
         Primary::Raster => {
             Visibility::new(device, &stage.scene, false).map(Some).map_err(|error| match error {
                 IntegratorError::CannotDraw { .. } => {
@@ -135,6 +139,7 @@ impl Rendering {
         }
         let passes = ImagePasses::from(integrator(frame, &desc)?);
         let passes = passes.with_visibility(visibility(device, stage, frame)?);
+        let passes = if frame.primary == Primary::Fragments { passes.with_stored_hits() } else { passes };
         let passes = with_occluder(passes, device, stage, frame)?;
         let samples = shard.unwrap_or_default().samples(frame.spp);
         let image = ImageRenderer::new(device, passes, samples);
@@ -144,6 +149,23 @@ impl Rendering {
         };
         let image = image.map_err(frame_error)?;
         Ok(Self { image, passes: Passes::default() })
+    }
+
+    /// Refuses a structure without the first hits that the frame takes from it.
+    ///
+    /// # Errors
+    /// A usage error.
+    pub(super) fn check(frame: &Frame, built: &Built) -> Result<(), ExperimentError> {
+        if frame.primary != Primary::Fragments || built.structure().has_first_hits() {
+            return Ok(());
+        }
+        Err(ExperimentError::usage(
+            format!(
+                "--primary fragments: {} has no view of the camera to take them from",
+                built.structure().name()
+            ),
+            "write --system mmrt --views cube+camera, or leave it out",
+        ))
     }
 
     /// What is on the film.

@@ -1,6 +1,7 @@
 //! A system with its preset and options, as jobs name it.
 
 use crate::error::ExperimentError;
+use crate::frame::{Frame, Primary};
 use rasray_options::{OptionValues, Value};
 use rasray_scene::needs::Workload;
 use rasray_scene::{Camera, Projection};
@@ -42,19 +43,21 @@ impl SystemConfig {
         self
     }
 
-    /// The same where a camera looks at the scene: published structures whose paper draws the camera's view draw it, a cell
-    /// a pixel of the image, unless views were given. A parallel projection has no such view.
+    /// The same where a camera looks at the scene for a frame: published structures whose paper draws the camera's view draw it,
+    /// a cell a pixel of the image, unless views were given, and so do all from which first hits are taken. A parallel
+    /// projection has no such view.
     #[must_use]
-    pub fn seen_by(mut self, camera: &Camera, width: u32, height: u32) -> Self {
+    pub fn seen_by(mut self, camera: &Camera, frame: &Frame) -> Self {
+        let draws = self.preset == Preset::Published || frame.primary == Primary::Fragments;
         let perspective = matches!(camera.projection, Projection::Perspective { .. });
         if let Some(views) = self.system.camera_views
             && perspective
-            && self.preset == Preset::Published
+            && draws
             && self.options.get("views").is_none()
         {
             self.options.set("views", views);
             if self.options.get("camera-resolution").is_none() {
-                let cells = [width, height].map(|side| side.min(VIEW_LIMIT));
+                let cells = [frame.width, frame.height].map(|side| side.min(VIEW_LIMIT));
                 self.options.set("camera-resolution", Value::Cells(cells));
             }
         }

@@ -3,7 +3,7 @@
 use rasray_ads::{Occluder, QueueCounters, Structure};
 use rasray_gpu::{Device, Recorder};
 use rasray_gpu_scene::GpuScene;
-use rasray_integrators::{Film, Integrator, Traced, Visibility, Wave, waves_of};
+use rasray_integrators::{Film, FirstHits, Integrator, Traced, Visibility, Wave, waves_of};
 use rasray_shadow_maps::{Config, Lights, ShadowMaps};
 use rasray_tracer::TracerError;
 
@@ -15,6 +15,8 @@ pub struct ImagePasses {
     integrator: Box<dyn Integrator>,
     /// What answers camera rays in place of traces.
     visibility: Option<Visibility>,
+    /// Whether the structure's view of the camera does.
+    has_stored_hits: bool,
     /// What answers shadow rays in place of traces.
     shadow_maps: Option<ShadowMaps>,
     /// Whether the maps are to be drawn before they are asked.
@@ -23,7 +25,7 @@ pub struct ImagePasses {
 
 impl From<Box<dyn Integrator>> for ImagePasses {
     fn from(integrator: Box<dyn Integrator>) -> Self {
-        Self { integrator, visibility: None, shadow_maps: None, maps_are_stale: true }
+        Self { integrator, visibility: None, has_stored_hits: false, shadow_maps: None, maps_are_stale: true }
     }
 }
 
@@ -43,6 +45,13 @@ impl ImagePasses {
     #[must_use]
     pub fn with_visibility(self, visibility: Option<Visibility>) -> Self {
         Self { visibility, ..self }
+    }
+
+    /// The same with camera rays answered by the structure's view of the camera, which must have one
+    /// ([`Structure::has_first_hits`]); not together with drawing.
+    #[must_use]
+    pub fn with_stored_hits(self) -> Self {
+        Self { has_stored_hits: true, visibility: None, ..self }
     }
 
     /// The same with shadow rays that lead to lights without extent answered by shadow maps of the scene.
@@ -120,7 +129,11 @@ impl ImagePasses {
     /// Rays through a structure, but for those that are drawn or answered by maps.
     pub(crate) fn traced<'a>(&'a self, structure: &'a dyn Structure) -> Traced<'a> {
         let maps = self.shadow_maps.as_ref().map(|maps| maps as &dyn Occluder);
-        Traced::from(structure).with_primary(self.visibility.as_ref()).with_occluder(maps)
+        let primary = match self.has_stored_hits {
+            true => FirstHits::Stored,
+            false => self.visibility.as_ref().into(),
+        };
+        Traced::from(structure).with_primary(primary).with_occluder(maps)
     }
 
     /// Records that film and counters start at 0.

@@ -57,7 +57,7 @@ pub use integrator::{Integrator, IntegratorDesc, check_features};
 pub use rasray_shaders_glsl::constants::scene::PATH_LAYER_LIMIT;
 pub use rasray_shaders_glsl::records::{AovPixel, FilmFaults, FilmPixel, PathState, VisibilityCounts};
 pub use registry::*;
-pub use traced::Traced;
+pub use traced::{FirstHits, Traced};
 pub use visibility::Visibility;
 pub use wave::{WAVE_LIMIT, Wave, wave_capacity, waves, waves_of};
 

@@ -5,6 +5,24 @@ use rasray_gpu::Recorder;
 
 use crate::{Fetch, Visibility, Wave};
 
+/// What finds what camera rays hit.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum FirstHits<'a> {
+    /// A trace, as of all other rays.
+    #[default]
+    Traced,
+    /// Drawing.
+    Drawn(&'a Visibility),
+    /// The structure's view of the camera ([`Structure::record_first_hits`]).
+    Stored,
+}
+
+impl<'a> From<Option<&'a Visibility>> for FirstHits<'a> {
+    fn from(visibility: Option<&'a Visibility>) -> Self {
+        visibility.map_or(Self::Traced, Self::Drawn)
+    }
+}
+
 /// A structure, and what answers some rays in its place.
 #[derive(Clone, Copy)]
 pub struct Traced<'a> {
@@ -13,29 +31,29 @@ pub struct Traced<'a> {
     /// Answers shadow rays; where absent, they are traced. Not used where surfaces let them pass: they need nearest hits
     /// there ([`Integrator::asks_occluder`](crate::Integrator::asks_occluder)).
     pub occluder: Option<&'a dyn Occluder>,
-    /// Finds what camera rays hit by drawing; where absent, they are traced as all others.
-    pub primary: Option<&'a Visibility>,
+    /// Finds what camera rays hit.
+    pub primary: FirstHits<'a>,
     /// Fetches the surfaces of what is traced by drawing; where absent, the structure looks them up.
     pub fetch: Option<&'a Fetch>,
 }
 
 impl<'a> From<&'a dyn Structure> for Traced<'a> {
     fn from(structure: &'a dyn Structure) -> Self {
-        Self { closest: structure, occluder: None, primary: None, fetch: None }
+        Self { closest: structure, occluder: None, primary: FirstHits::Traced, fetch: None }
     }
 }
 
 impl<'a, S: Structure> From<&'a S> for Traced<'a> {
     fn from(structure: &'a S) -> Self {
-        Self { closest: structure, occluder: None, primary: None, fetch: None }
+        Self { closest: structure, occluder: None, primary: FirstHits::Traced, fetch: None }
     }
 }
 
 impl<'a> Traced<'a> {
     /// The same with camera rays answered by `primary`.
     #[must_use]
-    pub fn with_primary(self, primary: Option<&'a Visibility>) -> Self {
-        Self { primary, ..self }
+    pub fn with_primary(self, primary: impl Into<FirstHits<'a>>) -> Self {
+        Self { primary: primary.into(), ..self }
     }
 
     /// The same with shadow rays answered by `occluder`.
@@ -53,19 +71,25 @@ impl<'a> Traced<'a> {
     /// Records hits and surfaces of the camera rays of a wave.
     ///
     /// # Errors
-    /// The structure was made without a scene, or surfaces are drawn and its hits are fragments.
+    /// The structure was made without a scene, surfaces are drawn and its hits are fragments, or it has no first hits where
+    /// those are asked for.
     pub(crate) fn record_primary(
         self,
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,
         wave: Wave,
     ) -> Result<(), AdsError> {
+        let all = Domain::First(wave.pixel_count);
         match self.primary {
-            Some(visibility) => {
+            FirstHits::Traced => self.record_closest(recorder, queue, all),
+            FirstHits::Drawn(visibility) => {
                 visibility.record(recorder, queue, wave);
                 Ok(())
             }
-            None => self.record_closest(recorder, queue, Domain::First(wave.pixel_count)),
+            FirstHits::Stored => {
+                self.closest.record_first_hits(recorder, queue, all)?;
+                self.closest.record_surfaces(recorder, queue, all)
+            }
         }
     }
 

@@ -241,7 +241,7 @@ pub struct Run {
     /// Scatterings at most; absent unless paths are traced.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bounces: Option<u32>,
-    /// `trace` or `raster`: how what camera rays hit was found; absent for ray sets.
+    /// `trace`, `raster` or `fragments`: how what camera rays hit was found; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub primary: Option<String>,
     /// `structure` or `shadow-maps`: what answered shadow rays that lead to lights without extent; absent for ray sets.

@@ -228,8 +228,8 @@ impl Engine {
 
     /// The configuration as a render has it.
     fn config(&self, camera: &Camera) -> SystemConfig {
-        let Frame { width, height, .. } = self.settings.frame;
-        self.settings.system.clone().serving(self.settings.frame.workload()).seen_by(camera, width, height)
+        let Settings { system, frame, .. } = &self.settings;
+        system.clone().serving(frame.workload()).seen_by(camera, frame)
     }
 
     /// One wave of the whole picture.

@@ -2,6 +2,7 @@
 
 mod builders;
 mod capacity;
+mod first_hits;
 mod invariance;
 mod layers;
 mod lists;

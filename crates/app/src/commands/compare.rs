@@ -56,8 +56,7 @@ pub(crate) fn compare(
         given.work.reading.time.map(|seconds| Shown { seconds, posing: Posing::Host, times: Vec::new() });
     let (mut loaded, chosen) =
         read_scene(&given.scene, &given.work.reading, shown.as_ref(), &given.work.view)?;
-    let systems: Vec<_> =
-        systems.into_iter().map(|system| system.seen_by(&chosen.camera, frame.width, frame.height)).collect();
+    let systems: Vec<_> = systems.into_iter().map(|system| system.seen_by(&chosen.camera, &frame)).collect();
     let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));
     shortcomings.filter(|_| given.image).for_each(|text| terminal::warn(&text));
 

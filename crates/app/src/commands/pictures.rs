@@ -45,7 +45,7 @@ impl Pictures<'_> {
             scene: &loaded.scene,
             moment: loaded.moment.as_ref(),
             camera: chosen.camera.clone(),
-            system: self.system.clone().seen_by(&chosen.camera, frame.width, frame.height),
+            system: self.system.clone().seen_by(&chosen.camera, frame),
             refresh: given.refresh,
             frame: frame.clone(),
             shard: *shard,

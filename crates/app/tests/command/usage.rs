@@ -114,6 +114,16 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
             "--primary raster draws through a pinhole",
             "write --primary trace, or leave out --aperture",
         ),
+        (
+            "render cornell -o a.png --aperture 0.1 --focus 1 --primary fragments --system mmrt",
+            "--primary fragments draws through a pinhole",
+            "leave out --primary fragments, or --aperture",
+        ),
+        (
+            "render cornell -o a.png --primary fragments --system bvh",
+            "bvh has no view of the camera",
+            "write --system mmrt --views cube+camera",
+        ),
         ("render cornell -o a.png --adaptive 0", "'0' for '--adaptive <SHARE>': must be a share", "--help"),
         ("render cornell -o a.png --least-samples 8", "--adaptive <SHARE>", "--help"),
         (

@@ -1,4 +1,5 @@
 use super::*;
+use crate::{Frame, Primary};
 use rasray_scene::needs::Workload;
 use rasray_scene::{Camera, Projection};
 
@@ -12,6 +13,21 @@ fn options(given: &[(&str, &str)]) -> OptionValues {
 
 fn with_buckets() -> OptionValues {
     options(&[("buckets", "4")])
+}
+
+fn frame(primary: Primary) -> Frame {
+    Frame {
+        integrator: rasray_integrators::IntegratorRow::named("raycast").expect("registered").into(),
+        width: 720,
+        height: 480,
+        spp: 1,
+        adaptive: None,
+        seed: 1,
+        sampler: crate::Sampler::Sobol,
+        primary,
+        occluder: crate::OccluderKind::Structure,
+        back_faces: rasray_scene::BackFaces::Camera,
+    }
 }
 
 fn system(name: &str) -> &'static System {
@@ -51,20 +67,24 @@ fn published_views_are_those_of_the_paper() {
     for system in SYSTEMS {
         for preset in [Preset::Robust, Preset::Published] {
             let Ok(config) = one_system(system, preset, &plain) else { continue };
-            let seen = config.clone().seen_by(&camera, 720, 480);
-            let views = system.camera_views.filter(|_| preset == Preset::Published);
-            assert_eq!(seen.options.text("views").as_deref(), views);
-            assert_eq!(seen.options.text("camera-resolution").as_deref(), views.map(|_| "720x480"));
-            seen.spec().expect("the options go together");
+            for primary in Primary::ALL {
+                let seen = config.clone().seen_by(&camera, &frame(primary));
+                let draws = preset == Preset::Published || primary == Primary::Fragments;
+                let views = system.camera_views.filter(|_| draws);
+                assert_eq!(seen.options.text("views").as_deref(), views);
+                assert_eq!(seen.options.text("camera-resolution").as_deref(), views.map(|_| "720x480"));
+                seen.spec().expect("the options go together");
+            }
         }
     }
     assert_eq!(system("mmrt").camera_views, Some("cube+camera"));
+    let traced = frame(Primary::Trace);
     let published = one_system(system("mmrt"), Preset::Published, &plain).expect("valid");
     let parallel = Camera { projection: Projection::Orthographic { half_height: 1.0 }, ..camera.clone() };
-    assert_eq!(published.clone().seen_by(&parallel, 720, 480), published);
+    assert_eq!(published.clone().seen_by(&parallel, &traced), published);
     let given = options(&[("views", "cube")]);
     let given = one_system(system("mmrt"), Preset::Published, &given).expect("valid");
-    assert_eq!(given.clone().seen_by(&camera, 720, 480), given);
+    assert_eq!(given.clone().seen_by(&camera, &traced), given);
 }
 
 #[test]

@@ -56,7 +56,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
         if let Some(system) = system {
             loaded.light(None);
             let frame = Frame { width: SIDE, height: SIDE, ..frame };
-            let system = system.serving(frame.workload()).seen_by(&view.camera, SIDE, SIDE);
+            let system = system.serving(frame.workload()).seen_by(&view.camera, &frame);
             let mut backend = open_device(open, &given.device)?;
             let needs = Needs::of(&loaded.scene, frame.workload());
             fit_images(&mut loaded, &needs, backend.as_ref())?;
