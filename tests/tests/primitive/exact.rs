@@ -1,9 +1,9 @@
 //! Lists of triangles, per tile and in bricks, against brute force, bit for bit: at every size of cells, from every eye
 //! and origin, with every budget; and lists that cover too little are noticed.
 
-use rasray_ads::{BruteForce, Hit, Ray, Structure, TraceMode};
+use rasray_ads::{BruteForce, Counters, Hit, Ray, Structure, TraceMode};
 use rasray_ads_primitive::{
-    Accept, Addressing, Builder, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage,
+    Accept, Addressing, Builder, Config, Coverage, Depths, March, PrimitiveLists, PyramidStart, Stop, Storage,
 };
 use rasray_bricks::{Bricks, Config as BricksConfig, Views};
 use rasray_gpu::Timing;
@@ -256,6 +256,26 @@ fn every_published_rule_loses_hits() {
         differences(&bench.trace(structure.as_ref(), &rays).hits, &expected).len()
     });
     assert!(refusing > 10 * jumping, "{refusing} hits differ with the rule, {jumping} without");
+}
+
+/// Blocks of tiles are searched from either end of the pyramid for the largest that holds nothing: a ray visits the same
+/// tiles, and without blocks more of them.
+#[test]
+fn the_pyramid_skips_the_same_from_either_end() {
+    let bench = Bench::new();
+    let (triangles, rays) = (sphere([0.0; 3], 6.0, 24), rays(41, 4000, 9.0));
+    let expected = brute_force(&bench, &triangles, &rays);
+    let own = Config { counters: Counters::Sums, tile: 1, ..Config::robust(64) };
+    let coarsest = Config { pyramid_start: PyramidStart::Coarsest, ..own };
+    let [finest, coarsest, none] = [own, coarsest, Config { pyramid: false, ..own }].map(|config| {
+        let structure = lists(&bench, config, &triangles, EYES[1]);
+        let traced = bench.trace(structure.as_ref(), &rays);
+        assert!(differences(&traced.hits, &expected).is_empty(), "{config:?}");
+        (traced.counters.cells, traced.counters.tests)
+    });
+    println!("tiles and tests: {finest:?} from the finest, {coarsest:?} from the coarsest, {none:?} without");
+    assert_eq!(finest, coarsest);
+    assert!(none.0 > 2 * finest.0, "{none:?} {finest:?}");
 }
 
 /// Rays that start far outside of everything, beyond what the cells can bear and below it; and rays from an
