@@ -67,7 +67,7 @@ impl Fetch {
     /// Makes pipelines for the scene's triangles, and lists for `capacity` hits.
     ///
     /// # Errors
-    /// `CannotDraw` where the device lacks a feature or the faces are larger than it can draw; out of memory, or the
+    /// `CannotFetch` where the device lacks a feature or the faces are larger than it can draw; out of memory, or the
     /// device refuses a pipeline.
     pub fn new(device: &Device, scene: &GpuScene, capacity: u32) -> Result<Self, IntegratorError> {
         let side = side(check_capacity(capacity)?);
