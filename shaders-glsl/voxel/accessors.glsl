@@ -1,6 +1,6 @@
 // What: the pools of voxels with axis A-buffers, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, voxels, normals, lists, fragments, scratch. Every access checks the capacity.
+// Reads, writes: header, voxels, normals, lists, fragments, scratch, nodes, octants. Every access checks the capacity.
 // A list is a cell of a view: its word is that of voxel/lists.glsl. Where voxels are the leaves there are no lists, and
 // these words are the triangles of voxels.
 // A place is the number of a fragment; in pages, of a slot.
@@ -18,17 +18,23 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelWordAdd
 #define VOXEL_LISTS(s) VoxelWordAddress(VOXEL_HEADER(s).lists_address).words
 #define VOXEL_FRAGMENTS(s) VoxelWordAddress(VOXEL_HEADER(s).fragments_address).words
 #define VOXEL_SCRATCH(s) VoxelWordAddress(VOXEL_HEADER(s).scratch_address).words
+#define VOXEL_NODES(s) VoxelWordAddress(VOXEL_HEADER(s).nodes_address).words
+#define VOXEL_OCTANTS(s) VoxelWordAddress(VOXEL_HEADER(s).octants_address).words
 #else
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer VoxelVoxelsBuffer { uint voxel_voxel_words[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer VoxelNormalsBuffer { uint voxel_normal_words[]; };
 layout(set = STRUCTURE_SET, binding = 3, scalar) buffer VoxelListsBuffer { uint voxel_list_words[]; };
 layout(set = STRUCTURE_SET, binding = 4, scalar) buffer VoxelFragmentsBuffer { uint voxel_fragment_words[]; };
 layout(set = STRUCTURE_SET, binding = 5, scalar) buffer VoxelScratchBuffer { uint voxel_scratch_words[]; };
+layout(set = STRUCTURE_SET, binding = 6, scalar) buffer VoxelNodesBuffer { uint voxel_node_words[]; };
+layout(set = STRUCTURE_SET, binding = 7, scalar) buffer VoxelOctantsBuffer { uint voxel_octant_words[]; };
 #define VOXEL_VOXELS(s) voxel_voxel_words
 #define VOXEL_NORMALS(s) voxel_normal_words
 #define VOXEL_LISTS(s) voxel_list_words
 #define VOXEL_FRAGMENTS(s) voxel_fragment_words
 #define VOXEL_SCRATCH(s) voxel_scratch_words
+#define VOXEL_NODES(s) voxel_node_words
+#define VOXEL_OCTANTS(s) voxel_octant_words
 #endif
 
 // The view along an axis, with the cells of the fragments.

@@ -19,6 +19,18 @@
 #define VOXEL_LEAVES_FRAGMENTS 0u
 #define VOXEL_LEAVES_VOXELS 1u
 
+// How a ray goes from voxel to voxel: one after the other, or over the empty nodes of an octree.
+#define VOXEL_TRAVERSAL_DDA 0u
+#define VOXEL_TRAVERSAL_OCTREE 1u
+
+// What a scan runs over.
+#define VOXEL_SCAN_LISTS 0u
+#define VOXEL_SCAN_OCTANTS 1u
+
+// Most levels of the octree, that of VOXEL_GRID_LIMIT, and nodes whose places a node can hold.
+#define VOXEL_LEVEL_LIMIT 10u
+#define VOXEL_NODE_LIMIT 0x1000000u
+
 // How a ray steps within a voxel.
 #define VOXEL_MARCH_SAMPLES 0u
 #define VOXEL_MARCH_EXACT 1u

@@ -1,33 +1,48 @@
-// What: the numbers that the scan of lists runs over, contiguous storage only: lengths become places, and
-// their sum the demand.
-// Reads, writes: lists, scratch, header.demand.
+// What: the numbers that scans run over. Of lists, contiguous storage only: lengths become places, and their sum the demand.
+// Of the octree: how many octants of each node hold something becomes how many of those before it do, and their sum, with
+// the root, its demand.
+// Reads, writes: lists, scratch, octants, header.demand, header.node_demand.
 #ifndef VOXEL_SCANNED_GLSL
 #define VOXEL_SCANNED_GLSL
 
-#include "voxel/accessors.glsl"
+#include "voxel/octree.glsl"
 
 uint scan_count(VoxelRef s, uint step) {
-    return voxel_list_count(s);
+    return step == VOXEL_SCAN_OCTANTS ? octree_upper_count(s) : voxel_list_count(s);
 }
 
 uint scan_number(VoxelRef s, uint step, uint i) {
-    return VOXEL_LISTS(s)[i];
+    return step == VOXEL_SCAN_OCTANTS ? VOXEL_OCTANTS(s)[i] : VOXEL_LISTS(s)[i];
 }
 
 void scan_set_number(VoxelRef s, uint step, uint i, uint number) {
-    VOXEL_LISTS(s)[i] = number;
+    if (step == VOXEL_SCAN_OCTANTS) {
+        VOXEL_OCTANTS(s)[i] = number;
+    } else {
+        VOXEL_LISTS(s)[i] = number;
+    }
 }
 
+// The octree's sums are behind its numbers.
 uint scan_sum(VoxelRef s, uint step, uint block) {
-    return VOXEL_SCRATCH(s)[block];
+    return step == VOXEL_SCAN_OCTANTS ? VOXEL_OCTANTS(s)[octree_upper_count(s) + block] : VOXEL_SCRATCH(s)[block];
 }
 
 void scan_set_sum(VoxelRef s, uint step, uint block, uint sum) {
-    VOXEL_SCRATCH(s)[block] = sum;
+    if (step == VOXEL_SCAN_OCTANTS) {
+        VOXEL_OCTANTS(s)[octree_upper_count(s) + block] = sum;
+    } else {
+        VOXEL_SCRATCH(s)[block] = sum;
+    }
 }
 
 void scan_set_total(VoxelRef s, uint step, uint total) {
-    VOXEL_HEADER(s).demand = total;
+    if (step == VOXEL_SCAN_OCTANTS) {
+        // No grid has more octants than 32 bits count.
+        VOXEL_HEADER(s).node_demand = total + 1u;
+    } else {
+        VOXEL_HEADER(s).demand = total;
+    }
 }
 
 #endif

@@ -1,4 +1,5 @@
-// What: follows a ray through the voxels, and searches the occupied ones along their axes.
+// What: follows a ray through the voxels, over those that an octree says are empty, and searches the occupied ones along
+// their axes.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: Hu et al. section 3.2; voxels as leaves: section 5.2, voxel grids alone.
 #ifndef VOXEL_TRACE_GLSL
@@ -7,6 +8,7 @@
 #include "ads/leaving.glsl"
 #include "contract/trace_functions.glsl"
 #include "contract/stored_hit.glsl"
+#include "voxel/octree.glsl"
 #include "voxel/search.glsl"
 #include "voxel/parity.glsl"
 
@@ -27,6 +29,20 @@ void voxel_take_voxel(VoxelRef s, Ray ray, float t, uint index, inout TraceState
         vec2 found = plane_barycentrics(primitive, ray.origin + t * ray.direction);
         state.best = Hit(t, primitive, found.x, found.y);
     }
+}
+
+// The bits of the traversal's voxel from the octree, and what it says of empty space around that of the march. Looking a
+// voxel up `again` after a pause is no work of the budget: a ray gets on in every round, however small that is.
+uint voxel_look_up(VoxelRef s, bool again, inout VoxelTraversal traversal, inout TraceState state, inout uint work) {
+    uint level;
+    uint read;
+    uint bits = octree_bits(s, traversal.voxel, level, read);
+    state.entries += read;
+    work += again ? 0u : read;
+    if (traversal.voxel == traversal.voxels.cell) {
+        traversal.empty = level;
+    }
+    return bits;
 }
 
 // The ray without the fragments of the triangle that it leaves and of what it ends on.
@@ -58,7 +74,6 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
             trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, interval.x, interval.y);
             break;
         }
-        uint bits = voxel_bits(s, voxel_index(s, traversal.voxel));
         if (!entered) {
             if (work >= work_budget) {
                 voxel_save(traversal, state);
@@ -70,6 +85,8 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
             uint row = uint(traversal.voxel.y) + VOXEL_HEADER(s).grid * uint(traversal.voxel.z);
             trace_log(STEP_CELL, AXIS_VIEWS, uint(traversal.voxel.x), row, interval.x, interval.y);
         }
+        uint bits = VOXEL_TRAVERSAL == VOXEL_TRAVERSAL_OCTREE ? voxel_look_up(s, entered, traversal, state, work)
+            : voxel_bits(s, voxel_index(s, traversal.voxel));
         entered = false;
         if (bits == 0u) {
             trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);

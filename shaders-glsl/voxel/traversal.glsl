@@ -17,6 +17,7 @@
 #include "contract/bits.glsl"
 #include "contract/trace_state.glsl"
 #include "ads/march_grid.glsl"
+#include "ads/march_grid_skip.glsl"
 #include "voxel/lists.glsl"
 
 // Fields of the flags; VoxelTraversal says what they hold.
@@ -47,6 +48,7 @@ struct VoxelTraversal {
     vec3 direction;
     GridMarch voxels;
     ivec3 voxel;          // the voxel being searched: that of the march or one next to it
+    uint empty;           // the march's voxel is in an empty block of 2^empty voxels along a side; octree only
     uint axis;            // the view being searched
     GridMarch cells;
     ivec3 cell;
@@ -75,6 +77,7 @@ bool voxel_begin(VoxelRef s, Ray ray, out VoxelTraversal traversal) {
     float scale = VOXEL_HEADER(s).voxels_per_metre;
     traversal.origin = origin;
     traversal.direction = ray.direction;
+    traversal.empty = 0u;
     traversal.axis = 0u;
     traversal.searching = false;
     traversal.in_list = false;
@@ -96,7 +99,11 @@ bool voxel_next(inout VoxelTraversal traversal) {
     if (VOXEL_LEAVES == VOXEL_LEAVES_FRAGMENTS && grid_take_neighbour(traversal.voxels, traversal.voxel)) {
         return true;
     }
-    bool more = grid_next(traversal.voxels);
+    bool ended = false;
+    bool skipped = VOXEL_TRAVERSAL == VOXEL_TRAVERSAL_OCTREE
+        && grid_take_skip_exactly(traversal.voxels, traversal.empty, ended);
+    traversal.empty = 0u;
+    bool more = skipped ? !ended : grid_next(traversal.voxels);
     traversal.voxel = traversal.voxels.cell;
     return more;
 }

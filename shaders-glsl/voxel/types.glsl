@@ -24,8 +24,9 @@ layout(constant_id = 79) const uint VOXEL_MARKED = VOXEL_MARKED_BY_TRIANGLES;
 layout(constant_id = 81) const uint VOXEL_INSIDE = VOXEL_INSIDE_COLUMN;
 layout(constant_id = 82) const uint VOXEL_ENDS = ENDS_TOUCHING;
 layout(constant_id = 83) const uint VOXEL_LEAVES = VOXEL_LEAVES_FRAGMENTS;
+layout(constant_id = 84) const uint VOXEL_TRAVERSAL = VOXEL_TRAVERSAL_DDA;
 
-// State and sizes of voxels with axis A-buffers. 136 bytes.
+// State and sizes of voxels with axis A-buffers. 164 bytes.
 struct VoxelHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments found by the build, or pages begun for them, also those beyond the capacity
@@ -53,6 +54,11 @@ struct VoxelHeader {
     uint large_demand;           // triangles with many cells of a view, also those beyond the capacity; binning only
     uint large_capacity;   // triangles that the large-triangle queue holds
     uint groups[3];       // workgroups for those triangles
+    uvec2 nodes_address;  // device address of the octree's nodes
+    uvec2 octants_address; // device address of what its build counts
+    uint node_demand;     // nodes found by the build, also those beyond the capacity; octree only, as all that follow
+    uint node_capacity;   // nodes the pool holds
+    uint levels;          // levels of the octree: 2^levels voxels along a side, at least the grid's
 };
 
 #endif

@@ -1,5 +1,6 @@
 //! Voxels as tests build them.
 
+use rasray_ads::Geometry;
 use rasray_gpu::Timing;
 use rasray_tracer::build_until_complete;
 use rasray_voxel::{Config, Contents, Payload, Voxels};
@@ -31,7 +32,15 @@ pub fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
 /// # Panics
 /// As [`made`], or if it cannot be built.
 pub fn built(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
-    let mut structure = made(bench, config, triangles);
+    built_of(bench, config, &bench.geometry(triangles))
+}
+
+/// The same of a geometry that was uploaded.
+///
+/// # Panics
+/// As [`built`].
+pub fn built_of(bench: &Bench, config: Config, geometry: &Geometry) -> Voxels {
+    let mut structure = Voxels::new(bench.device(), config, geometry, None).expect("the options are valid");
     build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
         .expect("the build completes");
     structure

@@ -429,6 +429,16 @@ pub const OPTIONS: &[StructureOption] = &[
         ],
         "What a block of cells stores of the depths in it",
     ),
+    words(
+        "traversal",
+        Speed,
+        Same,
+        &[
+            ("dda", "One after the other"),
+            ("octree", "The same, over the empty nodes of a sparse octree, which is built from the voxels"),
+        ],
+        "How a ray goes from voxel to voxel",
+    ),
     switch("corners", Speed, Same, "Keep a contiguous copy of triangles' corners"),
     words(
         "addressing",

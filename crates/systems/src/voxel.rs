@@ -2,6 +2,7 @@
 
 use rasray_voxel::{
     Accept, Axes, Builder, Config, Coverage, Ends, Inside, Leaves, March, Marking, Payload, Storage,
+    Traversal,
 };
 
 use crate::given::{Given, Setter};
@@ -34,6 +35,11 @@ const OPTIONS: &[Setter<Config>] = &[
         given
             .choice(&[("fragments", Leaves::Fragments), ("voxels", Leaves::Voxels)])
             .map(|value| config.leaves = value)
+    }),
+    ("traversal", |config, given| {
+        given
+            .choice(&[("dda", Traversal::Dda), ("octree", Traversal::Octree)])
+            .map(|value| config.traversal = value)
     }),
     ("march", |config, given| {
         given

@@ -3,14 +3,14 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, SceneBinding, ViewDraw, Visit,
+    AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Scan, SceneBinding, ViewDraw, Visit,
     Visits,
 };
-use rasray_gpu::{Access, ComputePipeline, Recorder};
-use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
+use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
+use rasray_shaders_glsl::constants::voxel::{VOXEL_GROUP_SIZE, VOXEL_SCAN_OCTANTS};
 
-use crate::layout::{list_count, scratch};
-use crate::{Axes, Config, Header, Leaves, Marking, Payload, Pool, Storage};
+use crate::layout::{levels, list_count, scratch, upper_nodes};
+use crate::{Axes, Config, Header, Leaves, Marking, Payload, Pool, Storage, Traversal};
 
 /// Pipelines of the build: the design of [`Voxels`](crate::Voxels).
 #[derive(Debug)]
@@ -22,7 +22,39 @@ pub struct Build {
     store: Option<Visit>,
     sort: Option<ListSort>,
     longest: Option<ComputePipeline>,
+    octree: Option<Octree>,
     status: ComputePipeline,
+}
+
+/// Pipelines of the passes that build the octree from complete voxels.
+#[derive(Debug)]
+struct Octree {
+    octants: ComputePipeline,
+    scan: Scan,
+    nodes: ComputePipeline,
+}
+
+impl Octree {
+    fn new(pipelines: &BuildPipelines<'_>) -> Result<Self, AdsError> {
+        Ok(Self {
+            octants: pipelines.compute("build_10_octants")?,
+            scan: Scan::new(pipelines, "build_5_scan")?,
+            nodes: pipelines.compute("build_11_nodes")?,
+        })
+    }
+
+    fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
+        let groups = |threads: u64| threads.div_ceil(VOXEL_GROUP_SIZE.into());
+        let upper = upper_nodes(config);
+        recorder.begin_pass(Stage::Build, "voxel/build_10_octants");
+        for level in (0..levels(config) - 1).rev() {
+            target.dispatch(recorder, &self.octants, groups(1 << (3 * level)), level);
+            recorder.barrier(Access::COMPUTE, Access::COMPUTE);
+        }
+        recorder.end_pass();
+        self.scan.record(recorder, target, "voxel/build_5_scan", upper, VOXEL_SCAN_OCTANTS, Access::COMPUTE);
+        target.compute_pass(recorder, "voxel/build_11_nodes", &self.nodes, groups(upper), 0, Access::COMPUTE);
+    }
 }
 
 impl Build {
@@ -58,7 +90,8 @@ impl Build {
             longest: (keeps && !config.bisects())
                 .then(|| pipelines.compute("build_9_longest"))
                 .transpose()?,
-            status: pipelines.compute("build_10_status")?,
+            octree: (config.traversal == Traversal::Octree).then(|| Octree::new(pipelines)).transpose()?,
+            status: pipelines.compute("build_12_status")?,
         })
     }
 
@@ -111,6 +144,9 @@ impl Build {
             let (label, groups) = ("voxel/build_9_longest", lists.div_ceil(group));
             target.compute_pass(recorder, label, longest, groups, 0, Access::COMPUTE);
         }
-        target.status_pass(recorder, "voxel/build_10_status", &self.status);
+        if let Some(octree) = &self.octree {
+            octree.record(recorder, config, target);
+        }
+        target.status_pass(recorder, "voxel/build_12_status", &self.status);
     }
 }

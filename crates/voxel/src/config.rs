@@ -35,6 +35,15 @@ pub enum Leaves {
     Voxels,
 }
 
+/// How a ray goes from voxel to voxel. Changes no hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Traversal {
+    /// One voxel after the other.
+    Dda,
+    /// The same, over the empty nodes of a sparse octree, which is built from the voxels.
+    Octree,
+}
+
 /// How a ray steps within a voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
@@ -129,6 +138,8 @@ pub struct Config {
     pub grid: Option<u32>,
     /// What rays hit.
     pub leaves: Leaves,
+    /// How rays go from voxel to voxel. Changes no hit.
+    pub traversal: Traversal,
     /// Which views keep a fragment.
     pub axes: Axes,
     /// What makes a voxel occupied; fragments where absent and all views keep all, else triangles.
@@ -180,6 +191,7 @@ impl Config {
             resolution,
             grid: None,
             leaves: Leaves::Fragments,
+            traversal: Traversal::Dda,
             axes: Axes::Triangle,
             voxels: None,
             march: March::Exact,
@@ -366,6 +378,10 @@ impl Config {
             Leaves::Fragments => numbers::VOXEL_LEAVES_FRAGMENTS,
             Leaves::Voxels => numbers::VOXEL_LEAVES_VOXELS,
         };
+        let traversal = match self.traversal {
+            Traversal::Dda => numbers::VOXEL_TRAVERSAL_DDA,
+            Traversal::Octree => numbers::VOXEL_TRAVERSAL_OCTREE,
+        };
         let ends = if self.has_ends() { self.ends } else { Ends::Touching };
         let inside = match self.inside {
             Inside::Column => numbers::VOXEL_INSIDE_COLUMN,
@@ -375,6 +391,7 @@ impl Config {
             (ids::VOXEL_INSIDE, inside),
             (ids::VOXEL_ENDS, ends.number()),
             (ids::VOXEL_LEAVES, leaves),
+            (ids::VOXEL_TRAVERSAL, traversal),
             (ids::VOXEL_AXES, axes),
             (ids::VOXEL_MARCH, march),
             (ids::VOXEL_ACCEPT, accept),
@@ -434,6 +451,7 @@ impl Config {
         vec![
             ("builder", self.builder.name().to_owned()),
             ("coverage", lower(&self.coverage)),
+            ("traversal", lower(&self.traversal)),
             ("addressing", self.addressing.name().to_owned()),
         ]
     }

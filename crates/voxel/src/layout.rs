@@ -1,8 +1,9 @@
 //! Sizes of the pools, and the cube they divide: plain arithmetic, no device.
 
 use rasray_ads::{AdsError, Scan, Scratch, Sizes};
+use rasray_shaders_glsl::constants::voxel::VOXEL_NODE_LIMIT;
 
-use crate::{Axes, Builder, Config, Header, Leaves, Payload, Pool, Storage};
+use crate::{Axes, Builder, Config, Header, Leaves, Payload, Pool, Storage, Traversal};
 
 /// Lists of all three views: one per cell.
 pub fn list_count(resolution: u32) -> u64 {
@@ -18,6 +19,8 @@ pub struct Demand {
     pub long_lists: u64,
     /// Triangles with many cells or columns of voxels, for the binning builder.
     pub large: u64,
+    /// Nodes of the octree.
+    pub nodes: u64,
 }
 
 /// What a configuration allocates for a demand.
@@ -33,6 +36,13 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         Leaves::Voxels => (voxels, 0),
     };
     let normals = if config.axes == Axes::Triangle { 0 } else { voxels };
+    let (nodes, octants) = match config.traversal {
+        Traversal::Dda => (0, 0),
+        Traversal::Octree => (demand.nodes, upper_nodes(config) + Scan::sums(upper_nodes(config))),
+    };
+    if nodes > VOXEL_NODE_LIMIT.into() {
+        return Err(AdsError::PoolTooLarge { structure: "voxel", pool: "nodes", elements: nodes });
+    }
     let sizes = [
         (Pool::Header, 1, size_of::<Header>() as u64),
         (Pool::Voxels, voxels.div_ceil(8), 4),
@@ -40,6 +50,8 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (Pool::Lists, lists, 4),
         (Pool::Fragments, entries, 4 * entry_words(config)),
         (Pool::Scratch, scratch(config).words(demand.large, demand.long_lists), 4),
+        (Pool::Nodes, nodes, 4),
+        (Pool::Octants, octants, 4),
     ];
     let sizes = Sizes::of("voxel", sizes)?;
     if config.storage == Storage::Paged { sizes.of_pages("voxel", Pool::Fragments) } else { Ok(sizes) }
@@ -71,10 +83,21 @@ pub(crate) fn widest_view(config: &Config) -> u64 {
     if config.leaves == Leaves::Voxels { columns } else { cells(config.resolution).max(columns) }
 }
 
-/// The first guess where nothing has been counted: one per cell of one view.
+/// Levels of the octree: 2^levels voxels along a side, blocks of 2x2x2 voxels and at least the root above them.
+pub(crate) fn levels(config: &Config) -> u32 {
+    config.grid().next_power_of_two().trailing_zeros().max(2)
+}
+
+/// Nodes above the blocks if none were empty.
+pub(crate) fn upper_nodes(config: &Config) -> u64 {
+    ((1 << (3 * (levels(config) - 1))) - 1) / 7
+}
+
+/// The first guess where nothing has been counted: one per cell of one view, and a node per voxel of a few slices.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let entries = config.fragments.unwrap_or_else(|| list_count(config.resolution) / 3);
-    plan(config, Demand { entries, long_lists: 0, large: 1024 })
+    let nodes = 4 * u64::from(config.grid()).pow(2);
+    plan(config, Demand { entries, long_lists: 0, large: 1024, nodes })
 }
 
 /// Bytes for counted voxels, cells, entries and long lists.
@@ -88,6 +111,8 @@ pub struct FormulaBytes {
     pub fragments: u64,
     /// With ids: 4 per fragment, or slot of a page.
     pub ids: u64,
+    /// Per node of the octree: 4; and what its build counts.
+    pub octree: u64,
     /// Header; with contiguous lists a sum of 4 per 1024 lists for the scan, and 8 per long list; or where
     /// that is more 4 per triangle with many cells where they are binned.
     pub rest: u64,
@@ -96,7 +121,7 @@ pub struct FormulaBytes {
 impl FormulaBytes {
     /// Sum of all parts.
     pub fn total(&self) -> u64 {
-        self.voxels + self.lists + self.fragments + self.ids + self.rest
+        self.voxels + self.lists + self.fragments + self.ids + self.octree + self.rest
     }
 }
 
@@ -113,6 +138,14 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     };
     let long = if config.sort && config.storage != Storage::Paged { 8 * demand.long_lists } else { 0 };
     let large = if config.builder == Builder::Binning { 4 * demand.large } else { 0 };
+    let octree = match config.traversal {
+        Traversal::Dda => 0,
+        Traversal::Octree => {
+            let blocks = grid.next_power_of_two().max(4) / 2;
+            let above = (blocks * blocks * blocks - 1) / 7;
+            4 * (demand.nodes + above + above.div_ceil(1024))
+        }
+    };
     if config.leaves == Leaves::Voxels {
         let voxels = grid * grid * grid;
         return FormulaBytes {
@@ -120,7 +153,8 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
             lists: 4 * voxels,
             fragments: 0,
             ids: 0,
-            rest: 136 + large,
+            octree,
+            rest: 164 + large,
         };
     }
     FormulaBytes {
@@ -132,7 +166,8 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
             (true, Storage::Paged) => 4 * demand.entries * u64::from(config.page),
             (true, _) => 4 * demand.entries,
         },
-        rest: 136 + sums + long.max(large),
+        octree,
+        rest: 164 + sums + long.max(large),
     }
 }
 
@@ -164,6 +199,13 @@ mod tests {
                 Config { grid, storage: Storage::Linked, ..Config::robust(resolution) },
                 Config { grid, storage: Storage::Paged, page: 5, ..Config::robust(resolution) },
                 Config { grid, leaves: Leaves::Voxels, ..Config::robust(resolution) },
+                Config { grid, traversal: Traversal::Octree, ..Config::robust(resolution) },
+                Config {
+                    grid,
+                    traversal: Traversal::Octree,
+                    leaves: Leaves::Voxels,
+                    ..Config::robust(resolution)
+                },
                 Config {
                     grid,
                     leaves: Leaves::Voxels,
@@ -171,11 +213,13 @@ mod tests {
                     ..Config::robust(resolution)
                 },
             ] {
-                let demand = Demand { entries: 12_345, long_lists: 3, large: 7 };
+                let demand = Demand { entries: 12_345, long_lists: 3, large: 7, nodes: 99 };
                 let sizes = plan(&config, demand).expect("options are in range");
                 assert_eq!(sizes.bytes(), formula_bytes(&config, demand).total());
                 let more = formula_bytes(&config, Demand { entries: 12_346, ..demand }).total();
                 assert_eq!(sizes.bytes() != more, config.leaves == Leaves::Fragments);
+                let grown = formula_bytes(&config, Demand { nodes: 100, ..demand }).total();
+                assert_eq!(sizes.bytes() != grown, config.traversal == Traversal::Octree);
                 let longer = formula_bytes(&config, Demand { long_lists: 4, ..demand }).total();
                 assert_eq!(sizes.bytes() != longer, config.sorts());
             }
@@ -197,6 +241,11 @@ mod tests {
         assert!(nameless.contains("accept") && nameless.contains("payload"), "{nameless}");
         let many = Demand { entries: 1 << 32, ..Demand::default() };
         assert!(plan(&Config::robust(64), many).unwrap_err().to_string().contains("fragments"));
+        let sparse = Config { traversal: Traversal::Octree, ..Config::robust(64) };
+        let nodes = u64::from(VOXEL_NODE_LIMIT);
+        assert!(plan(&sparse, Demand { nodes, ..Demand::default() }).is_ok());
+        let many = Demand { nodes: nodes + 1, ..Demand::default() };
+        assert!(plan(&sparse, many).unwrap_err().to_string().contains("nodes"));
         // A word of a list can address fewer pages than 32 bits could.
         let paged = Config { storage: Storage::Paged, page: 1, ..Config::robust(64) };
         let many = Demand { entries: u64::from(PAGE_LIMIT) + 1, ..Demand::default() };

@@ -18,7 +18,8 @@ mod validate;
 
 pub use build::Build;
 pub use config::{
-    Accept, Axes, Config, Coverage, Inside, Leaves, March, Marking, Payload, Storage, VOXEL_LEAVES_GRID,
+    Accept, Axes, Config, Coverage, Inside, Leaves, March, Marking, Payload, Storage, Traversal,
+    VOXEL_LEAVES_GRID,
 };
 pub use layout::{Demand, FormulaBytes, formula_bytes, list_count, plan};
 pub use pool::Pool;

@@ -15,5 +15,9 @@ rasray_ads::pool_names! {
         Fragments = "fragments",
         /// Sums of the scan, long lists, and the large-triangle queue.
         Scratch = "scratch",
+        /// Nodes of the octree.
+        Nodes = "nodes",
+        /// What the octree's build counts, with sums of its scan.
+        Octants = "octants",
     }
 }

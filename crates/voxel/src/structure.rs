@@ -10,8 +10,10 @@ use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
 
 use crate::build::Build;
-use crate::layout::{Demand, first_plan, formula_bytes, plan, scratch, widest_view};
-use crate::{Accept, Config, Contents, Coverage, Header, Leaves, March, Pool, Storage, well_formed};
+use crate::layout::{Demand, first_plan, formula_bytes, levels, plan, scratch, widest_view};
+use crate::{
+    Accept, Config, Contents, Coverage, Header, Leaves, March, Pool, Storage, Traversal, well_formed,
+};
 
 /// Lists of maximum length that a ray gets rounds for.
 const LONG_LISTS_PER_RAY: u32 = 64;
@@ -34,6 +36,10 @@ fn first_header(parts: &Parts<Config>) -> Header {
         fragments_address: pools.address_of(Pool::Fragments),
         scratch_address: pools.address_of(Pool::Scratch),
         large_capacity: scratch(config).large_capacity(pools.sizes()) as u32,
+        nodes_address: pools.address_of(Pool::Nodes),
+        octants_address: pools.address_of(Pool::Octants),
+        node_capacity: parts.elements(Pool::Nodes) as u32,
+        levels: levels(config),
         groups: [0, 0, bin_groups(widest_view(config))],
         ..Header::default()
     }
@@ -45,6 +51,7 @@ impl rasray_ads::Demand for Demand {
             entries: with("fragments", self.entries, other.entries),
             long_lists: with("long", self.long_lists, other.long_lists),
             large: with("large", self.large, other.large),
+            nodes: with("nodes", self.nodes, other.nodes),
         }
     }
 }
@@ -111,6 +118,7 @@ impl Design for Build {
             entries: header.demand.into(),
             long_lists: header.long_demand.into(),
             large: header.large_demand.into(),
+            nodes: header.node_demand.into(),
         }
     }
 
@@ -120,6 +128,7 @@ impl Design for Build {
             entries: parts.elements(Pool::Fragments),
             long_lists: scratch(config).long_capacity(pools.sizes()),
             large: scratch(config).large_capacity(pools.sizes()),
+            nodes: parts.elements(Pool::Nodes),
         }
     }
 
@@ -134,7 +143,11 @@ impl Design for Build {
         // triangle, else LONG_LISTS_PER_RAY of maximum length. A parity without bisection reads a list at each of its
         // points: the entry of the voxel, its steps, the halvings, and the nearest fragment.
         let budget = u64::from(parts.work_budget);
-        let steps = 12 * u64::from(config.resolution) + 6 * u64::from(config.grid());
+        let looked_up = match config.traversal {
+            Traversal::Dda => 1,
+            Traversal::Octree => 1 + u64::from(levels(config)),
+        };
+        let steps = 12 * u64::from(config.resolution) + 6 * looked_up * u64::from(config.grid());
         let points = match (config.accept, config.march) {
             (Accept::Plane, _) => 1,
             (Accept::Parity, March::Samples) => 1 + u64::from(config.samples),
@@ -158,6 +171,7 @@ impl Design for Build {
     fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
         match pool {
             Pool::Fragments => Some(asked.entries),
+            Pool::Nodes => Some(asked.nodes),
             Pool::Scratch => Some(scratch(&parts.config).words(asked.large, asked.long_lists)),
             _ => None,
         }
@@ -184,5 +198,6 @@ impl Design for Build {
         Voxels => voxels,
         Lists => lists,
         Fragments => fragments,
+        Nodes => nodes,
     }
 }

@@ -1,7 +1,7 @@
 //! Checks the contents of built voxels and axis A-buffers.
 
-use crate::layout::entry_words;
-use crate::{Config, Header, Leaves, Payload, Storage, list_count};
+use crate::layout::{entry_words, levels};
+use crate::{Config, Header, Leaves, Payload, Storage, Traversal, list_count};
 
 /// What rays read, as downloaded, in words.
 #[derive(Clone, Debug)]
@@ -18,6 +18,9 @@ pub struct Contents {
     /// Depth and triangle of each fragment, or depth, triangle or terms of the material, colour and normal; where it is
     /// linked its link behind these. Of a page the word that leads to the next one, and fragments.
     pub fragments: Vec<u32>,
+    /// Of the octree, in each level in the order of octants: which octants hold something, and the place of the first; of the
+    /// last level the bits of eight voxels.
+    pub nodes: Vec<u32>,
 }
 
 /// A fragment.
@@ -96,6 +99,16 @@ pub enum Fault {
         list: usize,
         /// The depth, as text: it may be NaN.
         z: String,
+    },
+    /// The octree says something else of a voxel than the voxel.
+    #[error("voxel {voxel} has the bits {bits:04b}, and {found:04b} in the octree")]
+    Octree {
+        /// The voxel.
+        voxel: usize,
+        /// Its bits.
+        bits: u32,
+        /// Its bits in the octree.
+        found: u32,
     },
     /// An occupied voxel that is hit itself has an invalid triangle index, or an empty one has a triangle.
     #[error("voxel {voxel} is occupied without a triangle or empty with one: {primitive}")]
@@ -190,6 +203,25 @@ impl Contents {
         Ok(places)
     }
 
+    /// The bits of a voxel of the grid.
+    fn bits(&self, voxel: usize) -> u32 {
+        self.voxels[voxel / 8] >> (4 * (voxel % 8)) & 15
+    }
+
+    /// The bits of a voxel as the octree has them; absent where a node leads out of the pool.
+    fn bits_in_octree(&self, voxel: [u32; 3]) -> Option<u32> {
+        let octant = |level: u32| voxel.iter().rev().fold(0, |octant, x| octant << 1 | x >> level & 1);
+        let mut place = 0;
+        for level in (1..levels(&self.config)).rev() {
+            let word = *self.nodes.get(place as usize)?;
+            if word >> octant(level) & 1 == 0 {
+                return Some(0);
+            }
+            place = (word >> 8) + (word & ((1 << octant(level)) - 1)).count_ones();
+        }
+        self.nodes.get(place as usize).map(|word| word >> (4 * octant(0)) & 15)
+    }
+
     fn fragment(&self, place: u32) -> Fragment {
         let word = self.first_word(place);
         let named = self.config.payload != Payload::Material;
@@ -207,8 +239,8 @@ impl Contents {
 }
 
 /// Checks of a complete build that every counted fragment is in one list, has a depth within the cube and,
-/// where it has a triangle index, that of one of `triangles`, that lists are sorted where they should be, and that
-/// voxels are searched if and only if they hold something.
+/// where it has a triangle index, that of one of `triangles`, that lists are sorted where they should be, that
+/// voxels are searched if and only if they hold something, and that the octree says the same of each.
 ///
 /// # Errors
 /// The first fault found.
@@ -252,7 +284,14 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
     }
     let grid = contents.config.grid() as usize;
     for voxel in 0..grid * grid * grid {
-        let bits = contents.voxels[voxel / 8] >> (4 * (voxel % 8)) & 15;
+        let bits = contents.bits(voxel);
+        if contents.config.traversal == Traversal::Octree {
+            let place = [voxel % grid, voxel / grid % grid, voxel / grid / grid].map(|x| x as u32);
+            let found = contents.bits_in_octree(place).unwrap_or(0);
+            if found != bits {
+                return Err(Fault::Octree { voxel, bits, found });
+            }
+        }
         if (bits & 8 != 0) != (bits & 7 != 0) {
             return Err(Fault::Voxel { voxel, bits });
         }

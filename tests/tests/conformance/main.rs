@@ -8,3 +8,4 @@ mod oracle_hierarchy;
 mod report;
 mod rows;
 mod sweeps;
+mod voxels;

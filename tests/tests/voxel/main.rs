@@ -1,8 +1,10 @@
-//! Voxels over A-buffers along the axes: marks, storages, exactness, voxels as leaves, pools of every edge
+//! Voxels over A-buffers along the axes: marks, storages, exactness, voxels as leaves, the octree, pools of every edge
 //! capacity.
 
 mod capacity;
+mod costs;
 mod exact;
 mod leaves;
 mod marks;
+mod octree;
 mod storage;

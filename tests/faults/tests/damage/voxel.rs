@@ -2,7 +2,7 @@
 
 use rasray_faults::{in_child, scrambled};
 use rasray_tests::tier::in_turn;
-use rasray_voxel::{Addressing, Config, Contents, Payload, Storage, Voxels};
+use rasray_voxel::{Addressing, Config, Contents, Payload, Storage, Traversal, Voxels};
 
 use crate::damage::survive::{self, Flag, survive};
 
@@ -97,6 +97,20 @@ const OF_ANY: [Damage; 3] = [
     ),
 ];
 
+const OF_NODES: [Damage; 4] = [
+    (
+        "nodes at random",
+        |c| {
+            let mut next = scrambled(0x9E37_79B9);
+            c.nodes.fill_with(&mut next);
+        },
+        Flag::Corrupted,
+    ),
+    ("nodes that are all ones", |c| c.nodes.fill(u32::MAX), Flag::Corrupted),
+    ("octants that begin at the root", |c| c.nodes.iter_mut().for_each(|node| *node &= 0xFF), Flag::Contents),
+    ("no node holds anything", |c| c.nodes.fill(0), Flag::Contents),
+];
+
 fn check(config: Config, damages: &[Damage]) {
     survive(
         |device, geometry, scene| Voxels::new(device, config, geometry, Some(scene)).expect("valid options"),
@@ -136,5 +150,13 @@ fn damaged_lists_of_voxels_of_every_storage_are_survived_and_told() {
                 check(config, &OF_ANY);
             }
         }
+    }
+}
+
+#[test]
+fn damaged_nodes_of_the_octree_are_survived_and_told() {
+    if in_child("damage::voxel::damaged_nodes_of_the_octree_are_survived_and_told") {
+        let octree = Config { traversal: Traversal::Octree, ..Config::robust(32) };
+        check(octree, &OF_NODES);
     }
 }

@@ -12,6 +12,7 @@ layout(local_size_x = 1) in;
 void main() {
     bool fits = VOXEL_HEADER(build.structure).demand <= VOXEL_HEADER(build.structure).capacity
         && VOXEL_HEADER(build.structure).long_demand <= VOXEL_HEADER(build.structure).long_capacity
+        && VOXEL_HEADER(build.structure).node_demand <= VOXEL_HEADER(build.structure).node_capacity
         && VOXEL_HEADER(build.structure).large_demand <= VOXEL_HEADER(build.structure).large_capacity;
     bool unsorted = VOXEL_HEADER(build.structure).unsorted > 0u;
     VOXEL_HEADER(build.structure).status = (build_status(fits)) | (unsorted ? STATUS_UNSORTED : 0u);

@@ -1,0 +1,28 @@
+// What: how many octants of each node of a level hold something; one dispatch per level, from the lowest of the upper levels
+// to the root.
+// Reads: header, voxels, octants. Writes: octants.
+// Source: none; docs/systems/hu.md.
+#version 460
+#include "contract/extensions.glsl"
+#include "voxel/octree.glsl"
+#include "voxel/names.glsl"
+#include "ads/build_constants.glsl"
+
+layout(local_size_x = VOXEL_GROUP_SIZE) in;
+
+void main() {
+    uint level = build.step;
+    uint number = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * VOXEL_GROUP_SIZE + gl_GlobalInvocationID.x;
+    if (number >= 1u << (3u * level)) {
+        return;
+    }
+    bool above_blocks = level + 2u == VOXEL_HEADER(build.structure).levels;
+    uint node = octree_first(level) + number;
+    uint count = 0u;
+    for (uint octant = 0u; octant < 8u; octant++) {
+        uint held = above_blocks ? octree_block(build.structure, 8u * number + octant)
+            : VOXEL_OCTANTS(build.structure)[8u * node + 1u + octant];
+        count += held != 0u ? 1u : 0u;
+    }
+    VOXEL_OCTANTS(build.structure)[node] = count;
+}
