@@ -240,9 +240,10 @@ fn how_much_is_said_stands_before_the_command_or_after_it() {
 fn ranges_in_the_help_are_those_of_the_values() {
     let line = CommandLine::command();
     let mut tried = 0;
-    for (word, rest) in
-        [("render", &["cornell", "--output=a.png"][..]), ("compare", &["cornell", "--systems=mmrt"])]
-    {
+    for (word, rest) in [
+        ("render", &["cornell", "--output=a.png", "--adaptive=0.1"][..]),
+        ("compare", &["cornell", "--systems=mmrt"]),
+    ] {
         let command = line.find_subcommand(word).expect("a command");
         let is_number =
             |argument: &&clap::Arg| argument.get_value_names().is_some_and(|names| names == ["N"]);
