@@ -209,7 +209,8 @@ pub struct KeptSet {
 /// The answers of a system to a ray set.
 #[derive(Clone, Debug)]
 pub struct Answers {
-    /// System and preset, such as `mmrt-robust`.
+    /// System and preset, such as `mmrt-robust`; with the options of several values where it takes part with several, such as
+    /// `bvh-robust.leaf=2,children=4`.
     pub name: String,
     /// Whether a hit's `a` and `b` are weights of vertices.
     pub kind: StructureKind,

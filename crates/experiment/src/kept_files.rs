@@ -37,7 +37,8 @@ impl Kept {
         triangles.chain(backs).chain(rays).chain(excluding).chain(flagged)
     }
 
-    /// The oracle's answers to each set (`<set>.oracle.npy`) and those of each system (`<set>.<system>-<preset>.npy`).
+    /// The oracle's answers to each set (`<set>.oracle.npy`) and those of each system (`<set>.<system>-<preset>.npy`,
+    /// with its [variant](crate::SystemConfig::variant) before the ending where there are several).
     pub fn hit_files(&self) -> impl Iterator<Item = NamedBytes> {
         self.sets.iter().flat_map(|set| {
             let truth =

@@ -121,7 +121,9 @@ pub(super) fn compare_set(
         let mut run = run_of(device, contestant, set, &traced, wanted.seed)?;
         let kind = contestant.built.structure().kind();
         evaluate(&mut run, kind, &set.verdicts, &traced.hits, wanted.figures, comparison)?;
-        answers.push(Answers { name: format!("{}-{}", run.system, run.preset), kind, hits: traced.hits });
+        let variant = run.variant.as_ref().map(|variant| format!(".{}", variant.replace(' ', ",")));
+        let name = format!("{}-{}{}", run.system, run.preset, variant.unwrap_or_default());
+        answers.push(Answers { name, kind, hits: traced.hits });
         comparison.add(*place, run);
     }
     for (place, given) in &taking.given {

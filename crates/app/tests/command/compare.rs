@@ -30,12 +30,18 @@ fn rays_and_hits_go_out_and_come_back_and_a_wrong_hit_is_found() {
     assert_eq!((first.runs.len(), accuracy(&first, 1).missed), (2, 0));
     assert!(first.statistics.is_some_and(|statistics| statistics.rates > 5));
 
-    // The same rays from the file get the same answers, bit for bit.
-    let line = "compare cornell --systems mmrt,brute-force --rays-file bounce.rays --save-hits .";
+    // The same rays from the file get the same answers, bit for bit, and each variant of a system has a file.
+    let line =
+        "compare cornell --systems mmrt,brute-force mmrt.buckets=4,8 --rays-file bounce.rays --save-hits .";
     compared(path, line);
-    for name in ["oracle", "mmrt-robust", "brute-force-robust"] {
-        let read = |set: &str| std::fs::read(path.join(format!("{set}.{name}.npy"))).expect("hits");
-        assert_eq!(read("bounce"), read("file"), "{name}");
+    for (name, again) in [
+        ("oracle", "oracle"),
+        ("mmrt-robust", "mmrt-robust.buckets=4"),
+        ("mmrt-robust", "mmrt-robust.buckets=8"),
+        ("brute-force-robust", "brute-force-robust"),
+    ] {
+        let read = |name: &str| std::fs::read(path.join(format!("{name}.npy"))).expect("hits");
+        assert_eq!(read(&format!("bounce.{name}")), read(&format!("file.{again}")), "{again}");
     }
 
     // The oracle's own answers, rounded to f32, have no fault.
