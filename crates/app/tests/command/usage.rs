@@ -117,7 +117,7 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         (
             "render cornell -o a.png --aperture 0.1 --focus 1 --primary fragments --system mmrt",
             "--primary fragments draws through a pinhole",
-            "leave out --primary fragments, or --aperture",
+            "write --primary trace, or leave out --aperture",
         ),
         (
             "render cornell -o a.png --primary fragments --system bvh",
