@@ -66,13 +66,6 @@ pub struct RenderArguments {
     /// Images in addition to the colours, kept in the .exr
     #[arg(long, value_enum, value_delimiter = ',', requires = "output")]
     pub aov: Vec<Aov>,
-    /// More samples where there is more noise: each pixel gets as many, up to --spp, as the first samples of the pixels around
-    /// it need for this standard error, as a share of their radiance, such as 0.02. The image is as unbiased as without
-    #[arg(long, value_name = "SHARE", value_parser = values::noise, help_heading = IMAGE)]
-    pub adaptive: Option<f64>,
-    /// Samples that every pixel gets and that say how many more are needed, 2 to 1048576 [default: 16, at most --spp]
-    #[arg(long, value_name = "N", value_parser = values::whole(2, 1_048_576), requires = "adaptive", help_heading = IMAGE)]
-    pub least_samples: Option<u32>,
     /// Stops of exposure for .png
     #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true, requires = "output")]
     pub exposure: Option<f32>,
@@ -101,6 +94,13 @@ pub struct RenderArguments {
     /// The image, the camera, the scene, the structure and the device.
     #[command(flatten)]
     pub work: WorkArguments,
+    /// More samples where there is more noise: each pixel gets as many, up to --spp, as the first samples of the pixels around
+    /// it need for this standard error, as a share of their radiance, such as 0.02. The image is as unbiased as without
+    #[arg(long, value_name = "SHARE", value_parser = values::noise, help_heading = IMAGE)]
+    pub adaptive: Option<f64>,
+    /// Samples that every pixel gets and that say how many more are needed, 2 to 1048576 [default: 16, at most --spp]
+    #[arg(long, value_name = "N", value_parser = values::whole(2, 1_048_576), requires = "adaptive", help_heading = IMAGE)]
+    pub least_samples: Option<u32>,
 }
 
 /// Images in addition to the colours.
