@@ -59,6 +59,8 @@ fn execute(parsed: CommandLine, line: &str, open: &mut OpenBackend<'_>) -> Resul
         Command::Render(given) => commands::render(&given, line, open, &interrupt),
         Command::Merge(given) => commands::merge(&given, &interrupt),
         Command::Compare(given) => commands::compare(&given, line, open, &interrupt),
+        Command::Ablate(given) => commands::ablate(&given, line, open, &interrupt),
+        Command::Replicate(given) => commands::replicate(&given, line, open, &interrupt),
         Command::View(given) => commands::view(&given, &interrupt),
         Command::Info(given) => commands::info(&given, open),
         Command::Completions(given) => commands::completions(&given),

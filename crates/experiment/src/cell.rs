@@ -22,35 +22,52 @@ pub fn cell_key(program: &str, cell: &Cell) -> String {
 
 /// The cells of a comparison in the order of its report. Those of a group are measured together: a set of rays, a hard
 /// case, or all images.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellList {
-    cells: Vec<(String, Cell)>,
+    records: Vec<CellRecord>,
     groups: Vec<Range<usize>>,
-    key: String,
 }
 
 impl CellList {
     /// The list of these groups, made by `program` (version and commit).
     pub fn new(program: &str, groups: impl IntoIterator<Item = Vec<Cell>>) -> Self {
-        let mut list = Self { cells: Vec::new(), groups: Vec::new(), key: String::new() };
+        let record = |depends_on: Cell| CellRecord {
+            key: cell_key(program, &depends_on),
+            depends_on,
+            ..CellRecord::default()
+        };
+        Self::of(groups.into_iter().map(|group| group.into_iter().map(record).collect()))
+    }
+
+    /// The list of groups of records, whose places are those of this list.
+    pub(crate) fn of(groups: impl IntoIterator<Item = Vec<CellRecord>>) -> Self {
+        let mut list = Self::default();
         for group in groups {
-            let first = list.cells.len();
-            list.cells.extend(group.into_iter().map(|cell| (cell_key(program, &cell), cell)));
-            list.groups.push(first..list.cells.len());
+            let first = list.records.len();
+            list.records.extend(group);
+            list.groups.push(first..list.records.len());
         }
-        let hash = list.cells.iter().fold(KeyHash::default(), |hash, (key, _)| hash.with("cell", key));
-        list.key = hash.finish();
+        let hash = list.records.iter().fold(KeyHash::default(), |hash, record| {
+            let hash = hash.with("cell", &record.key);
+            record.campaign.iter().fold(hash, |hash, campaign| {
+                hash.with("campaign", serde_json::to_vec(campaign).expect("strings and numbers"))
+            })
+        });
+        let (key, cells) = (hash.finish(), list.records.len() as u32);
+        for (place, record) in list.records.iter_mut().enumerate() {
+            (record.place, record.cells, record.list) = (place as u32, cells, key.clone());
+        }
         list
     }
 
     /// Cells.
     pub fn len(&self) -> usize {
-        self.cells.len()
+        self.records.len()
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.cells.is_empty()
+        self.records.is_empty()
     }
 
     /// Places of the cells of each group.
@@ -59,15 +76,8 @@ impl CellList {
     }
 
     /// What a line says of the cell at a place; absent where there is none.
-    pub fn record(&self, place: usize) -> Option<CellRecord> {
-        let (key, cell) = self.cells.get(place)?;
-        Some(CellRecord {
-            key: key.clone(),
-            place: place as u32,
-            cells: self.cells.len() as u32,
-            list: self.key.clone(),
-            depends_on: cell.clone(),
-        })
+    pub fn record(&self, place: usize) -> Option<&CellRecord> {
+        self.records.get(place)
     }
 }
 
@@ -301,7 +311,7 @@ mod tests {
         assert_eq!((keys.len(), list.record(12)), (12, None));
         assert_eq!(list, compare_cells("1", &loaded, &job(&loaded)));
         let text = serde_json::to_string(&records[9]).expect("plain data");
-        assert_eq!(serde_json::from_str::<CellRecord>(&text).expect("it reads back"), records[9]);
+        assert_eq!(&serde_json::from_str::<CellRecord>(&text).expect("it reads back"), records[9]);
     }
 
     #[test]
@@ -312,7 +322,7 @@ mod tests {
             let mut job = job(&loaded);
             change(&mut job);
             let list = compare_cells("1", &loaded, &job);
-            (0..list.len()).map(|place| list.record(place).expect("a cell").key).collect()
+            (0..list.len()).map(|place| list.record(place).expect("a cell").key.clone()).collect()
         };
         let first = keys(&|_| ());
         let changed = |change: &Change| -> Vec<usize> {
@@ -367,7 +377,7 @@ mod tests {
         let list = |scale| hard_cells("1", cases, &systems, &[], scale, 1);
         let quick = list(Scale::QUICK);
         assert_eq!(quick.groups(), [0..2, 2..3]);
-        let key = |list: &CellList, place| list.record(place).expect("a cell").key;
+        let key = |list: &CellList, place| list.record(place).expect("a cell").key.clone();
         for other in [
             Scale { rays: 9, ..Scale::QUICK },
             Scale { seed: 9, ..Scale::QUICK },

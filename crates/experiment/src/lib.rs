@@ -17,6 +17,7 @@
 mod automatic;
 mod backend;
 mod built;
+mod campaign;
 mod cell;
 mod compare;
 mod contestant;
@@ -58,6 +59,7 @@ pub use backend::{
     TexelCapacity,
 };
 pub use built::{Built, Resolved};
+pub use campaign::{CampaignCells, ExperimentCells};
 pub use cell::{CellList, HardSubject, cell_key, compare_cells, hard_cells};
 pub use contestant::Contestant;
 pub use describe::requirements;

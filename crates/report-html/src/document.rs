@@ -2,8 +2,7 @@
 
 use super::markup::Markup;
 use super::section::Section;
-use rasray_report::Report;
-use rasray_report::{bytes, grouped};
+use rasray_report::{Device, Report, bytes, grouped};
 use serde_json::Value;
 use std::borrow::Cow;
 
@@ -11,24 +10,47 @@ use std::borrow::Cow;
 const POLICY: &str =
     "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
+/// What heads a page.
+pub(super) struct Head<'a> {
+    /// The command whose page it is.
+    pub command: &'static str,
+    /// What it is about.
+    pub subject: &'a str,
+    /// Names and what is to be known by them.
+    pub facts: Vec<(&'static str, Cow<'a, str>)>,
+    /// Where it ran.
+    pub device: &'a Device,
+}
+
+/// The page of a report.
+pub(super) fn of_report(report: &Report, sections: &[Section]) -> String {
+    let head = Head {
+        command: "rasray compare",
+        subject: &report.scene.name,
+        facts: facts(report),
+        device: &report.device,
+    };
+    document(&head, sections)
+}
+
 /// The whole page.
-pub(super) fn document(report: &Report, sections: &[Section]) -> String {
+pub(super) fn document(head: &Head<'_>, sections: &[Section]) -> String {
     let mut page = Markup::default();
     page.fixed("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
     page.empty("meta", &[("http-equiv", "Content-Security-Policy"), ("content", POLICY)]);
     page.fixed("\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
     page.fixed("<meta name=\"color-scheme\" content=\"light dark\">\n");
-    page.leaf("title", &[], format_args!("rasray compare: {}", report.scene.name));
+    page.leaf("title", &[], format_args!("{}: {}", head.command, head.subject));
     page.fixed("\n<style>\n").fixed(include_str!("page.css")).fixed("</style>\n");
     // Before anything is laid out: parts that need the script are hidden where none runs.
     page.script("document.documentElement.classList.add('scripted');");
     page.fixed("</head>\n<body>\n");
-    header(&mut page, report);
+    header(&mut page, head);
     navigation(&mut page, sections);
     page.fixed("<main>\n");
     for section in sections {
-        page.element("section", &[("id", section.id)], |page| {
-            page.leaf("h2", &[], section.title).fixed("\n").append(&section.body);
+        page.element("section", &[("id", &*section.id)], |page| {
+            page.leaf("h2", &[], &section.title).fixed("\n").append(&section.body);
         });
         page.fixed("\n");
     }
@@ -45,47 +67,54 @@ pub(super) fn document(report: &Report, sections: &[Section]) -> String {
     page.into_string()
 }
 
-fn header(page: &mut Markup, report: &Report) {
-    let device = &report.device;
-    page.fixed("<header>\n");
-    page.element("h1", &[], |title| {
-        title.fixed("<span>rasray compare</span> ").text(&report.scene.name);
-    });
-    page.fixed("\n<dl class=\"facts\">");
-    let mut fact = |name: &'static str, value: Cow<'_, str>| {
-        page.element("div", &[], |pair| {
-            pair.leaf("dt", &[], name).leaf("dd", &[], value);
-        });
-    };
-    fact("Triangles", grouped(report.scene.triangles).into());
+fn facts(report: &Report) -> Vec<(&'static str, Cow<'_, str>)> {
+    let mut facts: Vec<(&'static str, Cow<'_, str>)> = Vec::new();
+    facts.push(("Triangles", grouped(report.scene.triangles).into()));
     if let Some(sum) = &report.scene.sha256 {
-        fact("Scene, SHA-256", sum.into());
+        facts.push(("Scene, SHA-256", sum.into()));
     }
     if let Some(count) = report.scene.not_uploaded_bytes {
-        fact("Scene, not uploaded", bytes(count).into());
+        facts.push(("Scene, not uploaded", bytes(count).into()));
     }
     if let Some(pose) = &report.scene.pose {
         let names: Vec<_> = pose.clips.iter().chain(&pose.file).map(String::as_str).collect();
         let of = if names.is_empty() { String::new() } else { format!(" of {}", names.join(", ")) };
-        fact("Time", format!("{} s{of}", pose.time_s).into());
+        facts.push(("Time", format!("{} s{of}", pose.time_s).into()));
     }
     let smaller = report.scene.smaller_images.iter().map(|image| {
         let ([width, height], [from_width, from_height]) = (image.to, image.from);
         format!("{} as {width}x{height}, not {from_width}x{from_height}", image.name)
     });
     if !report.scene.smaller_images.is_empty() {
-        fact("Smaller images", smaller.collect::<Vec<_>>().join("; ").into());
+        facts.push(("Smaller images", smaller.collect::<Vec<_>>().join("; ").into()));
     }
-    let kind = if device.software { ", software" } else { "" };
-    fact("Device", format!("{} ({}{kind})", device.name, device.driver).into());
+    facts.push(("Device", device_words(&report.device).into()));
     let commit = report.commit.as_ref().map(|commit| format!(", commit {commit}")).unwrap_or_default();
-    fact("Version", format!("{}{commit}", report.version).into());
-    fact("Runs", grouped(report.runs.len() as u64).into());
-    if let Some(command) = &report.command {
-        fact("Command", command.into());
+    facts.push(("Version", format!("{}{commit}", report.version).into()));
+    facts.push(("Runs", grouped(report.runs.len() as u64).into()));
+    facts.extend(report.command.as_ref().map(|command| ("Command", command.into())));
+    facts
+}
+
+/// A device and its driver.
+pub(super) fn device_words(device: &Device) -> String {
+    let kind = if device.software { ", software" } else { "" };
+    format!("{} ({}{kind})", device.name, device.driver)
+}
+
+fn header(page: &mut Markup, head: &Head<'_>) {
+    page.fixed("<header>\n");
+    page.element("h1", &[], |title| {
+        title.leaf("span", &[], head.command).fixed(" ").text(head.subject);
+    });
+    page.fixed("\n<dl class=\"facts\">");
+    for (name, value) in &head.facts {
+        page.element("div", &[], |pair| {
+            pair.leaf("dt", &[], name).leaf("dd", &[], value);
+        });
     }
     page.fixed("</dl>\n");
-    if device.software {
+    if head.device.software {
         page.fixed(
             "<p class=\"note\" role=\"note\"><strong>A software driver.</strong> Its times are for ratios \
              between runs on this device, not for what a graphics card would need.</p>\n",
@@ -97,7 +126,7 @@ fn header(page: &mut Markup, report: &Report) {
 fn navigation(page: &mut Markup, sections: &[Section]) {
     page.element("nav", &[("aria-label", "Parts of the page")], |page| {
         for section in sections {
-            page.leaf("a", &[("href", &format!("#{}", section.id))], section.title).fixed(" ");
+            page.leaf("a", &[("href", &format!("#{}", section.id))], &section.title).fixed(" ");
         }
     });
     page.fixed("\n<noscript><p class=\"note\">Plots, sorting and the slider need JavaScript; tables and images do not.</p></noscript>\n");

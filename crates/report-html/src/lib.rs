@@ -5,6 +5,8 @@
 
 mod axes;
 mod bars;
+mod campaign;
+mod campaign_plots;
 mod coincide;
 mod depth_errors;
 mod details;
@@ -22,6 +24,7 @@ mod speed_error;
 mod summary;
 mod work;
 
+pub use campaign::campaign_page;
 pub use error::HtmlError;
 
 use error::misfit;
@@ -53,7 +56,7 @@ pub fn page(report: &Report, figures: &Figures) -> Result<Vec<u8>, HtmlError> {
     .into_iter()
     .flatten()
     .collect();
-    Ok(document::document(report, &sections).into_bytes())
+    Ok(document::of_report(report, &sections).into_bytes())
 }
 
 fn check(report: &Report, figures: &Figures) -> Result<(), HtmlError> {

@@ -2,14 +2,15 @@
 
 use super::markup::Markup;
 use serde_json::{Value, json};
+use std::borrow::Cow;
 
 /// A part of the page. A part exists only where there is something to show.
 #[derive(Debug)]
 pub(super) struct Section {
     /// Its anchor.
-    pub id: &'static str,
+    pub id: Cow<'static, str>,
     /// Its heading.
-    pub title: &'static str,
+    pub title: Cow<'static, str>,
     /// What it holds.
     pub body: Markup,
     /// Plots whose places are in `body`.
@@ -18,8 +19,8 @@ pub(super) struct Section {
 
 impl Section {
     /// A part without plots.
-    pub fn new(id: &'static str, title: &'static str, body: Markup) -> Self {
-        Self { id, title, body, plots: Vec::new() }
+    pub fn new(id: impl Into<Cow<'static, str>>, title: impl Into<Cow<'static, str>>, body: Markup) -> Self {
+        Self { id: id.into(), title: title.into(), body, plots: Vec::new() }
     }
 
     /// A part that explains its plots and then shows them; absent without plots.
@@ -34,13 +35,18 @@ impl Section {
         }
         let mut section = Self::new(id, title, Markup::default());
         section.body.leaf("p", &[], explanation);
-        section.body.element("div", &[("class", "plots")], |body| {
+        section.add(plots);
+        Some(section)
+    }
+
+    /// Adds plots below what it holds.
+    pub fn add(&mut self, plots: Vec<Plot>) {
+        self.body.element("div", &[("class", "plots")], |body| {
             for plot in &plots {
                 plot.place(body);
             }
         });
-        section.plots = plots;
-        Some(section)
+        self.plots.extend(plots);
     }
 }
 

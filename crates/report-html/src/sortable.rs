@@ -4,31 +4,31 @@ use super::markup::Markup;
 
 /// The heading of a column.
 #[derive(Clone, Copy)]
-pub(super) struct Heading {
-    pub name: &'static str,
+pub(super) struct Heading<'a> {
+    pub name: &'a str,
     /// Numbers stand to the right.
     pub is_number: bool,
     /// Shown where a pointer rests on it.
     pub meaning: Option<&'static str>,
 }
 
-impl Heading {
+impl<'a> Heading<'a> {
     /// Of a column of words.
-    pub const fn words(name: &'static str) -> Self {
+    pub const fn words(name: &'a str) -> Self {
         Self { name, is_number: false, meaning: None }
     }
 
     /// Of a column of numbers.
-    pub const fn number(name: &'static str, meaning: Option<&'static str>) -> Self {
+    pub const fn number(name: &'a str, meaning: Option<&'static str>) -> Self {
         Self { name, is_number: true, meaning }
     }
 }
 
 /// The table, in a box that scrolls sideways where it is wider than the page.
-pub(super) fn table(
+pub(super) fn table<'a>(
     body: &mut Markup,
-    title: &'static str,
-    headings: impl IntoIterator<Item = Heading>,
+    title: &str,
+    headings: impl IntoIterator<Item = Heading<'a>>,
     rows: impl FnOnce(&mut Markup),
 ) {
     let scrolled = [("class", "scrolled"), ("tabindex", "0"), ("role", "region"), ("aria-label", title)];

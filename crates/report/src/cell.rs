@@ -110,6 +110,32 @@ pub struct CellRecord {
     pub cells: u32,
     /// The same for all cells of the list: a hash of their keys.
     pub list: String,
+    /// The campaign that asked for it; absent for a comparison.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub campaign: Option<CampaignRecord>,
     /// What the run depends on.
     pub depends_on: Cell,
+}
+
+/// A campaign that a cell is of.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CampaignRecord {
+    /// Of its plan, one line.
+    pub title: String,
+    /// Those that show the cell, in the order of the plan.
+    pub experiments: Vec<ExperimentRecord>,
+}
+
+/// An experiment of a plan.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExperimentRecord {
+    /// Place in the plan, from 0.
+    pub place: u32,
+    /// One line.
+    pub name: String,
+    /// What the plan says of the comparison of the cell, by the names of options, such as `environment`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub settings: BTreeMap<String, String>,
 }

@@ -3,6 +3,8 @@
 
 mod absent;
 mod accuracy;
+mod campaign;
+mod campaign_text;
 mod cell;
 pub mod colour_scale;
 mod cost;
@@ -17,7 +19,9 @@ mod text;
 mod words;
 
 pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
-pub use cell::{Cell, CellImage, CellRays, CellRecord, CellView};
+pub use campaign::{Campaign, Experiment, Row, cell_settings, in_order};
+pub use campaign_text::{COLUMNS, Column, campaign_markdown, experiment_markdown, number};
+pub use cell::{CampaignRecord, Cell, CellImage, CellRays, CellRecord, CellView, ExperimentRecord};
 pub use cost::{Counters, Memory, Pass, PassOf, Spread, StageTime, Timer, Times};
 pub use schema::{
     AdaptiveRecord, CameraRecord, Device, FramesRecord, PoseRecord, Report, Run, SCHEMA, SceneRecord,

@@ -1,5 +1,6 @@
 //! The command line: what can be said, and how mistakes are answered.
 
+mod campaign;
 mod compare;
 mod documents;
 mod info;
@@ -14,6 +15,7 @@ mod structure;
 pub mod values;
 mod view;
 
+pub use campaign::{AblateArguments, CampaignArguments, PaperChoice, ReplicateArguments};
 pub use compare::CompareArguments;
 pub use documents::{CompletionsArguments, ManArguments};
 pub use info::InfoArguments;
@@ -39,6 +41,7 @@ Examples:
   rasray render cornell --output cornell.png
   rasray render scene.glb --integrator ao --ao-distance 2 --spp 64 --output ao.exr
   rasray compare spheres:10k --systems mmrt,brute-force --rays 20000 --report r.json
+  rasray ablate plan.toml --output results
   rasray view scene.glb
   rasray info scene.glb
   rasray merge scene.png part.*.exr
@@ -77,6 +80,10 @@ pub enum Command {
     Merge(MergeArguments),
     /// Trace the same rays through several systems and compare speed and error
     Compare(Box<CompareArguments>),
+    /// Make every comparison of a plan: lists of options, scenes, sizes, seeds
+    Ablate(AblateArguments),
+    /// Make tables and figures of the five papers again, ours beside what was published
+    Replicate(ReplicateArguments),
     /// Look at a scene in a window, which moves and refines (builds with the cargo feature viewer)
     View(Box<ViewerArguments>),
     /// Show the device, or what a scene holds and needs
@@ -88,7 +95,8 @@ pub enum Command {
 }
 
 /// The words of [`Command`].
-const COMMANDS: [&str; 7] = ["render", "merge", "compare", "view", "info", "completions", "man"];
+const COMMANDS: [&str; 9] =
+    ["render", "merge", "compare", "ablate", "replicate", "view", "info", "completions", "man"];
 
 /// What parsing gave when there is no command to run.
 #[derive(Debug)]
@@ -116,6 +124,19 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<CommandLin
             )),
             _ => Refusal::Error(usage_error(&error, command, &CommandLine::command())),
         }),
+    }
+}
+
+/// The comparison that words of `rasray compare` ask for, the scene first.
+///
+/// # Errors
+/// What `rasray compare` would say of them; words that ask for help.
+pub fn comparison(words: &[String]) -> Result<CompareArguments, AppError> {
+    let line = ["rasray", "compare"].map(OsString::from);
+    match parse(line.into_iter().chain(words.iter().map(OsString::from))) {
+        Ok(CommandLine { command: Command::Compare(given), .. }) => Ok(*given),
+        Err(Refusal::Error(error)) => Err(error),
+        _ => Err(AppError::usage("these are no options of a comparison", "see rasray compare --help")),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use clap::CommandFactory;
+use rasray_campaign::PAPERS;
 use rasray_experiment::{FrameDefaults, INTEGRATORS, IntegratorSpec, RaySet};
 use rasray_options::Value;
 use rasray_scene::Environment;
@@ -284,4 +285,20 @@ fn an_environment_is_a_colour_or_a_map() {
     }
     let error = read("missing.hdr").expect_err("no such file");
     assert!(error.to_string().starts_with("missing.hdr: ") && error.help().contains(".hdr"), "{error}");
+}
+
+#[test]
+fn every_plan_of_the_papers_asks_for_comparisons_that_can_be() {
+    for (paper, item) in PAPERS.iter().flat_map(|paper| paper.items.iter().map(move |item| (paper, item))) {
+        for small in [false, true] {
+            let plan = item.plan(small).expect("a plan");
+            for (_, one) in plan.comparisons() {
+                let about = format!("{} {}: {:?}", paper.name, item.name, one.words);
+                let given = comparison(&one.words).unwrap_or_else(|error| panic!("{about}: {error}"));
+                let systems = given.systems().unwrap_or_else(|error| panic!("{about}: {error}"));
+                let frame = given.work.frame(FrameDefaults::default());
+                assert!(!systems.is_empty() && frame.is_ok(), "{about}: {frame:?}");
+            }
+        }
+    }
 }

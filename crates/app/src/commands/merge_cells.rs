@@ -6,8 +6,8 @@ use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{CellLines, Destination, assembled, difference, read_cells, text_of};
 use crate::terminal;
-use rasray_report::Report;
 use rasray_report::figures::Figures;
+use rasray_report::{Campaign, Report};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -72,8 +72,9 @@ pub(super) fn merge_cells(
         return Err(AppError::input(path, message, help));
     }
     let lines = || cells.values().map(|(line, _)| line);
-    let bytes = match (Form::named(&given.out), assembled(lines())) {
-        (Some(form), Some(report)) => form.of(&report, &Figures::default())?,
+    let bytes = match (Form::named(&given.out), Campaign::of(lines()), assembled(lines())) {
+        (Some(form), Some(campaign), _) => form.of_campaign(&campaign)?,
+        (Some(form), None, Some(report)) => form.of(&report, &Figures::default())?,
         _ => lines().map(text_of).collect::<String>().into(),
     };
     place.write(&bytes, interrupt)?;

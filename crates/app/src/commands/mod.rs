@@ -1,5 +1,7 @@
 //! What each word of the command does.
 
+mod ablate;
+mod campaign;
 mod compare;
 mod documents;
 mod frames;
@@ -11,13 +13,17 @@ mod merge_cells;
 mod picture_targets;
 mod pictures;
 mod render;
+mod replicate;
 mod steps;
+mod subject;
 mod targets;
 mod view;
 
+pub(crate) use ablate::ablate;
 pub(crate) use compare::compare;
 pub(crate) use documents::{completions, man};
 pub(crate) use info::info;
 pub(crate) use merge::merge;
 pub(crate) use render::render;
+pub(crate) use replicate::replicate;
 pub(crate) use view::view;

@@ -5,8 +5,9 @@ use crate::arguments::CompareArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{Destination, Rows, SaveTargets};
+use rasray_campaign::csv_table;
 use rasray_report::figures::Figures;
-use rasray_report::{Report, json_shown, markdown};
+use rasray_report::{Campaign, Report, campaign_markdown, json_shown, markdown};
 use std::ffi::OsStr;
 use std::path::Path;
 
@@ -106,6 +107,8 @@ pub(super) enum Form {
     Markdown,
     /// A page.
     Page,
+    /// A row per run, of campaigns.
+    Csv,
 }
 
 impl Form {
@@ -116,8 +119,22 @@ impl Form {
             "json" => Self::Json,
             "md" => Self::Markdown,
             "html" => Self::Page,
+            "csv" => Self::Csv,
             _ => return None,
         })
+    }
+
+    /// The bytes of the file of a campaign.
+    pub(super) fn of_campaign(self, campaign: &Campaign) -> Result<Vec<u8>, AppError> {
+        match self {
+            Self::Json => Err(AppError::usage(
+                "a campaign has no report of one comparison",
+                "name a .jsonl, .csv, .md or .html",
+            )),
+            Self::Markdown => Ok(json_shown(&campaign_markdown(campaign)).into()),
+            Self::Page => Ok(rasray_report_html::campaign_page(campaign)),
+            Self::Csv => Ok(csv_table(campaign)),
+        }
     }
 
     /// The bytes of the file.
@@ -125,6 +142,9 @@ impl Form {
         Ok(match self {
             Self::Json => json_shown(&report.to_json()).into(),
             Self::Markdown => markdown(report).into(),
+            Self::Csv => {
+                return Err(AppError::usage("a .csv is of campaigns", "name a .json, .md, .html or .jsonl"));
+            }
             Self::Page => rasray_report_html::page(report, figures).map_err(|error| {
                 let help =
                     "the page was not written; this is a defect, please report it with the command line";

@@ -141,7 +141,7 @@ impl Cells {
         let CellLines { lines, is_torn } = read_cells(place.named())?;
         let nothing =
             Report::new(self.origin.clone(), self.device.clone(), SceneRecord::default(), Vec::new());
-        let own = Report { cell: self.list.record(0), ..nothing };
+        let own = Report { cell: self.list.record(0).cloned(), ..nothing };
         for (number, (record, line)) in lines.into_iter().enumerate() {
             let expected = self.list.record(record.place as usize);
             let wrong = difference(&line, &own).or_else(|| {
@@ -154,14 +154,16 @@ impl Cells {
             self.made.entry(record.place as usize).or_insert(line);
         }
         if is_torn {
-            place.put(self.lines().as_bytes(), interrupt)?;
+            let text: String = self.lines().map(text_of).collect();
+            place.put(text.as_bytes(), interrupt)?;
         }
         // From now on it is this command's.
         self.file.as_mut().map_or(Ok(()), |file| file.take().map(|_| ()))
     }
 
-    fn lines(&self) -> String {
-        self.made.values().map(text_of).collect()
+    /// The lines of the cells that are there, in their order.
+    pub(crate) fn lines(&self) -> impl Iterator<Item = &Report> {
+        self.made.values()
     }
 
     /// Cells of the comparison.
@@ -211,7 +213,7 @@ impl Cells {
     ) -> Result<(), AppError> {
         let is_whole = check_run(&run).is_ok();
         let report = Report::new(self.origin.clone(), self.device.clone(), scene, vec![run]);
-        let line = Report { camera, cell: self.list.record(place), ..report };
+        let line = Report { camera, cell: self.list.record(place).cloned(), ..report };
         if let Some(file) = self.file.as_mut().filter(|_| is_whole) {
             file.add(&text_of(&line), interrupt)?;
         }

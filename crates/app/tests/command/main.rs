@@ -1,6 +1,7 @@
 //! The command as a user starts it: what it takes, writes, says and survives.
 
 mod adaptive;
+mod campaign;
 mod cells;
 mod compare;
 mod far;

@@ -1,0 +1,293 @@
+//! The comparisons of a plan, one after the other, and the folder of what they give.
+
+use super::compare::note_resumed;
+use super::hard;
+use super::steps::{open_device, stop_if_requested, with_progress};
+use super::subject::{Asked, Subject};
+use super::targets::Form;
+use crate::arguments::{CampaignArguments, CompareArguments, comparison};
+use crate::error::AppError;
+use crate::interrupt::Interrupt;
+use crate::output::{Cells, Destination};
+use crate::terminal;
+use crate::version::origin;
+use rasray_campaign::{ComparisonPlan, Exclusion, Plan, estimate};
+use rasray_experiment::{
+    Backend, CampaignCells, CompareJob, ExperimentCells, OpenBackend, Progress, check_run,
+};
+use rasray_report::{ExperimentRecord, Report, Run, cell_settings, in_line, in_order};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// A campaign that is to be made.
+pub(super) struct Campaign<'a> {
+    pub(super) plan: &'a Plan,
+    /// Where the plan is from, for messages.
+    pub(super) about: &'a str,
+    pub(super) given: &'a CampaignArguments,
+    /// The command as it was typed.
+    pub(super) line: &'a str,
+}
+
+/// A comparison of the plan.
+struct Planned<'a> {
+    /// Place of its experiment.
+    place: usize,
+    plan: &'a ComparisonPlan,
+    given: CompareArguments,
+}
+
+/// Reads a plan.
+///
+/// # Errors
+/// A file that cannot be read or is no plan.
+pub(super) fn read_plan(path: &Path, small: bool) -> Result<Plan, AppError> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| AppError::input(path, error, "name a plan in TOML, such as plan.toml"))?;
+    Plan::read(&text, small).map_err(|error| AppError::input(path, &error, error.help()))
+}
+
+impl<'a> Campaign<'a> {
+    /// Makes the cells that are missing, and of all of them the files of the folder. The lines of all cells, if all are
+    /// there; of a share and of a dry run none.
+    ///
+    /// # Errors
+    /// Options that a comparison does not take, by the experiment's name; what is wrong with a scene; a folder that takes no
+    /// files; a signal.
+    pub(super) fn make(
+        &self,
+        open: &mut OpenBackend<'_>,
+        interrupt: &Interrupt,
+    ) -> Result<Vec<Report>, AppError> {
+        let planned = self.planned()?;
+        let of_options = |planned: &Planned<'_>| {
+            Asked::of(&planned.given).map(|_| ()).map_err(|error| error.about(&self.name(planned)))
+        };
+        planned.iter().try_for_each(of_options)?;
+        // A dry run makes no folder.
+        let file = match self.given.dry_run && !self.given.folder().is_dir() {
+            true => None,
+            false => Some(self.cells_file()?),
+        };
+        let mut backend = open_device(open, &self.given.device)?;
+        stop_if_requested(interrupt)?;
+        let campaign = self.cells(&planned, backend.as_ref(), interrupt)?;
+        let program = (origin(self.line), backend.device());
+        let resume = self.given.resume || self.given.dry_run;
+        let mut cells = Cells::open(campaign.list().clone(), program, file.as_ref(), (resume, interrupt))?;
+        let wanted = cells.missing(self.given.shard)?;
+        if self.given.dry_run {
+            return self.tell(&campaign, &cells, &wanted).map(|()| Vec::new());
+        }
+        note_resumed(&cells, wanted.len());
+        let made = self.compare(&planned, &campaign, &wanted, backend.as_mut(), &mut cells, interrupt)?;
+        cells.note();
+        if made < wanted.len() {
+            let (made, wanted) = (made, wanted.len());
+            let folder = self.given.folder().display();
+            return Err(AppError::interrupted(
+                format!("stopped after {made} of {wanted} runs; {folder} holds them"),
+                "run again with --resume",
+            ));
+        }
+        let lines: Vec<_> = cells.lines().cloned().collect();
+        lines.iter().flat_map(|line| &line.runs).try_for_each(check_run)?;
+        if self.given.shard.is_some() {
+            return Ok(Vec::new());
+        }
+        self.write(&lines, interrupt)?;
+        Ok(lines)
+    }
+
+    /// The options of each comparison.
+    fn planned(&self) -> Result<Vec<Planned<'a>>, AppError> {
+        let read = |(place, plan): (usize, &'a ComparisonPlan)| {
+            let given = comparison(&plan.words);
+            let given = given.and_then(|given| match hard::asked_for(&given.scene) {
+                None => Ok(given),
+                Some(_) => Err(AppError::usage(
+                    "a plan has no hard cases",
+                    "compare them by themselves: rasray compare hard:all",
+                )),
+            });
+            let name = &self.plan.experiments[place].name;
+            let given =
+                given.map_err(|error| error.about(&format!("{}: experiment '{name}'", self.about)))?;
+            Ok(Planned { place, plan, given })
+        };
+        self.plan.comparisons().map(read).collect()
+    }
+
+    fn name(&self, planned: &Planned<'_>) -> String {
+        format!("{}: experiment '{}'", self.about, self.plan.experiments[planned.place].name)
+    }
+
+    /// The file of the cells, in a folder that is there from now on.
+    fn cells_file(&self) -> Result<Destination, AppError> {
+        let folder = self.given.folder();
+        std::fs::create_dir_all(folder)
+            .map_err(|error| AppError::input(folder, error, "name a folder that can be made"))?;
+        let name = match self.given.shard {
+            None => "cells.jsonl".to_owned(),
+            Some(shard) => format!("cells.{}.jsonl", shard.to_string().replace('/', "-of-")),
+        };
+        Destination::check(&folder.join(name))
+    }
+
+    /// All cells of the campaign. Scenes are read for what they hold decides the cells' keys.
+    fn cells(
+        &self,
+        planned: &[Planned<'_>],
+        backend: &dyn Backend,
+        interrupt: &Interrupt,
+    ) -> Result<CampaignCells, AppError> {
+        let mut comparisons = Vec::new();
+        let mut unknown: BTreeMap<usize, BTreeSet<String>> = BTreeMap::new();
+        for planned in planned {
+            stop_if_requested(interrupt)?;
+            let subject = self.subject(planned, backend)?;
+            let cells = subject.cells();
+            let experiment = &self.plan.experiments[planned.place];
+            let known = unknown.entry(planned.place).or_insert_with(|| names(&experiment.exclusions));
+            let mut excluded = BTreeSet::new();
+            for (place, record) in (0..cells.len()).filter_map(|place| Some((place, cells.record(place)?))) {
+                let mut settings = cell_settings(&record.depends_on);
+                settings.extend(planned.plan.settings.clone());
+                known.retain(|name| !settings.contains_key(name));
+                if experiment.exclusions.iter().any(|exclusion| exclusion.holds(&settings)) {
+                    excluded.insert(place);
+                }
+            }
+            let experiment = ExperimentRecord {
+                place: planned.place as u32,
+                name: experiment.name.clone(),
+                settings: planned.plan.settings.clone(),
+            };
+            comparisons.push(ExperimentCells { experiment, cells, excluded });
+        }
+        if let Some((place, name)) =
+            unknown.iter().find_map(|(place, names)| Some((*place, names.first()?.clone())))
+        {
+            let experiment = &self.plan.experiments[place].name;
+            return Err(AppError::usage(
+                format!(
+                    "{}: experiment '{experiment}' excludes by '{name}', which none of its runs has",
+                    self.about
+                ),
+                "name a setting such as scene, system, preset, ray-set or an option that the experiment sets",
+            ));
+        }
+        Ok(CampaignCells::new(&self.plan.title, &comparisons))
+    }
+
+    fn subject<'b>(&self, planned: &'b Planned<'_>, backend: &dyn Backend) -> Result<Subject<'b>, AppError> {
+        let read = || {
+            let mut subject = Asked::of(&planned.given)?.read()?;
+            subject.fit(backend)?;
+            Ok(subject)
+        };
+        read().map_err(|error: AppError| error.about(&self.name(planned)))
+    }
+
+    /// Makes the cells that are wanted; how many were made.
+    fn compare(
+        &self,
+        planned: &[Planned<'_>],
+        campaign: &CampaignCells,
+        wanted: &BTreeSet<usize>,
+        backend: &mut dyn Backend,
+        cells: &mut Cells,
+        interrupt: &Interrupt,
+    ) -> Result<usize, AppError> {
+        let mut made = 0;
+        let total = wanted.len() as u64;
+        for (number, planned) in planned.iter().enumerate() {
+            let own = campaign.made_by(number);
+            let only: BTreeSet<_> =
+                own.iter().filter(|(_, place)| wanted.contains(place)).map(|(own, _)| *own).collect();
+            if only.is_empty() {
+                continue;
+            }
+            if interrupt.requested() {
+                break;
+            }
+            let subject = self.subject(planned, backend)?;
+            let job = CompareJob { only: Some(only), ..subject.job() };
+            let before = made;
+            let mut failed = None;
+            let mut finished = |place: usize, run: &Run| {
+                let Some(place) = own.get(&place) else { return ControlFlow::Continue(()) };
+                failed = cells.add(*place, run.clone(), subject.records(), interrupt).err();
+                made += 1;
+                if failed.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            let scene = &self.plan.experiments[planned.place].name;
+            with_progress(
+                interrupt,
+                |progress| progress.done > 0,
+                |progress| {
+                    backend.compare(&job, &mut finished, &mut |own| {
+                        let task = format!("{scene}: {}", own.task);
+                        let done = before as u64 + if own.unit == "runs" { own.done } else { 0 };
+                        progress(Progress { task: &task, done, total, unit: "runs" })
+                    })
+                },
+            )
+            .map_err(|error| error.about(&self.name(planned)))?;
+            if let Some(error) = failed {
+                return Err(error);
+            }
+        }
+        Ok(made)
+    }
+
+    /// Says which cells would be made, and how long they would take.
+    fn tell(
+        &self,
+        campaign: &CampaignCells,
+        cells: &Cells,
+        wanted: &BTreeSet<usize>,
+    ) -> Result<(), AppError> {
+        let settings: Vec<_> = campaign.cells().map(cell_settings).collect();
+        let names = in_order(settings.iter().flat_map(|own| own.keys().map(String::as_str)));
+        let value = |own: &BTreeMap<String, String>, name: &str| own.get(name).cloned();
+        let varies = |name: &&str| settings.iter().any(|own| value(own, name) != value(&settings[0], name));
+        let varied: Vec<_> = names.into_iter().filter(varies).collect();
+        let mut text = String::new();
+        for place in wanted {
+            let own = &settings[*place];
+            let words = varied.iter().filter_map(|name| match (*name, own.get(*name)?) {
+                ("scene" | "system" | "preset" | "ray-set" | "integrator", value) => Some(value.clone()),
+                (name, value) => Some(format!("{name}={value}")),
+            });
+            let asked = campaign.list().record(*place).and_then(|record| record.campaign.as_ref());
+            let experiments = asked.into_iter().flat_map(|campaign| &campaign.experiments);
+            let names = experiments.map(|experiment| experiment.name.as_str()).collect::<Vec<_>>().join("; ");
+            let words = words.collect::<Vec<_>>().join(" ");
+            text += &in_line(&format!("{place:>5}  {words}  [{names}]"));
+            text.push('\n');
+        }
+        let depends = |place: &usize| campaign.list().record(*place).map(|record| &record.depends_on);
+        let estimate = estimate(wanted.iter().filter_map(depends), cells.lines());
+        text += &format!("{} runs of {}: {}\n", wanted.len(), campaign.list().len(), estimate);
+        terminal::print(&text)
+    }
+
+    /// Writes what all cells are put together to.
+    fn write(&self, lines: &[Report], interrupt: &Interrupt) -> Result<(), AppError> {
+        let Some(campaign) = rasray_report::Campaign::of(lines) else { return Ok(()) };
+        for (name, form) in
+            [("table.csv", Form::Csv), ("report.md", Form::Markdown), ("report.html", Form::Page)]
+        {
+            let place = Destination::check(&self.given.folder().join(name))?;
+            place.write(&form.of_campaign(&campaign)?, interrupt)?;
+        }
+        Ok(())
+    }
+}
+
+/// The settings that exclusions look at.
+fn names(exclusions: &[Exclusion]) -> BTreeSet<String> {
+    exclusions.iter().flat_map(Exclusion::names).map(str::to_owned).collect()
+}

@@ -1,0 +1,15 @@
+//! Plans of many comparisons as data: lists of options, of which every combination is compared; tables of what came of
+//! them; and plans of the papers' tables and figures, with what was published. No Vulkan, no command line: a plan's
+//! comparisons are words as `rasray compare` takes them.
+
+mod claim;
+mod estimate;
+mod paper;
+mod plan;
+mod table;
+
+pub use claim::{Claim, Finding};
+pub use estimate::{Estimate, estimate};
+pub use paper::{Item, PAPERS, Paper, paper_page, word};
+pub use plan::{ComparisonPlan, Exclusion, ExperimentPlan, Plan, PlanError};
+pub use table::csv_table;

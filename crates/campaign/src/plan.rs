@@ -1,0 +1,452 @@
+//! A plan in TOML: experiments, each a list of comparisons.
+
+use crate::claim::Claim;
+use std::collections::BTreeMap;
+use toml::{Table, Value};
+
+/// A plan that cannot be read, in words.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct PlanError {
+    message: String,
+    help: String,
+}
+
+impl PlanError {
+    pub(crate) fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { message: message.into(), help: help.into() }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> &str {
+        &self.help
+    }
+}
+
+/// Experiments under a title.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// One line; of a plan that has none, `Campaign`.
+    pub title: String,
+    /// What is to be known of it, such as how its scenes differ from those of a paper; may be empty.
+    pub about: String,
+    /// In the order of the file.
+    pub experiments: Vec<ExperimentPlan>,
+}
+
+/// Comparisons that are shown together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExperimentPlan {
+    /// One line, unique in the plan.
+    pub name: String,
+    /// Every combination of the lists of options.
+    pub comparisons: Vec<ComparisonPlan>,
+    /// What is left out of them.
+    pub exclusions: Vec<Exclusion>,
+    /// What was published of them.
+    pub claims: Vec<Claim>,
+}
+
+/// One comparison: systems side by side on a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ComparisonPlan {
+    /// What the plan says of all its cells, by the names of options; not what takes turns in it.
+    pub settings: BTreeMap<String, String>,
+    /// The words of `rasray compare`, the scene first.
+    pub words: Vec<String>,
+}
+
+/// Cells that are left out: those that have one of the values of each setting.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Exclusion(BTreeMap<String, Vec<String>>);
+
+impl Exclusion {
+    /// Whether a cell with these settings is left out.
+    pub fn holds(&self, settings: &BTreeMap<String, String>) -> bool {
+        self.0.iter().all(|(name, values)| settings.get(name).is_some_and(|value| values.contains(value)))
+    }
+
+    /// Names of the settings that it looks at.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.keys().map(String::as_str)
+    }
+}
+
+/// Keys of an experiment that are no options.
+const OWN: [&str; 5] = ["name", "exclude", "small", "claim", "with"];
+
+/// Options that take several values at once: what they name takes turns in one comparison.
+const TOGETHER: [&str; 3] = ["systems", "presets", "ray-set"];
+
+/// Options of a comparison that a plan has no use for, and where to say what they say.
+const REFUSED: [(&str, &str); 17] = [
+    ("report", FOLDER),
+    ("html", FOLDER),
+    ("markdown", FOLDER),
+    ("save-rays", COMPARE),
+    ("save-hits", COMPARE),
+    ("hits-file", COMPARE),
+    ("replay", COMPARE),
+    ("check", COMPARE),
+    ("full", COMPARE),
+    ("resume", COMMAND),
+    ("shard", COMMAND),
+    ("device", COMMAND),
+    ("validation", COMMAND),
+    ("quiet", COMMAND),
+    ("verbose", COMMAND),
+    ("help", COMMAND),
+    ("help-all", COMMAND),
+];
+
+const FOLDER: &str = "leave it out: all reports go to the folder of --output";
+const COMPARE: &str = "leave it out: it is of single comparisons, `rasray compare`";
+const COMMAND: &str = "leave it out, and say it on the command line";
+
+impl Plan {
+    /// Reads a plan; `small` takes what the plan says of small sizes.
+    ///
+    /// # Errors
+    /// Text that is no TOML, keys in the wrong place, values that are neither text, number, `true` nor `false`, an
+    /// experiment without a name or a scene, and two of one name.
+    pub fn read(text: &str, small: bool) -> Result<Self, PlanError> {
+        let file: Table = text.parse().map_err(|error: toml::de::Error| {
+            PlanError::new(error.to_string().trim_end(), "write it as docs/campaigns.md shows")
+        })?;
+        let (mut title, mut about) = ("Campaign".to_owned(), String::new());
+        let (mut common, mut smaller, mut experiments) = (Table::new(), Table::new(), Vec::new());
+        for (key, value) in file {
+            match (key.as_str(), value) {
+                ("title", Value::String(text)) => title = line(&text),
+                ("about", Value::String(text)) => about = line(&text),
+                ("common", Value::Table(table)) => common = table,
+                ("small", Value::Table(table)) => smaller = table,
+                ("experiment", Value::Array(list)) => experiments = list,
+                _ => {
+                    let help = "a plan has title, about, [common], [small] and one [[experiment]] or several";
+                    return Err(PlanError::new(format!("'{key}' has no place at the top of a plan"), help));
+                }
+            }
+        }
+        if let Some(key) = [&common, &smaller].into_iter().flat_map(Table::keys).find(|key| is_own(key)) {
+            let message = format!("'{key}' is of an experiment, and neither of [common] nor of [small]");
+            return Err(PlanError::new(message, "move it into an [[experiment]]"));
+        }
+        let mut read: Vec<ExperimentPlan> = Vec::new();
+        for value in experiments {
+            let Value::Table(own) = value else {
+                return Err(PlanError::new(
+                    "an experiment is no table",
+                    "write [[experiment]] above its keys",
+                ));
+            };
+            let mut all = common.clone();
+            if small {
+                all.extend(smaller.clone());
+            }
+            all.extend(own);
+            let experiment = ExperimentPlan::read(all, small)?;
+            if read.iter().any(|other| other.name == experiment.name) {
+                let message = format!("two experiments have the name '{}'", experiment.name);
+                return Err(PlanError::new(message, "give each a name of its own"));
+            }
+            read.push(experiment);
+        }
+        if read.is_empty() {
+            return Err(PlanError::new("there is no experiment", "write one under [[experiment]]"));
+        }
+        Ok(Self { title, about, experiments: read })
+    }
+
+    /// One plan of several, in their order; names of experiments get the word before them, and a colon.
+    pub fn joined<'a>(title: &str, plans: impl IntoIterator<Item = (&'a str, Self)>) -> Self {
+        let named = |(word, plan): (&str, Self)| {
+            let word = word.to_owned();
+            plan.experiments.into_iter().map(move |experiment| ExperimentPlan {
+                name: format!("{word}: {}", experiment.name),
+                ..experiment
+            })
+        };
+        let experiments = plans.into_iter().flat_map(named).collect();
+        Self { title: title.to_owned(), about: String::new(), experiments }
+    }
+
+    /// Comparisons in their order, each with the place of its experiment.
+    pub fn comparisons(&self) -> impl Iterator<Item = (usize, &ComparisonPlan)> {
+        self.experiments
+            .iter()
+            .enumerate()
+            .flat_map(|(place, experiment)| experiment.comparisons.iter().map(move |one| (place, one)))
+    }
+}
+
+impl ExperimentPlan {
+    fn read(mut keys: Table, small: bool) -> Result<Self, PlanError> {
+        let Some(Value::String(name)) = keys.remove("name") else {
+            return Err(PlanError::new(
+                "an experiment has no name",
+                "write name = \"...\", one line of text",
+            ));
+        };
+        let name = line(&name);
+        let wrong =
+            |error: PlanError| PlanError { message: format!("experiment '{name}': {error}"), ..error };
+        match keys.remove("small") {
+            Some(Value::Table(smaller)) if small => keys.extend(smaller),
+            Some(Value::Table(_)) | None => {}
+            Some(_) => {
+                let error = PlanError::new("'small' is no table", "write small = { rays = 1000 }");
+                return Err(wrong(error));
+            }
+        }
+        let exclusions = exclusions(keys.remove("exclude")).map_err(wrong)?;
+        let claims = match keys.remove("claim") {
+            None => Vec::new(),
+            Some(Value::Array(list)) => {
+                list.into_iter().map(Claim::read).collect::<Result<_, _>>().map_err(wrong)?
+            }
+            Some(_) => {
+                let error = PlanError::new("'claim' is no list", "write [[experiment.claim]]");
+                return Err(wrong(error));
+            }
+        };
+        let sets = tables("with", keys.remove("with")).map_err(wrong)?;
+        let mut comparisons = Vec::new();
+        for own in if sets.is_empty() { vec![Table::new()] } else { sets } {
+            let mut keys = keys.clone();
+            keys.extend(own);
+            comparisons.extend(combinations(&keys).map_err(wrong)?);
+        }
+        Ok(Self { name, comparisons, exclusions, claims })
+    }
+}
+
+fn is_own(key: &str) -> bool {
+    OWN.contains(&key)
+}
+
+/// Text in one line.
+fn line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A list of tables; empty where the key is absent.
+fn tables(key: &str, value: Option<Value>) -> Result<Vec<Table>, PlanError> {
+    let shape = || {
+        let help = format!("write {key} = [{{ ... }}, {{ ... }}]");
+        PlanError::new(format!("'{key}' is no list of tables"), help)
+    };
+    let table = |value: Value| match value {
+        Value::Table(table) => Ok(table),
+        _ => Err(shape()),
+    };
+    match value {
+        None => Ok(Vec::new()),
+        Some(Value::Array(list)) => list.into_iter().map(table).collect(),
+        Some(_) => Err(shape()),
+    }
+}
+
+fn exclusions(value: Option<Value>) -> Result<Vec<Exclusion>, PlanError> {
+    let exclusion = |table: Table| {
+        if table.is_empty() {
+            let help = "name what is left out, or leave 'exclude' out";
+            return Err(PlanError::new("an empty table in 'exclude' would leave out everything", help));
+        }
+        let values = |(key, value): (String, Value)| Ok((key.clone(), words_of(&key, &value)?));
+        Ok(Exclusion(table.into_iter().map(values).collect::<Result<_, PlanError>>()?))
+    };
+    tables("exclude", value)?.into_iter().map(exclusion).collect()
+}
+
+/// The values of a key as words; one value stands for a list of it.
+fn words_of(key: &str, value: &Value) -> Result<Vec<String>, PlanError> {
+    let word = |value: &Value| match value {
+        Value::String(text) => Ok(text.clone()),
+        Value::Integer(number) => Ok(number.to_string()),
+        // Without an exponent, and without a fraction where there is none.
+        Value::Float(number) if number.is_finite() => Ok(format!("{number}")),
+        Value::Boolean(is) => Ok(is.to_string()),
+        _ => {
+            let help = "values are text, numbers, true or false, or a list of these";
+            Err(PlanError::new(format!("'{key}' has a value that is no option's"), help))
+        }
+    };
+    match value {
+        Value::Array(list) if list.is_empty() => {
+            Err(PlanError::new(format!("'{key}' is an empty list"), "give it a value, or leave it out"))
+        }
+        Value::Array(list) => list.iter().map(word).collect(),
+        one => Ok(vec![word(one)?]),
+    }
+}
+
+/// Every combination of the values of keys that do not go together in one comparison; the last key changes fastest.
+fn combinations(keys: &Table) -> Result<Vec<ComparisonPlan>, PlanError> {
+    for (key, help) in REFUSED {
+        if keys.contains_key(key) {
+            return Err(PlanError::new(format!("'{key}' has no place in a plan"), help));
+        }
+    }
+    if !keys.contains_key("scene") {
+        return Err(PlanError::new("there is no scene", "write scene = \"cornell\", or a list of scenes"));
+    }
+    let mut all = vec![Vec::new()];
+    for (key, value) in keys {
+        let words = words_of(key, value)?;
+        // Values of an option that addresses a system take turns as well.
+        let choices =
+            if TOGETHER.contains(&key.as_str()) || key.contains('.') { vec![words.join(",")] } else { words };
+        all = all
+            .into_iter()
+            .flat_map(|chosen: Vec<(&str, String)>| {
+                choices.iter().map(move |word| {
+                    let mut chosen = chosen.clone();
+                    chosen.push((key, word.clone()));
+                    chosen
+                })
+            })
+            .collect();
+    }
+    Ok(all.into_iter().map(comparison).collect())
+}
+
+/// Whether the values of a key take turns in one comparison.
+fn takes_turns(key: &str) -> bool {
+    TOGETHER.contains(&key) || key.contains('.')
+}
+
+fn comparison(chosen: Vec<(&str, String)>) -> ComparisonPlan {
+    let scene = chosen.iter().filter(|(key, _)| *key == "scene").map(|(_, word)| word.clone());
+    let mut words: Vec<_> = scene.collect();
+    for (key, word) in chosen.iter().filter(|(key, _)| *key != "scene") {
+        match (key.contains('.'), word.as_str()) {
+            (true, _) => words.push(format!("{key}={word}")),
+            (false, "true") => words.push(format!("--{key}")),
+            (false, "false") => {}
+            (false, word) => words.push(format!("--{key}={word}")),
+        }
+    }
+    let of_all = chosen.into_iter().filter(|(key, _)| !takes_turns(key));
+    let settings = of_all.map(|(key, word)| (key.to_owned(), word)).collect();
+    ComparisonPlan { settings, words }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAN: &str = r#"
+        title = """Two  lines
+        of title"""
+        [common]
+        systems = ["mmrt", "bvh"]
+        repetitions = 3
+        [small]
+        repetitions = 1
+        [[experiment]]
+        name = "Storages"
+        scene = ["cornell", "walker"]
+        time = [0, 0.5]
+        "mmrt.storage" = ["ll", "dll"]
+        image = true
+        keep = false
+        exclude = [{ scene = "walker", storage = ["dll", "llb"] }]
+        small = { scene = "cornell" }
+        [[experiment]]
+        name = "Rays"
+        scene = "cornell"
+        repetitions = 7
+    "#;
+
+    #[test]
+    fn a_plan_is_every_combination_of_its_lists() {
+        let plan = Plan::read(PLAN, false).expect("valid");
+        assert_eq!(plan.title, "Two lines of title");
+        let words: Vec<_> = plan.comparisons().map(|(place, one)| (place, one.words.join(" "))).collect();
+        let first = |scene: &str, time: &str| {
+            let rest = "mmrt.storage=ll,dll --image";
+            (0, format!("{scene} --systems=mmrt,bvh --repetitions=3 --time={time} {rest}"))
+        };
+        assert_eq!(
+            words,
+            [
+                first("cornell", "0"),
+                first("cornell", "0.5"),
+                first("walker", "0"),
+                first("walker", "0.5"),
+                (1, "cornell --systems=mmrt,bvh --repetitions=7".to_owned()),
+            ]
+        );
+        assert_eq!(plan.experiments[0].comparisons[1].settings["time"], "0.5");
+    }
+
+    #[test]
+    fn small_sizes_take_the_place_of_full_ones() {
+        let plan = Plan::read(PLAN, true).expect("valid");
+        let words: Vec<_> = plan.comparisons().map(|(_, one)| one.words.join(" ")).collect();
+        // What an experiment says itself goes before what all have.
+        assert_eq!(words.len(), 3);
+        assert!(words[0].contains("--repetitions=1") && words[2].contains("--repetitions=7"), "{words:?}");
+        assert!(words.iter().all(|words| words.starts_with("cornell ")), "{words:?}");
+    }
+
+    #[test]
+    fn sets_of_options_that_go_together_take_the_place_of_combinations() {
+        let text = "[[experiment]]\nname = \"a\"\nscene = \"cornell\"\nspp = 4\n\
+                    with = [{ \"hu.march\" = \"exact\" }, { \"hu.samples\" = [1, 3], spp = [8, 9] }]";
+        let plan = Plan::read(text, false).expect("valid");
+        let words: Vec<_> = plan.comparisons().map(|(_, one)| one.words.join(" ")).collect();
+        let sampled = |spp| format!("cornell --spp={spp} hu.samples=1,3");
+        assert_eq!(words, ["cornell --spp=4 hu.march=exact".to_owned(), sampled(8), sampled(9)]);
+    }
+
+    #[test]
+    fn what_has_all_settings_of_an_exclusion_is_left_out() {
+        let plan = Plan::read(PLAN, false).expect("valid");
+        let [exclusion] = &plan.experiments[0].exclusions[..] else { panic!("one exclusion") };
+        let of = |scene: &str, storage: Option<&str>| {
+            let own = [Some(("scene", scene)), storage.map(|storage| ("storage", storage))];
+            let own = own.into_iter().flatten().map(|(name, value)| (name.to_owned(), value.to_owned()));
+            exclusion.holds(&own.collect())
+        };
+        assert!(of("walker", Some("dll")) && of("walker", Some("llb")));
+        assert!(!of("walker", Some("ll")) && !of("cornell", Some("dll")) && !of("walker", None));
+        assert_eq!(exclusion.names().collect::<Vec<_>>(), ["scene", "storage"]);
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        let with = |keys: &str| format!("[[experiment]]\nname = \"a\"\nscene = \"cornell\"\n{keys}");
+        let cases = [
+            ("title = 3".to_owned(), "'title'"),
+            ("other = 3".to_owned(), "'other'"),
+            (String::new(), "no experiment"),
+            ("experiment = [3]".to_owned(), "no table"),
+            ("[[experiment]]\nscene = \"cornell\"".to_owned(), "no name"),
+            ("[[experiment]]\nname = \"a\"".to_owned(), "no scene"),
+            ("[common]\nname = \"a\"".to_owned(), "'name'"),
+            (with("rays = []"), "'rays' is an empty list"),
+            (with("rays = [[1]]"), "'rays'"),
+            (with("rays = nan"), "'rays'"),
+            (with("rays = 1979-05-27"), "'rays'"),
+            (with("html = \"a\""), "'html'"),
+            (with("shard = \"1/2\""), "'shard'"),
+            (with("exclude = 3"), "'exclude'"),
+            (with("exclude = [{}]"), "everything"),
+            (with("small = 3"), "'small'"),
+            (with("with = 3"), "'with'"),
+            (with("with = [3]"), "'with'"),
+            (with("claim = 3"), "'claim'"),
+            (with("claim = [3]"), "no table"),
+            (with("rays = 1\nrays = 2"), "duplicate key"),
+            (with("") + &with(""), "two experiments"),
+            ("title = \"".to_owned(), "1"),
+        ];
+        for (text, expected) in cases {
+            let error = Plan::read(&text, false).expect_err(&text);
+            assert!(error.to_string().contains(expected), "{text}: {error}");
+            assert!(!error.help().is_empty());
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! A campaign as Markdown, and the columns of its tables.
+
+use crate::campaign::{Campaign, Experiment, Row};
+use crate::{bytes, grouped, in_line};
+
+/// A result that tables of campaigns show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Its name in [`Row::results`].
+    pub name: &'static str,
+    /// Heads the column.
+    pub head: &'static str,
+    /// What it means, one line.
+    pub meaning: &'static str,
+    form: Form,
+}
+
+/// How a number is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    /// Three digits that count.
+    Number,
+    /// A whole number.
+    Count,
+    Bytes,
+    /// As a power of ten.
+    Tiny,
+    /// A share as per cent.
+    Percent,
+}
+
+const fn column(name: &'static str, head: &'static str, form: Form, meaning: &'static str) -> Column {
+    Column { name, head, meaning, form }
+}
+
+/// The columns, in their order; one that no row of an experiment has is left out.
+pub const COLUMNS: [Column; 17] = [
+    column("build_ms", "build ms", Form::Number, "Posed positions to traceable, median"),
+    column("trace_ms", "trace ms", Form::Number, "Rays in to hits out, median"),
+    column("mrays_per_s", "Mrays/s", Form::Number, "Millions of rays per second"),
+    column("image_ms", "image ms", Form::Number, "All passes of the image on the device"),
+    column("memory.structure_bytes", "bytes", Form::Bytes, "The structure's allocations"),
+    column("counters.fragments", "fragments", Form::Count, "Fragments stored"),
+    column("counters.entries", "entries", Form::Count, "List entries stored"),
+    column("counters.cells_per_ray", "cells/ray", Form::Number, "Cells stepped per ray"),
+    column("counters.nodes_per_ray", "entries/ray", Form::Number, "List entries or tree nodes read per ray"),
+    column("counters.tests_per_ray", "tests/ray", Form::Number, "Primitive tests per ray"),
+    column("error_share", "wrong hits", Form::Percent, "Missed, false or wrong, of rays that can be decided"),
+    column("accuracy.missed", "missed", Form::Count, "Hits that were not found"),
+    column("accuracy.dt_rel_p99", "dt/t p99", Form::Tiny, "99th percentile of |dt|/t over common hits"),
+    column("image.flip_mean", "FLIP", Form::Number, "Mean over the pixels of LDR-FLIP"),
+    column("image.relmse", "relMSE", Form::Tiny, "Mean of (R - r)^2 / (r^2 + 0.01)"),
+    column("image.bias", "bias", Form::Tiny, "Mean of R - r, linear"),
+    column("image.psnr", "PSNR dB", Form::Number, "Of displayed values"),
+];
+
+impl Column {
+    /// The number of a row in words; empty where it has none.
+    pub fn of(&self, row: &Row) -> String {
+        let Some(value) = row.results.get(self.name).copied() else { return String::new() };
+        match self.form {
+            Form::Number => number(value),
+            Form::Count => grouped(value as u64),
+            Form::Bytes => bytes(value as u64),
+            Form::Tiny if value == 0.0 => "0".to_owned(),
+            Form::Tiny => format!("{value:.1e}"),
+            Form::Percent => format!("{} %", number(100.0 * value)),
+        }
+    }
+}
+
+/// Three digits that count, without an exponent where it can be.
+pub fn number(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        size if size >= 100.0 => format!("{value:.0}"),
+        size if size >= 10.0 => format!("{value:.1}"),
+        size if size >= 1.0 => format!("{value:.2}"),
+        size if size >= 0.1 => format!("{value:.3}"),
+        size if size >= 0.01 => format!("{value:.4}"),
+        size if size >= 0.001 => format!("{value:.5}"),
+        _ => format!("{value:.2e}"),
+    }
+}
+
+impl Experiment {
+    /// The columns that a row of it has.
+    pub fn columns(&self) -> Vec<Column> {
+        let has = |column: &Column| self.rows.iter().any(|row| row.results.contains_key(column.name));
+        COLUMNS.into_iter().filter(has).collect()
+    }
+
+    /// What all rows have in common, in words; empty without rows.
+    pub fn common(&self) -> String {
+        let Some(first) = self.rows.first() else { return String::new() };
+        let varied = self.varied();
+        let common = self.settings().into_iter().filter(|name| !varied.contains(name));
+        common.map(|name| format!("{name} {}", first.setting(name))).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The campaign as Markdown: of each experiment what its rows have in common, and a table of the settings that they differ
+/// in and of what they gave.
+pub fn campaign_markdown(campaign: &Campaign) -> String {
+    let device = &campaign.device;
+    let software = if device.software { ", a software driver: times are for ratios" } else { "" };
+    let mut text = format!(
+        "# {}\n\nrasray {}. Device: {}{software}.\n",
+        in_line(&campaign.title),
+        in_line(&campaign.program),
+        in_line(&device.name)
+    );
+    for experiment in &campaign.experiments {
+        text += &format!("\n## {}\n\n{}\n", in_line(&experiment.name), experiment_markdown(experiment));
+    }
+    text
+}
+
+/// Of the sets of rays of an experiment, and of its images, what the rows have in common, and their table.
+pub fn experiment_markdown(experiment: &Experiment) -> String {
+    experiment.parts().iter().map(part_markdown).collect::<Vec<_>>().join("\n")
+}
+
+fn part_markdown(experiment: &Experiment) -> String {
+    let (varied, columns) = (experiment.varied(), experiment.columns());
+    let heads = varied.iter().copied().chain(columns.iter().map(|column| column.head));
+    let rules = varied.iter().map(|_| "---").chain(columns.iter().map(|_| "---:"));
+    let mut text = format!("{}\n\n", in_line(&experiment.common()));
+    text += &line(heads.map(str::to_owned));
+    text += &line(rules.map(str::to_owned));
+    for row in &experiment.rows {
+        let settings = varied.iter().map(|name| row.setting(name).to_owned());
+        text += &line(settings.chain(columns.iter().map(|column| column.of(row))));
+    }
+    text
+}
+
+fn line(cells: impl IntoIterator<Item = String>) -> String {
+    let cells: Vec<_> = cells.into_iter().map(|cell| in_line(&cell).replace('|', "\\|")).collect();
+    format!("| {} |\n", cells.join(" | "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::tests::{cell, line as cell_line};
+
+    #[test]
+    fn numbers_have_three_digits_that_count() {
+        let numbers = [(0.0, "0"), (1234.5, "1234"), (-12.345, "-12.3"), (1.0, "1.00"), (0.5, "0.500")];
+        let small = [(0.012_34, "0.0123"), (0.001_234, "0.00123"), (0.000_123_4, "1.23e-4")];
+        for (value, text) in numbers.into_iter().chain(small) {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn tables_show_what_rows_differ_in_and_say_the_rest_once() {
+        let lines = [
+            cell_line(0, &[(0, "Samples")], cell("mmrt", Some("50"), false)),
+            cell_line(1, &[(0, "Samples")], cell("mmrt", Some("100"), false)),
+            cell_line(2, &[(1, "a | b")], cell("bvh", None, true)),
+        ];
+        let text = campaign_markdown(&Campaign::of(&lines).expect("of a campaign"));
+        let table: Vec<_> = text.lines().filter(|line| line.starts_with('|')).collect();
+        assert_eq!(table[0], "| samples | trace ms | bytes | fragments | wrong hits | missed |");
+        assert_eq!(table[2], "| 50 | 2.50 | 64 B | 9 | 10.0 % | 4 |");
+        assert!(
+            text.contains("scene cornell, size 4x3") && text.contains("system mmrt, preset robust"),
+            "{text}"
+        );
+        assert!(
+            text.starts_with("# All\n") && text.contains("## Samples\n") && text.contains("## a | b\n"),
+            "{text}"
+        );
+    }
+}
