@@ -176,11 +176,9 @@ impl Structure for BruteForce {
         queue: &RayQueue,
         domain: Domain,
     ) -> Result<(), AdsError> {
-        if self.kernels.record_surfaces(recorder, &self.geometry, None, 0, queue, domain) {
-            Ok(())
-        } else {
-            Err(AdsError::NoScene { structure: self.name() })
-        }
+        let lookup = self.kernels.surfaces().ok_or(AdsError::NoScene { structure: self.name() })?;
+        lookup.record(recorder, self.geometry.whole(), None, 0, queue, domain);
+        Ok(())
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {

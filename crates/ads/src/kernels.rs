@@ -192,10 +192,31 @@ impl TraceKernels {
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::INDIRECT_READ | Access::TRANSFER);
     }
 
-    /// Records the surface lookup of the slots of `domain`; false where the kernels were made
-    /// without a scene. Hits are on triangles by their ids, so for a part of a geometry the whole of it is bound.
-    #[must_use]
-    pub fn record_surfaces(
+    /// The surfaces of hits; absent where the kernels were made without a scene. Hits are on triangles by their ids, so for a
+    /// part of a geometry the whole of it is bound.
+    pub fn surfaces(&self) -> Option<Lookup<'_>> {
+        let kernel = self.surfaces.as_ref()?;
+        Some(Lookup { kernels: self, kernel, stage: Stage::Surfaces })
+    }
+
+    /// First hits of camera rays, in place of a trace; absent where there are none.
+    pub fn first_hits(&self) -> Option<Lookup<'_>> {
+        let kernel = self.first_hits.as_ref()?;
+        Some(Lookup { kernels: self, kernel, stage: Stage::Visible })
+    }
+}
+
+/// One dispatch that looks something up for the slots of a queue.
+#[derive(Clone, Copy, Debug)]
+pub struct Lookup<'a> {
+    kernels: &'a TraceKernels,
+    kernel: &'a Kernel,
+    stage: Stage,
+}
+
+impl Lookup<'_> {
+    /// Records it for the slots of `domain`. What it wrote is visible to what follows.
+    pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
         geometry: &Geometry,
@@ -203,50 +224,12 @@ impl TraceKernels {
         address: u64,
         queue: &RayQueue,
         domain: Domain,
-    ) -> bool {
-        let bound = (geometry.whole(), structure, address);
-        self.record_pass(recorder, self.surfaces.as_ref(), Stage::Surfaces, bound, queue, domain)
-    }
-
-    /// Whether there are first hits of camera rays.
-    pub fn has_first_hits(&self) -> bool {
-        self.first_hits.is_some()
-    }
-
-    /// Records first hits of the slots of `domain`, in place of a trace; false where there are none.
-    #[must_use]
-    pub fn record_first_hits(
-        &self,
-        recorder: &mut Recorder<'_>,
-        geometry: &Geometry,
-        structure: Option<&BindingSet>,
-        address: u64,
-        queue: &RayQueue,
-        domain: Domain,
-    ) -> bool {
-        let bound = (geometry, structure, address);
-        self.record_pass(recorder, self.first_hits.as_ref(), Stage::Visible, bound, queue, domain)
-    }
-
-    /// Records one dispatch of a kernel, where there is one.
-    fn record_pass(
-        &self,
-        recorder: &mut Recorder<'_>,
-        kernel: Option<&Kernel>,
-        stage: Stage,
-        (geometry, structure, address): (&Geometry, Option<&BindingSet>, u64),
-        queue: &RayQueue,
-        domain: Domain,
-    ) -> bool {
-        let Some(kernel) = kernel else {
-            return false;
-        };
-        let constants = self.constants(address, domain);
-        recorder.begin_pass(stage, kernel.label);
-        self.bind(recorder, &kernel.pipeline, geometry, structure, queue, constants);
+    ) {
+        let constants = self.kernels.constants(address, domain);
+        recorder.begin_pass(self.stage, self.kernel.label);
+        self.kernels.bind(recorder, &self.kernel.pipeline, geometry, structure, queue, constants);
         queue.record_dispatch(recorder, domain);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
         recorder.end_pass();
-        true
     }
 }

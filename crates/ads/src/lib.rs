@@ -68,7 +68,7 @@ pub use geometry::Geometry;
 pub use geometry_desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
 pub use geometry_parts::GeometryParts;
 pub use groups::folded;
-pub use kernels::{TraceKernels, TraceKernelsDesc};
+pub use kernels::{Lookup, TraceKernels, TraceKernelsDesc};
 pub use lengths::Lengths;
 pub use list_sort::ListSort;
 pub use occluder::Occluder;

@@ -347,11 +347,13 @@ impl<D: Design> Structure for Pooled<D> {
         domain: Domain,
     ) -> Result<(), AdsError> {
         let Parts { pools, geometry, .. } = &self.parts;
-        pools.record_surfaces(recorder, &self.kernels, geometry, queue, domain, D::CORRUPTED)
+        let lookup = self.kernels.surfaces().ok_or(AdsError::NoScene { structure: self.name() })?;
+        pools.record_lookup(recorder, lookup, geometry.whole(), queue, domain, D::CORRUPTED);
+        Ok(())
     }
 
     fn has_first_hits(&self) -> bool {
-        self.kernels.has_first_hits()
+        self.kernels.first_hits().is_some()
     }
 
     fn record_first_hits(
@@ -360,11 +362,13 @@ impl<D: Design> Structure for Pooled<D> {
         queue: &RayQueue,
         domain: Domain,
     ) -> Result<(), AdsError> {
+        let lookup = self.kernels.first_hits().ok_or(AdsError::NoFirstHits { structure: self.name() })?;
         let Parts { pools, geometry, .. } = &self.parts;
         if self.is_scene_new {
             pools.record_forget(recorder);
         }
-        pools.record_first_hits(recorder, &self.kernels, geometry, queue, domain, D::CORRUPTED)
+        pools.record_lookup(recorder, lookup, geometry, queue, domain, D::CORRUPTED);
+        Ok(())
     }
 
     fn inline_trace(&self) -> Option<InlineTrace<'_>> {

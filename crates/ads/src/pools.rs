@@ -12,8 +12,8 @@ use rasray_gpu::{
 use crate::addressing::halves;
 use crate::slots::Slots;
 use crate::{
-    Addressing, AdsError, Domain, Geometry, InlineTrace, PoolName, PoolSize, QueueHeader, RayQueue, Sizes,
-    TraceKernels, TraceMode,
+    Addressing, AdsError, Domain, Geometry, InlineTrace, Lookup, PoolName, PoolSize, QueueHeader, RayQueue,
+    Sizes, TraceKernels, TraceMode,
 };
 
 /// The header's name among the pools; it is the first.
@@ -322,48 +322,19 @@ impl Pools {
         recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::INDIRECT_READ);
     }
 
-    /// Records the lookup of the surfaces of the slots of `domain`, as [`Pools::record_trace`].
-    ///
-    /// # Errors
-    /// The kernels were made without a scene.
-    pub fn record_surfaces(
+    /// Records a lookup for the slots of `domain`, as [`Pools::record_trace`].
+    pub fn record_lookup(
         &self,
         recorder: &mut Recorder<'_>,
-        kernels: &TraceKernels,
+        lookup: Lookup<'_>,
         geometry: &Geometry,
         queue: &RayQueue,
         domain: Domain,
         corrupted: usize,
-    ) -> Result<(), AdsError> {
+    ) {
         self.keep(recorder);
-        if kernels.record_surfaces(recorder, geometry, self.set(), self.address(), queue, domain) {
-            self.record_corrupted(recorder, queue, corrupted);
-            Ok(())
-        } else {
-            Err(AdsError::NoScene { structure: self.structure })
-        }
-    }
-
-    /// Records first hits of the slots of `domain`, as [`Pools::record_trace`].
-    ///
-    /// # Errors
-    /// The kernels were made without first hits.
-    pub fn record_first_hits(
-        &self,
-        recorder: &mut Recorder<'_>,
-        kernels: &TraceKernels,
-        geometry: &Geometry,
-        queue: &RayQueue,
-        domain: Domain,
-        corrupted: usize,
-    ) -> Result<(), AdsError> {
-        self.keep(recorder);
-        if kernels.record_first_hits(recorder, geometry, self.set(), self.address(), queue, domain) {
-            self.record_corrupted(recorder, queue, corrupted);
-            Ok(())
-        } else {
-            Err(AdsError::NoFirstHits { structure: self.structure })
-        }
+        lookup.record(recorder, geometry, self.set(), self.address(), queue, domain);
+        self.record_corrupted(recorder, queue, corrupted);
     }
 }
 
