@@ -1,0 +1,101 @@
+// What: light that one scattering at the facets loses, and what becomes of it: it is reflected or goes through after
+// several scatterings.
+// Reads: materials (table of rough glass), vertex attributes (that table). Writes: nothing.
+// Source: docs/shading.md, "Energy".
+#ifndef SCENE_BSDF_ENERGY_GLSL
+#define SCENE_BSDF_ENERGY_GLSL
+
+#include "scene/accessors.glsl"
+#include "scene/albedo.glsl"
+#include "scene/bsdf_facets.glsl"
+
+// Mean reflectance of the dielectric's facets on the side of the smaller index.
+vec3 bsdf_facet_mean(BsdfTerms terms) {
+    return terms.f0 + (vec3(terms.f90) - terms.f0) * ALBEDO_SCHLICK_MEAN;
+}
+
+// Share of the light from `cosine` that the dielectric as a whole does not reflect, by its brightest channel.
+float bsdf_entering(BsdfTerms terms, float cosine, float loss) {
+    if (terms.eta > 1.0) {
+        if (terms.glass.first != ATTRIBUTE_NONE) return 1.0 - glass_albedo(terms.glass, GLASS_REFLECTED, cosine);
+        return 1.0 - largest_component(bsdf_fresnel(terms, cosine));
+    }
+    float schlick = albedo_schlick(cosine, terms.alpha, loss);
+    float once = largest_component(terms.f0) * (1.0 - loss - schlick) + terms.f90 * schlick;
+    return max(1.0 - once - terms.returned_most * loss, 0.0);
+}
+
+// Mean share of the light that the dielectric's facets let through, by its brightest channel. From the side of the
+// larger index it is smaller by the square of the ratio: beyond the critical angle nothing goes through.
+float bsdf_facet_through(BsdfTerms terms) {
+    float through = 1.0 - largest_component(bsdf_facet_mean(terms));
+    return terms.eta > 1.0 ? through / (terms.eta * terms.eta) : through;
+}
+
+float bsdf_entering_mean(BsdfTerms terms) {
+    if (terms.eta > 1.0) {
+        bool rough = terms.glass.first != ATTRIBUTE_NONE;
+        float entering = rough ? 1.0 - glass_albedo_mean(terms.glass, GLASS_REFLECTED) : bsdf_facet_through(terms);
+        return max(entering, 1.0e-6);
+    }
+    float schlick = albedo_schlick_mean(terms.alpha);
+    float once = largest_component(terms.f0) * (1.0 - terms.loss_mean - schlick) + terms.f90 * schlick;
+    return max(1.0 - once - terms.returned_most * terms.loss_mean, 1.0e-3);
+}
+
+// What becomes of light that one scattering at the boundary of a rough volume loses: it goes through as facets let it,
+// but no more than is lost for light that takes the same way back.
+void bsdf_set_glass(inout BsdfTerms terms, Surface s) {
+    terms.glass = GlassRows(ATTRIBUTE_NONE, 0.0);
+    terms.glass_side = s.side == 1u ? GLASS_LOST_FRONT : GLASS_LOST_BACK;
+    terms.glass_o = 0.0;
+    terms.glass_mean = 0.0;
+    terms.glass_beyond = 0.0;
+    terms.glass_returned = vec3(0.0);
+    terms.glass_passed = vec3(0.0);
+    if (!SHADING_TRANSMISSION || terms.eta == 1.0 || terms.alpha < ALBEDO_LOSSLESS_ALPHA) return;
+    uint table = scene_material_albedo(s.material);
+    if (table == ATTRIBUTE_NONE) return;
+    terms.glass = glass_rows(table, terms.anisotropic ? sqrt(terms.alpha) : s.roughness);
+    float mean = glass_albedo_mean(terms.glass, terms.glass_side);
+    float beyond = glass_albedo_mean(terms.glass, GLASS_LOST_BACK - terms.glass_side);
+    if (!(mean > 0.0) || !(beyond > 0.0)) return;
+    terms.glass_mean = mean;
+    terms.glass_beyond = beyond;
+    terms.glass_o = glass_albedo(terms.glass, terms.glass_side, max(terms.o.z, 0.0));
+    float share = bsdf_volume_share(terms);
+    float through = bsdf_facet_through(terms) * min(1.0, beyond / mean);
+    vec3 facet = bsdf_facet_mean(terms);
+    float most = largest_component(facet);
+    // Inside, what is reflected is mostly reflected in full.
+    vec3 tint = terms.eta < 1.0 && most > 0.0 ? facet / most : vec3(1.0);
+    terms.glass_returned = tint * (share * (1.0 - through));
+    terms.glass_passed = terms.base_color * (share * through);
+}
+
+// What becomes of light that one scattering loses, of what is not a volume's. What the dielectric loses on the side of
+// the larger index counts as let in.
+void bsdf_set_energy(inout BsdfTerms terms) {
+    terms.loss_o = albedo_loss(max(terms.o.z, 0.0), terms.alpha);
+    terms.loss_mean = albedo_loss_mean(terms.alpha);
+    vec3 metal = terms.base_color + (vec3(1.0) - terms.base_color) * ALBEDO_SCHLICK_MEAN;
+    vec3 returned = terms.eta > 1.0 ? vec3(0.0) : albedo_returned(bsdf_facet_mean(terms), terms.loss_mean);
+    terms.returned_most = largest_component(returned);
+    if (terms.eta != 1.0) returned *= 1.0 - terms.transmission;
+    terms.returned = mix(returned, albedo_returned(metal, terms.loss_mean), terms.metallic);
+    float through = terms.eta == 1.0 ? bsdf_volume_share(terms) : 0.0;
+    terms.passed = terms.base_color * (through * (1.0 - terms.returned_most));
+    terms.entering_o = bsdf_entering(terms, max(terms.o.z, 0.0), terms.loss_o);
+    terms.entering_mean = bsdf_entering_mean(terms);
+}
+
+// What left the boundary of a rough volume after several scatterings, 1/sr; as bsdf_cosine_family.
+vec3 bsdf_glass(BsdfTerms terms, float cosine, int side) {
+    if (!SHADING_TRANSMISSION || !(terms.glass_mean > 0.0)) return vec3(0.0);
+    uint block = side > 0 ? terms.glass_side : GLASS_LOST_BACK - terms.glass_side;
+    float lost = terms.glass_o * glass_albedo(terms.glass, block, cosine) / MICROFACET_PI;
+    return side > 0 ? terms.glass_returned * (lost / terms.glass_mean)
+                    : terms.glass_passed * (lost / terms.glass_beyond);
+}
+
+#endif
