@@ -131,11 +131,8 @@ impl RenderArguments {
     /// # Errors
     /// An option of an integrator that was not chosen, or what adaptive samples do not go with.
     pub fn frame(&self) -> Result<Frame, AppError> {
-        let mut defaults = self.system.frame_defaults(self.preset);
-        if self.adaptive.is_some() {
-            defaults.primary = Primary::Trace;
-        }
-        let frame = self.work.frame(defaults)?;
+        let defaults = self.system.frame_defaults(self.preset);
+        let frame = self.work.frame(defaults, self.adaptive.is_none())?;
         let (given, view) = (&self.work.frame, &self.work.view);
         let suits = self.scene.to_str().filter(|_| view.eye.is_none()).and_then(picture);
         let frame = match suits {

@@ -262,13 +262,13 @@ pub struct WorkArguments {
 }
 
 impl WorkArguments {
-    /// The image that was asked for; `defaults` where nothing is said of it and no integrator is named. Through a lens first
-    /// hits are traced unless told.
+    /// The image that was asked for; `defaults` where nothing is said of it and no integrator is named. First hits are drawn
+    /// through a pinhole, and of all pixels; else they are traced unless told.
     ///
     /// # Errors
     /// An option of an integrator or an occluder that was not chosen.
-    pub fn frame(&self, mut defaults: FrameDefaults) -> Result<Frame, AppError> {
-        if self.view.aperture.is_some_and(|aperture| aperture > 0.0) {
+    pub fn frame(&self, mut defaults: FrameDefaults, of_all_pixels: bool) -> Result<Frame, AppError> {
+        if !of_all_pixels || self.view.aperture.is_some_and(|aperture| aperture > 0.0) {
             defaults.primary = Primary::Trace;
         }
         self.frame.frame(defaults)

@@ -41,7 +41,7 @@ fn the_list_of_commands_is_whole() {
 #[test]
 fn defaults_are_the_documented_ones() {
     let given = render("render cornell --output a.png");
-    let frame = given.work.frame(FrameDefaults::default()).expect("defaults fit together");
+    let frame = given.work.frame(FrameDefaults::default(), true).expect("defaults fit together");
     let system = given.system().expect("the exact structure");
     assert_eq!((system.system.name, system.preset), ("bvh", Preset::Robust));
     assert_eq!(system.spec().expect("known").structure(), "bvh");
@@ -157,7 +157,7 @@ fn published_presets_take_the_frame_of_their_paper() {
 fn options_of_another_integrator_are_refused() {
     let error = render("render cornell -o a.png --integrator ao --bounces 2")
         .work
-        .frame(FrameDefaults::default())
+        .frame(FrameDefaults::default(), true)
         .expect_err("bounces");
     assert!(error.help().contains("path"), "{error}");
     let error = render("render cornell -o a.png --ao-distance 2").frame().expect_err("ao distance");
@@ -296,7 +296,7 @@ fn every_plan_of_the_papers_asks_for_comparisons_that_can_be() {
                 let about = format!("{} {}: {:?}", paper.name, item.name, one.words);
                 let given = comparison(&one.words).unwrap_or_else(|error| panic!("{about}: {error}"));
                 let systems = given.systems().unwrap_or_else(|error| panic!("{about}: {error}"));
-                let frame = given.work.frame(FrameDefaults::default());
+                let frame = given.work.frame(FrameDefaults::default(), true);
                 assert!(!systems.is_empty() && frame.is_ok(), "{about}: {frame:?}");
             }
         }

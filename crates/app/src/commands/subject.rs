@@ -50,7 +50,7 @@ impl<'a> Asked<'a> {
                 "leave it out, or name a hard case such as hard:E5",
             ));
         }
-        let frame = given.work.frame(FrameDefaults::default())?;
+        let frame = given.work.frame(FrameDefaults::default(), true)?;
         let systems = given.systems()?;
         let ray_sets = ray_sets(given)?;
         let rays_file = given.files.rays_file.as_deref().map(load_rays).transpose()?;

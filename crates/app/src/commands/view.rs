@@ -52,7 +52,7 @@ mod with_window {
     /// As of a render, and where there is no display.
     pub(crate) fn view(given: &ViewerArguments, interrupt: &Interrupt) -> Result<(), AppError> {
         check_display()?;
-        let frame = given.work.frame(given.system.frame_defaults(given.preset))?;
+        let frame = given.work.frame(given.system.frame_defaults(given.preset), true)?;
         let system = given.system.config(given.preset, &given.work.structure.0)?;
         let output = given.output.clone().unwrap_or_else(|| default_output(&given.scene));
         if ImageFormat::of(&output)? != ImageFormat::Png {
