@@ -35,8 +35,11 @@
 // Ray flags.
 // Backs of draws with DRAW_SINGLE_SIDED are no hits.
 #define RAY_CULL_BACK_FACES 1u
-// The bits from here on: 1 + the number of the light without extent that a shadow ray leads to; 0 for every other ray.
+// The bits from here on: 1 + the number of the light that a shadow ray leads to; 0 for every other ray. Lights without extent
+// come first, then emitting triangles, each in the order of its table.
 #define RAY_LIGHT_SHIFT 8u
+// Of lights with a number that has no room.
+#define RAY_LIGHT_MOST 0xFFFFFFu
 
 // Which fields of a Surface the structure fills; the others hold documented defaults.
 #define SURFACE_POSITION 1u

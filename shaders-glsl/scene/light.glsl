@@ -109,6 +109,7 @@ LightSample light_sample_emissive(Frame frame, vec3 from, float pick, vec2 place
     chosen.radiance = emission_at(draw, primitive, barycentrics, counter_clockwise != mirrored);
     chosen.target = spawn_position(position, error, normal, -chosen.direction);
     chosen.flags = SAMPLE_VALID;
+    chosen.ray_flags = min(frame.light_count + entry + 1u, RAY_LIGHT_MOST) << RAY_LIGHT_SHIFT;
     return chosen;
 }
 

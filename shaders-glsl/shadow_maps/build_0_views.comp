@@ -1,5 +1,5 @@
-// What: where the views of every light are, as lights and triangles are now.
-// Reads: geometry header, lights, which views each light has. Writes: views, status.
+// What: where the views of every light are, and of every point on an emitting triangle, as lights and triangles are now.
+// Reads: geometry, lights, emitting triangles, which views each light has. Writes: views, status.
 // Source: Williams 1978; cubes for lights that shine everywhere, a parallel view over all triangles for lights far away.
 #version 460
 #include "contract/extensions.glsl"
@@ -13,6 +13,9 @@
 layout(local_size_x = 64) in;
 
 layout(set = SHADOW_MAPS_SET, binding = 3, scalar) readonly buffer ShadowMapsSourceBuffer { Light shadow_maps_sources[]; };
+layout(set = SHADOW_MAPS_SET, binding = 4, scalar) readonly buffer ShadowMapsEmitterBuffer {
+    EmissiveTriangle shadow_maps_emitters[];
+};
 
 // Metres that numbers relative to the origin of a view may be off by.
 float rounding_from(vec3 origin) {
@@ -28,11 +31,11 @@ void axes_across(vec3 forward, out vec3 right, out vec3 up) {
     up = cross(forward, right);
 }
 
-ShadowMapsView view_of_face(vec3 origin, uint face) {
+ShadowMapsView view_of_face(vec3 origin, uint face, uint excluded) {
     vec3 x = face_from_world(vec3(1.0, 0.0, 0.0), face);
     vec3 y = face_from_world(vec3(0.0, 1.0, 0.0), face);
     vec3 z = face_from_world(vec3(0.0, 0.0, 1.0), face);
-    return ShadowMapsView(origin, vec3(x.x, y.x, z.x), vec3(x.y, y.y, z.y), vec3(x.z, y.z, z.z), 0u, rounding_from(origin));
+    return ShadowMapsView(origin, vec3(x.x, y.x, z.x), vec3(x.y, y.y, z.y), vec3(x.z, y.z, z.z), 0u, rounding_from(origin), excluded);
 }
 
 ShadowMapsView view_of_cone(Light light) {
@@ -42,7 +45,7 @@ ShadowMapsView view_of_cone(Light light) {
     vec3 right;
     vec3 up;
     axes_across(forward, right, up);
-    return ShadowMapsView(light.position, right / tangent, up / tangent, forward, 0u, rounding_from(light.position));
+    return ShadowMapsView(light.position, right / tangent, up / tangent, forward, 0u, rounding_from(light.position), PRIMITIVE_NONE);
 }
 
 // As wide, high and deep as what lies within the bounds, and a little more.
@@ -59,7 +62,27 @@ ShadowMapsView view_from_afar(vec3 direction) {
     vec3 half_sides = vec3(dot(abs(right), half_extent), dot(abs(up), half_extent), dot(abs(forward), half_extent));
     half_sides = half_sides * 1.0001 + more;
     vec3 origin = 0.5 * lower + 0.5 * upper - half_sides.z * forward;
-    return ShadowMapsView(origin, right / half_sides.x, up / half_sides.y, forward, 1u, rounding + SHADOW_MAPS_ROUNDING * length(origin));
+    rounding += SHADOW_MAPS_ROUNDING * length(origin);
+    return ShadowMapsView(origin, right / half_sides.x, up / half_sides.y, forward, 1u, rounding, PRIMITIVE_NONE);
+}
+
+// The six views around a point of light.
+void write_cube(uint first_view, vec3 origin, uint excluded) {
+    for (uint face = 0u; face < SHADOW_MAPS_CUBE_VIEWS; face++) {
+        shadow_maps_views[first_view + face] = view_of_face(origin, face, excluded);
+    }
+}
+
+// Points of a triangle, evenly spread: Hammersley's set, moved half a step from the edges, on the map from the square to the
+// triangle that light samples use.
+vec3 point_on(uint primitive, uint index, uint count) {
+    vec2 place = vec2(float(index) / float(count), float(bitfieldReverse(index)) * 2.3283064e-10) + 0.5 / float(count);
+    float root = sqrt(place.x);
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    return (1.0 - root) * a + root * ((1.0 - place.y) * b + place.y * c);
 }
 
 void main() {
@@ -68,6 +91,13 @@ void main() {
         shadow_maps_header.status = geometry_is_sound() ? STATUS_COMPLETE | geometry_header.stamp : 0u;
     }
     if (index >= shadow_maps_header.light_count) {
+        uint point = index - shadow_maps_header.light_count;
+        uint point_count = shadow_maps_header.point_count;
+        if (point < shadow_maps_header.emitter_count * point_count) {
+            uint primitive = shadow_maps_emitters[point / point_count].primitive;
+            vec3 origin = point_on(primitive, point % point_count, point_count);
+            write_cube(shadow_maps_header.first_point + point * SHADOW_MAPS_CUBE_VIEWS, origin, primitive);
+        }
         return;
     }
     ShadowMapsLight views = shadow_maps_lights[index];
@@ -77,8 +107,6 @@ void main() {
     } else if (views.view_count == 1u) {
         shadow_maps_views[views.first_view] = view_of_cone(light);
     } else {
-        for (uint face = 0u; face < views.view_count; face++) {
-            shadow_maps_views[views.first_view + face] = view_of_face(light.position, face);
-        }
+        write_cube(views.first_view, light.position, PRIMITIVE_NONE);
     }
 }

@@ -28,6 +28,9 @@ void main() {
     }
     uint primitive = primitive_and_view.x;
     ShadowMapsView view = shadow_maps_views[primitive_and_view.y];
+    if (primitive == view.excluded) {
+        return;
+    }
     vec3 a;
     vec3 b;
     vec3 c;

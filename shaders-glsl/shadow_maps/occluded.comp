@@ -1,4 +1,4 @@
-// What: answers the shadow rays that lead to a light with a map; selects all others.
+// What: answers the shadow rays that lead to a light with a map, or to a triangle with maps; selects all others.
 // Reads: rays, geometry, views, texels. Writes: hits; the selection of the queue.
 // Source: Williams 1978, without a filter; the plane of the receiver as in Isidoro 2006.
 #version 460
@@ -41,18 +41,51 @@ float receiver_depth(Ray ray, ShadowMapsView view, vec3 p, vec2 center) {
     return is_met ? z : p.z;
 }
 
+// The first view of the point that is nearest to where a ray ends, of an emitting triangle.
+uint nearest_point(Ray ray, uint emitter) {
+    vec3 end = ray.origin + ray.t_max * ray.direction;
+    uint first = shadow_maps_header.first_point + emitter * shadow_maps_header.point_count * SHADOW_MAPS_CUBE_VIEWS;
+    uint nearest = first;
+    float least = uintBitsToFloat(0x7F800000u);
+    for (uint point = 0u; point < shadow_maps_header.point_count; point++) {
+        uint view = first + point * SHADOW_MAPS_CUBE_VIEWS;
+        vec3 apart = end - shadow_maps_views[view].origin;
+        float squared = dot(apart, apart);
+        if (squared < least) {
+            least = squared;
+            nearest = view;
+        }
+    }
+    return nearest;
+}
+
+// The light that a ray leads to: its views, none where it has no map.
+ShadowMapsLight views_of(Ray ray) {
+    uint light = (ray.flags >> RAY_LIGHT_SHIFT) - 1u;
+    if (light < shadow_maps_header.light_count) {
+        return shadow_maps_lights[light];
+    }
+    uint emitter = light - shadow_maps_header.light_count;
+    if (shadow_maps_header.point_count > 0u && emitter < shadow_maps_header.emitter_count) {
+        return ShadowMapsLight(nearest_point(ray, emitter), SHADOW_MAPS_CUBE_VIEWS);
+    }
+    return ShadowMapsLight(0u, 0u);
+}
+
 // Whether maps answer a ray. `occluded` is the answer.
 bool is_answered(Ray ray, out bool occluded) {
     occluded = false;
-    uint number = ray.flags >> RAY_LIGHT_SHIFT;
-    if (number == 0u || number > shadow_maps_header.light_count || !geometry_is_built(shadow_maps_header.status)) {
+    if ((ray.flags >> RAY_LIGHT_SHIFT) == 0u || !geometry_is_built(shadow_maps_header.status)) {
         return false;
     }
     // Maps hold both sides of every triangle.
     if ((ray.flags & RAY_CULL_BACK_FACES) != 0u || !ray_is_valid(ray)) {
         return false;
     }
-    ShadowMapsLight light = shadow_maps_lights[number - 1u];
+    ShadowMapsLight light = views_of(ray);
+    if (light.view_count == 0u) {
+        return false;
+    }
     uint index = light.first_view;
     if (light.view_count == SHADOW_MAPS_CUBE_VIEWS) {
         // The views of a light have one origin.

@@ -6,7 +6,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use crate::constants::bvh::BVH_NONE;
-use crate::constants::contract::{PRIMITIVE_NONE, RAY_LIGHT_SHIFT};
+use crate::constants::contract::{PRIMITIVE_NONE, RAY_LIGHT_MOST, RAY_LIGHT_SHIFT};
 
 include!(concat!(env!("OUT_DIR"), "/records.rs"));
 
@@ -124,14 +124,18 @@ impl Ray {
         }
     }
 
-    /// The same, as a shadow ray that leads to the light without extent of that number.
+    /// The same, as a shadow ray that leads to the light of that number: lights without extent come first, then emitting
+    /// triangles. What is beyond `RAY_LIGHT_MOST - 1` has no room and is one of no map.
     #[must_use]
     pub fn with_light(self, light: u32) -> Self {
         let below = (1 << RAY_LIGHT_SHIFT) - 1;
-        Self { flags: self.flags & below | (light + 1) << RAY_LIGHT_SHIFT, ..self }
+        Self {
+            flags: self.flags & below | light.saturating_add(1).min(RAY_LIGHT_MOST) << RAY_LIGHT_SHIFT,
+            ..self
+        }
     }
 
-    /// The number of the light without extent that a shadow ray leads to; nothing for every other ray.
+    /// The number of the light that a shadow ray leads to, as of [`Ray::with_light`]; nothing for every other ray.
     pub fn light(&self) -> Option<u32> {
         (self.flags >> RAY_LIGHT_SHIFT).checked_sub(1)
     }

@@ -137,6 +137,7 @@ pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) 
             primary: primary.name().to_owned(),
             occluder: occluder.name().to_owned(),
             shadow_resolution: occluder.resolution(),
+            shadow_points: occluder.points(),
         };
         let cell = Cell { image: Some(image), ..cell };
         let noise = Cell { system: NOISE.0.to_owned(), preset: NOISE.1.to_owned(), ..cell.clone() };
@@ -340,7 +341,7 @@ mod tests {
         ];
         assert!(every.iter().all(|change| changed(change) == all));
         assert_ne!(compare_cells("2", &loaded, &job(&loaded)).record(0).expect("a cell").key, first[0]);
-        let some: [(&Change, &[usize]); 11] = [
+        let some: [(&Change, &[usize]); 12] = [
             (&|job| job.rays = 99, &[0, 1, 2, 3, 4, 5]),
             (&|job| job.ray_sets[1] = RaySet::Bounce, &[3, 4, 5]),
             (&|job| job.rays_file = Some(rays(-1.0)), &[6, 7, 8]),
@@ -354,7 +355,8 @@ mod tests {
             (&|job| job.frame.sampler = Sampler::Pcg, &[9, 10, 11]),
             (&|job| job.frame.primary = Primary::Raster, &[9, 10, 11]),
             (&|job| job.frame.occluder = OccluderKind::ALL[1], &[9, 10, 11]),
-            (&|job| job.frame.occluder = OccluderKind::ShadowMaps { resolution: 7 }, &[9, 10, 11]),
+            (&|job| job.frame.occluder = OccluderKind::ShadowMaps { resolution: 7, points: 0 }, &[9, 10, 11]),
+            (&|job| job.frame.occluder = OccluderKind::ShadowMaps { resolution: 7, points: 4 }, &[9, 10, 11]),
         ];
         for (number, (change, places)) in some.iter().enumerate() {
             assert_eq!(changed(change), *places, "change {number}");

@@ -77,16 +77,18 @@ impl Primary {
     }
 }
 
-/// What answers shadow rays that lead to lights without extent.
+/// What answers shadow rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OccluderKind {
     /// The structure that all other rays are traced through.
     #[default]
     Structure,
-    /// A shadow map of each light.
+    /// A shadow map of each light without extent, and of points on emitting triangles; other rays are traced.
     ShadowMaps {
         /// Texels along a side.
         resolution: u32,
+        /// Points on each emitting triangle that have maps; 0: rays to these are traced.
+        points: u32,
     },
 }
 
@@ -96,8 +98,13 @@ impl OccluderKind {
         [rasray_shadow_maps::Config::LEAST_TEXELS, rasray_shadow_maps::Config::MOST_TEXELS];
 
     /// All kinds, at the default resolution.
-    pub const ALL: [Self; 2] =
-        [Self::Structure, Self::ShadowMaps { resolution: rasray_shadow_maps::Config::DEFAULT_TEXELS }];
+    pub const ALL: [Self; 2] = [
+        Self::Structure,
+        Self::ShadowMaps { resolution: rasray_shadow_maps::Config::DEFAULT_TEXELS, points: 0 },
+    ];
+
+    /// Most points on an emitting triangle.
+    pub const MOST_POINTS: u32 = rasray_shadow_maps::Config::MOST_POINTS;
 
     /// The one of that name, at the default resolution.
     pub fn named(name: &str) -> Option<Self> {
@@ -118,7 +125,7 @@ impl OccluderKind {
             Self::Structure => "Rays are traced through the structure",
             Self::ShadowMaps { .. } => {
                 "Each point, spot and directional light has a map of depths, drawn where anything moves: fast, and wrong along \
-                 the edges of shadows. Rays to other lights are traced"
+                 the edges of shadows. Emitting triangles have maps with --shadow-points. Rays to other lights are traced"
             }
         }
     }
@@ -127,7 +134,15 @@ impl OccluderKind {
     pub fn resolution(self) -> Option<u32> {
         match self {
             Self::Structure => None,
-            Self::ShadowMaps { resolution } => Some(resolution),
+            Self::ShadowMaps { resolution, .. } => Some(resolution),
+        }
+    }
+
+    /// Points on each emitting triangle that have maps; absent where there are none.
+    pub fn points(self) -> Option<u32> {
+        match self {
+            Self::ShadowMaps { points, .. } if points > 0 => Some(points),
+            _ => None,
         }
     }
 }
@@ -210,6 +225,7 @@ impl Frame {
         run.primary = Some(self.primary.name().to_owned());
         run.occluder = Some(self.occluder.name().to_owned());
         run.shadow_resolution = self.occluder.resolution();
+        run.shadow_points = self.occluder.points();
         run.seed = Some(self.seed);
         run.sampler = Some(self.sampler.name().to_owned());
         run.back_faces = Some(self.back_faces.name().to_owned());

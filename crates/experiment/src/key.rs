@@ -122,7 +122,7 @@ mod tests {
         let set = |job: &mut RenderJob<'_>, option, value: Value| {
             job.frame.integrator = job.frame.integrator.with(option, value).expect("valid");
         };
-        let changes: [&dyn Fn(&mut RenderJob<'_>); 21] = [
+        let changes: [&dyn Fn(&mut RenderJob<'_>); 22] = [
             &|job| job.frame.spp = 4,
             &|job| job.frame.adaptive = Some(Adaptive { threshold: 0.1, least: 4 }),
             &|job| job.frame.adaptive = Some(Adaptive { threshold: 0.2, least: 4 }),
@@ -132,8 +132,9 @@ mod tests {
             &|job| job.frame.width = 5,
             &|job| job.frame.sampler = Sampler::Pcg,
             &|job| job.frame.back_faces = BackFaces::None,
-            &|job| job.frame.occluder = OccluderKind::ShadowMaps { resolution: 1024 },
-            &|job| job.frame.occluder = OccluderKind::ShadowMaps { resolution: 512 },
+            &|job| job.frame.occluder = OccluderKind::ShadowMaps { resolution: 1024, points: 0 },
+            &|job| job.frame.occluder = OccluderKind::ShadowMaps { resolution: 512, points: 0 },
+            &|job| job.frame.occluder = OccluderKind::ShadowMaps { resolution: 512, points: 4 },
             &|job| set(job, "shadow-terminator", "offset".into()),
             &|job| set(job, "bounces", 3.into()),
             &|job| set(job, "glass-shadows", "opaque".into()),

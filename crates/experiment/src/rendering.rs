@@ -63,7 +63,7 @@ fn with_occluder(
     stage: &DeviceScene,
     frame: &Frame,
 ) -> Result<ImagePasses, ExperimentError> {
-    let OccluderKind::ShadowMaps { resolution } = frame.occluder else { return Ok(passes) };
+    let OccluderKind::ShadowMaps { resolution, points } = frame.occluder else { return Ok(passes) };
     let refused =
         |why: String, fix| Err(ExperimentError::usage(format!("--occluder shadow-maps: {why}"), fix));
     if !passes.integrator().asks_occluder() {
@@ -93,17 +93,22 @@ fn with_occluder(
             "write --occluder structure, or leave out --back-faces all",
         );
     }
-    if stage.scene.lights().is_empty() {
+    let (has_lights, has_emitters) = (!stage.scene.lights().is_empty(), stage.scene.emitter_count() > 0);
+    if points > 0 && !has_emitters {
+        tracing::warn!("nothing in the scene emits: no triangle has maps (shadow-points)");
+    }
+    if !has_lights && (points == 0 || !has_emitters) {
         tracing::warn!(
             "the scene has no point, spot or directional light: every shadow ray is traced (shadow-maps)"
         );
     }
-    let config = rasray_shadow_maps::Config::new(resolution);
+    let config = rasray_shadow_maps::Config { points, ..rasray_shadow_maps::Config::new(resolution) };
     passes.with_shadow_maps(device, &stage.scene, config).map_err(|error| {
-        ExperimentError::device(
-            format!("--occluder shadow-maps: {error}"),
-            "choose a smaller --shadow-resolution, or another --device",
-        )
+        let fix = match points {
+            0 => "choose a smaller --shadow-resolution, or another --device",
+            _ => "choose a smaller --shadow-resolution or --shadow-points, or another --device",
+        };
+        ExperimentError::device(format!("--occluder shadow-maps: {error}"), fix)
     })
 }
 

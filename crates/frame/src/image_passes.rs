@@ -2,9 +2,9 @@
 
 use rasray_ads::{Occluder, QueueCounters, Structure};
 use rasray_gpu::{Device, Recorder};
-use rasray_gpu_scene::GpuScene;
+use rasray_gpu_scene::{GpuScene, PosedBuffers};
 use rasray_integrators::{Film, FirstHits, Integrator, Traced, Visibility, Wave, waves_of};
-use rasray_shadow_maps::{Config, Lights, ShadowMaps};
+use rasray_shadow_maps::{Config, Emitters, Lights, ShadowMaps};
 use rasray_tracer::TracerError;
 
 use crate::{FrameError, Samples};
@@ -35,9 +35,11 @@ impl<I: Integrator + 'static> From<Box<I>> for ImagePasses {
     }
 }
 
-/// The lights of a scene that have shadow maps.
+/// The lights of a scene that may have shadow maps.
 fn lights(scene: &GpuScene) -> Lights<'_> {
-    Lights { records: &scene.posed_buffers().lights, known: scene.lights() }
+    let PosedBuffers { lights, emissive, .. } = scene.posed_buffers();
+    let emitters = Some(Emitters { records: emissive, count: scene.emitter_count() });
+    Lights { records: lights, known: scene.lights(), emitters }
 }
 
 impl ImagePasses {
@@ -54,7 +56,8 @@ impl ImagePasses {
         Self { has_stored_hits: true, visibility: None, ..self }
     }
 
-    /// The same with shadow rays that lead to lights without extent answered by shadow maps of the scene.
+    /// The same with shadow rays that lead to lights without extent answered by shadow maps of the scene, and where
+    /// [`Config::points`] asks for it those that lead to emitting triangles.
     ///
     /// # Errors
     /// As [`ShadowMaps::new`].

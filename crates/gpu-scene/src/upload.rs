@@ -52,6 +52,7 @@ pub struct GpuScene {
     binding: SceneBinding,
     posed_buffers: PosedBuffers,
     lights: Arc<[Light]>,
+    emitter_count: u32,
     frame: Frame,
     frame_origin: glam::DVec3,
     features: ShadingFeatures,
@@ -166,6 +167,7 @@ impl GpuScene {
             },
             posed_buffers,
             lights: tables.lights.as_slice().into(),
+            emitter_count: tables.emissive_triangles.len() as u32,
             frame,
             frame_origin: tables.frame_origin,
             features,
@@ -253,6 +255,11 @@ impl GpuScene {
     /// ([`PosedBuffers::lights`]).
     pub fn lights(&self) -> &[Light] {
         &self.lights
+    }
+
+    /// Records in [`PosedBuffers::emissive`]: triangles that emit, or do so at another time.
+    pub fn emitter_count(&self) -> u32 {
+        self.emitter_count
     }
 
     /// What structures build from.

@@ -96,6 +96,9 @@ pub struct CellImage {
     /// Texels along a side of a shadow map, where it is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shadow_resolution: Option<u32>,
+    /// Points on each emitting triangle that have shadow maps; absent where rays to these were traced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shadow_points: Option<u32>,
 }
 
 /// A cell as one of a comparison's.

@@ -244,12 +244,15 @@ pub struct Run {
     /// `trace`, `raster` or `fragments`: how what camera rays hit was found; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub primary: Option<String>,
-    /// `structure` or `shadow-maps`: what answered shadow rays that lead to lights without extent; absent for ray sets.
+    /// `structure` or `shadow-maps`: what answered shadow rays; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub occluder: Option<String>,
     /// Texels along a side of a shadow map; absent without any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shadow_resolution: Option<u32>,
+    /// Points on each emitting triangle that have shadow maps; absent where rays to these were traced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shadow_points: Option<u32>,
     /// Seed of all random numbers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<u32>,

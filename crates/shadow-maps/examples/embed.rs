@@ -41,7 +41,7 @@ pub fn main() -> Result<()> {
         Light { kind: LIGHT_DIRECTIONAL, direction: SUN, ..Light::default() },
     ];
     let records = host.adopted(&device, "lights", host.buffer(&known)?);
-    let lights = Lights { records: &records, known: &known };
+    let lights = Lights { records: &records, known: &known, emitters: None };
     let maps = ShadowMaps::new(&device, Config::new(512), &geometry, None, lights)?;
     let mut structure = BruteForce::new(&device, &geometry, None, false)?;
     let rays = rays();

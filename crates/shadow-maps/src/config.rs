@@ -10,6 +10,9 @@ pub struct Config {
     /// Each texel lies this much deeper than the triangle at its centre, in multiples of what the triangle's plane gains
     /// within half a texel: from 0 to 16. With 1, no flat surface shades itself.
     pub bias: f32,
+    /// Points on each emitting triangle that have a cube of maps each, from 0 to [`Config::MOST_POINTS`]. 0: shadow rays that
+    /// lead to emitting triangles are traced.
+    pub points: u32,
 }
 
 impl Config {
@@ -22,9 +25,12 @@ impl Config {
     /// Texels along a side unless told.
     pub const DEFAULT_TEXELS: u32 = 1024;
 
-    /// That many texels along a side, and a bias of 1.
+    /// Most points on each emitting triangle.
+    pub const MOST_POINTS: u32 = 1024;
+
+    /// That many texels along a side, and a bias of 1; no points on emitting triangles.
     pub fn new(resolution: u32) -> Self {
-        Self { resolution, bias: 1.0 }
+        Self { resolution, bias: 1.0, points: 0 }
     }
 
     /// # Errors
@@ -40,6 +46,13 @@ impl Config {
         }
         if !(0.0..=16.0).contains(&self.bias) {
             return wrong("bias", self.bias.to_string(), "from 0 to 16 times the slope within half a texel");
+        }
+        if self.points > Self::MOST_POINTS {
+            return wrong(
+                "shadow-points",
+                self.points.to_string(),
+                "from 0 to 1024 on each emitting triangle",
+            );
         }
         Ok(())
     }
@@ -66,6 +79,7 @@ mod tests {
             (Config::new(16_385), "shadow-resolution"),
             (Config { bias: -0.5, ..Config::new(64) }, "bias"),
             (Config { bias: f32::NAN, ..Config::new(64) }, "bias"),
+            (Config { points: 1025, ..Config::new(64) }, "shadow-points"),
         ] {
             assert!(config.validate().expect_err("refused").to_string().starts_with(name), "{config:?}");
         }

@@ -18,7 +18,7 @@ pub fn views_of(light: &Light) -> u32 {
     }
 }
 
-/// The views of each light, one after the other, and how many there are.
+/// The views of each light without extent, one after the other, and how many there are.
 pub(crate) fn views_of_all(lights: &[Light]) -> (Vec<ShadowMapsLight>, u64) {
     let mut count = 0;
     let views = lights.iter().map(|light| {
@@ -28,6 +28,11 @@ pub(crate) fn views_of_all(lights: &[Light]) -> (Vec<ShadowMapsLight>, u64) {
         ShadowMapsLight { first_view, view_count }
     });
     (views.collect(), count)
+}
+
+/// Views of the points on emitting triangles, which follow those of the lights.
+pub(crate) fn views_of_emitters(config: &Config, emitters: u32) -> u64 {
+    u64::from(SHADOW_MAPS_CUBE_VIEWS) * u64::from(config.points) * u64::from(emitters)
 }
 
 /// Texels of that many views.
@@ -52,11 +57,13 @@ pub(crate) fn sizes(lights: usize, views: u64, texels: u64) -> [u64; 3] {
     ]
 }
 
-/// The page's formula for lights that have these views, at least one light. It shares nothing with what is allocated, so
-/// that the two check each other.
-pub fn bytes(config: &Config, views: &[u32]) -> u64 {
-    let all: u64 = views.iter().copied().map(u64::from).sum();
-    20 + 8 * views.len() as u64 + all * (56 + 4 * u64::from(config.resolution).pow(2))
+/// The page's formula for lights without extent that have these views, and emitting triangles: one of either at least. It
+/// shares nothing with what is allocated, so that the two check each other.
+pub fn bytes(config: &Config, views: &[u32], emitters: u32) -> u64 {
+    let of_lights: u64 = views.iter().copied().map(u64::from).sum();
+    let of_emitters = 6 * u64::from(config.points) * u64::from(emitters);
+    let all = of_lights + of_emitters;
+    32 + 8 * views.len().max(1) as u64 + all * (60 + 4 * u64::from(config.resolution).pow(2))
 }
 
 #[cfg(test)]
@@ -84,11 +91,14 @@ mod tests {
         assert_eq!(views, [6, 1, 1, 6, 6]);
         let (table, count) = views_of_all(&lights);
         assert_eq!(table.iter().map(|light| light.first_view).collect::<Vec<_>>(), [0, 6, 7, 8, 14]);
-        for resolution in [16, 100, 2048] {
-            let config = Config::new(resolution);
-            let texels = texel_count(&config, count).expect("they fit");
-            let allocated: u64 = sizes(lights.len(), count, texels).iter().sum();
-            assert_eq!(allocated, bytes(&config, &views));
+        for (resolution, points) in [(16, 0), (100, 3), (2048, 1), (16, 1024)] {
+            let config = Config { points, ..Config::new(resolution) };
+            for (lights, views, count) in [(&lights[..], &views[..], count), (&[], &[], 0)] {
+                let count = count + views_of_emitters(&config, 2);
+                let texels = texel_count(&config, count).expect("they fit");
+                let allocated: u64 = sizes(lights.len(), count, texels).iter().sum();
+                assert!(count == 0 || allocated == bytes(&config, views, 2), "{config:?}");
+            }
         }
         assert!(texel_count(&Config::new(16_384), 16).is_err());
     }

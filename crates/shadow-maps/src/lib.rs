@@ -1,4 +1,4 @@
-//! Shadow maps: what each light without extent sees, as depths, which answer shadow rays in place of traces (Williams
+//! Shadow maps: what each light without extent sees, and points on triangles that emit, as depths, which answer shadow rays in place of traces (Williams
 //! 1978). Drawn by the rasterizer each frame in which lights or triangles have moved.
 //!
 //! A map has an error that traces do not have: it knows one depth per texel. Passes, bytes, options and how often answers
@@ -12,8 +12,8 @@ mod maps;
 
 pub use config::Config;
 pub use layout::{bytes, views_of};
-pub use maps::{Lights, ShadowMaps};
-pub use rasray_shaders_glsl::records::Light;
+pub use maps::{Emitters, Lights, ShadowMaps};
+pub use rasray_shaders_glsl::records::{EmissiveTriangle, Light};
 
 /// What the readme shows compiles.
 #[cfg(doctest)]

@@ -16,7 +16,7 @@ use rasray_shaders_glsl::records::{
 };
 
 use crate::Config;
-use crate::layout::{sizes, texel_count, views_of_all};
+use crate::layout::{sizes, texel_count, views_of_all, views_of_emitters};
 
 const MODULES: Modules =
     Modules { structure: "shadow-maps", prefix: "shadow_maps", addressing: Addressing::Descriptor };
@@ -24,17 +24,29 @@ const MODULES: Modules =
 /// Threads of a workgroup of `shadow_maps/build_0_views`.
 const LIGHTS_PER_GROUP: u32 = 64;
 
-/// Lights without extent.
+/// What shadow rays lead to.
 #[derive(Clone, Copy, Debug)]
 pub struct Lights<'a> {
-    /// [`Light`] records on the device, from its start. Each build reads where they are then.
+    /// [`Light`] records of lights without extent on the device, from its start. Each build reads where they are then.
     pub records: &'a Buffer,
     /// The same as the host knows them: which kinds there are, and how wide cones are. Where they are is not looked at.
     pub known: &'a [Light],
+    /// Triangles that emit, where there are any.
+    pub emitters: Option<Emitters<'a>>,
+}
+
+/// Triangles that emit. With [`Config::points`] each of them has maps.
+#[derive(Clone, Copy, Debug)]
+pub struct Emitters<'a> {
+    /// [`EmissiveTriangle`](crate::EmissiveTriangle) records on the device, from its start, of which the triangle is read.
+    pub records: &'a Buffer,
+    /// How many there are.
+    pub count: u32,
 }
 
 /// Shadow maps of all lights: a cube around each that shines everywhere, one view along each narrower cone, one parallel
-/// view over all triangles for each light far away.
+/// view over all triangles for each light far away; and where [`Config::points`] asks for it a cube around each of so many
+/// points on every emitting triangle, of which a ray takes the one nearest to its end.
 ///
 /// A build draws the triangles into every view. Rays that lead to a light ([`Ray::light`](rasray_ads::Ray::light)) are
 /// answered by one comparison; a structure is asked for all others: for rays without such a light, from outside of a view,
@@ -59,6 +71,8 @@ pub struct ShadowMaps {
 #[derive(Debug)]
 struct OfLights {
     lights: u32,
+    /// Points on all emitting triangles.
+    points: u32,
     view_count: u32,
     table: Buffer,
     set: BindingSet,
@@ -94,7 +108,7 @@ impl ShadowMaps {
                 expected: "with a border of one texel it is more than this device draws",
             });
         }
-        let layout = device.create_set_layout("shadow maps", 4)?;
+        let layout = device.create_set_layout("shadow maps", 5)?;
         let queue_layout = RayQueue::layout(device)?;
         let mask = SceneBinding::mask_suffix(scene);
         let masks = scene.filter(|scene| scene.alpha_masked);
@@ -175,9 +189,9 @@ impl ShadowMaps {
         &self.config
     }
 
-    /// Lights that have maps.
-    pub fn light_count(&self) -> u32 {
-        self.of_lights.lights
+    /// Views of all lights and points: where there are none, every ray is traced.
+    pub fn view_count(&self) -> u32 {
+        self.of_lights.view_count
     }
 
     /// Bytes of all maps with their tables.
@@ -198,7 +212,7 @@ impl ShadowMaps {
     /// Records that all maps are drawn, of lights and triangles as they are where this comes in the recording: after what moves
     /// them, and after a structure's build, which gathers and checks triangles. Visible to what follows.
     pub fn record_build(&self, recorder: &mut Recorder<'_>) {
-        let OfLights { lights, view_count, .. } = self.of_lights;
+        let OfLights { lights, points, view_count, .. } = self.of_lights;
         if view_count == 0 {
             return;
         }
@@ -209,7 +223,7 @@ impl ShadowMaps {
         recorder.fill(&self.texels, 0, texel_bytes, SHADOW_MAPS_EMPTY);
         recorder.bind_compute(&self.build_views);
         recorder.bind_sets(0, &[self.geometry.set(), &self.of_lights.set]);
-        recorder.dispatch([lights.div_ceil(LIGHTS_PER_GROUP), 1, 1]);
+        recorder.dispatch([(lights + points).div_ceil(LIGHTS_PER_GROUP), 1, 1]);
         recorder.barrier(
             Access::COMPUTE | Access::TRANSFER_WRITE,
             Access::VERTEX_READ | Access::FRAGMENT | Access::COMPUTE,
@@ -267,8 +281,10 @@ fn made_for(
     lights: Lights<'_>,
     kept: Option<(&Buffer, &Buffer)>,
 ) -> Result<(Buffer, Buffer, OfLights), AdsError> {
-    let Lights { records, known } = lights;
-    let (views_of_lights, view_count) = views_of_all(known);
+    let Lights { records, known, emitters } = lights;
+    let (views_of_lights, first_point) = views_of_all(known);
+    let emitter_count = emitters.map_or(0, |emitters| emitters.count);
+    let view_count = first_point + views_of_emitters(config, emitter_count);
     let texels = texel_count(config, view_count)?;
     let [table_bytes, view_bytes, texel_bytes] = sizes(known.len(), view_count, texels);
     let table = device.create_buffer(&BufferDesc {
@@ -284,6 +300,9 @@ fn made_for(
         light_count: known.len() as u32,
         view_count: view_count as u32,
         bias: config.bias,
+        emitter_count,
+        point_count: config.points,
+        first_point: first_point as u32,
     };
     table.write(0, bytes_of(&header))?;
     table.write(size_of::<ShadowMapsHeader>() as u64, cast_slice(&views_of_lights))?;
@@ -298,7 +317,11 @@ fn made_for(
     };
     let views = grown(kept.map(|(views, _)| views), "shadow map views", view_bytes)?;
     let texels = grown(kept.map(|(_, texels)| texels), "shadow map texels", texel_bytes)?;
-    let set = device.create_binding_set(layout, "shadow maps", &[&table, &views, &texels, records])?;
-    let of_lights = OfLights { lights: known.len() as u32, view_count: view_count as u32, table, set };
+    // Lights stand in where nothing emits, and nothing is read of them there.
+    let emitting = emitters.map_or(records, |emitters| emitters.records);
+    let set =
+        device.create_binding_set(layout, "shadow maps", &[&table, &views, &texels, records, emitting])?;
+    let (lights, points) = (known.len() as u32, emitter_count * config.points);
+    let of_lights = OfLights { lights, points, view_count: view_count as u32, table, set };
     Ok((views, texels, of_lights))
 }

@@ -20,7 +20,7 @@ fn disagreement(device: &Device, scene: &Scene, resolutions: &[u32], rays: usize
         let traced = lit.occluded(&rays, false);
         let mut shares = Vec::new();
         for &resolution in resolutions {
-            if bytes(&Config::new(resolution), &views) > device.limits().max_storage_buffer_range {
+            if bytes(&Config::new(resolution), &views, 0) > device.limits().max_storage_buffer_range {
                 break;
             }
             lit = lit.with(Config::new(resolution));
@@ -35,7 +35,7 @@ fn disagreement(device: &Device, scene: &Scene, resolutions: &[u32], rays: usize
 }
 
 /// The exponent e of shares that go as resolution^-e, by least squares.
-fn exponent(resolutions: &[u32], shares: &[f64]) -> f64 {
+pub fn exponent(resolutions: &[u32], shares: &[f64]) -> f64 {
     let x: Vec<f64> = resolutions.iter().map(|&n| f64::from(n).ln()).collect();
     let y: Vec<f64> = shares.iter().map(|share| share.ln()).collect();
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
@@ -44,12 +44,12 @@ fn exponent(resolutions: &[u32], shares: &[f64]) -> f64 {
     -across / x.iter().map(|x| (x - mx).powi(2)).sum::<f64>()
 }
 
-fn is_full() -> bool {
+pub fn is_full() -> bool {
     std::env::var_os("RASRAY_FULL").is_some_and(|full| full == "1")
 }
 
 /// That many points in the full tier, and a third of them in the quick one.
-fn points(full: usize) -> usize {
+pub fn points(full: usize) -> usize {
     if is_full() { full } else { full / 3 }
 }
 

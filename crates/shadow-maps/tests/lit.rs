@@ -7,7 +7,7 @@ use rasray_ads::{BruteForce, Domain, Hit, Occluder, Ray, RayQueue, Structure, Tr
 use rasray_gpu::{Device, DeviceDesc};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_scene::{Camera, Instance, Light, Material, Mesh, Projection, Scene};
-use rasray_shadow_maps::{Config, Lights, ShadowMaps};
+use rasray_shadow_maps::{Config, Emitters, Lights, ShadowMaps};
 
 /// A device with validation on. Tests take turns, so that a message belongs to one of them.
 pub fn device() -> (Device, MutexGuard<'static, ()>) {
@@ -112,6 +112,13 @@ pub fn lights() -> Vec<Light> {
     ]
 }
 
+/// The lights of a scene, with the triangles that emit.
+pub fn lights_of(scene: &GpuScene) -> Lights<'_> {
+    let posed = scene.posed_buffers();
+    let emitters = Emitters { records: &posed.emissive, count: scene.emitter_count() };
+    Lights { records: &posed.lights, known: scene.lights(), emitters: Some(emitters) }
+}
+
 /// A scene with its lights on a device.
 pub struct Lit {
     pub device: Device,
@@ -136,7 +143,7 @@ impl Lit {
         let scene = GpuScene::upload(device, &tables, &view).expect("the scene fits");
         let (geometry, binding) = (scene.geometry(), scene.binding());
         let structure = BruteForce::new(device, geometry, Some(binding), false).expect("it can be made");
-        let lights = Lights { records: &scene.posed_buffers().lights, known: scene.lights() };
+        let lights = lights_of(&scene);
         let maps =
             ShadowMaps::new(device, config, geometry, Some(binding), lights).expect("the device draws");
         let (positions, indices) = geometry.download(device).expect("readable");
@@ -145,7 +152,7 @@ impl Lit {
 
     /// The same scene with other maps.
     pub fn with(self, config: Config) -> Self {
-        let lights = Lights { records: &self.scene.posed_buffers().lights, known: self.scene.lights() };
+        let lights = lights_of(&self.scene);
         let (geometry, binding) = (self.scene.geometry(), self.scene.binding());
         let maps = ShadowMaps::new(&self.device, config, geometry, Some(binding), lights);
         Self { maps: maps.expect("the device draws"), ..self }
@@ -186,10 +193,34 @@ impl Lit {
         self.indices.as_chunks::<3>().0.iter().map(|triangle| triangle.each_ref().map(corner)).collect()
     }
 
-    /// From points spread evenly over all surfaces, on the side of the light, to that light: as integrators ask. Those that
-    /// the light does not shine on are left out. Also which triangle each starts on.
+    /// From points spread evenly over all surfaces to a light without extent: as integrators ask. Those that the light does
+    /// not shine on are left out.
     pub fn shadow_rays(&self, light: u32, count: usize) -> Vec<Ray> {
         let record = self.scene.lights()[light as usize];
+        self.rays_to(light, count, |_, p| {
+            let towards = towards(&record, p)?;
+            let is_far = record.kind == rasray_shaders_glsl::constants::scene::LIGHT_DIRECTIONAL;
+            Some((towards, (!is_far).then(|| record.position.into())))
+        })
+    }
+
+    /// The same to places spread at random over an emitting triangle, the number of which and corners are given.
+    pub fn rays_to_emitter(&self, emitter: u32, corners: [DVec3; 3], count: usize) -> Vec<Ray> {
+        self.rays_to(self.scene.lights().len() as u32 + emitter, count, |random, p| {
+            let (root, along) = (random.next().sqrt(), random.next());
+            let [a, b, c] = corners;
+            let place = a * (1.0 - root) + b * (root * (1.0 - along)) + c * (root * along);
+            ((place - p).length() > 1.0e-3).then(|| (place - p, Some(place.as_vec3())))
+        })
+    }
+
+    /// From points on all surfaces, on the side of a light: `target` says in which direction that is, and where rays end.
+    fn rays_to(
+        &self,
+        light: u32,
+        count: usize,
+        mut target: impl FnMut(&mut Random, DVec3) -> Option<(DVec3, Option<glam::Vec3>)>,
+    ) -> Vec<Ray> {
         let triangles = self.triangles();
         let twice_area = |t: &[DVec3; 3]| (t[1] - t[0]).cross(t[2] - t[0]);
         let total: f64 = triangles.iter().map(|t| twice_area(t).length()).sum();
@@ -205,18 +236,13 @@ impl Lit {
             let [a, b, c] = triangles[triangle];
             let (root, along) = (random.next().sqrt(), random.next());
             let p = a * (1.0 - root) + b * (root * (1.0 - along)) + c * (root * along);
-            let towards = match towards(&record, p) {
-                Some(towards) => towards,
-                None => continue,
-            };
+            let Some((towards, end)) = target(&mut random, p) else { continue };
             let normal = twice_area(&triangles[triangle]).normalize();
             let side = normal.dot(towards).signum();
             let origin = (p + normal * side * 2.0e-6 * (1.0 + p.abs().max_element())).as_vec3();
-            let is_far = record.kind == rasray_shaders_glsl::constants::scene::LIGHT_DIRECTIONAL;
-            let direction =
-                if is_far { towards.as_vec3() } else { glam::Vec3::from(record.position) - origin };
+            let direction = end.map_or(towards.as_vec3(), |end| end - origin);
             rays.push(Ray {
-                t_max: if is_far { f32::INFINITY } else { 1.0 - 1.0 / 1_048_576.0 },
+                t_max: if end.is_some() { 1.0 - 1.0 / 1_048_576.0 } else { f32::INFINITY },
                 exclude_primitive: triangle as u32,
                 ..Ray::new(origin.to_array(), direction.to_array()).with_light(light)
             });

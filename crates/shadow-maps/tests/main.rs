@@ -6,4 +6,5 @@ mod disagreement;
 mod embedded;
 mod law;
 mod lit;
+mod points;
 mod upkeep;

@@ -5,7 +5,7 @@ use rasray_ads::{AdsError, Domain, Hit, PRIMITIVE_UNKNOWN, RAY_CULL_BACK_FACES, 
 use rasray_scene::{AlphaMode, Filter, Image, Light, Texture, TextureRef, Wrap};
 use rasray_shadow_maps::{Config, Lights, ShadowMaps, bytes, views_of};
 
-use crate::lit::{Lit, cluttered_room, device, expect_silence, lights, scene_of};
+use crate::lit::{Lit, cluttered_room, device, expect_silence, lights, lights_of, scene_of};
 
 /// Which slots are answered by maps: these have no triangle.
 fn is_of_maps(hit: &Hit) -> bool {
@@ -132,11 +132,9 @@ fn lights_that_move_and_more_lights_are_seen_by_the_next_build() {
     assert_eq!(bits(&after), bits(&other.maps.download_depths(&device).expect("readable")));
     // More lights: the maps grow; fewer: they stay as large.
     let more = Lit::new(&device, &scene_of(&cluttered_room(60), all), Config::new(256));
-    let lights_of = |lit: &Lit| (lit.scene.posed_buffers().lights.clone(), lit.scene.lights().to_vec());
-    let (records, known) = lights_of(&more);
-    lit.maps.set_lights(&device, Lights { records: &records, known: &known }).expect("they fit");
-    let views: Vec<_> = known.iter().map(views_of).collect();
-    assert_eq!(lit.maps.bytes(), bytes(lit.maps.config(), &views));
+    lit.maps.set_lights(&device, lights_of(&more.scene)).expect("they fit");
+    let views: Vec<_> = more.scene.lights().iter().map(views_of).collect();
+    assert_eq!(lit.maps.bytes(), bytes(lit.maps.config(), &views, 0));
     assert!(lit.maps.bytes() > bytes_before);
     for light in 0..5 {
         let rays = more.shadow_rays(light, 500);
@@ -149,9 +147,8 @@ fn lights_that_move_and_more_lights_are_seen_by_the_next_build() {
         bits(&lit.maps.download_depths(&device).expect("readable")),
         bits(&more.maps.download_depths(&device).expect("readable"))
     );
-    let (records, known) = lights_of(&other);
     let large = lit.maps.bytes();
-    lit.maps.set_lights(&device, Lights { records: &records, known: &known }).expect("they fit");
+    lit.maps.set_lights(&device, lights_of(&other.scene)).expect("they fit");
     assert!(large - lit.maps.bytes() < 100, "only the table is as small as it can be");
     expect_silence(&device);
 }
@@ -165,7 +162,7 @@ fn without_lights_or_triangles_every_ray_is_traced() {
     let rays = lit_room.shadow_rays(2, 300);
     let all = Domain::First(rays.len() as u32);
     assert_eq!(lit.hits(&rays, true, all), lit.hits(&rays, false, all));
-    assert!(lit.maps.bytes() < 200 && lit.maps.light_count() == 0, "no texel: {}", lit.maps.bytes());
+    assert!(lit.maps.bytes() < 200 && lit.maps.view_count() == 0, "no texel: {}", lit.maps.bytes());
     let empty = Lit::new(&device, &scene_of(&[], lights()), Config::new(16));
     empty.build();
     assert!(empty.occluded(&rays, true).iter().all(|occluded| !occluded));
@@ -231,7 +228,7 @@ fn sizes_that_do_not_fit_are_refused_with_a_reason() {
     let lit = Lit::new(&device, &scene_of(&cluttered_room(10), lights()), Config::new(16));
     let made = |resolution: u32, known: &[rasray_shadow_maps::Light]| {
         let records = &lit.scene.posed_buffers().lights;
-        let (geometry, lights) = (lit.scene.geometry(), Lights { records, known });
+        let (geometry, lights) = (lit.scene.geometry(), Lights { records, known, emitters: None });
         ShadowMaps::new(&device, Config::new(resolution), geometry, Some(lit.scene.binding()), lights)
             .map(|_| ())
     };

@@ -42,6 +42,9 @@ pub(crate) fn frame_words(frame: &Frame) -> Vec<String> {
     if let Some(resolution) = occluder.resolution() {
         words.extend(["--shadow-resolution".to_owned(), resolution.to_string()]);
     }
+    if let Some(points) = occluder.points() {
+        words.extend(["--shadow-points".to_owned(), points.to_string()]);
+    }
     if *back_faces != BackFaces::default() {
         words.extend(["--back-faces".to_owned(), back_faces.name().to_owned()]);
     }
@@ -87,9 +90,14 @@ mod tests {
         settings.frame.back_faces = BackFaces::None;
         let words = frame_words(&settings.frame).join(" ");
         assert!(words.ends_with("--sampler sobol --back-faces none"), "{words}");
-        settings.frame.occluder = OccluderKind::ShadowMaps { resolution: 512 };
+        settings.frame.occluder = OccluderKind::ShadowMaps { resolution: 512, points: 4 };
         let words = frame_words(&settings.frame).join(" ");
-        assert!(words.contains("--sampler sobol --occluder shadow-maps --shadow-resolution 512 "), "{words}");
+        assert!(
+            words.contains(
+                "--sampler sobol --occluder shadow-maps --shadow-resolution 512 --shadow-points 4 "
+            ),
+            "{words}"
+        );
         settings.system.options = settings.system.options.with("grid", 8);
         assert_eq!(system_words(&settings.system).join(" "), "--system bricks --preset robust --grid=8");
     }

@@ -16,7 +16,7 @@ use rasray_tracer::Keeping;
 
 use crate::frames::pictures::{SIZE, input, pictures, spec, still, still_with, tables, view};
 
-const MAPS: Config = Config { resolution: 128, bias: 1.0 };
+const MAPS: Config = Config { resolution: 128, bias: 1.0, points: 2 };
 
 fn lamp() -> Light {
     Light::Point { position: DVec3::ZERO, intensity: [0.3, 0.2, 0.2], range: f32::INFINITY }

@@ -63,12 +63,15 @@ pub struct FrameArguments {
     /// How what the camera sees first is found, of images [default: trace; raster with a system after a paper]
     #[arg(long, value_parser = primary_parser())]
     pub primary: Option<Primary>,
-    /// What answers the shadow rays of lights without extent, of images [default: structure; or the paper's]
+    /// What answers shadow rays, of images [default: structure; or the paper's]
     #[arg(long, value_parser = occluder_parser())]
     pub occluder: Option<OccluderKind>,
     /// Texels along a side of a shadow map, with --occluder shadow-maps, 16 to 16384 [default: 1024]
     #[arg(long, value_name = "N", value_parser = values::whole(OccluderKind::RESOLUTIONS[0], OccluderKind::RESOLUTIONS[1]))]
     pub shadow_resolution: Option<u32>,
+    /// Points on each emitting triangle with a cube of maps each, with --occluder shadow-maps [default: 0, rays are traced]
+    #[arg(long, value_name = "N", value_parser = values::whole(0, OccluderKind::MOST_POINTS))]
+    pub shadow_points: Option<u32>,
     /// Which rays pass the backs of single-sided surfaces, as glTF has them (doubleSided: false)
     #[arg(long, value_parser = back_faces_parser(), default_value = BackFaces::Camera.name())]
     pub back_faces: BackFaces,
@@ -95,15 +98,17 @@ impl FrameArguments {
     }
 
     fn occluder(&self, default: OccluderKind) -> Result<OccluderKind, AppError> {
-        match (self.occluder.unwrap_or(default), self.shadow_resolution) {
-            (OccluderKind::ShadowMaps { .. }, Some(resolution)) => {
-                Ok(OccluderKind::ShadowMaps { resolution })
-            }
-            (OccluderKind::Structure, Some(resolution)) => Err(AppError::usage(
-                format!("--shadow-resolution {resolution} is of shadow maps, and shadow rays are traced"),
-                "write --occluder shadow-maps, or leave --shadow-resolution out",
+        if let OccluderKind::ShadowMaps { resolution, points } = self.occluder.unwrap_or(default) {
+            let resolution = self.shadow_resolution.unwrap_or(resolution);
+            return Ok(OccluderKind::ShadowMaps { resolution, points: self.shadow_points.unwrap_or(points) });
+        }
+        let given = [("resolution", self.shadow_resolution), ("points", self.shadow_points)];
+        match given.iter().find_map(|(option, value)| Some((option, (*value)?))) {
+            None => Ok(OccluderKind::Structure),
+            Some((option, value)) => Err(AppError::usage(
+                format!("--shadow-{option} {value} is of shadow maps, and shadow rays are traced"),
+                format!("write --occluder shadow-maps, or leave --shadow-{option} out"),
             )),
-            (occluder, None) => Ok(occluder),
         }
     }
 }

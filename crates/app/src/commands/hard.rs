@@ -181,13 +181,14 @@ fn ids(id: &str) -> Result<Vec<&'static str>, AppError> {
 
 /// Refuses what is about scenes, images and generated rays.
 fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
-    const UNFIT: [&str; 23] = [
+    const UNFIT: [&str; 24] = [
         "time",
         "clip",
         "fps",
         "primary",
         "occluder",
         "shadow-resolution",
+        "shadow-points",
         "sampler",
         "image",
         "ray-set",

@@ -30,7 +30,7 @@ impl Row {
         let program = (&report.version, &report.commit);
         let system = (&run.system, &run.preset, &run.integrator);
         let picture = (run.width, run.height, run.spp, run.bounces, run.seed);
-        let occluder = (&run.occluder, &run.shadow_resolution);
+        let occluder = (&run.occluder, &run.shadow_resolution, &run.shadow_points);
         let options = (&run.primary, occluder, &run.sampler, &run.back_faces, &run.integrator_options);
         let light = (&report.scene.environment, &report.scene.alpha);
         // A sequence of files may name each of them.

@@ -33,11 +33,36 @@ fn frames_by_maps_are_the_pictures_of_their_times() {
         let report: Value = serde_json::from_str(line).expect("JSON in each line");
         let run = &report["runs"][0];
         assert_eq!((&run["occluder"], &run["shadow_resolution"]), (&json!("shadow-maps"), &json!(64)));
-        assert_eq!(run["memory"]["by_part"]["shadow maps"], json!(20 + 8 + 56 + 4 * 64 * 64));
+        assert_eq!(run["memory"]["by_part"]["shadow maps"], json!(32 + 8 + 60 + 4 * 64 * 64));
         let stages = run["stages"].as_array().expect("a list");
         assert!(stages.iter().any(|time| time["stage"] == "shadow-maps"), "{stages:?}");
     }
     assert_eq!(text.lines().count(), 2);
+}
+
+/// The lamp of cornell by maps of points on its two triangles: the more points, the nearer to the picture that is traced.
+#[test]
+fn a_lamp_with_an_extent_is_served_by_maps_of_its_points() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let image = "render cornell --size 32x32 --spp 32 --bounces 1 --validation --output";
+    run(folder, &format!("{image} traced.png"));
+    let pixels = |name: &str| image::open(folder.join(name)).expect("an image").to_rgb8().into_raw();
+    let traced = pixels("traced.png");
+    let error = |points: u32| {
+        let maps = format!("--occluder shadow-maps --shadow-resolution 128 --shadow-points {points}");
+        run(folder, &format!("{image} {points}.png {maps} --report {points}.json"));
+        let report = std::fs::read_to_string(folder.join(format!("{points}.json"))).expect("the report");
+        let report: Value = serde_json::from_str(&report).expect("JSON");
+        let run = &report["runs"][0];
+        assert_eq!(run["shadow_points"], json!(points));
+        let views = 2 * 6 * points;
+        assert_eq!(run["memory"]["by_part"]["shadow maps"], json!(32 + 8 + views * (60 + 4 * 128 * 128)));
+        let squared = pixels(&format!("{points}.png")).into_iter().zip(&traced);
+        squared.map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2)).sum::<f64>()
+    };
+    let (few, more) = (error(1), error(16));
+    assert!(more > 0.0 && few > 4.0 * more, "squared error: {few} by 1 point, {more} by 16");
 }
 
 /// A square on which a lamp shines, of one material.
@@ -98,4 +123,18 @@ fn what_maps_cannot_answer_is_refused_with_a_way_out() {
     let output = rasray(folder, &format!("render cornell {image}"));
     assert_eq!(output.status.code(), Some(0));
     assert!(stderr(&output).contains("no point, spot or directional light"), "{}", stderr(&output));
+    let output = rasray(folder, &format!("render plain.gltf {image} --shadow-points 2"));
+    assert!(stderr(&output).contains("nothing in the scene emits"), "{}", stderr(&output));
+    // Emitting triangles with more maps than fit are an error that says what to make smaller.
+    let output = rasray(
+        folder,
+        &format!("render cornell {image} --shadow-resolution 4096 --shadow-points 1024")
+            .replace("--shadow-resolution 16 ", ""),
+    );
+    assert_ne!(output.status.code(), Some(0));
+    assert!(
+        stderr(&output).contains("a smaller --shadow-resolution or --shadow-points"),
+        "{}",
+        stderr(&output)
+    );
 }

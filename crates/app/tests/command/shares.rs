@@ -214,10 +214,11 @@ fn reports_that_are_not_of_all_frames_of_a_command_are_refused_by_name() {
     run(&format!("{line} 10-11 --report more.jsonl"));
     run(&format!("{line} 10-11 --report spp.jsonl").replace("--spp 1", "--spp 2"));
     // Every option that changes pictures is in their reports.
-    const OPTIONS: [(&str, &str); 9] = [
+    const OPTIONS: [(&str, &str); 10] = [
         ("--sampler pcg", r#""sampler":"pcg""#),
         ("--primary raster", r#""primary":"raster""#),
         ("--occluder shadow-maps", r#""occluder":"shadow-maps","shadow_resolution":1024"#),
+        ("--occluder shadow-maps --shadow-points 2", r#""shadow_points":2"#),
         ("--back-faces none", r#""back_faces":"none""#),
         ("--shadow-terminator offset", r#""shadow-terminator":"offset""#),
         ("--glass-shadows opaque", r#""glass-shadows":"opaque""#),

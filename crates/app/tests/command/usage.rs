@@ -71,6 +71,12 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
             "--shadow-resolution 64",
             "--occluder shadow-maps",
         ),
+        ("render cornell -o a.png --shadow-points 4", "--shadow-points 4", "--occluder shadow-maps"),
+        (
+            "render cornell -o a.png --occluder shadow-maps --shadow-points 1025",
+            "'1025' for '--shadow-points <N>': must be a whole number from 0 to 1024",
+            "--help",
+        ),
         (
             "render cornell -o a.png --occluder shadow-maps --shadow-resolution 15",
             "'15' for '--shadow-resolution <N>': must be a whole number from 16",
