@@ -1,16 +1,27 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Pyramid, Scan, Scratch, Sizes, ViewDraw};
+use rasray_ads::{AdsError, ListCounts, Pyramid, Scan, Scratch, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_CAMERA;
 
 use crate::{Accept, Builder, Config, Coverage, Header, March, Payload, Pool, Storage, Views};
 
 /// Cells of all views, each with a border of one cell.
 pub fn cell_count(config: &Config) -> u64 {
-    let cells = |resolution: u32| (u64::from(resolution) + 2).pow(2);
-    let cube = if config.views.has_cube() { 6 * cells(config.resolution) } else { 0 };
-    let [columns, rows] = config.camera_cells().map(|side| u64::from(side) + 2);
-    cube + if config.views.has_camera() { columns * rows } else { 0 }
+    view_cells(config).iter().map(|(_, cells)| cells).sum()
+}
+
+/// Name and cells of each view, in the order of cells.
+pub(crate) fn view_cells(config: &Config) -> Vec<(&'static str, u64)> {
+    let mut views = Vec::new();
+    if config.views.has_cube() {
+        let cells = (u64::from(config.resolution) + 2).pow(2);
+        views.extend(ListCounts::FACES.map(|face| (face, cells)));
+    }
+    if config.views.has_camera() {
+        let [columns, rows] = config.camera_cells().map(|side| u64::from(side) + 2);
+        views.push(("camera", columns * rows));
+    }
+    views
 }
 
 /// Draws of all views: the faces of the cube, and the camera.
@@ -80,6 +91,11 @@ pub(crate) fn node_words(config: &Config) -> u64 {
 /// Capacity of a node, in fragments.
 pub(crate) fn node_slots(config: &Config) -> u64 {
     if config.storage == Storage::Paged { config.page.into() } else { 1 }
+}
+
+/// Bytes of a fragment with its payload and without links; in a page, of a slot.
+pub(crate) fn slot_bytes(config: &Config) -> u64 {
+    4 * (1 + data_words(config))
 }
 
 /// Words of a list: one end, both ends, or first place and count.

@@ -1,6 +1,10 @@
 //! Checks the contents of a built A-buffer.
 
-use crate::layout::{bounds_words, data_words, fragment_words, node_slots, node_words};
+use rasray_ads::ListCounts;
+
+use crate::layout::{
+    bounds_words, data_words, fragment_words, node_slots, node_words, slot_bytes, view_cells,
+};
 use crate::{Config, Fault, Header, Storage, cell_count};
 
 /// All pools but the large-triangle queue of the binning builder as downloaded, in words.
@@ -138,6 +142,34 @@ impl Contents {
             cells.push(found);
         }
         Ok(cells)
+    }
+
+    /// What the cells of each view hold; triangles of conservative lists are no layers.
+    ///
+    /// # Errors
+    /// As [`Contents::fragments`].
+    pub fn list_counts(&self) -> Result<Vec<ListCounts>, Fault> {
+        let slots = self.slots();
+        let mut pages = vec![false; self.stored() / slots];
+        let (mut linked, mut place, mut cell) = (0, 0, 0);
+        let mut counts = Vec::new();
+        for (cells_of, cells) in view_cells(&self.config) {
+            let mut view = ListCounts::new(cells_of, slot_bytes(&self.config));
+            for _ in 0..cells {
+                let (mut fragments, mut taken) = (0, 0);
+                for bucket in 0..self.config.lists() as usize {
+                    let links = links(self, cell, bucket, linked, &mut place, &mut pages)?;
+                    linked += links.len();
+                    fragments += links.len();
+                    let page = |link: &u32| (*link as usize - 1) / slots;
+                    taken += slots * links.chunk_by(|one, next| page(one) == page(next)).count();
+                }
+                view.add_cell(fragments, fragments, taken);
+                cell += 1;
+            }
+            counts.push(view);
+        }
+        Ok(counts)
     }
 
     fn head(&self, list: usize) -> u32 {

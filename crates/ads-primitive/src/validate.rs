@@ -1,6 +1,9 @@
 //! Checks the contents of built primitive lists.
 
-use crate::{Config, Header, Storage, cell_count};
+use rasray_ads::ListCounts;
+
+use crate::layout::entry_words;
+use crate::{Config, Header, Storage, Views, cell_count};
 
 /// All pools as downloaded, in words.
 #[derive(Clone, Debug)]
@@ -91,6 +94,38 @@ impl Contents {
             link = self.entries[node + 1];
         }
         Ok(found)
+    }
+}
+
+impl Contents {
+    /// What the tiles of each view hold; triangles of the near region are not among them.
+    ///
+    /// # Errors
+    /// A list leaves the pool.
+    pub fn list_counts(&self) -> Result<Vec<ListCounts>, Fault> {
+        let bytes = 4 * entry_words(self.config.storage);
+        let views = match self.config.views {
+            Views::Cube => &ListCounts::FACES[..],
+            Views::Camera => &["camera"],
+        };
+        let cells = cell_count(&self.config) as usize / views.len();
+        let mut counts = Vec::new();
+        let mut triangles = Vec::new();
+        for (view, cells_of) in views.iter().enumerate() {
+            let mut count = ListCounts::new(cells_of, bytes);
+            for cell in view * cells..(view + 1) * cells {
+                triangles.clear();
+                for bucket in 0..self.config.buckets as usize {
+                    triangles.extend(self.list(cell, bucket)?);
+                }
+                let entries = triangles.len();
+                triangles.sort_unstable();
+                triangles.dedup();
+                count.add_cell(triangles.len(), entries, entries);
+            }
+            counts.push(count);
+        }
+        Ok(counts)
     }
 }
 

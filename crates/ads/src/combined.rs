@@ -3,8 +3,8 @@
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
 use crate::{
-    AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, GeometryParts, RayQueue,
-    SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceMode, Viewpoint,
+    AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, GeometryParts, ListCounts,
+    RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceMode, Viewpoint,
 };
 
 /// Number of parts.
@@ -259,6 +259,19 @@ impl Structure for Combined {
     fn fault(&self, device: &Device) -> Result<Option<String>, GpuError> {
         let faults = self.parts.iter().map(|part| part.fault(device)).collect::<Result<Vec<_>, _>>()?;
         Ok(faults.into_iter().flatten().next())
+    }
+
+    fn list_counts(&self, device: &Device) -> Result<Vec<ListCounts>, AdsError> {
+        let mut sums: Vec<ListCounts> = Vec::new();
+        for counts in self.parts.iter().map(|part| part.list_counts(device)) {
+            for count in counts? {
+                match sums.iter_mut().find(|sum| sum.cells_of == count.cells_of) {
+                    Some(sum) => sum.add(&count),
+                    None => sums.push(count),
+                }
+            }
+        }
+        Ok(sums)
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {

@@ -7,8 +7,8 @@ use rasray_gpu::{BindingSet, ComputePipeline, Device, GpuError, Recorder, Requir
 use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::{
-    AdsError, BuildPipelines, BuildTarget, Configured, Dependencies, Geometry, PoolName, Pools, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
+    AdsError, BuildPipelines, BuildTarget, Configured, Dependencies, Geometry, ListCounts, PoolName, Pools,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 
 /// Work units that a ray may spend in a dispatch where the device is not a CPU: nearly every ray needs one dispatch
@@ -255,6 +255,14 @@ pub trait Design: fmt::Debug + Sized {
 
     /// What is wrong with the pools after a build over that number of triangles.
     fn fault(contents: &Self::Contents, triangles: u32) -> Option<String>;
+
+    /// [`Structure::list_counts`](crate::Structure::list_counts) of a complete build.
+    ///
+    /// # Errors
+    /// What is wrong with the lists.
+    fn list_counts(_contents: &Self::Contents) -> Result<Vec<ListCounts>, String> {
+        Ok(Vec::new())
+    }
 
     /// Header and other pools to write back, with their bytes.
     fn pools_of(contents: &Self::Contents) -> (Self::Header, PoolBytes<'_, Self::Pool>);

@@ -98,6 +98,14 @@ pub enum AdsError {
         /// Number of such triangles.
         triangles: u32,
     },
+    /// Lists that were read back are damaged.
+    #[error("the lists of {structure} cannot be counted: {fault}")]
+    Damaged {
+        /// Name of the structure.
+        structure: &'static str,
+        /// What is wrong with them.
+        fault: String,
+    },
     /// A build was recorded without the host's part.
     #[error("{structure} is built by the host first: call prepare_build before every record_build")]
     NotPrepared {

@@ -8,8 +8,8 @@ use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Counters, Demand, Dependencies, Design,
-    Domain, Geometry, InlineTrace, Modules, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue,
-    RecordLayout, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
+    Domain, Geometry, InlineTrace, ListCounts, Modules, Parts, PoolName, PoolSize, PoolStatus, Pools,
+    RayQueue, RecordLayout, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
     TraceKernelsDesc, TraceMode, Viewpoint, default_work_budget,
 };
 
@@ -390,6 +390,11 @@ impl<D: Design> Structure for Pooled<D> {
 
     fn fault(&self, device: &Device) -> Result<Option<String>, GpuError> {
         Ok(D::fault(&self.download(device)?, self.parts.geometry.download_count(device)?))
+    }
+
+    fn list_counts(&self, device: &Device) -> Result<Vec<ListCounts>, AdsError> {
+        D::list_counts(&self.download(device)?)
+            .map_err(|fault| AdsError::Damaged { structure: D::NAME, fault })
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {

@@ -3,7 +3,8 @@
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout, TraceMode};
 
 use crate::{
-    AdsError, BuildStatus, Check, Counters, Domain, Geometry, RayQueue, SceneBinding, Sizes, Viewpoint,
+    AdsError, BuildStatus, Check, Counters, Domain, Geometry, ListCounts, RayQueue, SceneBinding, Sizes,
+    Viewpoint,
 };
 
 /// What a structure's hits are, and hence what may be demanded of them.
@@ -290,6 +291,15 @@ pub trait Structure {
     /// The device failed.
     fn fault(&self, _device: &Device) -> Result<Option<String>, GpuError> {
         Ok(None)
+    }
+
+    /// What the lists of its cells hold, view by view; empty where its cells have none. Reads all pools back, submits and
+    /// waits: for reports and tools.
+    ///
+    /// # Errors
+    /// The device failed, or the lists are damaged: the last build is not complete.
+    fn list_counts(&self, _device: &Device) -> Result<Vec<ListCounts>, AdsError> {
+        Ok(Vec::new())
     }
 
     /// Options, paths and bytes, of the build whose status was last read.

@@ -5,7 +5,7 @@ use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
 use crate::render::KeptScene;
 use rasray_gpu::PassCommands;
 use rasray_gpu_scene::TexelRuns;
-use rasray_report::{Device, Run};
+use rasray_report::{Device, ListRecord, Run};
 use std::ops::ControlFlow;
 
 /// Which device is wanted.
@@ -134,6 +134,9 @@ pub trait Backend {
     /// What the structure of a job records for a build that is complete, for traces of both kinds and for surfaces,
     /// pass by pass.
     fn passes(&mut self, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError>;
+
+    /// What the lists of the structure of a job hold once it is built: all cells together first, then view by view.
+    fn lists(&mut self, job: &RenderJob<'_>) -> Result<Vec<ListRecord>, ExperimentError>;
 
     /// Describes the device.
     fn info(&mut self) -> Result<DeviceDescription, ExperimentError>;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use rasray_ads::{AdsError, Combined, GeometryParts, Structure, Viewpoint};
+use rasray_ads::{AdsError, Combined, GeometryParts, ListCounts, Structure, Viewpoint};
 use rasray_gpu::{Device, Feature, GpuError, Stage, Timing};
 use rasray_gpu_scene::GpuScene;
 use rasray_systems::{Spec, SystemsError};
@@ -14,7 +14,7 @@ use crate::device_scene::{DeviceScene, device_error, scene_error, tracer_error};
 use crate::error::ExperimentError;
 use crate::jobs::Refresh;
 use crate::passes::{Passes, median, spread};
-use rasray_report::{Counters, Memory, Pass, PassOf, Spread, StageTime, Times};
+use rasray_report::{Counters, ListRecord, Memory, Pass, PassOf, Spread, StageTime, Times};
 
 /// Why a first build failed.
 enum FirstBuild {
@@ -312,6 +312,16 @@ impl Built {
         })
     }
 
+    /// What the lists of the structure's cells hold, all together first. All pools are read back.
+    ///
+    /// # Errors
+    /// The device fails, or lists are damaged.
+    pub fn lists(&self, device: &Device) -> Result<Vec<ListRecord>, ExperimentError> {
+        let counts = self.structure().list_counts(device).map_err(device_error)?;
+        let all = ListCounts::all(&counts).filter(|_| counts.len() > 1);
+        Ok(all.into_iter().chain(counts).map(list_record).collect())
+    }
+
     /// Counts of the build.
     pub(super) fn counters(&self) -> Result<Counters, ExperimentError> {
         let report = self.structure().report().map_err(device_error)?;
@@ -325,6 +335,20 @@ impl Built {
             regrows: Some(self.outcome.regrows.into()),
             ..Counters::default()
         })
+    }
+}
+
+fn list_record(count: ListCounts) -> ListRecord {
+    ListRecord {
+        cells_of: count.cells_of.to_owned(),
+        cells: count.cells,
+        occupied: count.occupied,
+        layers: count.layers,
+        layers_mean: (count.occupied > 0).then(|| count.layers as f64 / count.occupied as f64),
+        layers_most: count.most,
+        entries: count.entries,
+        slots: count.slots,
+        waste_bytes: (count.slots - count.entries) * count.slot_bytes,
     }
 }
 

@@ -93,6 +93,7 @@ pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) 
         rays,
         frame,
         image,
+        lists,
         // They change what else is kept.
         figures: _,
         keep: _,
@@ -125,8 +126,9 @@ pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) 
     let drawn =
         ray_sets.iter().map(|set| CellRays { set: set.name().to_owned(), count: *rays, content: None });
     let sets = drawn.chain(rays_file.as_ref().map(rays_of_file));
-    let mut groups: Vec<_> =
-        sets.map(|rays| on_rays(&Cell { rays: Some(rays), ..cell.clone() }, systems, hits_files)).collect();
+    let mut groups: Vec<_> = sets
+        .map(|rays| on_rays(&Cell { rays: Some(rays), lists: *lists, ..cell.clone() }, systems, hits_files))
+        .collect();
     if *image {
         let image = CellImage {
             integrator: integrator.name().to_owned(),
@@ -283,6 +285,7 @@ mod tests {
             },
             image: true,
             figures: false,
+            lists: false,
             repetitions: 2,
             rays_file: Some(rays(1.0)),
             hits_files: vec![hits(1.0)],
@@ -342,6 +345,7 @@ mod tests {
         assert!(every.iter().all(|change| changed(change) == all));
         assert_ne!(compare_cells("2", &loaded, &job(&loaded)).record(0).expect("a cell").key, first[0]);
         let some: [(&Change, &[usize]); 12] = [
+            (&|job| job.lists = true, &[0, 1, 2, 3, 4, 5, 6, 7, 8]),
             (&|job| job.rays = 99, &[0, 1, 2, 3, 4, 5]),
             (&|job| job.ray_sets[1] = RaySet::Bounce, &[3, 4, 5]),
             (&|job| job.rays_file = Some(rays(-1.0)), &[6, 7, 8]),

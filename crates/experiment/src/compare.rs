@@ -148,10 +148,15 @@ fn compare_rays(
     let places = job.cells_of_set();
     let takes_part = |position| (0..job.sets()).any(|set| job.wants(set * places + position));
     let around = (center, job.repetitions);
-    let Some(contestants) = Contestant::some(device, stage, &job.systems, takes_part, around, progress)?
+    let Some(mut contestants) = Contestant::some(device, stage, &job.systems, takes_part, around, progress)?
     else {
         return Ok(ControlFlow::Break(()));
     };
+    if job.lists {
+        for (_, contestant) in &mut contestants {
+            contestant.lists = contestant.built.lists(device)?;
+        }
+    }
     if job.keep {
         comparison.kept.frame_origin = source.frame_origin.to_array();
         comparison.kept.triangles = triangles(positions, indices);

@@ -9,7 +9,7 @@ use crate::built::Built;
 use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::system_config::SystemConfig;
-use rasray_report::{Run, Times};
+use rasray_report::{ListRecord, Run, Times};
 
 /// One system of a comparison.
 pub struct Contestant<'a> {
@@ -19,6 +19,8 @@ pub struct Contestant<'a> {
     pub spec: Spec,
     /// Its structure.
     pub built: Built,
+    /// What the lists of its cells hold, where that was counted.
+    pub lists: Vec<ListRecord>,
 }
 
 impl<'a> Contestant<'a> {
@@ -59,7 +61,7 @@ impl<'a> Contestant<'a> {
             }
             let spec = config.spec()?.with_counters(Counters::Sums);
             let built = Built::new(device, &spec, &stage.scene, center)?;
-            contestants.push(Self { config, spec, built });
+            contestants.push(Self { config, spec, built, lists: Vec::new() });
         }
         for _ in 0..repetitions {
             for contestant in &mut contestants {

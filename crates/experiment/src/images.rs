@@ -112,7 +112,7 @@ pub(super) fn compare_images(
         if pixels.samples_done < frame.spp {
             return Ok(());
         }
-        let of_camera = Contestant { config, spec, built };
+        let of_camera = Contestant { config, spec, built, lists: Vec::new() };
         let mut run = of_camera.run(device)?;
         frame.describe(&mut run);
         run.adaptive = frame.adaptive.map(|rule| pixels.adaptive(rule));

@@ -112,6 +112,8 @@ pub struct CompareJob<'a> {
     pub image: bool,
     /// Whether pictures and maps are kept for a page.
     pub figures: bool,
+    /// Whether what the lists of each structure hold is counted, which reads its pools back.
+    pub lists: bool,
     /// Timed repetitions of every build and every set, at least 1, after one that warms up.
     pub repetitions: u32,
     /// Rays that another program may have made: one more set, named [`FILE_SET`].

@@ -3,11 +3,13 @@
 use rasray_gpu::{Device as GpuDevice, DeviceDesc};
 
 use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, OnRun, TexelCapacity};
+use crate::built::Built;
 use crate::describe::requirements;
+use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
 use crate::render::KeptScene;
-use rasray_report::Device;
+use rasray_report::{Device, ListRecord};
 
 /// Pipelines kept for structures that are made again: those of hard cases, of variants, and of frames with other triangles.
 const KEPT_PIPELINES: usize = 256;
@@ -86,6 +88,14 @@ impl Backend for Renderer {
         let passes = crate::pass_list::pass_list(&self.device, job)?;
         self.check_validation()?;
         Ok(passes)
+    }
+
+    fn lists(&mut self, job: &RenderJob<'_>) -> Result<Vec<ListRecord>, ExperimentError> {
+        let (mut stage, _) = DeviceScene::of_job(&self.device, job)?;
+        let built = Built::refreshed(&self.device, &job.system.spec()?, &mut stage, job.refresh)?;
+        let lists = built.lists(&self.device)?;
+        self.check_validation()?;
+        Ok(lists)
     }
 
     fn info(&mut self) -> Result<DeviceDescription, ExperimentError> {

@@ -216,6 +216,7 @@ fn run_of(
     counters.nodes_per_ray = per_ray(traced.counters.entries);
     counters.cells_per_ray = per_ray(traced.counters.cells);
     counters.tests_per_ray = per_ray(traced.counters.tests);
+    counters.lists.clone_from(&contestant.lists);
     counters.unfinished = Some(traced.counters.unfinished.into());
     let mut run = contestant.run(device)?;
     run.ray_set = Some(set.name.clone());

@@ -11,7 +11,7 @@ use rasray_experiment::{
 };
 use rasray_hard_cases::Scale;
 use rasray_ray_files::HitsFile;
-use rasray_report::Run;
+use rasray_report::{ListRecord, Run};
 use rasray_scene::needs::Needs;
 use rasray_scene_source::{LoadedScene, default_view, load};
 use rasray_systems::{Preset, System};
@@ -51,6 +51,7 @@ fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> Comp
         frame,
         image: false,
         figures: false,
+        lists: false,
         repetitions: 1,
         rays_file: None,
         hits_files: Vec::new(),
@@ -119,6 +120,47 @@ fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
     let missed: Vec<_> =
         runs.iter().map(|run| run.accuracy.as_ref().map(|accuracy| accuracy.missed)).collect();
     assert_eq!(missed, [Some(0), Some(1)]);
+}
+
+#[test]
+fn what_lists_hold_is_counted_where_it_is_asked_for() {
+    let mut loaded = load(OsStr::new("cornell")).expect("a built-in scene");
+    loaded.light(None);
+    let mut backend = open(&DeviceChoice::default()).expect("a device");
+    let names = ["mmrt", "selective", "bvh"];
+    let mut job = job(&loaded, &names, &[RaySet::Incoherent]);
+    for config in &mut job.systems[..2] {
+        config.options = OptionValues::default().with("resolution", 32);
+    }
+    let mut runs = |job: &CompareJob<'_>| {
+        let compared =
+            backend.compare(job, &mut |_, _| ControlFlow::Continue(()), &mut |_| ControlFlow::Continue(()));
+        compared.expect("the device works").runs
+    };
+    let counters = |run: &Run| run.counters.clone().expect("they were counted");
+    assert!(runs(&job).iter().all(|run| counters(run).lists.is_empty()));
+    job.lists = true;
+    for run in runs(&job) {
+        let counters = counters(&run);
+        let named: Vec<_> = counters.lists.iter().map(|list| list.cells_of.as_str()).collect();
+        let expected: &[&str] = match run.system.as_str() {
+            "mmrt" => &["all", "+x", "-x", "+y", "-y", "+z", "-z"],
+            "selective" => &["all", "x", "y", "z", "voxels"],
+            _ => &[],
+        };
+        assert_eq!(named, expected, "{}", run.system);
+        let Some(all) = counters.lists.first() else { continue };
+        assert_eq!(Some(all.entries), counters.fragments, "{all:?}");
+        let sum = |field: fn(&ListRecord) -> u64| {
+            counters.lists[1..].iter().filter(|list| list.cells_of != "voxels").map(field).sum::<u64>()
+        };
+        assert_eq!(
+            [all.cells, all.layers, all.slots],
+            [sum(|list| list.cells), sum(|list| list.layers), sum(|list| list.slots)]
+        );
+        assert_eq!(all.waste_bytes > 0, run.system == "selective", "only its lists have pages: {all:?}");
+        assert_eq!(all.waste_bytes, 8 * (all.slots - all.entries), "a depth and a triangle each");
+    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, Scan,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, ListCounts, Parts, Pooled, RecordLayout, Scan,
     SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, box_ignores_eye,
     pools_of_words,
 };
@@ -168,6 +168,10 @@ impl Design for Passes {
 
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
+    }
+
+    fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
+        Ok(vec![contents.list_counts().map_err(|fault| fault.to_string())?])
     }
 
     pools_of_words! {

@@ -1,5 +1,7 @@
 //! Checks the contents of a built grid.
 
+use rasray_ads::ListCounts;
+
 use crate::Header;
 use crate::layout::cell_count;
 
@@ -74,6 +76,21 @@ impl Contents {
             return Err(Fault::Dangling { cell, end });
         }
         Ok(&self.entries[begin..end as usize])
+    }
+}
+
+impl Contents {
+    /// What the cells hold.
+    ///
+    /// # Errors
+    /// A list leaves the pool.
+    pub fn list_counts(&self) -> Result<ListCounts, Fault> {
+        let mut counts = ListCounts::new("grid", 4);
+        for cell in 0..self.cell_count() {
+            let triangles = self.list(cell)?.len();
+            counts.add_cell(triangles, triangles, triangles);
+        }
+        Ok(counts)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Checks the contents of a built layered depth cube.
 
+use rasray_ads::ListCounts;
 use rasray_shaders_glsl::constants::ldc::{LDC_LEVEL_BLOCKS, LDC_SLICES};
 
 use crate::{Config, Coverage, Depth, Header, Occupancy, Payload, cell_count};
@@ -133,6 +134,22 @@ impl Contents {
             link = self.conservative[node + 1];
         }
         Ok(found)
+    }
+
+    /// What the cells of each view hold; triangles of conservative lists are no layers.
+    ///
+    /// # Errors
+    /// A list leaves the pool or runs backwards.
+    pub fn list_counts(&self) -> Result<Vec<ListCounts>, Fault> {
+        let depth_bytes = if self.config.depth == Depth::Bits16 { 2 } else { 4 };
+        let bytes = depth_bytes + self.config.payload_bytes();
+        let cells = cell_count(self.config.resolution) as usize / 3;
+        let mut counts = ListCounts::AXES.map(|axis| ListCounts::new(axis, bytes));
+        for cell in 0..3 * cells {
+            let layers = self.list(cell)?.len();
+            counts[cell / cells].add_cell(layers, layers, layers);
+        }
+        Ok(counts.into())
     }
 
     /// Whether the blocks of a cell, of all levels, say that something lies at a depth in metres.

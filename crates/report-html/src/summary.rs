@@ -4,7 +4,7 @@ use super::markup::Markup;
 use super::names::{milliseconds, workload};
 use super::section::Section;
 use super::sortable::{Heading, table};
-use rasray_report::{Accuracy, Counters, ImageError, RateRecord, Report, Run, Statistics};
+use rasray_report::{Accuracy, Counters, ImageError, ListRecord, RateRecord, Report, Run, Statistics};
 use rasray_report::{bytes, grouped};
 
 /// What a cell says and what it is sorted by.
@@ -81,6 +81,11 @@ fn counter<T>(run: &Run, field: impl Fn(&Counters) -> Option<T>) -> Option<T> {
     run.counters.as_ref().and_then(field)
 }
 
+/// What the lists of all cells hold.
+fn all_lists(run: &Run) -> Option<&ListRecord> {
+    run.counters.as_ref()?.lists.first()
+}
+
 fn image(run: &Run, field: impl Fn(&ImageError) -> Option<f64>) -> Option<f64> {
     run.image.as_ref().and_then(field)
 }
@@ -136,6 +141,18 @@ const COLUMNS: &[Column] = &[
         is_main: false,
         meaning: "primitive tests per ray",
         cell: |run| number(counter(run, |counters| counters.tests_per_ray), 2),
+    },
+    Column {
+        heading: "layers",
+        is_main: false,
+        meaning: "fragments or triangles of a cell that holds any, on average",
+        cell: |run| number(all_lists(run)?.layers_mean, 2),
+    },
+    Column {
+        heading: "most layers",
+        is_main: false,
+        meaning: "of the cell that has most",
+        cell: |run| count(Some(all_lists(run)?.layers_most)),
     },
     Column {
         heading: "rays compared",

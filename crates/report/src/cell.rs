@@ -42,6 +42,9 @@ pub struct Cell {
     /// What is rendered; absent for rays.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<CellImage>,
+    /// Whether what the structure's lists hold was counted.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub lists: bool,
     /// Seed of all random numbers.
     pub seed: u32,
     /// Builds and traces that are timed.

@@ -167,6 +167,31 @@ pub struct Memory {
     pub by_part: BTreeMap<String, u64>,
 }
 
+/// What the lists of some cells of a structure hold.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ListRecord {
+    /// Which cells: `all`, a face of the cube such as `+x`, `camera`, the view along an axis such as `x`, `voxels` or `grid`.
+    pub cells_of: String,
+    /// All of them.
+    pub cells: u64,
+    /// Those that hold something; of voxels, those that rays search.
+    pub occupied: u64,
+    /// What all these cells hold: fragments, or triangles, each once per cell.
+    pub layers: u64,
+    /// Mean over the occupied cells; absent where there are none.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub layers_mean: Option<f64>,
+    /// Of the cell that has most.
+    pub layers_most: u64,
+    /// Entries in their lists: more than layers where a triangle is in several buckets of a cell.
+    pub entries: u64,
+    /// Slots that the lists take: more than entries where they grow by pages.
+    pub slots: u64,
+    /// Bytes of the slots that no entry fills.
+    pub waste_bytes: u64,
+}
+
 /// Counts that do not depend on the machine.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -180,6 +205,9 @@ pub struct Counters {
     /// List entries stored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub entries: Option<u64>,
+    /// What the lists of the structure's cells hold: all together first, then view by view.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lists: Vec<ListRecord>,
     /// List entries or tree nodes read per ray.
     #[serde(default, skip_serializing_if = "absent")]
     pub nodes_per_ray: Option<f64>,

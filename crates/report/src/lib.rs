@@ -22,13 +22,14 @@ pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
 pub use campaign::{Campaign, Experiment, Row, cell_settings, in_order};
 pub use campaign_text::{COLUMNS, Column, campaign_markdown, experiment_markdown, number};
 pub use cell::{CampaignRecord, Cell, CellImage, CellRays, CellRecord, CellView, ExperimentRecord};
-pub use cost::{Counters, Memory, Pass, PassOf, Spread, StageTime, Timer, Times};
+pub use cost::{Counters, ListRecord, Memory, Pass, PassOf, Spread, StageTime, Timer, Times};
 pub use schema::{
     AdaptiveRecord, CameraRecord, Device, FramesRecord, PoseRecord, Report, Run, SCHEMA, SceneRecord,
     SmallerImageRecord, Statistics,
 };
 
 pub use markdown::markdown;
+pub use run_text::list_rows;
 pub use table::{table, table_within};
 pub use text::{in_line, json_shown, one_line, shown, shown_but};
 pub use words::{bytes, columns, columns_within, grouped, wrapped};

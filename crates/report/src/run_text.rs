@@ -1,6 +1,6 @@
 //! A run with every number, as text for people.
 
-use crate::{Bound, HardRecord, RateRecord, Run, StageTime, bytes, columns, grouped};
+use crate::{Bound, HardRecord, ListRecord, RateRecord, Run, StageTime, bytes, columns, grouped};
 use std::fmt::Write;
 
 fn milliseconds(value: f64) -> String {
@@ -34,6 +34,27 @@ fn interval(rate: &RateRecord) -> String {
         (Bound::OneSided, _) => format!("at least {low:.4} %"),
         (Bound::ClopperPearson, _) => format!("{low:.4} to {high:.4} %"),
     }
+}
+
+/// What lists hold as rows of a table, under their heads; no row where there are none.
+pub fn list_rows(lists: &[ListRecord]) -> Vec<Vec<String>> {
+    let head =
+        ["cells of", "cells", "occupied", "layers", "on average", "at most", "entries", "slots", "unfilled"];
+    let heads = (!lists.is_empty()).then(|| head.map(str::to_owned).to_vec());
+    let rows = lists.iter().map(|list| {
+        vec![
+            list.cells_of.clone(),
+            grouped(list.cells),
+            grouped(list.occupied),
+            grouped(list.layers),
+            list.layers_mean.map_or_else(|| "-".to_owned(), |mean| format!("{mean:.2}")),
+            grouped(list.layers_most),
+            grouped(list.entries),
+            grouped(list.slots),
+            bytes(list.waste_bytes),
+        ]
+    });
+    heads.into_iter().chain(rows).collect()
 }
 
 /// Whether a target was met, in words.
@@ -122,6 +143,11 @@ pub(super) fn run_text(run: &Run) -> String {
         );
     }
     section(&mut text, " counts", rows);
+    section(
+        &mut text,
+        " lists",
+        run.counters.as_ref().map(|counters| list_rows(&counters.lists)).unwrap_or_default(),
+    );
 
     if let Some(memory) = &run.memory {
         let parts = memory.by_part.iter().map(|(name, value)| vec![name.clone(), bytes(*value)]);

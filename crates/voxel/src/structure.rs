@@ -3,8 +3,8 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, ListCounts, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
@@ -191,6 +191,10 @@ impl Design for Build {
 
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
+    }
+
+    fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
+        contents.list_counts().map_err(|fault| fault.to_string())
     }
 
     pools_of_words! {

@@ -1,5 +1,7 @@
 //! Checks the contents of built voxels and axis A-buffers.
 
+use rasray_ads::ListCounts;
+
 use crate::layout::{entry_words, levels};
 use crate::{Config, Header, Leaves, Payload, Storage, Traversal, list_count};
 
@@ -201,6 +203,64 @@ impl Contents {
             word = self.fragments[page as usize * entry_words(&self.config) as usize];
         }
         Ok(places)
+    }
+
+    /// What the cells of each view hold, and then what the voxels do. A voxel is occupied where rays search it; its layers
+    /// are the fragments of all views at whose depths it lies.
+    ///
+    /// # Errors
+    /// As [`Contents::list`].
+    pub fn list_counts(&self) -> Result<Vec<ListCounts>, Fault> {
+        let bytes = 4 * self.config.fragment_words();
+        let (grid, cells) = (self.config.grid() as usize, self.config.resolution.pow(2) as usize);
+        let mut counts = Vec::new();
+        let mut layers = vec![0_usize; grid.pow(3)];
+        let views = if self.config.leaves == Leaves::Fragments { &ListCounts::AXES[..] } else { &[] };
+        for (axis, cells_of) in views.iter().enumerate() {
+            let mut view = ListCounts::new(cells_of, bytes);
+            for cell in 0..cells {
+                let places = self.places(axis * cells + cell)?;
+                for place in &places {
+                    layers[self.voxel_at(axis, cell as u32, self.fragment(*place).z)] += 1;
+                }
+                view.add_cell(places.len(), places.len(), self.slots_of(&places));
+            }
+            counts.push(view);
+        }
+        let is_searched = |voxel: &usize| self.bits(*voxel) != 0;
+        let mut voxels = ListCounts::new(ListCounts::VOXELS, bytes);
+        for (voxel, layers) in layers.into_iter().enumerate() {
+            // A voxel that is hit itself holds a triangle.
+            let layers = if views.is_empty() { usize::from(is_searched(&voxel)) } else { layers };
+            voxels.add_cell(layers, layers, layers);
+        }
+        voxels.occupied = (0..grid.pow(3)).filter(is_searched).count() as u64;
+        counts.push(voxels);
+        Ok(counts)
+    }
+
+    /// Slots that a list of so many fragments takes.
+    fn slots_of(&self, places: &[u32]) -> usize {
+        match self.config.storage {
+            Storage::Paged => {
+                let page = self.config.page;
+                let pages = places.chunk_by(|one, next| one / page == next / page).count();
+                page as usize * pages
+            }
+            Storage::Contiguous | Storage::Linked => places.len(),
+        }
+    }
+
+    /// The voxel in which a fragment of a view's cell lies, at a depth in metres.
+    fn voxel_at(&self, axis: usize, cell: u32, z: f32) -> usize {
+        let (resolution, grid) = (self.config.resolution, self.config.grid());
+        let centre = |cell: u32| (cell as f32 + 0.5) * self.header.cell;
+        let [x, y, z] = [centre(cell % resolution), centre(cell / resolution), z]
+            .map(|metres| ((metres / self.header.voxel).max(0.0) as u32).min(grid - 1) as usize);
+        let grid = grid as usize;
+        // From the axes of the view to those of the world.
+        let [x, y, z] = [[z, x, y], [y, z, x], [x, y, z]][axis];
+        (z * grid + y) * grid + x
     }
 
     /// The bits of a voxel of the grid.

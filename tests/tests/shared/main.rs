@@ -5,6 +5,7 @@ mod bucket;
 mod coverage;
 mod device;
 mod grid;
+mod list_counts;
 mod march;
 mod march_cases;
 mod pages;

@@ -79,6 +79,9 @@ pub struct CompareArguments {
     /// Also render an image with each system and compare it with the reference
     #[arg(long)]
     pub image: bool,
+    /// Also count what the lists of each structure hold: layers per cell, slots that pages waste
+    #[arg(long)]
+    pub statistics: bool,
     /// JSON with everything that was measured; - is standard output; a .jsonl takes a line per run as soon as it is whole
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,

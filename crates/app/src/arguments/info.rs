@@ -5,7 +5,7 @@ use super::shared::DeviceArguments;
 use super::structure::{StructureArguments, preset_parser, system_request_parser};
 use super::values;
 use crate::error::AppError;
-use clap::Args;
+use clap::{ArgGroup, Args};
 use rasray_experiment::{INTEGRATORS, IntegratorRow, SystemConfig, SystemRequest};
 use rasray_systems::Preset;
 use std::ffi::OsString;
@@ -16,14 +16,19 @@ Examples:
   rasray info scene.glb --integrator ao
   rasray info scene.glb --json
   rasray info scene.glb --passes --system mmrt --storage dll
+  rasray info scene.glb --statistics --system selective
 
 Without a scene: the devices, what the one in use offers, and which way each structure takes on it.
 With a scene: what is in it and what moves it, its cameras and the view where none is named, and what of it an image can show.
-With --passes: what the structure's build, its traces and its surface lookup record on this device, pass by pass.";
+With --passes: what the structure's build, its traces and its surface lookup record on this device, pass by pass.
+With --statistics: what the lists of its cells hold once it is built: layers per cell, slots that pages waste.";
+
+/// What is shown of a structure: one of these options.
+const OF_STRUCTURE: &str = "of structure";
 
 /// Options of `rasray info`.
 #[derive(Debug, Args)]
-#[command(after_help = AFTER_HELP)]
+#[command(after_help = AFTER_HELP, group = ArgGroup::new(OF_STRUCTURE).args(["passes", "statistics"]))]
 pub struct InfoArguments {
     /// A file (.gltf .glb .obj .ply), numbered files ('a.####.ply'), or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
@@ -44,16 +49,19 @@ pub struct InfoArguments {
     /// With a scene: the passes of a structure and how many dispatches and draws each records
     #[arg(long, requires = "scene")]
     pub passes: bool,
-    /// With --passes: the structure
-    #[arg(long, value_parser = system_request_parser(), default_value = SystemRequest::AUTOMATIC, requires = "passes")]
+    /// With a scene: what the lists of a structure's cells hold
+    #[arg(long, requires = "scene")]
+    pub statistics: bool,
+    /// With --passes or --statistics: the structure
+    #[arg(long, value_parser = system_request_parser(), default_value = SystemRequest::AUTOMATIC, requires = OF_STRUCTURE)]
     pub system: SystemRequest,
-    /// With --passes: how closely it follows its paper
-    #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name(), requires = "passes")]
+    /// With --passes or --statistics: how closely it follows its paper
+    #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name(), requires = OF_STRUCTURE)]
     pub preset: Preset,
     /// The same as JSON
     #[arg(long)]
     pub json: bool,
-    /// With --passes: options of the structure.
+    /// With --passes or --statistics: options of the structure.
     #[command(flatten)]
     pub structure: StructureArguments,
     /// Where the work is done.
@@ -62,19 +70,19 @@ pub struct InfoArguments {
 }
 
 impl InfoArguments {
-    /// The system whose passes are wanted.
+    /// The system that something is wanted of.
     ///
     /// # Errors
-    /// A preset or an option that the system does not have, a value that it does not take, or options where no passes are
-    /// wanted.
+    /// A preset or an option that the system does not have, a value that it does not take, or options where nothing is
+    /// wanted of a system.
     pub fn system(&self) -> Result<Option<SystemConfig>, AppError> {
-        if self.passes {
+        if self.passes || self.statistics {
             return Ok(Some(self.system.config(self.preset, &self.structure.0)?));
         }
         match self.structure.0.iter().next() {
             Some((option, _)) => Err(AppError::usage(
                 format!("--{option} is an option of a structure, and no structure is asked for"),
-                "add --passes, or leave it out",
+                "add --passes or --statistics, or leave it out",
             )),
             None => Ok(None),
         }

@@ -103,6 +103,7 @@ impl Subject<'_> {
             frame: frame.clone(),
             image: given.image,
             figures: false,
+            lists: given.statistics,
             repetitions: given.repetitions,
             rays_file: rays_file.clone(),
             hits_files: hits_files.clone(),

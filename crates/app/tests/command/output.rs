@@ -199,7 +199,12 @@ fn info_is_data_too() {
     assert_eq!((&passes["passes"][0]["workgroups"], &passes["passes"][0]["draws"]), (&7.into(), &0.into()));
     let text = String::from_utf8(stdout(&rasray(folder.path(), "info cornell --passes"))).expect("text");
     assert!(text.trim_start().starts_with("pass ") && text.contains("bvh/build_0_header"), "{text}");
+    let lists = json("info cornell --statistics --system mmrt --storage dll --json");
+    assert_eq!((&lists["lists"][0]["cells_of"], &lists["lists"][0]["cells"]), (&"mmrt".into(), &9.into()));
+    let text = String::from_utf8(stdout(&rasray(folder.path(), "info cornell --statistics"))).expect("text");
+    assert!(text.trim_start().starts_with("cells of ") && text.contains("on average"), "{text}");
     for (line, words) in [
+        ("info cornell --passes --statistics", "--statistics"),
         ("info cornell --storage dll", "--storage is an option of a structure"),
         ("info cornell --passes --storage dll", "system bvh has no option --storage"),
         ("info cornell --system mmrt", "--passes"),

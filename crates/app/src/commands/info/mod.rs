@@ -1,6 +1,7 @@
 //! `rasray info`.
 
 mod device;
+mod lists;
 mod passes;
 mod rows;
 mod scene;
@@ -20,6 +21,7 @@ use serde_json::Value;
 
 use super::steps::{fit_images, load_scene, open_device};
 use device::{device_json, device_text};
+use lists::{lists_json, lists_text};
 use passes::{passes_json, passes_text};
 use scene::scene_text;
 
@@ -29,7 +31,7 @@ const SCHEMA: &str = "rasray-info/1";
 /// Images of the views that passes are listed for: where a structure draws the camera's view, as many cells.
 const SIDE: u32 = 512;
 
-/// Shows a scene, the passes of a structure on it, or without a scene the device.
+/// Shows a scene, the passes or the lists of a structure on it, or without a scene the device.
 ///
 /// # Errors
 /// A scene that cannot be read, no suitable device, or options that no structure asks for.
@@ -72,6 +74,10 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
                 needs,
                 repetitions: 0,
             };
+            if given.statistics {
+                let lists = during("statistics", "building", || backend.lists(&job))?;
+                return show(given.json, || lists_json(&lists), || lists_text(&lists));
+            }
             let passes = during("passes", "building", || backend.passes(&job))?;
             return show(given.json, || passes_json(&passes), || passes_text(&passes));
         }

@@ -8,7 +8,7 @@ use rasray_experiment::{
     FilmSums, HardJob, KeptScene, OnProgress, OnRun, PassCommands, Progress, RenderJob, RenderOutput, Stage,
     TexelCapacity,
 };
-use rasray_report::{Counters, Device, HardRecord, Run, Times};
+use rasray_report::{Counters, Device, HardRecord, ListRecord, Run, Times};
 use std::path::Path;
 use std::process::{Command, Output};
 use std::time::Duration;
@@ -90,6 +90,11 @@ impl Backend for Scripted {
         let label = format!("{}/build_0_header", job.system.system.name);
         let pass = PassCommands::of(Stage::Build, &label);
         Ok(vec![PassCommands { dispatches: 2, workgroups: 7, transfers: 1, ..pass }])
+    }
+
+    fn lists(&mut self, job: &RenderJob<'_>) -> Result<Vec<ListRecord>, ExperimentError> {
+        let list = ListRecord { cells_of: job.system.system.name.to_owned(), cells: 9, ..Default::default() };
+        Ok(vec![list])
     }
 
     fn compare(
