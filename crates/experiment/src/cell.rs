@@ -344,7 +344,7 @@ mod tests {
         ];
         assert!(every.iter().all(|change| changed(change) == all));
         assert_ne!(compare_cells("2", &loaded, &job(&loaded)).record(0).expect("a cell").key, first[0]);
-        let some: [(&Change, &[usize]); 12] = [
+        let some: [(&Change, &[usize]); 13] = [
             (&|job| job.lists = true, &[0, 1, 2, 3, 4, 5, 6, 7, 8]),
             (&|job| job.rays = 99, &[0, 1, 2, 3, 4, 5]),
             (&|job| job.ray_sets[1] = RaySet::Bounce, &[3, 4, 5]),

@@ -45,7 +45,7 @@ const BEFORE: [&str; 9] =
     ["scene", "time", "clip", "camera", "size", "back-faces", "system", "preset", "integrator"];
 
 /// Those that come last.
-const AFTER: [&str; 10] = [
+const AFTER: [&str; 11] = [
     "ray-set",
     "rays",
     "spp",
@@ -54,9 +54,13 @@ const AFTER: [&str; 10] = [
     "primary",
     "occluder",
     "shadow-resolution",
+    "shadow-points",
     "seed",
     "repetitions",
 ];
+
+/// What a plan says that is seen by what there is.
+const SEEN: [&str; 2] = ["image", "statistics"];
 
 /// Fields of a run that say how it was made, not what came of it.
 const NO_RESULTS: [&str; 9] = [
@@ -136,8 +140,7 @@ impl Row {
         let mut settings = cell_settings(&record.depends_on);
         let camera = line.camera.as_ref().map(|camera| ("camera".to_owned(), camera.name.clone()));
         settings.extend(camera);
-        // Whether images are made is seen by whether there are any.
-        for (name, value) in experiment.settings.iter().filter(|(name, _)| *name != "image") {
+        for (name, value) in experiment.settings.iter().filter(|(name, _)| !SEEN.contains(&name.as_str())) {
             settings.entry(name.clone()).or_insert_with(|| value.clone());
         }
         let run = line.runs.first()?;
@@ -183,6 +186,7 @@ pub fn cell_settings(cell: &Cell) -> BTreeMap<String, String> {
         set("primary", Some(image.primary.clone()));
         set("occluder", Some(image.occluder.clone()));
         set("shadow-resolution", image.shadow_resolution.map(|texels| texels.to_string()));
+        set("shadow-points", image.shadow_points.map(|points| points.to_string()));
     }
     cell.options.iter().for_each(|(name, value)| set(name, Some(value.clone())));
     set("seed", Some(cell.seed.to_string()));
@@ -190,7 +194,8 @@ pub fn cell_settings(cell: &Cell) -> BTreeMap<String, String> {
     settings
 }
 
-/// Every number that a run gave, by its path in the report; of a list, elements are named by their `stage` or `label`.
+/// Every number that a run gave, by its path in the report; of a list, elements are named by their `label`,
+/// `stage` or `cells_of`.
 /// `rays_traced`: those of `trace_ms`; `error_share`: hits that are missed, false or wrong, of the rays that were compared.
 fn results(run: &Run) -> BTreeMap<String, f64> {
     let mut numbers = BTreeMap::new();
@@ -220,9 +225,8 @@ fn collect(path: &str, value: &Value, numbers: &mut BTreeMap<String, f64>) {
         }
         Value::Array(elements) => {
             for element in elements {
-                let name = ["stage", "label"].iter().find_map(|name| element.get(name)?.as_str());
                 // A pass has a stage too; its label tells it from others.
-                let name = element.get("label").and_then(Value::as_str).or(name);
+                let name = ["label", "stage", "cells_of"].iter().find_map(|name| element.get(name)?.as_str());
                 name.into_iter().for_each(|name| collect(&format!("{path}.{name}"), element, numbers));
             }
         }

@@ -34,7 +34,7 @@ const fn column(name: &'static str, head: &'static str, form: Form, meaning: &'s
 }
 
 /// The columns, in their order; one that no row of an experiment has is left out.
-pub const COLUMNS: [Column; 17] = [
+pub const COLUMNS: [Column; 20] = [
     column("build_ms", "build ms", Form::Number, "Posed positions to traceable, median"),
     column("trace_ms", "trace ms", Form::Number, "Rays in to hits out, median"),
     column("mrays_per_s", "Mrays/s", Form::Number, "Millions of rays per second"),
@@ -42,6 +42,14 @@ pub const COLUMNS: [Column; 17] = [
     column("memory.structure_bytes", "bytes", Form::Bytes, "The structure's allocations"),
     column("counters.fragments", "fragments", Form::Count, "Fragments stored"),
     column("counters.entries", "entries", Form::Count, "List entries stored"),
+    column(
+        "counters.lists.all.layers_mean",
+        "layers",
+        Form::Number,
+        "Mean over the cells that hold something",
+    ),
+    column("counters.lists.all.layers_most", "most layers", Form::Count, "Of the cell that has most"),
+    column("counters.lists.all.waste_bytes", "unfilled", Form::Bytes, "Bytes of slots that no entry fills"),
     column("counters.cells_per_ray", "cells/ray", Form::Number, "Cells stepped per ray"),
     column("counters.nodes_per_ray", "entries/ray", Form::Number, "List entries or tree nodes read per ray"),
     column("counters.tests_per_ray", "tests/ray", Form::Number, "Primitive tests per ray"),
