@@ -62,13 +62,25 @@ pub enum RaySet {
     Eye,
     /// Diffuse directions from what the camera sees.
     Bounce,
+    /// Mirrored directions from there.
+    Specular,
+    /// Directions around these, as of a polished surface.
+    Glossy,
     /// Origins uniform on the triangles, which are not excluded, directions uniform.
     Surface,
 }
 
 impl RaySet {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Incoherent, Self::Camera, Self::Eye, Self::Bounce, Self::Surface];
+    pub const ALL: [Self; 7] = [
+        Self::Incoherent,
+        Self::Camera,
+        Self::Eye,
+        Self::Bounce,
+        Self::Specular,
+        Self::Glossy,
+        Self::Surface,
+    ];
 
     /// Its name on the command line and in reports.
     pub fn name(self) -> &'static str {
@@ -77,6 +89,8 @@ impl RaySet {
             Self::Camera => "camera",
             Self::Eye => "eye",
             Self::Bounce => "bounce",
+            Self::Specular => "specular",
+            Self::Glossy => "glossy",
             Self::Surface => "surface",
         }
     }
@@ -88,6 +102,8 @@ impl RaySet {
             Self::Camera => "The camera's rays; the camera is not at the views' centre",
             Self::Eye => "From the views' centre",
             Self::Bounce => "Diffuse directions from what the camera sees",
+            Self::Specular => "Mirrored directions from what the camera sees",
+            Self::Glossy => "Directions around these, as of a polished surface",
             Self::Surface => "Origins uniform on the triangles, which are not excluded, directions uniform",
         }
     }

@@ -53,7 +53,9 @@ impl RaySource<'_> {
             RaySet::Incoherent => incoherent_rays(self.bounds, self.view.seed, count),
             RaySet::Eye => (0..count).map(|i| Ray::new(self.center, direction(self.stream(i)))).collect(),
             RaySet::Camera => return (0..count).map(|i| from_shading(&self.camera(i))).collect(),
-            RaySet::Bounce => self.bounce(count),
+            RaySet::Bounce => self.bounce(count, diffuse),
+            RaySet::Specular => self.bounce(count, mirrored),
+            RaySet::Glossy => self.bounce(count, glossy),
             RaySet::Surface => self.surface(count),
         };
         rays.into_iter().map(|ray| Ray { flags: self.flags.others, ..ray }).collect()
@@ -106,8 +108,8 @@ impl RaySource<'_> {
         shading::Ray { culls_back_faces, ..ray }
     }
 
-    /// Cosine-weighted directions from what camera rays hit exactly.
-    fn bounce(&self, count: u32) -> Vec<Ray> {
+    /// Directions of a lobe from what camera rays hit exactly.
+    fn bounce(&self, count: u32, lobe: Lobe) -> Vec<Ray> {
         let mut rays = Vec::with_capacity(count as usize);
         // A camera that sees nothing must not keep looking for ever.
         for index in 0..count.saturating_mul(8) {
@@ -138,12 +140,41 @@ impl RaySource<'_> {
                 ..shading::Surface::default()
             };
             let stream = self.stream(index);
-            let local = cosine_hemisphere(Vec2::new(stream.float(24), stream.float(25)));
-            let direction = shading::basis_around(normal) * local;
+            let numbers = Vec2::new(stream.float(24), stream.float(25));
+            let direction = lobe(ray.direction, normal, numbers);
             rays.push(from_shading(&spawn_ray(&surface, direction, f32::INFINITY)));
         }
         rays
     }
+}
+
+/// From the direction of a ray, the unit normal that faces it and two numbers in [0, 1) to a unit direction above the
+/// surface.
+type Lobe = fn(Vec3, Vec3, Vec2) -> Vec3;
+
+/// Cosine-weighted.
+fn diffuse(_: Vec3, normal: Vec3, numbers: Vec2) -> Vec3 {
+    shading::basis_around(normal) * cosine_hemisphere(numbers)
+}
+
+/// As of a plane mirror.
+fn mirrored(direction: Vec3, normal: Vec3, _: Vec2) -> Vec3 {
+    (direction - 2.0 * direction.dot(normal) * normal).normalize()
+}
+
+/// The exponent of [`glossy`]: half of its directions lie within 6.7 degrees of the mirrored one.
+const GLOSS: f32 = 100.0;
+
+/// Around the mirrored direction, with a density as the cosine to the power of [`GLOSS`]; what falls below the surface is
+/// mirrored by it.
+fn glossy(direction: Vec3, normal: Vec3, numbers: Vec2) -> Vec3 {
+    let cosine = (1.0 - numbers.x).powf(1.0 / (GLOSS + 1.0));
+    let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+    let azimuth = std::f32::consts::TAU * numbers.y;
+    let local = Vec3::new(sine * azimuth.cos(), sine * azimuth.sin(), cosine);
+    let around = shading::basis_around(mirrored(direction, normal, numbers)) * local;
+    let above = if around.dot(normal) < 0.0 { around - 2.0 * around.dot(normal) * normal } else { around };
+    above.normalize()
 }
 
 /// Rays with origins uniform in a box (corners in metres) and directions uniform on the sphere: the set
@@ -196,4 +227,36 @@ pub fn oracle_ray(ray: &Ray) -> rasray_reference::oracle::Ray {
 pub(super) fn triangles(positions: &[[f32; 3]], indices: &[u32]) -> Vec<[[f32; 3]; 3]> {
     let corner = |index: u32| positions.get(index as usize).copied().unwrap_or_default();
     indices.as_chunks::<3>().0.iter().map(|corners| corners.map(corner)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_abs_diff_eq;
+
+    #[test]
+    fn lobes_lie_above_the_surface_around_their_axis() {
+        let normal = Vec3::new(0.6, 0.0, 0.8);
+        let grazing = Vec3::new(0.8, 0.0, -0.599).normalize();
+        for direction in [-normal, Vec3::NEG_Z, grazing] {
+            let mirror = mirrored(direction, normal, Vec2::ZERO);
+            assert_abs_diff_eq!(mirror.dot(normal), -direction.dot(normal), epsilon = 1.0e-6);
+            assert_abs_diff_eq!(mirror.cross(normal).dot(direction), 0.0, epsilon = 1.0e-6);
+            let numbers = (0..4096).map(|index| {
+                let stream = RandomStream { seed: 1, pixel: index, sample: 0 };
+                Vec2::new(stream.float(24), stream.float(25))
+            });
+            let numbers: Vec<_> = numbers.collect();
+            for lobe in [diffuse, glossy] {
+                let lobe = |numbers: &Vec2| lobe(direction, normal, *numbers);
+                assert!(numbers.iter().map(lobe).all(|one| one.is_normalized() && one.dot(normal) > -1.0e-6));
+            }
+            let near = numbers.iter().filter(|numbers| {
+                glossy(direction, normal, **numbers).dot(mirror) > 6.7_f32.to_radians().cos()
+            });
+            let share = near.count() as f64 / numbers.len() as f64;
+            // What is below the surface comes nearer.
+            assert!(share > 0.47 && (direction == grazing || share < 0.53), "{direction}: {share}");
+        }
+    }
 }
