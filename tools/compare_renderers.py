@@ -30,10 +30,16 @@ except ImportError:
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 # Triangles with one material; without normals they are flat.
-Mesh = namedtuple("Mesh", "points faces material normals", defaults=[None])
-# A glTF file, a view with its angle in degrees, the radiance of the sky, the meshes of what is made here, and the diameter of
-# the lens, in whose focus the target is.
-Scene = namedtuple("Scene", "name path eye target fov sky bounces meshes aperture", defaults=[0.0, 8, (), 0.0])
+Mesh = namedtuple("Mesh", "points faces material normals uvs", defaults=[None, None])
+# A glTF file, a view with its angle in degrees, the radiance of the sky, the meshes of what is made here, the diameter
+# of the lens, in whose focus the target is, and what rasray is asked for in place of paths of so many bounces.
+Scene = namedtuple(
+    "Scene", "name path eye target fov sky bounces meshes aperture options", defaults=[0.0, 8, (), 0.0, ()]
+)
+
+
+# Trees of perfect reflections and refractions.
+TREES = ("--integrator", "whitted", "--ray-depth", 8)
 
 
 @dataclass(frozen=True)
@@ -47,6 +53,7 @@ class Material:
     emission: tuple = (0.0, 0.0, 0.0)
     glass: bool = False
     alpha: float = 1.0
+    anisotropy: float = 0.0
 
     def gltf(self):
         """As an entry of `materials`."""
@@ -55,6 +62,7 @@ class Material:
         extensions |= {"emissive_strength": {"emissiveStrength": strength}}
         glass = {"transmission": {"transmissionFactor": 1.0}, "volume": {"thicknessFactor": 1.0}}
         extensions |= glass if self.glass else {}
+        extensions |= {"anisotropy": {"anisotropyStrength": self.anisotropy}} if self.anisotropy else {}
         factors = {"baseColorFactor": [*self.color, self.alpha], "metallicFactor": self.metallic}
         return {
             "alphaMode": "BLEND" if self.alpha < 1.0 else "OPAQUE",
@@ -67,7 +75,8 @@ class Material:
         """The model of Mitsuba that comes nearest."""
         color = {"type": "rgb", "value": list(self.color)}
         rough = "rough" if self.roughness >= 0.03 else ""
-        facets = {"alpha": self.roughness**2, "distribution": "ggx"} if rough else {}
+        along = self.roughness**2 + (1.0 - self.roughness**2) * self.anisotropy**2
+        facets = {"alpha_u": along, "alpha_v": self.roughness**2, "distribution": "ggx"} if rough else {}
         if self.glass:
             return {"type": rough + "dielectric", "int_ior": 1.5, "ext_ior": 1.0, **facets}
         inner = {"type": rough + "plastic", "diffuse_reflectance": color, "int_ior": 1.5, "ext_ior": 1.0, **facets}
@@ -96,6 +105,15 @@ def ball(centre, radius, material, rows=64):
     return Mesh((normals * radius + centre).astype(np.float32), faces, material, normals)
 
 
+def slab(centre, half_sides, angle, material):
+    """A box, turned around y."""
+    turn = np.array([[math.cos(angle), 0, math.sin(angle)], [0, 1, 0], [-math.sin(angle), 0, math.cos(angle)]])
+    signs = [(-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1), (-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1)]
+    points = np.array(signs) * half_sides @ turn.T + centre
+    sides = ((0, 1, 2, 3), (5, 4, 7, 6), (1, 5, 6, 2), (4, 0, 3, 7), (3, 2, 6, 7), (4, 5, 1, 0))
+    return quads([points[corner] for side in sides for corner in side], material)
+
+
 def write_scene(name, folder, meshes, **view):
     """Writes NAME.gltf, and one OBJ a mesh for Mitsuba."""
     blob, views, accessors, entries = b"", [], [], []
@@ -115,7 +133,13 @@ def write_scene(name, folder, meshes, **view):
             if mesh.normals is not None:
                 attributes["NORMAL"] = accessor(mesh.normals, 5126, "VEC3")
                 obj.writelines("vn {:.9g} {:.9g} {:.9g}\n".format(*normal) for normal in mesh.normals)
-            form = "f {0} {1} {2}\n" if mesh.normals is None else "f {0}//{0} {1}//{1} {2}//{2}\n"
+            if mesh.uvs is not None:
+                attributes["TEXCOORD_0"] = accessor(mesh.uvs, 5126, "VEC2")
+                obj.writelines("vt {:.9g} {:.9g}\n".format(*uv) for uv in mesh.uvs)
+            # Without any, nothing stands between the slashes, and none at the end.
+            indices = ("{%d}", "{%d}" if mesh.uvs is not None else "", "{%d}" if mesh.normals is not None else "")
+            corner = "/".join(indices).rstrip("/")
+            form = "f " + " ".join(corner.replace("%d", str(place)) for place in range(3)) + "\n"
             obj.writelines(form.format(*(face + 1)) for face in mesh.faces)
         indices = accessor(mesh.faces.astype(np.uint32).reshape(-1), 5125, "SCALAR")
         entries.append({"primitives": [{"attributes": attributes, "indices": indices, "material": number}]})
@@ -137,7 +161,8 @@ class Rasray:
     def render(self, scene, output, size, samples, seed=1, sampler="sobol"):
         """Linear RGB; this and its like of the other renderers."""
         command = [self.command, "render", scene.path, "--quiet", "--output", output, "--size", f"{size}x{size}"]
-        command += ["--spp", samples, "--seed", seed, "--sampler", sampler, "--bounces", scene.bounces]
+        command += ["--spp", samples, "--seed", seed, "--sampler", sampler]
+        command += scene.options or ["--bounces", scene.bounces]
         command += ["--eye", "{},{},{}".format(*scene.eye), "--target", "{},{},{}".format(*scene.target)]
         command += ["--fov", scene.fov, "--environment", f"{scene.sky},{scene.sky},{scene.sky}"]
         command += ["--aperture", scene.aperture]
@@ -214,7 +239,7 @@ class Mitsuba:
         if scene.sky > 0.0:
             world["sky"] = {"type": "constant", "radiance": scene.sky}
         for number, mesh in enumerate(scene.meshes):
-            path = scene.path.with_name(f"{scene.name}-{number}.obj")
+            path = scene.path.with_name(f"{scene.path.stem}-{number}.obj")
             shape = {"type": "obj", "filename": str(path), "face_normals": mesh.normals is None}
             world[f"mesh{number}"] = shape | {"bsdf": mesh.material.mitsuba()}
             if max(mesh.material.emission) > 0.0:
@@ -293,6 +318,38 @@ def lens(folder):
     return write_scene("lens", folder, meshes, aperture=0.4, **view)
 
 
+def tree(folder):
+    """A ball and a slab of glass before panels that send light and reflect none: trees hold all light there is."""
+    glow = [Material((0.0, 0.0, 0.0), emission=color) for color in ((1.0, 0.8, 0.5), (0.1, 0.2, 0.4))]
+    squares = [[], []]
+    for column, line in ((x, y) for x in range(-6, 6) for y in range(-6, 6)):
+        corners = [(column, line), (column + 1, line), (column + 1, line + 1), (column, line + 1)]
+        squares[(column + line) % 2] += [(x, y, -3) for x, y in corners]
+    meshes = [quads(corners, material) for corners, material in zip(squares, glow)]
+    clear = Material(roughness=0.0, specular=1.0, glass=True)
+    meshes.append(ball((-1.2, 0.0, 0.0), 1.0, clear, 128))
+    meshes.append(slab((1.3, 0.0, 0.0), (1.0, 1.0, 0.15), 0.8, clear))
+    view = {"eye": (0, 0.4, 6), "target": (0, 0, 0), "fov": 38, "sky": 0.3, "bounces": 8}
+    return write_scene("tree", folder, meshes, options=TREES, **view)
+
+
+def brushed(folder):
+    """A plate of white brushed metal, three times as rough along x, under a row of small lamps."""
+    metal = Material(metallic=1.0, roughness=0.2, specular=1.0, anisotropy=0.3)
+    uvs = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], np.float32)
+    meshes = [quads([(-4, 0, 4), (4, 0, 4), (4, 0, -4), (-4, 0, -4)], metal)._replace(uvs=uvs)]
+    lamp = Material((0.0, 0.0, 0.0), emission=(3.0, 2.5, 2.0))
+    meshes += [ball((x, 1.2, -1.0), 0.4, lamp, 16) for x in (-2.0, 0.0, 2.0)]
+    view = {"eye": (0, 2.2, 6), "target": (0, 0.3, 0), "fov": 40, "sky": 0.2, "bounces": 4}
+    return write_scene("brushed", folder, meshes, options=("--bounces", 4), **view)
+
+
+def adapting(scene):
+    """The same with samples by noise."""
+    options = ("--bounces", scene.bounces, "--adaptive", 0.2)
+    return scene._replace(name=scene.name + "-adaptive", options=options)
+
+
 def sheets(folder, count, name, color):
     """A stack of sheets with the alpha 0.3 over a floor, under a sky; scatterings without end."""
     meshes = [quads([(-4, 0, 4), (4, 0, 4), (4, 0, -4), (-4, 0, -4)], Material((0.6, 0.5, 0.3)))]
@@ -356,13 +413,42 @@ def leaning(renderers, folder, _):
         row(lean, view, f"{(1 + up) / 2:.4f}", *(f"{mean:.4f}" for mean in means))
 
 
+def slabs(renderers, folder, _):
+    """Share of the light behind a slab of glass that goes through, (1 - R) / (1 + R) after all reflections inside."""
+    for angle in (0, 30, 45, 60, 75):
+        cosine, within = math.cos(math.radians(angle)), math.sqrt(1.0 - (math.sin(math.radians(angle)) / 1.5) ** 2)
+        polarised = [(a - b) / (a + b) for a, b in ((cosine, 1.5 * within), (1.5 * cosine, within))]
+        reflected = (0.04 + 0.96 * (1.0 - cosine) ** 5, sum(share**2 for share in polarised) / 2)
+        panel = [(-2, -2, -9), (2, -2, -9), (2, 2, -9), (-2, 2, -9)]
+        meshes = [quads(panel, Material((0.0, 0.0, 0.0), emission=(1.0, 1.0, 1.0)))]
+        clear = Material(roughness=0.0, specular=1.0, glass=True)
+        meshes.append(slab((0, 0, 0), (3.0, 3.0, 0.05), math.radians(angle), clear))
+        view = {"eye": (0, 0, 6), "target": (0, 0, 0), "fov": 1, "bounces": 8}
+        scene = write_scene("slab", folder, meshes, options=TREES, **view)
+        means = [(side.render(scene, folder / "s.exr", 8, 1024) @ LUMINANCE).mean() for side in renderers]
+        row(angle, *(f"{value:.4f}" for value in [(1 - share) / (1 + share) for share in reflected] + means))
+
+
+def plates(renderers, folder, _):
+    """Share of a white sky that white brushed metal of roughness 0.2 sends on, seen under 60 degrees; 1."""
+    uvs = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], np.float32)
+    for strength, way in ((strength, way) for strength in (0.3, 0.6, 1.0) for way in ("rougher", "smoother")):
+        metal = Material(metallic=1.0, roughness=0.2, specular=1.0, anisotropy=strength)
+        square = quads([(-1, 0, 1), (1, 0, 1), (1, 0, -1), (-1, 0, -1)], metal)._replace(uvs=uvs)
+        eye = (2.6, 1.5, 0.001) if way == "rougher" else (0.001, 1.5, 2.6)
+        scene = write_scene("plate", folder, [square], eye=eye, target=(0, 0, 0), fov=2, sky=1.0, bounces=1)
+        means = [(side.render(scene, folder / "p.exr", 8, 1024) @ LUMINANCE).mean() for side in renderers]
+        row(strength, f"along the {way} direction", *(f"{mean:.4f}" for mean in means))
+
+
 def main():
     """Makes scenes and prints tables."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rasray", required=True, help="the command")
     parser.add_argument("--scenes", required=True, type=Path, help="folder of the real scenes")
     parser.add_argument("--output", type=Path, default=Path("comparison"), help="folder for pictures [%(default)s]")
-    parser.add_argument("--tables", default="measure,variance,furnace,leaning", help="which to make [%(default)s]")
+    tables = "measure,variance,furnace,leaning,slabs,plates"
+    parser.add_argument("--tables", default=tables, help="which to make [%(default)s]")
     parser.add_argument("--against", default="cycles,mitsuba", help="which renderers [%(default)s]")
     parser.add_argument("--only", help="names of scenes and kinds of balls, with commas between them [all]")
     parser.add_argument("--size", type=int, default=128, help="pixels along each side [%(default)s]")
@@ -382,7 +468,8 @@ def main():
         parser.error("Cycles needs the package bpy; without it --against mitsuba")
     sides = [Rasray()] + [side() for side in (Cycles, Mitsuba) if side.__name__.lower() in against]
     print(f"Mitsuba {mi.__version__}", f"Blender {bpy.app.version_string}" if bpy else "no Blender", sep=", ")
-    scenes = [cornell(folder), glass(folder), lamps(folder), lens(folder)]
+    scenes = [cornell(folder), glass(folder), lamps(folder), lens(folder), tree(folder), brushed(folder)]
+    scenes += [adapting(scene) for scene in scenes[:2]]
     colors = {"white": (0.8, 0.8, 0.8), "red": (0.8, 0.1, 0.1)}
     scenes += [sheets(folder, count, name, color) for name, color in colors.items() for count in (1, 5, 20)]
     for name, path, eye, target, fov, sky in (
@@ -397,13 +484,14 @@ def main():
     only = options.only.split(",") if options.only else []
     for scene in [item for item in scenes if not only or item.name in only]:
         able = [side for side in sides if scene.meshes or not isinstance(side, Mitsuba)]
-        # Lenses are compared with Mitsuba alone.
-        able = [side for side in able if scene.aperture == 0.0 or not isinstance(side, Cycles)]
+        # Lenses and what is not paths alone are compared with Mitsuba only.
+        is_plain = scene.aperture == 0.0 and not scene.options
+        able = [side for side in able if is_plain or not isinstance(side, Cycles)]
         if "measure" in options.tables:
             measure(scene, able, folder, options.size, options.samples)
         if "variance" in options.tables:
             variance(scene, able, folder, options.seeds)
-    for make in [make for make in (furnace, leaning) if make.__name__ in options.tables]:
+    for make in [make for make in (furnace, leaning, slabs, plates) if make.__name__ in options.tables]:
         make(sides, folder, only)
 
 
