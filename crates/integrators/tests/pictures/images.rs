@@ -4,6 +4,7 @@ use crate::pictures::common::*;
 use glam::DVec3;
 use rasray_ads::Ray;
 use rasray_gpu_scene::ShadingFeatures;
+use rasray_gpu_scene::layout::EmissiveTriangle;
 use rasray_integrators::{
     AmbientOcclusion, AovPass, Film, Integrator, IntegratorError, Path, Raycast, Wave, waves,
 };
@@ -280,16 +281,32 @@ fn shadow_rays_say_which_light_they_lead_to() {
     let queue = path.queues()[1];
     let rays: Vec<Ray> =
         device.download_as(queue.rays(), 0, queue.capacity() as usize).expect("they can be read");
-    let mut found = [0; 3];
+    let emitters: Vec<EmissiveTriangle> = device
+        .download_as(&stage.scene.posed_buffers().emissive, 0, stage.scene.emitter_count() as usize)
+        .expect("they can be read");
+    let (positions, indices) = stage.scene.geometry().download(&device).expect("they can be read");
+    let corner = |index: u32| DVec3::from(positions[index as usize].map(f64::from));
+    let lamps: Vec<_> = emitters
+        .iter()
+        .map(|emitter| [0, 1, 2].map(|k| corner(indices[3 * emitter.primitive as usize + k])))
+        .collect();
+    let mut found = vec![0; places.len() + lamps.len()];
     for ray in rays.iter().filter(|ray| ray.t_max >= 0.0) {
         let end = DVec3::from(ray.origin.map(f64::from))
             + DVec3::from(ray.direction.map(f64::from)) * f64::from(ray.t_max);
-        match ray.light() {
-            Some(light) => assert!(end.distance(places[light as usize]) < 1e-3, "{light}: {end}"),
-            // The lamp under the ceiling.
-            None => assert!((end.y - 0.98).abs() < 1e-3, "{end}"),
+        let light = ray.light().expect("nothing shines from afar") as usize;
+        if light < places.len() {
+            assert!(end.distance(places[light]) < 1e-3, "{light}: {end}");
+        } else {
+            // Of the lamp under the ceiling: no part of the triangle is on the far side of an edge.
+            let [a, b, c] = lamps[light - places.len()];
+            let normal = (b - a).cross(c - a);
+            let areas = [(a, b), (b, c), (c, a)].map(|(p, q)| (q - p).cross(end - p).dot(normal));
+            let least = -1e-3 * normal.length_squared();
+            assert!(areas.iter().all(|&area| area > least), "{light}: {end}");
+            assert!((end.y - 0.98).abs() < 1e-3, "{end}");
         }
-        found[ray.light().map_or(2, |light| light as usize)] += 1;
+        found[light] += 1;
     }
     assert!(found.iter().all(|&count| count > 10), "{found:?}");
     assert_silent(&device);
