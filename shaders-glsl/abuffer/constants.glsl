@@ -25,6 +25,11 @@
 // The number of the camera's view, behind the faces and SEGMENT_NEAR.
 #define ABUFFER_CAMERA 7u
 
+// Where a ray passes from one view to the next: at the sides of their pyramids, or half a cell inside of one view
+// to half a cell outside of it.
+#define ABUFFER_SWITCH_EXACT 0u
+#define ABUFFER_SWITCH_SNAP 1u
+
 // When a fragment counts as hit.
 #define ABUFFER_ACCEPT_INTERVAL 0u
 #define ABUFFER_ACCEPT_THICKNESS 1u

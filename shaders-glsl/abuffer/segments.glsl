@@ -1,7 +1,7 @@
 // What: the segments of a ray, in order: those in the camera's view, then those in the faces of the cube.
 // Reads: header. Writes: nothing.
 // Source: MMRT section 3.4. Every view that sees a segment is marched and the nearest hit counts. The camera
-// comes first: a hit there ends the traversal of the faces early.
+// comes first: a hit there ends the traversal of the faces early. With ABUFFER_SNAPS views are switched as published.
 #ifndef ABUFFER_SEGMENTS_GLSL
 #define ABUFFER_SEGMENTS_GLSL
 
@@ -30,13 +30,16 @@ AbufferProgress abuffer_progress_begin(vec2 clip) {
     return AbufferProgress(ABUFFER_HAS_CAMERA ? ABUFFER_STAGE_BEFORE : ABUFFER_STAGE_FACES, clip.x);
 }
 
-// The part of `clip` in which the ray lies in the camera's pyramid; empty if x > y.
-vec2 abuffer_camera_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 clip) {
-    vec3 o = abuffer_view_from_world(s, origin, ABUFFER_CAMERA);
-    vec3 d = abuffer_view_from_world(s, direction, ABUFFER_CAMERA);
+// The part of `clip` in which the ray lies in a view's pyramid; empty if x > y. `wider`: by how many cells the pyramid
+// is taken wider than it is, half of them on each side.
+vec2 abuffer_pyramid_interval(AbufferRef s, uint view, vec3 origin, vec3 direction, vec2 clip, int wider) {
+    vec3 o = abuffer_view_from_world(s, origin, view);
+    vec3 d = abuffer_view_from_world(s, direction, view);
     vec2 interval = clip;
     // x/z and y/z at the pyramid's sides.
-    vec2 ends = vec2(abuffer_camera_cells(s)) / float(abuffer_resolution(s, ABUFFER_CAMERA));
+    uint resolution = abuffer_resolution(s, view);
+    ivec2 cells = view == ABUFFER_CAMERA ? abuffer_camera_cells(s) : ivec2(resolution);
+    vec2 ends = vec2(cells + wider) / float(resolution);
     for (int side = 0; side < 4; side++) {
         float turn = (side & 1) != 0 ? -1.0 : 1.0;
         float end = side < 2 ? ends.x : ends.y;
@@ -62,17 +65,71 @@ vec2 abuffer_stage_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near
     if (stage == ABUFFER_STAGE_BEHIND && !has_near) {
         return vec2(1.0, 0.0);
     }
-    vec2 interval = abuffer_camera_interval(s, origin, direction, clip);
+    vec2 interval = abuffer_pyramid_interval(s, ABUFFER_CAMERA, origin, direction, clip, 0);
     if (has_near) {
         return stage == ABUFFER_STAGE_BEFORE ? vec2(interval.x, min(interval.y, near.x)) : vec2(max(interval.x, near.y), interval.y);
     }
     return interval;
 }
 
+// The view in which a ray goes on at t, or SEGMENT_NEAR; ABUFFER_IN_FACES where there is none.
+uint abuffer_view_at(AbufferRef s, vec3 origin, vec3 direction, vec2 near, float t, uint stage) {
+    if (near.x <= t && t < near.y) {
+        return SEGMENT_NEAR;
+    }
+    if (ABUFFER_HAS_CAMERA && stage == ABUFFER_STAGE_BEFORE) {
+        vec2 seen = abuffer_pyramid_interval(s, ABUFFER_CAMERA, origin, direction, vec2(t), 0);
+        if (seen.x <= seen.y) {
+            return ABUFFER_CAMERA;
+        }
+    }
+    return ABUFFER_HAS_CUBE ? face_of(origin + t * direction) : ABUFFER_IN_FACES;
+}
+
+// Where a ray goes on that has been followed through a view up to `end`: half a cell outside of the view, or where the
+// near region begins before that.
+float abuffer_snapped(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, uint view, float end) {
+    if (view == SEGMENT_NEAR || !(end < clip.y)) {
+        return end;
+    }
+    vec2 outside = abuffer_pyramid_interval(s, view, origin, direction, vec2(end, clip.y), 1);
+    bool near_ahead = near.x <= near.y && near.x >= end;
+    return max(end, near_ahead ? min(outside.y, near.x) : outside.y);
+}
+
+// As abuffer_next_interval, where a ray is searched in one view at a time: the camera's where that sees its start or
+// where it leaves the near region, then the faces that it passes. A view ends half a cell before its side.
+bool abuffer_next_snapped_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
+    inout AbufferProgress progress, out vec2 ends, out uint view) {
+    for (uint segments = 0u; segments < ABUFFER_SEGMENT_LIMIT; segments++) {
+        float t = progress.t;
+        view = abuffer_view_at(s, origin, direction, near, t, progress.stage);
+        if (!(t < clip.y) || t > best || view == ABUFFER_IN_FACES) {
+            trace_log(STEP_SKIP, t > best ? SKIP_BEHIND : SKIP_BOUNDS, 0u, 0u, t, clip.y);
+            return false;
+        }
+        float end = near.y;
+        if (view != SEGMENT_NEAR) {
+            end = abuffer_pyramid_interval(s, view, origin, direction, vec2(t, clip.y), -1).y;
+            end = near.x <= near.y && near.x > t ? min(end, near.x) : end;
+        }
+        ends = vec2(t, max(t, min(end, clip.y)));
+        progress.stage = view == SEGMENT_NEAR ? ABUFFER_STAGE_BEFORE : ABUFFER_STAGE_FACES;
+        progress.t = abuffer_snapped(s, origin, direction, near, clip, view, ends.y);
+        if (ends.x < ends.y) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // The next segment that may hold something nearer than `best`: its ends and its view, or ABUFFER_IN_FACES where the
 // face is still to be found and the segment ends with it; false where none is left.
 bool abuffer_next_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
     inout AbufferProgress progress, out vec2 ends, out uint view) {
+    if (ABUFFER_SNAPS) {
+        return abuffer_next_snapped_interval(s, origin, direction, near, clip, best, progress, ends, view);
+    }
     view = ABUFFER_IN_FACES;
     while (progress.stage < ABUFFER_STAGE_FACES) {
         uint stage = progress.stage++;

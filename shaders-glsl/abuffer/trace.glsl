@@ -35,6 +35,9 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
         uint view;
         if (restored) {
             abuffer_restore_progress(state, clip, traversal.progress, ends, view);
+            if (ABUFFER_SNAPS) {
+                traversal.progress.t = abuffer_snapped(s, origin, direction, near, clip, view, ends.y);
+            }
         } else if (!abuffer_next_interval(s, origin, direction, near, clip, state.best.t + slack, traversal.progress,
             ends, view)) {
             // Nothing behind the best hit can be nearer.

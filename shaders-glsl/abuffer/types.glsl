@@ -24,6 +24,7 @@ layout(constant_id = 21) const uint ABUFFER_SINGLE_LAYER = 0u;
 layout(constant_id = 22) const uint ABUFFER_IDS = 0u;
 // Whether each ray places its samples at an offset of its own within their steps.
 layout(constant_id = 23) const uint ABUFFER_JITTER = 0u;
+layout(constant_id = 24) const uint ABUFFER_VIEW_SWITCHING = ABUFFER_SWITCH_EXACT;
 
 // How rays step and what they test, ABUFFER_STEP_* and ABUFFER_TEST_*. Each is most of a trace's code, so modules that
 // trace are compiled once for each (permutations.txt); elsewhere the options decide.
@@ -49,6 +50,9 @@ const bool ABUFFER_HAS_CONSERVATIVE = ABUFFER_CONSERVATIVE || ABUFFER_EDGE_ON;
 
 // Whether rays visit the cells that they cross; else they are sampled.
 const bool ABUFFER_FOLLOWS_CELLS = ABUFFER_STEP != ABUFFER_STEP_SAMPLES;
+
+// Whether a ray passes from view to view as published.
+const bool ABUFFER_SNAPS = ABUFFER_VIEW_SWITCHING == ABUFFER_SWITCH_SNAP;
 
 // Which views there are.
 const bool ABUFFER_HAS_CUBE = (ABUFFER_VIEWS & ABUFFER_VIEWS_CUBE) != 0u;

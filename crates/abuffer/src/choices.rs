@@ -185,6 +185,38 @@ impl Views {
     }
 }
 
+/// How a ray passes from one view to the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ViewSwitching {
+    /// At the sides of the views' pyramids, which leave nothing out; every view that sees a part of the ray is searched
+    /// over it.
+    Exact,
+    /// The paper's: each part of a ray is searched in one view at most. A view ends half a cell before its side, and the
+    /// ray goes on half a cell behind it, in the face that it is in there. The camera's view is searched only from the
+    /// start of a ray that it sees.
+    Snap,
+}
+
+impl ViewSwitching {
+    /// Every choice.
+    pub const ALL: [Self; 2] = [Self::Exact, Self::Snap];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Snap => "snap",
+        }
+    }
+
+    pub(crate) fn number(self) -> u32 {
+        match self {
+            Self::Exact => numbers::ABUFFER_SWITCH_EXACT,
+            Self::Snap => numbers::ABUFFER_SWITCH_SNAP,
+        }
+    }
+}
+
 /// How the fragments of a cell are kept (MMRT table 2). Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {

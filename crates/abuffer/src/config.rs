@@ -3,7 +3,7 @@
 use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::abuffer as ids;
 
-use crate::{Accept, Coverage, March, Payload, Storage, Views};
+use crate::{Accept, Coverage, March, Payload, Storage, ViewSwitching, Views};
 
 /// All options.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +16,8 @@ pub struct Config {
     /// other odd, the smaller one is increased by one ([`Config::camera_cells`]), so that the cells lie evenly around
     /// the axis.
     pub camera_resolution: [u32; 2],
+    /// How rays pass from view to view.
+    pub view_switching: ViewSwitching,
     /// How a cell's fragments are kept. Changes no hit.
     pub storage: Storage,
     /// Payload within the nodes instead of in a pool of its own. Changes no hit.
@@ -75,6 +77,7 @@ impl Config {
             resolution,
             views: Views::Cube,
             camera_resolution: [resolution; 2],
+            view_switching: ViewSwitching::Exact,
             storage: Storage::Dllb,
             inline: false,
             page: 4,
@@ -99,10 +102,11 @@ impl Config {
     }
 
     /// The paper's approximations: 100 samples per face with a jitter per ray, fragments as voxels of one thickness,
-    /// quantised attributes, the rasterizer's own coverage. The paper has a view of its camera as well: [`Views::CubeCamera`] with
+    /// quantised attributes, the rasterizer's own coverage, rays that are snapped from view to view. The paper has a view of its camera as well: [`Views::CubeCamera`] with
     /// the columns and rows of the image, where builds are told of a camera.
     pub fn published(resolution: u32) -> Self {
         Self {
+            view_switching: ViewSwitching::Snap,
             march: March::Samples,
             jitter: true,
             accept: Accept::Thickness,
@@ -183,7 +187,10 @@ impl Config {
     /// Whether every hit equals that of brute force: cells keep every triangle that reaches into them, and rays
     /// visit every cell that they cross, all around the eye.
     pub fn is_exact(&self) -> bool {
-        self.tests_triangles() && matches!(self.march, March::Exact | March::Pyramid) && self.views.has_cube()
+        self.tests_triangles()
+            && matches!(self.march, March::Exact | March::Pyramid)
+            && self.views.has_cube()
+            && self.view_switching == ViewSwitching::Exact
     }
 
     /// Columns and rows of the camera's view, both even or both odd; border not counted.
@@ -267,6 +274,7 @@ impl Config {
             (ids::ABUFFER_SINGLE_LAYER, u32::from(self.single_layer)),
             (ids::ABUFFER_IDS, u32::from(self.ids)),
             (ids::ABUFFER_JITTER, u32::from(self.jitter)),
+            (ids::ABUFFER_VIEW_SWITCHING, self.view_switching.number()),
         ]
     }
 
@@ -283,6 +291,7 @@ impl Config {
             ("payload", self.payload.name().to_owned()),
             ("single-layer", switch(self.single_layer)),
             ("views", self.views.name().to_owned()),
+            ("view-switching", self.view_switching.name().to_owned()),
             ("sort", switch(self.sort)),
             ("skip", switch(self.skip)),
         ];

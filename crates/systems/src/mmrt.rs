@@ -1,6 +1,8 @@
 //! MMRT: the A-buffer with the paper's presets.
 
-use rasray_abuffer::{ABuffer, Accept, Builder, Config, Coverage, March, Payload, Storage, Views};
+use rasray_abuffer::{
+    ABuffer, Accept, Builder, Config, Coverage, March, Payload, Storage, ViewSwitching, Views,
+};
 
 use crate::given::{Given, Setter, names};
 use crate::{PaperFrame, Preset, Spec, System, SystemsError};
@@ -50,6 +52,11 @@ const OPTIONS: &[Setter<Config>] = &[
     ("page", |config, given| given.whole().map(|value| config.page = value)),
     ("views", |config, given| {
         given.choice(&Views::ALL.map(|views| (views.name(), views))).map(|value| config.views = value)
+    }),
+    ("view-switching", |config, given| {
+        given
+            .choice(&ViewSwitching::ALL.map(|switching| (switching.name(), switching)))
+            .map(|value| config.view_switching = value)
     }),
     ("camera-resolution", |config, given| given.cells().map(|value| config.camera_resolution = value)),
     ("ids", |config, given| given.switch().map(|value| config.ids = value)),

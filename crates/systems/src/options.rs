@@ -135,6 +135,20 @@ pub const OPTIONS: &[StructureOption] = &[
         ),
     ),
     words(
+        "view-switching",
+        Method,
+        MayChange,
+        &[
+            ("exact", "At the side of a view; every view that sees a part of the ray is searched over it"),
+            (
+                "snap",
+                "From half a cell inside of a view to half a cell outside; each part of the ray is searched in one view at \
+                 most",
+            ),
+        ],
+        "Where a ray passes from one view to the next",
+    ),
+    words(
         "storage",
         Method,
         Same,

@@ -3,6 +3,7 @@ use super::{Curve, Deviation, Law};
 const THIN: &str = "thinner than a cell, so that no cell's centre is covered";
 const EDGE_ON: &str = "its plane holds the eye or nearly so, so that few cells' centres are covered or none";
 const HALF_OPEN: &str = "a sample counts only if its depth lies in the half-open interval of a step, so that rays pass between the samples of surfaces that face them obliquely";
+const SNAPPED: &str = "along the seams of the cube's faces, where rays that pass from one to the next are searched in neither";
 const THICK: &str = "fragments are voxels of one thickness: rays hit the one in front before what lies closely behind it, or where they pass behind it";
 const BORDER: &str = "triangles of few cells, whose borders are a cell wide";
 const SHELL: &str = "both sides of the shell lie within one step";
@@ -193,13 +194,17 @@ pub(super) const PUBLISHED_128: &[Deviation] = &[
     deviation("V15-vertex", HALF_OPEN, 0.094, 0.147),
     deviation("V16", THIN, 0.99, 1.0),
     deviation("V8", HALF_OPEN, 0.057, 0.091),
+    deviation("E5", SNAPPED, 0.99, 1.0),
+    deviation("V5", SNAPPED, 0.55, 0.861),
+    deviation("V6", SNAPPED, 0.028, 0.045),
+    deviation("V7", SNAPPED, 0.418, 0.654),
     deviation("Z11-5", SHELL, 0.602, 0.94),
     deviation("Z11-6", SHELL, 0.99, 1.0),
     deviation("C4", BORDER, 0.085, 0.134),
     deviation("C5", BORDER, 0.395, 0.619),
     deviation("P5", LEAVING, 0.333, 0.521),
     deviation("X1", HALF_OPEN, 0.661, 1.0),
-    deviation("X2", HALF_OPEN, 0.54, 0.852),
+    deviation("X2", HALF_OPEN, 0.357, 0.558),
     deviation("X3", HALF_OPEN, 0.243, 0.383),
     deviation("X6", HALF_OPEN, 0.099, 0.155),
     deviation("X7", HALF_OPEN, 0.059, 0.092),

@@ -8,4 +8,5 @@ mod layers;
 mod lists;
 mod lost;
 mod planes;
+mod switching;
 mod views;
