@@ -8,21 +8,22 @@
 #include "ads/bucket.glsl"
 #include "ldc/accessors.glsl"
 
-// Cells along a side of a block of a level.
-uint ldc_block_cells(uint level) {
-    return level == 0u ? LDC_BLOCK : LDC_BLOCK * LDC_LEVEL_BLOCKS;
+// Columns and rows of cells of a block of a level.
+ivec2 ldc_block_cells(uint level) {
+    return ivec2(LDC_BLOCK_COLUMNS, LDC_BLOCK_ROWS) * int(level == 0u ? 1u : LDC_LEVEL_BLOCKS);
 }
 
-// Blocks of a level along a side of a view; the last ones may reach beyond its cells.
-uint ldc_blocks_a_side(uint resolution, uint level) {
-    return (resolution + ldc_block_cells(level) - 1u) / ldc_block_cells(level);
+// Columns and rows of blocks of a level in a view; the last ones may reach beyond its cells.
+ivec2 ldc_view_blocks(uint resolution, uint level) {
+    return (int(resolution) + ldc_block_cells(level) - 1) / ldc_block_cells(level);
 }
 
 // Running index of a block; those of the second level follow the others.
 uint ldc_block(uint resolution, uint level, uint axis, ivec2 block) {
-    uint side = ldc_blocks_a_side(resolution, 0u);
-    uint before = level == 0u ? 0u : AXIS_VIEWS * side * side;
-    return before + axis_cell_index(axis, block, ldc_blocks_a_side(resolution, level));
+    ivec2 first = ldc_view_blocks(resolution, 0u);
+    ivec2 blocks = ldc_view_blocks(resolution, level);
+    uint before = level == 0u ? 0u : AXIS_VIEWS * uint(first.x * first.y);
+    return before + uint((int(axis) * blocks.y + block.y) * blocks.x + block.x);
 }
 
 // Words of a block.
@@ -55,7 +56,7 @@ void ldc_widen_blocks(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high
     uvec2 slices = LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? ldc_slices(LDC_HEADER(s).slices_per_metre, z_low, z_high)
         : uvec2(0u);
     for (uint level = 0u; level < LDC_LEVELS; level++) {
-        uint word = ldc_block_stride() * ldc_block(resolution, level, axis, cell / int(ldc_block_cells(level)));
+        uint word = ldc_block_stride() * ldc_block(resolution, level, axis, cell / ldc_block_cells(level));
         for (uint side = 0u; side < 2u; side++) {
             if (LDC_BLOCKS(s)[word + side] < ends[side]) {
                 atomicMax(LDC_BLOCKS(s)[word + side], ends[side]);

@@ -17,7 +17,7 @@ struct LdcFlatRay {
 
 // The squares of a traversal, along columns and along rows.
 struct LdcArea {
-    float width;          // cells
+    vec2 width;           // of a square, cells
     ivec2 first;
     ivec2 last;
 };
@@ -45,8 +45,8 @@ LdcFlatRay ldc_flat_ray(vec2 origin, vec2 direction) {
 }
 
 // The area from one square to another one.
-LdcArea ldc_area(LdcFlatRay ray, float width, ivec2 first, ivec2 last) {
-    return LdcArea(width, ray.turned ? first.yx : first, ray.turned ? last.yx : last);
+LdcArea ldc_area(LdcFlatRay ray, vec2 width, ivec2 first, ivec2 last) {
+    return LdcArea(ray.turned ? width.yx : width, ray.turned ? first.yx : first, ray.turned ? last.yx : last);
 }
 
 // The first and last square along a side (0: columns, 1: rows) that the ray touches between two t, within rounding.
@@ -54,7 +54,7 @@ ivec2 ldc_touched(LdcFlatRay ray, LdcArea area, int side, vec2 t) {
     float origin = ray.origin[side];
     vec2 moved = ray.direction[side] == 0.0 ? vec2(0.0) : t * ray.direction[side];
     float guard = 9.6e-7 * (abs(origin) + max(abs(moved.x), abs(moved.y)));
-    vec2 ends = vec2(origin + min(moved.x, moved.y) - guard, origin + max(moved.x, moved.y) + guard) / area.width;
+    vec2 ends = vec2(origin + min(moved.x, moved.y) - guard, origin + max(moved.x, moved.y) + guard) / area.width[side];
     // Clamped as floats: what does not fit into an integer cannot be converted.
     ivec2 squares = ivec2(floor(clamp(ends, vec2(-1.0), vec2(float(area.last[side] + 1)))));
     return ivec2(max(squares.x, area.first[side]), min(squares.y, area.last[side]));
@@ -64,8 +64,8 @@ ivec2 ldc_touched(LdcFlatRay ray, LdcArea area, int side, vec2 t) {
 void ldc_enter_column(LdcFlatRay ray, inout LdcMarch march) {
     vec2 t = march.t;
     if (ray.inverse != 0.0) {
-        float from = (float(march.column) * march.area.width - ray.origin.x) * ray.inverse;
-        float to = (float(march.column + 1) * march.area.width - ray.origin.x) * ray.inverse;
+        float from = (float(march.column) * march.area.width.x - ray.origin.x) * ray.inverse;
+        float to = (float(march.column + 1) * march.area.width.x - ray.origin.x) * ray.inverse;
         float slack = 6.0e-8 * (8.0 * max(abs(from), abs(to)) + 2.0 * abs(ray.origin.x * ray.inverse));
         t = vec2(max(t.x, min(from, to) - slack), min(t.y, max(from, to) + slack));
     }

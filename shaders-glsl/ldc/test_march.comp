@@ -23,7 +23,7 @@ layout(push_constant, scalar) uniform SquareMarchTestConstants {
 
 void traverse(uint index, Ray ray, bool stopped) {
     LdcFlatRay flat_ray = ldc_flat_ray(ray.origin.xy, ray.direction.xy);
-    LdcArea area = ldc_area(flat_ray, 1.0, ivec2(pushed.first), ivec2(pushed.last));
+    LdcArea area = ldc_area(flat_ray, vec2(1.0), ivec2(pushed.first), ivec2(pushed.last));
     vec2 t = vec2(ray.t_min, ray.t_max);
     LdcMarch march;
     bool more = ldc_march_begin(flat_ray, area, t, march);

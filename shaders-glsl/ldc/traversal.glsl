@@ -81,8 +81,8 @@ vec2 ldc_square_interval(LdcTraversal traversal, ivec2 lower, ivec2 upper) {
 }
 
 vec2 ldc_block_interval(LdcTraversal traversal, uint level, ivec2 block) {
-    int side = int(ldc_block_cells(level));
-    return ldc_square_interval(traversal, block * side, (block + 1) * side);
+    ivec2 cells = ldc_block_cells(level);
+    return ldc_square_interval(traversal, block * cells, (block + 1) * cells);
 }
 
 // Whether nothing in a segment that begins at t_low, or later on the way, can be nearer than the best hit. What comes
@@ -95,17 +95,16 @@ bool ldc_is_behind(LdcTraversal traversal, float t_low, float best_t) {
 // all of the view; false where the segment has none. Squares that it touches outside of the block belong to blocks
 // that are traversed as well.
 bool ldc_begin_level(LdcTraversal traversal, uint level, bool within, ivec2 block, vec2 interval, out LdcMarch march) {
-    int width = level == 2u ? 1 : int(ldc_block_cells(level));
+    ivec2 widths = level == 2u ? ivec2(1) : ldc_block_cells(level);
     ivec2 first = ivec2(0);
-    ivec2 last = ivec2(int(level == 2u ? traversal.sizes.resolution : ldc_blocks_a_side(traversal.sizes.resolution,
-        level)) - 1);
+    ivec2 last = (level == 2u ? ivec2(traversal.sizes.resolution) : ldc_view_blocks(traversal.sizes.resolution, level)) - 1;
     if (within) {
-        int inside = int(level == 2u ? LDC_BLOCK : LDC_LEVEL_BLOCKS);
+        ivec2 inside = level == 2u ? ldc_block_cells(0u) : ivec2(LDC_LEVEL_BLOCKS);
         first = block * inside;
         last = min(last, first + inside - 1);
     }
     vec2 t = vec2(max(interval.x, traversal.t_begin), min(interval.y, traversal.t_end));
-    return ldc_march_begin(traversal.flat_ray, ldc_area(traversal.flat_ray, float(width), first, last), t, march);
+    return ldc_march_begin(traversal.flat_ray, ldc_area(traversal.flat_ray, vec2(widths), first, last), t, march);
 }
 
 // Whether the depths in a block overlap those of the ray in its segment.

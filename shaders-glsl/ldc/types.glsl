@@ -14,7 +14,7 @@ layout(constant_id = 50) const uint LDC_ACCEPT = LDC_ACCEPT_PLANE;
 layout(constant_id = 51) const uint LDC_COVERAGE = LDC_COVERAGE_CONSERVATIVE;
 layout(constant_id = 52) const uint LDC_DEPTH_BITS = 32u;
 layout(constant_id = 53) const uint LDC_SKIP = 1u;
-layout(constant_id = 54) const uint LDC_BLOCK = 8u;
+layout(constant_id = 54) const uint LDC_BLOCK_COLUMNS = 8u;
 layout(constant_id = 55) const uint LDC_OCCUPANCY = LDC_OCCUPANCY_SLICES;
 layout(constant_id = 56) const uint LDC_LEVELS = 2u;
 layout(constant_id = 57) const uint LDC_BUILD = LDC_BUILD_SINGLE;
@@ -25,6 +25,7 @@ layout(constant_id = 59) const uint LDC_IDS = 0u;
 layout(constant_id = 60) const uint LDC_ENDS = ENDS_TOUCHING;
 // How often a pass draws the scene: once for all views, or once for each of the three.
 layout(constant_id = 61) const uint LDC_PASSES = 1u;
+layout(constant_id = 62) const uint LDC_BLOCK_ROWS = 8u;
 
 // State and sizes of a layered depth cube. 188 bytes.
 struct LdcHeader {

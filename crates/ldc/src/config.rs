@@ -69,8 +69,8 @@ pub enum Payload {
 pub struct Config {
     /// Cells along a side of each view, 1 to 8192.
     pub resolution: u32,
-    /// Cells along a side of a block, a power of two up to 64. Changes no hit.
-    pub block: u32,
+    /// Columns and rows of cells in a block, powers of two up to 64. Changes no hit.
+    pub block: [u32; 2],
     /// Levels of blocks, 1 or 2; those of the second hold 8 x 8 of the first. Changes no hit.
     pub levels: u32,
     /// What blocks say of the depths in them. Changes no hit.
@@ -118,7 +118,7 @@ impl Config {
     pub fn robust(resolution: u32) -> Self {
         Self {
             resolution,
-            block: 8,
+            block: [8; 2],
             levels: 2,
             occupancy: Occupancy::Slices,
             making: Making::Single,
@@ -161,8 +161,8 @@ impl Config {
     pub fn validate(&self) -> Result<(), AdsError> {
         let refused = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
         check_range("resolution", self.resolution, 1..=8192, "1 to 8192 cells along a side")?;
-        if !(1..=64).contains(&self.block) || !self.block.is_power_of_two() {
-            return refused("block", self.block.to_string(), "1, 2, 4, 8, 16, 32 or 64 cells along a side");
+        if self.block.iter().any(|side| !(1..=64).contains(side) || !side.is_power_of_two()) {
+            return refused("block", self.block_name(), "1, 2, 4, 8, 16, 32 or 64 columns and rows of cells");
         }
         check_range("levels", self.levels, 1..=2, "1 or 2 levels of blocks")?;
         check_range("layers", self.layers, 1..=1024, "1 to 1024 layers")?;
@@ -236,7 +236,8 @@ impl Config {
             (ids::LDC_COVERAGE, coverage),
             (ids::LDC_DEPTH_BITS, self.depth.bits()),
             (ids::LDC_SKIP, u32::from(self.skip)),
-            (ids::LDC_BLOCK, self.block),
+            (ids::LDC_BLOCK_COLUMNS, self.block[0]),
+            (ids::LDC_BLOCK_ROWS, self.block[1]),
             (ids::LDC_OCCUPANCY, occupancy),
             (ids::LDC_LEVELS, self.levels),
             (ids::LDC_BUILD, making),
@@ -246,13 +247,19 @@ impl Config {
         ]
     }
 
+    /// The cells of a block: one number where it has as many columns as rows.
+    fn block_name(&self) -> String {
+        let [columns, rows] = self.block;
+        if columns == rows { columns.to_string() } else { format!("{columns}x{rows}") }
+    }
+
     /// Options as name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
         let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         let mut options = vec![
             ("storage", "sb".to_owned()),
             ("resolution", self.resolution.to_string()),
-            ("block", self.block.to_string()),
+            ("block", self.block_name()),
             ("levels", self.levels.to_string()),
             ("occupancy", lower(&self.occupancy)),
             ("build", lower(&self.making)),

@@ -13,8 +13,10 @@ pub fn cell_count(resolution: u32) -> u64 {
 
 /// Blocks of all three views and both levels; the last of a row may reach beyond the view.
 pub fn block_count(config: &Config) -> u64 {
-    let side = config.resolution.div_ceil(config.block);
-    cell_count(side) + if config.levels == 2 { cell_count(side.div_ceil(LDC_LEVEL_BLOCKS)) } else { 0 }
+    let blocks = config.block.map(|side| config.resolution.div_ceil(side));
+    let upper = blocks.map(|side| side.div_ceil(LDC_LEVEL_BLOCKS));
+    let in_views = |[columns, rows]: [u32; 2]| 3 * u64::from(columns) * u64::from(rows);
+    in_views(blocks) + if config.levels == 2 { in_views(upper) } else { 0 }
 }
 
 /// The demand of a build: how much of each pool it needs.
@@ -121,8 +123,8 @@ impl FormulaBytes {
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let Demand { fragments, conservative, long_lists, layers, large } = demand;
     let side = u64::from(config.resolution);
-    let blocks = side.div_ceil(u64::from(config.block));
-    let upper = if config.levels == 2 { blocks.div_ceil(8) } else { 0 };
+    let [across, along] = config.block.map(|cells| side.div_ceil(u64::from(cells)));
+    let upper = if config.levels == 2 { across.div_ceil(8) * along.div_ceil(8) } else { 0 };
     let block_bytes = if config.occupancy == Occupancy::Slices { 16 } else { 8 };
     let cells = side * side * 3;
     let kept = config.coverage == Coverage::Conservative;
@@ -131,7 +133,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let payload = if config.payload == Payload::Attributes { 8 } else { 4 };
     FormulaBytes {
         cells: cells * if kept { 8 } else { 4 },
-        blocks: 3 * (blocks * blocks + upper * upper) * block_bytes,
+        blocks: 3 * (across * along + upper) * block_bytes,
         fragments: payload * fragments + depths,
         ids: if config.ids { 4 * fragments } else { 0 },
         conservative: if kept { 12 * conservative } else { 0 },
@@ -153,10 +155,10 @@ mod tests {
     #[test]
     fn plan_equals_formula() {
         for (resolution, block, depth, coverage) in [
-            (64, 8, Depth::Bits32, Coverage::Conservative),
-            (100, 64, Depth::Bits16, Coverage::Hardware),
-            (33, 1, Depth::Bits16, Coverage::Exact),
-            (1, 2, Depth::Bits32, Coverage::Exact),
+            (64, [8, 8], Depth::Bits32, Coverage::Conservative),
+            (100, [64, 2], Depth::Bits16, Coverage::Hardware),
+            (33, [1, 4], Depth::Bits16, Coverage::Exact),
+            (1, [2, 2], Depth::Bits32, Coverage::Exact),
         ] {
             for (occupancy, levels, making) in
                 [(Occupancy::Slices, 2, Making::Single), (Occupancy::Bounds, 1, Making::Peel)]
@@ -183,8 +185,8 @@ mod tests {
     fn out_of_range_options_are_named() {
         let refused = |config: Config| plan(&config, Demand::default()).expect_err("refused").to_string();
         assert!(refused(Config { resolution: 0, ..Config::robust(64) }).contains("resolution is 0"));
-        assert!(refused(Config { block: 3, ..Config::robust(64) }).contains("block is 3"));
-        assert!(refused(Config { block: 128, ..Config::robust(64) }).contains("block is 128"));
+        assert!(refused(Config { block: [3; 2], ..Config::robust(64) }).contains("block is 3"));
+        assert!(refused(Config { block: [8, 128], ..Config::robust(64) }).contains("block is 8x128"));
         assert!(refused(Config { levels: 3, ..Config::robust(64) }).contains("levels is 3"));
         assert!(refused(Config { layers: 1025, ..Config::robust(64) }).contains("layers is 1025"));
         assert!(refused(Config { tolerance: f32::NAN, ..Config::robust(64) }).contains("tolerance"));

@@ -159,10 +159,10 @@ impl Contents {
         let words = if self.config.occupancy == Occupancy::Slices { 4 } else { 2 };
         // The device's arithmetic of a half's share may differ in the last place.
         let slack = if self.config.depth == Depth::Bits16 { 1.0e-6 * z } else { 0.0 };
-        let (mut before, mut size) = (0, self.config.block as usize);
+        let (mut before, mut cells) = (0, self.config.block.map(|side| side as usize));
         for _ in 0..self.config.levels {
-            let blocks = side.div_ceil(size);
-            let word = words * (before + (view * blocks + y / size) * blocks + x / size);
+            let [columns, rows] = cells.map(|cells| side.div_ceil(cells));
+            let word = words * (before + (view * rows + y / cells[1]) * columns + x / cells[0]);
             let [z_min, z_max] = [!self.blocks[word], self.blocks[word + 1]].map(f32::from_bits);
             let slices = match self.blocks[word..word + words] {
                 [_, _, low, high] => u64::from(high) << 32 | u64::from(low),
@@ -174,8 +174,8 @@ impl Contents {
             if !(z >= z_min - slack && z <= z_max + slack && marked) {
                 return false;
             }
-            before += 3 * blocks * blocks;
-            size *= LDC_LEVEL_BLOCKS as usize;
+            before += 3 * columns * rows;
+            cells = cells.map(|cells| cells * LDC_LEVEL_BLOCKS as usize);
         }
         true
     }

@@ -35,7 +35,7 @@ pub(crate) const SYSTEM: System = System {
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
     ("resolution", |config, given| given.whole().map(|value| config.resolution = value)),
-    ("block", |config, given| given.whole().map(|value| config.block = value)),
+    ("block", |config, given| given.cells().map(|value| config.block = value)),
     ("layers", |config, given| given.whole().map(|value| config.layers = value)),
     ("build", |config, given| {
         given.choice(&[("single", Making::Single), ("peel", Making::Peel)]).map(|value| config.making = value)

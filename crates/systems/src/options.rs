@@ -101,9 +101,9 @@ pub const OPTIONS: &[StructureOption] = &[
         "block",
         Size,
         Same,
-        Values::Whole(1, 64),
-        &["1", "4", "64"],
-        "Cells along each side of a block of cells, a power of two",
+        Values::Cells(64),
+        &["1", "4", "64", "16x2"],
+        "Columns and rows of a block of cells, or one number for both: powers of two",
     ),
     row(
         "divisions",

@@ -146,7 +146,7 @@ fn every_edge_capacity_by_address_with_short_depths() {
     every_edge_capacity(Config {
         addressing: Addressing::Address,
         depth: Depth::Bits16,
-        block: 4,
+        block: [4, 2],
         ..Config::robust(31)
     });
 }
@@ -157,10 +157,10 @@ fn bytes_are_those_of_the_formula() {
     let bench = Bench::new();
     let triangles = scene();
     for (resolution, block, levels, occupancy, depth, coverage) in [
-        (16, 8, 2, Occupancy::Slices, Depth::Bits32, Coverage::Conservative),
-        (50, 16, 1, Occupancy::Slices, Depth::Bits16, Coverage::Exact),
-        (33, 1, 2, Occupancy::Bounds, Depth::Bits16, Coverage::Conservative),
-        (64, 64, 1, Occupancy::Bounds, Depth::Bits32, Coverage::Hardware),
+        (16, [8; 2], 2, Occupancy::Slices, Depth::Bits32, Coverage::Conservative),
+        (50, [16, 4], 1, Occupancy::Slices, Depth::Bits16, Coverage::Exact),
+        (33, [1, 2], 2, Occupancy::Bounds, Depth::Bits16, Coverage::Conservative),
+        (64, [64; 2], 1, Occupancy::Bounds, Depth::Bits32, Coverage::Hardware),
     ] {
         let robust = Config::robust(resolution);
         let config = Config { block, levels, occupancy, depth, coverage, fragments: Some(0), ..robust };

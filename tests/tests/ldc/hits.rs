@@ -266,7 +266,8 @@ fn pauses_change_no_hit() {
         Config { payload: Payload::Index, ..Config::published(24) },
         Config { skip: false, ..robust },
         // Nine blocks of the second level.
-        Config { block: 1, occupancy: Occupancy::Bounds, ..robust },
+        Config { block: [1; 2], occupancy: Occupancy::Bounds, ..robust },
+        Config { block: [2, 1], ..robust },
     ] {
         let answers = |budget, rounds| {
             let config = Config { work_budget: budget, ..config };
