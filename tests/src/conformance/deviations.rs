@@ -3,7 +3,8 @@ use super::{Curve, Deviation, Law};
 const THIN: &str = "thinner than a cell, so that no cell's centre is covered";
 const EDGE_ON: &str = "its plane holds the eye or nearly so, so that few cells' centres are covered or none";
 const HALF_OPEN: &str = "a sample counts only if its depth lies in the half-open interval of a step, so that rays pass between the samples of surfaces that face them obliquely";
-const SNAPPED: &str = "along the seams of the cube's faces, where rays that pass from one to the next are searched in neither";
+const SNAPPED: &str =
+    "along the seams of the cube's faces, where rays that pass from one to the next are searched in neither";
 const THICK: &str = "fragments are voxels of one thickness: rays hit the one in front before what lies closely behind it, or where they pass behind it";
 const BORDER: &str = "triangles of few cells, whose borders are a cell wide";
 const SHELL: &str = "both sides of the shell lie within one step";

@@ -8,7 +8,8 @@ const AXES: &str = "normals that face all axes alike: the axis that a voxel is s
 const LEANING: &str = "surfaces with a slope above the tolerance per cell have gaps around their corners";
 const CENTRE: &str = "t is that of a fragment at its cell's centre, in a triangle that holds the eye";
 const SEAM: &str = "rays along the seams of three views, where neither may cover a cell's centre";
-const SNAPPED: &str = "rays along seams of the cube's faces, and through its corners, are searched in no view there";
+const SNAPPED: &str =
+    "rays along seams of the cube's faces, and through its corners, are searched in no view there";
 const PASSED: &str = "a hit on the edge between two tiles counts in neither where one is skipped";
 
 /// Of ambiguous rays the share of inadmissible answers may be this many times what bounds wrong answers to
