@@ -15,7 +15,7 @@
 //! | `mirror-hall` | `share` of mirrors among the pixels in percent, in [0, 80] (25), also as `mirror-hall:40` | 202,482 |
 //! | `still-life` | `detail` in [0.25, 4] (1) | about 291k at detail 1 |
 //! | `pool` | none; moves | 145,410 |
-//! | `teapots` | `pots` from 1 to 2k (37), also as `teapots:100` | 6,320 a pot |
+//! | `teapots` | `pots` from 1 to 2k (37), also as `teapots:100`; `ground` `mirror` or `matt` (`mirror`); `lamps` from 0 to 2 (2) | 6,320 a pot |
 //! | `smithy` | none | 183,002 |
 //! | `foliage` | `leaves` from 1k to 1M (40k), also as `foliage:100k`; `shape` `leaf` or `card` (`leaf`); moves | about 352k at 40k |
 //! | `stadium` | `seats` from 100 to 15k (12k), also as `stadium:1k` | about 426k at 12k |
@@ -59,7 +59,7 @@ pub use smithy::smithy;
 pub use spheres::{Spheres, spheres};
 pub use stadium::{Stadium, stadium};
 pub use still_life::{StillLife, still_life};
-pub use teapots::{Teapots, teapots};
+pub use teapots::{Ground, Teapots, teapots};
 pub use walker::{Walker, walker};
 
 use crate::{Scene, SceneError};
@@ -175,8 +175,13 @@ fn make(name: &str, mut given: Parameters) -> Result<Scene, SceneError> {
         "teapots" => {
             given.name_positional("pots")?;
             let pots = given.count("pots", Teapots::default().pots, Teapots::POTS)?;
+            let ground = match given.word("ground", "mirror", &Ground::NAMES)? {
+                "matt" => Ground::Matt,
+                _ => Ground::Mirror,
+            };
+            let lamps = given.count("lamps", Teapots::default().lamps, Teapots::LAMPS)?;
             given.finish()?;
-            Ok(teapots(Teapots { pots }))
+            Ok(teapots(Teapots { pots, ground, lamps }))
         }
         "smithy" => {
             given.finish()?;

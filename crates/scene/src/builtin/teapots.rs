@@ -1,4 +1,4 @@
-//! Teapots on a mirror.
+//! Teapots on a mirror, or beside one.
 
 use std::ops::RangeInclusive;
 
@@ -6,10 +6,10 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::cornell::diffuse;
 use super::forms::{about_y, turn};
-use super::shape::Shapes;
+use super::shape::{Icosphere, Shapes};
 use super::spheres::Random;
 use super::teapot::{BODY, teapot};
-use crate::default_view::camera_looking_at;
+use crate::default_view::{camera_looking_at, default_light};
 use crate::{Environment, Instance, Material, Scene};
 
 /// How far the mirror reaches beyond the middle of the outermost pot, metres.
@@ -28,21 +28,49 @@ const SEED: u64 = 0x5EED_0005;
 pub struct Teapots {
     /// How many there are, within [`Teapots::POTS`].
     pub pots: u64,
+    /// What they stand on.
+    pub ground: Ground,
+    /// Rectangular lamps above them, within [`Teapots::LAMPS`]. Without one the environment is a map:
+    /// [`default_light`].
+    pub lamps: u64,
+}
+
+/// What the pots of [`teapots`] stand on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ground {
+    /// A plane mirror.
+    Mirror,
+    /// A matt plane; the mirror is a ball, where one more pot would stand.
+    Matt,
+}
+
+impl Ground {
+    /// What the parameter takes.
+    pub const NAMES: [&'static str; 2] = ["mirror", "matt"];
 }
 
 impl Teapots {
     /// How many can be asked for.
     pub const POTS: RangeInclusive<u64> = 1..=2_000;
+    /// How many lamps there may be.
+    pub const LAMPS: RangeInclusive<u64> = 0..=2;
 }
 
 impl Default for Teapots {
     fn default() -> Self {
-        Self { pots: 37 }
+        Self { pots: 37, ground: Ground::Mirror, lamps: 2 }
     }
 }
 
-/// Utah teapots of seven glazes and metals in a spiral on a plane mirror, under two large lamps. All are instances of
-/// one shape, with a mesh for each material.
+/// Where a pot stands: a spiral of golden angles, as much room for each.
+fn place(index: u64) -> (f64, f64) {
+    let (sin, cos) = turn(index as f64 * 0.381_966_011_250_105);
+    let distance = SPACING * (index as f64 + 0.5).sqrt();
+    (distance * cos, distance * sin)
+}
+
+/// Utah teapots of seven glazes and metals in a spiral on a plane mirror or beside a mirroring ball, under large lamps
+/// or a sky. All are instances of one shape, with a mesh for each material.
 pub fn teapots(parameters: Teapots) -> Scene {
     let pots = parameters.pots.clamp(*Teapots::POTS.start(), *Teapots::POTS.end());
     let glaze = |name: &str, color: [f32; 3], roughness: f32| Material {
@@ -78,12 +106,10 @@ pub fn teapots(parameters: Teapots) -> Scene {
     let mut random = Random::new(SEED);
     let mut instances: Vec<Instance> = (0..pots)
         .map(|index| {
-            // A spiral of golden angles: as much room for each.
-            let (sin, cos) = turn(index as f64 * 0.381_966_011_250_105);
-            let distance = SPACING * (index as f64 + 0.5).sqrt();
+            let (x, z) = place(index);
             let turned = DMat3::from_diagonal(DVec3::splat(WIDTH)) * about_y(random.unit());
             // Just above the mirror: standing on it, the bottom would lie in its plane.
-            let foot = DVec3::new(distance * cos, 0.0005, distance * sin);
+            let foot = DVec3::new(x, 0.0005, z);
             let kind = index as usize % kinds;
             Instance {
                 name: format!("{} {index}", materials[kind].name),
@@ -93,17 +119,42 @@ pub fn teapots(parameters: Teapots) -> Scene {
         })
         .collect();
 
-    materials.push(Material { metallic: 1.0, roughness: 0.0, ..diffuse("mirror", [0.93, 0.93, 0.94]) });
-    let mut mirror = Shapes::new("mirror", kinds);
-    let half = SPACING * (pots as f64).sqrt() + MARGIN;
-    let corner = |x: f64, z: f64| DVec3::new(half * x, 0.0, half * z);
-    mirror.quad([corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)], DVec2::ONE);
-    materials.push(Material { emission: [5.5, 5.2, 4.8], ..diffuse("lamp", [0.0; 3]) });
-    let mut lamps = Shapes::new("lamps", kinds + 1);
     let at = DVec3::new;
-    lamps.quad([at(-6.5, 3.0, 4.5), at(-4.0, 3.0, 6.5), at(-2.2, 6.5, 4.2), at(-4.7, 6.5, 2.2)], DVec2::ONE);
-    lamps.quad([at(3.0, 5.5, 1.0), at(5.5, 5.5, 1.0), at(5.5, 5.5, 5.0), at(3.0, 5.5, 5.0)], DVec2::ONE);
-    for shapes in [mirror, lamps] {
+    let mut stage = Vec::new();
+    let half = SPACING * (pots as f64).sqrt() + MARGIN;
+    let corner = |x: f64, z: f64| at(half * x, 0.0, half * z);
+    let plane = [corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)];
+    let mut mirror = Shapes::new("mirror", materials.len());
+    materials.push(Material { metallic: 1.0, roughness: 0.0, ..diffuse("mirror", [0.93, 0.93, 0.94]) });
+    match parameters.ground {
+        Ground::Mirror => mirror.quad(plane, DVec2::ONE),
+        Ground::Matt => {
+            let (x, z) = place(pots);
+            mirror.sphere(&Icosphere::new(5), at(x, 0.5 * WIDTH + 0.0005, z), 0.5 * WIDTH, false);
+            let mut ground = Shapes::new("ground", materials.len());
+            materials.push(diffuse("ground", [0.6, 0.58, 0.54]));
+            ground.quad(plane, DVec2::ONE);
+            stage.push(ground);
+        }
+    }
+    stage.push(mirror);
+    let environment = if parameters.lamps == 0 {
+        default_light()
+    } else {
+        let mut lamps = Shapes::new("lamps", materials.len());
+        materials.push(Material { emission: [5.5, 5.2, 4.8], ..diffuse("lamp", [0.0; 3]) });
+        let quads = [
+            [at(-6.5, 3.0, 4.5), at(-4.0, 3.0, 6.5), at(-2.2, 6.5, 4.2), at(-4.7, 6.5, 2.2)],
+            [at(3.0, 5.5, 1.0), at(5.5, 5.5, 1.0), at(5.5, 5.5, 5.0), at(3.0, 5.5, 5.0)],
+        ];
+        // The first faces away from the pots.
+        for quad in quads.into_iter().skip(usize::from(parameters.lamps == 1)) {
+            lamps.quad(quad, DVec2::ONE);
+        }
+        stage.push(lamps);
+        Environment::Constant([0.42, 0.47, 0.55])
+    };
+    for shapes in stage {
         let mesh = shapes.finish();
         let name = mesh.name.clone();
         instances.push(Instance { name, mesh: meshes.len(), world_from_mesh: DAffine3::IDENTITY });
@@ -114,7 +165,7 @@ pub fn teapots(parameters: Teapots) -> Scene {
         instances,
         meshes,
         materials,
-        environment: Environment::Constant([0.42, 0.47, 0.55]),
+        environment,
         cameras: vec![camera_looking_at("low", at(0.3, 1.3, 4.2), at(0.05, 0.02, 0.25), 0.58)],
         ..Scene::default()
     }

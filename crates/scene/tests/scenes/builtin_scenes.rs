@@ -142,6 +142,8 @@ fn wrong_parameters_are_refused_with_the_name_and_the_reason() {
         ("still-life:detail=5", "from 0.25 to 4"),
         ("pool:deep", "has no key"),
         ("teapots:0", "from 1 to 2000"),
+        ("teapots:lamps=3", "from 0 to 2"),
+        ("teapots:ground=wood", "one of mirror, matt"),
         ("foliage:shape=needle", "one of leaf, card"),
         ("walker:3k", "from 8000 to 2000000"),
         ("walker:speed=2", "no parameter `speed`"),
@@ -345,6 +347,35 @@ fn teapots_are_instances_of_one_shape_above_a_mirror() {
             others.map(|(_, other)| other.distance(places[at])).fold(f64::INFINITY, f64::min)
         };
         assert!((0..pots).all(|pot| nearest(pot) > 0.7), "{spec}: two pots touch");
+    }
+}
+
+/// The ball of `ground=matt` is the mirror, and stands on the ground where no pot does.
+#[test]
+fn teapots_on_matt_ground_have_a_ball_and_as_many_lamps_as_asked() {
+    for (lamps, pots) in [(0, 1), (1, 1), (2, 5)] {
+        let scene = scene(&format!("teapots:{pots},ground=matt,lamps={lamps}"));
+        let mesh = |name: &str| scene.meshes.iter().find(|mesh| mesh.name == name);
+        let (ball, ground) = (mesh("mirror").expect("a ball"), mesh("ground").expect("a ground"));
+        assert_eq!(scene.materials[ball.material].roughness, 0.0);
+        assert_eq!(scene.materials[ground.material].metallic, 0.0);
+        let lowest = ball.positions.iter().fold(f32::INFINITY, |lowest, point| lowest.min(point[1]));
+        assert!(lowest > 0.0 && lowest < 0.001, "{lowest} m above the ground");
+        let nearest =
+            scene.instances[..pots].iter().map(|pot| pot.world_from_mesh.translation).flat_map(|pot| {
+                ball.positions.iter().map(move |point| {
+                    let point = DVec3::from_array(point.map(f64::from));
+                    DVec3::new(pot.x - point.x, 0.0, pot.z - point.z).length()
+                })
+            });
+        assert!(nearest.fold(f64::INFINITY, f64::min) > 0.33, "the ball touches a pot");
+        assert_eq!(mesh("lamps").map_or(0, |mesh| mesh.indices.len() / 6), lamps, "{lamps} lamps");
+        let last = mesh("lamps").and_then(|mesh| corners(mesh).last());
+        assert!(last.is_none_or(|[a, b, c]| {
+            let [a, b, c] = [a, b, c].map(|corner| DVec3::from_array(corner.map(f64::from)));
+            (b - a).cross(c - a).y < 0.0
+        }));
+        assert_eq!(matches!(scene.environment, Environment::LatLong { .. }), lamps == 0);
     }
 }
 
