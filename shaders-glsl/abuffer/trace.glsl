@@ -113,7 +113,7 @@ uint abuffer_status(AbufferRef s) {
 Hit abuffer_hit(AbufferRef s, Hit best) {
     Hit hit = best;
     if (ABUFFER_IDS != 0u && hit.primitive == PRIMITIVE_UNKNOWN) {
-        stored_hit_name(hit, abuffer_data(s, floatBitsToUint(hit.a), ABUFFER_PAYLOAD_WORDS));
+        stored_hit_name(hit, geometry_id(abuffer_data(s, floatBitsToUint(hit.a), ABUFFER_PAYLOAD_WORDS)));
     }
     return hit;
 }

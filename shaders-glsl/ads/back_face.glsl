@@ -21,12 +21,12 @@ uint back_face_draw_flags(uint primitive) {
     return back_face_draw_flags_of_id(geometry_id(primitive));
 }
 
-// Whether the ray passes the triangle with an id, which it meets on this side.
-bool back_face_is_passed(Ray ray, uint id, bool counter_clockwise) {
+// Whether the ray passes a triangle of the geometry that is bound, which it meets on this side.
+bool back_face_is_passed(Ray ray, uint primitive, bool counter_clockwise) {
     if (!ray_culls_back_faces(ray)) {
         return false;
     }
-    uint flags = back_face_draw_flags_of_id(id);
+    uint flags = back_face_draw_flags(primitive);
     return (flags & DRAW_SINGLE_SIDED) != 0u && counter_clockwise == ((flags & DRAW_MIRRORED) != 0u);
 }
 
@@ -39,7 +39,7 @@ bool back_face_is_passed_by_plane(Ray ray, uint primitive) {
     vec3 b;
     vec3 c;
     geometry_vertices(primitive, a, b, c);
-    return back_face_is_passed(ray, geometry_id(primitive), dot(cross(b - a, c - a), ray.direction) < 0.0);
+    return back_face_is_passed(ray, primitive, dot(cross(b - a, c - a), ray.direction) < 0.0);
 }
 
 #endif

@@ -11,6 +11,12 @@
 // then no status is that of a build of these triangles.
 #define GEOMETRY_NOT_GATHERED 1u
 
+// What a structure is traced for: all triangles; the part that is traced first; the next one, which goes on from the hits
+// that the queue has of the first.
+#define PART_WHOLE 0u
+#define PART_FIRST 1u
+#define PART_NEXT 2u
+
 // Whether fragments count that are as close to an end of the ray as those of the surface there.
 #define ENDS_TOUCHING 0u
 #define ENDS_CLEAR 1u

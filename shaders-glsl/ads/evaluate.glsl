@@ -11,14 +11,13 @@
 #include "ads/triangle.glsl"
 
 // The verdict (TEST_*) on a triangle with these corners for hits within [t_low, t_high]; t and t_error are 0 where the
-// ray does not intersect it. Candidates are excluded and ranked by their ids: `id` is geometry_id(primitive), which is
-// looked up once per test.
-uint evaluate_corners(Ray ray, Hit best, uint primitive, uint id, vec3 a, vec3 b, vec3 c, float t_low, float t_high,
-    out float t, out vec2 barycentrics, out float t_error) {
+// ray does not intersect it. Candidates are excluded and ranked by their numbers, which are in the order of ids.
+uint evaluate_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, out float t,
+    out vec2 barycentrics, out float t_error) {
     t = 0.0;
     barycentrics = vec2(0.0);
     t_error = 0.0;
-    if (id == ray.exclude_primitive && id != PRIMITIVE_NONE) {
+    if (primitive == ray.exclude_primitive && primitive != PRIMITIVE_NONE) {
         return TEST_EXCLUDED;
     }
     bool counter_clockwise;
@@ -34,31 +33,31 @@ uint evaluate_corners(Ray ray, Hit best, uint primitive, uint id, vec3 a, vec3 b
     if (!(t >= t_low && t <= t_high)) {
         return TEST_OUTSIDE_CELL;
     }
-    if (!hit_is_better(best, t, id)) {
+    if (!hit_is_better(best, t, primitive)) {
         return TEST_NOT_BETTER;
     }
-    if (back_face_is_passed(ray, id, counter_clockwise)) {
+    if (back_face_is_passed(ray, primitive, counter_clockwise)) {
         return TEST_BACK_FACE;
     }
     return alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
 }
 
 // The same with the corners of the geometry.
-uint evaluate_triangle(Ray ray, Hit best, uint primitive, uint id, float t_low, float t_high, out float t,
-    out vec2 barycentrics, out float t_error) {
+uint evaluate_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t, out vec2 barycentrics,
+    out float t_error) {
     vec3 a;
     vec3 b;
     vec3 c;
     geometry_vertices(primitive, a, b, c);
-    return evaluate_corners(ray, best, primitive, id, a, b, c, t_low, t_high, t, barycentrics, t_error);
+    return evaluate_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
 }
 
-// Logs the verdict on the triangle with an id, and that it is the best hit if it is accepted.
-void test_log(uint id, uint verdict, float t, float t_error) {
+// Logs the verdict on a triangle, and that it is the best hit if it is accepted.
+void test_log(uint primitive, uint verdict, float t, float t_error) {
     if (COUNTERS >= COUNTERS_STEPS) {
-        trace_log(STEP_TEST, id, verdict, 0u, t, t_error);
+        trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
         if (verdict == TEST_ACCEPTED) {
-            trace_log(STEP_BEST, id, 0u, 0u, t, t);
+            trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
         }
     }
 }
@@ -69,13 +68,12 @@ bool test_corners(Ray ray, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, 
     float t;
     vec2 barycentrics;
     float t_error;
-    uint id = geometry_id(primitive);
-    uint verdict = evaluate_corners(ray, best, primitive, id, a, b, c, t_low, t_high, t, barycentrics, t_error);
-    test_log(id, verdict, t, t_error);
+    uint verdict = evaluate_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
+    test_log(primitive, verdict, t, t_error);
     if (verdict != TEST_ACCEPTED) {
         return false;
     }
-    best = Hit(t, id, barycentrics.x, barycentrics.y);
+    best = Hit(t, primitive, barycentrics.x, barycentrics.y);
     return true;
 }
 

@@ -119,7 +119,7 @@ void test_listed(Ray ray, uint primitive, float t_low, float t_high, bool with_p
     if (with_planes) {
         rival = plane_rival(best);
     }
-    uint verdict = evaluate_triangle(ray, rival, primitive, primitive, t_low, t_high, t, barycentrics, t_error);
+    uint verdict = evaluate_triangle(ray, rival, primitive, t_low, t_high, t, barycentrics, t_error);
     if (with_planes && verdict == TEST_ACCEPTED && !plane_is_better(best, t, primitive, barycentrics)) {
         verdict = TEST_NOT_BETTER;
     }

@@ -121,6 +121,36 @@ uint geometry_id(uint primitive) {
     return found.y + (primitive - found.x);
 }
 
+// The same of what a hit or a candidate names, which may be nothing or a fragment that does not keep its triangle.
+uint geometry_id_of(uint primitive) {
+    return primitive < PRIMITIVE_UNKNOWN ? geometry_id(primitive) : primitive;
+}
+
+// Triangles of the part whose ids are lower than an id, whichever part that is in: so the number of the part's own
+// triangle with it, and what tells the numbers of triangles with lower ids from those with higher ones. O(log runs).
+uint geometry_rank(uint id) {
+    uint count = geometry_header.triangle_count;
+    uint end = geometry_header.run_count;
+    uvec2 found = uvec2(0u, geometry_header.first_id);
+    if (end > 0u) {
+        uint run = 0u;
+        while (end > run + 1u) {
+            uint middle = run + (end - run) / 2u;
+            if (geometry_runs[middle].y > id) end = middle;
+            else run = middle;
+        }
+        found = geometry_runs[run];
+        count = end < geometry_header.run_count ? geometry_runs[end].x : count;
+    }
+    return id < found.y ? 0u : found.x + min(id - found.y, count - found.x);
+}
+
+// The number of the triangle with an id; PRIMITIVE_NONE where the part has none of that id. O(log runs).
+uint geometry_number(uint id) {
+    uint rank = geometry_rank(id);
+    return rank < geometry_header.triangle_count && geometry_id(rank) == id ? rank : PRIMITIVE_NONE;
+}
+
 // The draw of the triangle with an id, in O(log draws): draws lie in the order of their triangles. 0 where there is none.
 uint geometry_draw_of_id(uint id) {
     uint draw = 0u;

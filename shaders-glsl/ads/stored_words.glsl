@@ -43,7 +43,7 @@ bool stored_emits(uvec2 words) {
 
 // Whether a ray passes a fragment with these words of colour and normal, because it meets its back.
 bool stored_is_passed(Ray ray, uvec2 words) {
-    return stored_emits(words) ? back_face_is_passed_by_plane(ray, words.y) : stored_normal_is_passed(ray, words.y);
+    return stored_emits(words) ? back_face_is_passed_by_plane(ray, geometry_number(words.y)) : stored_normal_is_passed(ray, words.y);
 }
 
 #endif

@@ -1,10 +1,12 @@
 // What: what is shaded at each hit of a queue.
 // Reads: rays, hits, the structure, the scene. Writes: surfaces; a miss has no valid bits.
+// In parts, the surface of a stored fragment is found by the part that it is in. Both find that of any other hit, which is
+// known as well as the coarser one says.
 #version 460
 #include "contract/extensions.glsl"
 #define SURFACES_ENABLED
 #include "ads/queue.glsl"
-#include "contract/trace_state.glsl"
+#include "contract/stored_hit.glsl"
 #include "contract/select.glsl"
 #include "ads/trace_constants.glsl"
 
@@ -21,5 +23,13 @@ void main() {
         queue_surfaces[slot].primitive = PRIMITIVE_NONE;
         return;
     }
-    queue_set_surface(slot, surface_at(trace.structure, queue_ray(slot), hit));
+    bool stored = stored_hit_is(hit);
+    if (stored && trace.part != PART_WHOLE && stored_hit_is_earlier(hit) != (trace.part == PART_FIRST)) {
+        return;
+    }
+    Surface surface = surface_at(trace.structure, queue_ray(slot), hit);
+    if (!stored && trace.part == PART_NEXT) {
+        surface.position_error = max(surface.position_error, queue_surfaces[slot].position_error);
+    }
+    queue_set_surface(slot, surface);
 }

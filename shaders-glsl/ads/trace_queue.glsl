@@ -10,6 +10,18 @@
 #include "contract/trace_state.glsl"
 #include "contract/select.glsl"
 #include "ads/trace_constants.glsl"
+#ifdef STRUCTURE_STORES_FRAGMENTS
+#include "ads/nearer_part.glsl"
+#endif
+
+// Whether a hit of the part that was traced before is only looked at once this part has its own.
+bool trace_is_apart() {
+#ifdef STRUCTURE_STORES_FRAGMENTS
+    return trace.part == PART_NEXT && trace.any_hit == 0u;
+#else
+    return false;
+#endif
+}
 
 // Stores the work of a ray so far, where the queue has a buffer for it.
 void queue_store_work(uint slot, TraceState state) {
@@ -17,7 +29,7 @@ void queue_store_work(uint slot, TraceState state) {
         return;
     }
     RayWork work = RayWork(state.cells, state.entries, state.tests, state.rounds);
-    if (trace.continues != 0u) {
+    if (trace.part == PART_NEXT) {
         // What came with this round is added to the work in other parts.
         RayWork sum = queue_work[slot];
         TraceState before = queue_states[slot];
@@ -73,7 +85,7 @@ bool trace_slot(uint invocation, out uint slot) {
         return false;
     }
     trace_log_begin(slot);
-    trace_log(STEP_ROUND, queue_header.round, trace.continues, 0u, 0.0, 0.0);
+    trace_log(STEP_ROUND, queue_header.round, uint(trace.part == PART_NEXT), 0u, 0.0, 0.0);
     return true;
 }
 
@@ -82,12 +94,14 @@ bool trace_begin(uint slot, Ray ray, out TraceState state) {
     state = trace_state_begin(ray);
     if (queue_header.round > 0u) {
         state = queue_state(slot, ray);
-    } else if (trace.continues != 0u) {
+    } else if (trace.part == PART_NEXT) {
         Hit before = queue_hit(slot);
         if (before.primitive == PRIMITIVE_NONE) {
             return floatBitsToUint(before.b) != HIT_NOT_READY;
         }
-        state.best = before;
+        if (!trace_is_apart()) {
+            state.best = before;
+        }
     }
     return true;
 }
@@ -106,6 +120,11 @@ void trace_store(uint slot, uint result, TraceState state, Hit hit) {
         atomicAdd(queue_header.not_ready, 1u);
         hit = Hit(queue_ray(slot).t_max, PRIMITIVE_NONE, 0.0, uintBitsToFloat(HIT_NOT_READY));
     }
+#ifdef STRUCTURE_STORES_FRAGMENTS
+    if (result != TRACE_NOT_READY && trace_is_apart()) {
+        hit = nearer_part(queue_hit(slot), hit);
+    }
+#endif
     if (result == TRACE_MISS && hit.primitive != PRIMITIVE_NONE) {
         // Of another part.
         result = TRACE_HIT;

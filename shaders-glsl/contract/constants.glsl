@@ -17,9 +17,12 @@
 // In Hit.primitive: a fragment without a known triangle; a and b are the structure's.
 #define PRIMITIVE_UNKNOWN 0xFFFFFFFEu
 
-// In Hit.b, as bits: a and the surface are a stored fragment's, although the hit has the triangle's id for diagnostics.
+// In Hit.b, as bits: a and the surface are a stored fragment's, although the hit has the triangle's id.
 // No barycentric is as large.
 #define HIT_STORED 0x7F7FFFFFu
+
+// In Hit.b, as bits: the same, of a fragment in the part of the geometry that was traced before.
+#define HIT_EARLIER 0x7F7FFFFDu
 
 // In Hit.b of a miss, as bits: the structure was not complete, so there is no answer.
 #define HIT_NOT_READY 0x7F7FFFFEu

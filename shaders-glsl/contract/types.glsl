@@ -24,8 +24,8 @@ struct Hit {
     float t;                  // in units of the ray direction's length
     uint primitive;           // global triangle id; PRIMITIVE_UNKNOWN for a fragment that does not keep it
     float a;                  // the structure's; weight of vertex 1 where hits are primitives
-    // the structure's; weight of vertex 2 where hits are primitives, and the bits HIT_STORED where a fragment without
-    // them has its triangle's id for diagnostics
+    // the structure's; weight of vertex 2 where hits are primitives, and the bits HIT_STORED where a stored fragment has its
+    // triangle's id, HIT_EARLIER where it lies in the part that was traced before
     float b;
 };
 

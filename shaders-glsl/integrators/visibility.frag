@@ -46,7 +46,7 @@ void main() {
     float t;
     vec2 barycentrics;
     float t_error;
-    uint verdict = evaluate_triangle(ray, best, primitive, primitive, nearest ? -infinity : kept,
+    uint verdict = evaluate_triangle(ray, best, primitive, nearest ? -infinity : kept,
         nearest ? infinity : kept, t, barycentrics, t_error);
     if (verdict != TEST_ACCEPTED) {
         return;

@@ -191,7 +191,7 @@ uint ldc_status(LdcRef s) {
 Hit ldc_hit(LdcRef s, Hit best) {
     Hit hit = best;
     if (LDC_IDS != 0u && hit.primitive == PRIMITIVE_UNKNOWN) {
-        stored_hit_name(hit, ldc_kept_id(s, floatBitsToUint(hit.a)));
+        stored_hit_name(hit, geometry_id(ldc_kept_id(s, floatBitsToUint(hit.a))));
     }
     return hit;
 }

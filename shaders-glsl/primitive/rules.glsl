@@ -30,16 +30,15 @@ bool primitive_test_in_tile(PrimitiveRef s, PrimitiveTile tile, uint primitive, 
     vec2 barycentrics;
     float t_error;
     state.tests++;
-    uint id = geometry_id(primitive);
-    uint verdict = evaluate_triangle(ray, state.best, primitive, id, -infinity, infinity, t, barycentrics, t_error);
+    uint verdict = evaluate_triangle(ray, state.best, primitive, -infinity, infinity, t, barycentrics, t_error);
     if (PRIMITIVE_ACCEPT == PRIMITIVE_ACCEPT_TILE && verdict == TEST_ACCEPTED && !primitive_in_tile(s, tile, t)) {
         verdict = TEST_OUTSIDE_CELL;
     }
-    test_log(id, verdict, t, t_error);
+    test_log(primitive, verdict, t, t_error);
     if (verdict != TEST_ACCEPTED) {
         return false;
     }
-    state.best = Hit(t, id, barycentrics.x, barycentrics.y);
+    state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
     return true;
 }
 

@@ -12,17 +12,20 @@
 #include "ads/triangle.glsl"
 #include "scene/plane_surface.glsl"
 
-// What is shaded at a point of a triangle, as seen from straight ahead of its front; textures at their finest level.
+// What is shaded at a point of a triangle of the geometry that is bound, as seen from straight ahead of its front; textures
+// at their finest level.
 Surface stored_source(uint primitive, vec2 barycentrics) {
+    uint id = geometry_id(primitive);
+    uvec3 triangle = geometry_triangle(primitive);
     vec3 a;
     vec3 b;
     vec3 c;
-    geometry_vertices(primitive, a, b, c);
+    geometry_corners(triangle, a, b, c);
     float twice_area;
     vec3 normal = triangle_normal(b - a, c - a, twice_area);
-    bool mirrored = (scene_draw_shading(scene_draw_of(primitive)).flags & DRAW_MIRRORED) != 0u;
+    bool mirrored = (scene_draw_shading(scene_draw_of(id)).flags & DRAW_MIRRORED) != 0u;
     Ray ray = Ray(a, 0.0, mirrored ? normal : -normal, uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE, 0u, 0.0, 0.0);
-    return scene_surface(ray, 1.0, primitive, barycentrics);
+    return scene_surface_of(ray, 1.0, id, triangle, barycentrics);
 }
 
 // The least opacity that is stored of what does not emit.
@@ -30,7 +33,7 @@ Surface stored_source(uint primitive, vec2 barycentrics) {
 
 // The normal of a surface of a triangle, with what its draw says of its back.
 uint stored_pack_front(Surface s) {
-    return stored_pack_normal(s.normal, (back_face_draw_flags(s.primitive) & DRAW_SINGLE_SIDED) != 0u);
+    return stored_pack_normal(s.normal, (back_face_draw_flags_of_id(s.primitive) & DRAW_SINGLE_SIDED) != 0u);
 }
 
 uvec2 stored_pack(Surface s) {

@@ -117,12 +117,12 @@ vec3 surface_shading_normal(vec3 interpolated, vec3 geometric_normal) {
     return normal;
 }
 
-// `barycentrics` are the weights of vertices 1 and 2. Fills every field.
-Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
+// `triangle` are the vertices of the triangle with an id, `barycentrics` the weights of vertices 1 and 2. Fills every
+// field.
+Surface scene_surface_of(Ray ray, float t, uint id, uvec3 triangle, vec2 barycentrics) {
     Surface s = surface_miss(ray);
-    DrawShading draw = scene_draw_shading(scene_draw_of(primitive));
+    DrawShading draw = scene_draw_shading(scene_draw_of(id));
     Material material = scene_material(draw.material);
-    uvec3 triangle = geometry_triangle(primitive);
     vec3 weights = barycentric_weights(barycentrics);
     vec3 a, b, c;
     geometry_corners(triangle, a, b, c);
@@ -157,7 +157,7 @@ Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
 
     vec4 base_color = attribute_base_color(draw, material, triangle, weights, texels.base_color);
     s.opacity = SHADING_BLEND && (material.flags & MATERIAL_ALPHA_BLEND) != 0u ? clamp(base_color.a, 0.0, 1.0) : 1.0;
-    s.primitive = primitive;
+    s.primitive = id;
     s.material = draw.material;
     s.t = t;
     s.valid = SURFACE_POSITION | SURFACE_NORMAL | SURFACE_MATERIAL | SURFACE_PRIMITIVE | SURFACE_EMISSION;
@@ -179,6 +179,11 @@ Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
     s.attenuation_distance = material.attenuation_distance;
     s.specular = material.specular;
     return s;
+}
+
+// The same of a triangle of the whole geometry, which is bound.
+Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
+    return scene_surface_of(ray, t, primitive, geometry_triangle(primitive), barycentrics);
 }
 
 #endif

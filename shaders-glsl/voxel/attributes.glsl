@@ -30,11 +30,11 @@ uvec3 voxel_pack_attributes(uint primitive, vec2 barycentrics) {
     return uvec3(stored_pack_terms(s), stored_pack(s));
 }
 
-// The triangle of a fragment that emits; PRIMITIVE_NONE of others. Mirrors store their triangle, which is read.
-uint voxel_emitter(uvec3 words) {
+// The triangle of a fragment that emits; PRIMITIVE_NONE of others. Hits on mirrors have their triangle.
+uint voxel_emitter(Hit hit, uvec3 words) {
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR) {
-        bool known = words.x < geometry_triangle_count();
-        return known && stored_triangle_emits(words.x) ? words.x : PRIMITIVE_NONE;
+        bool known = hit.primitive < geometry_triangle_count();
+        return known && stored_triangle_emits(hit.primitive) ? hit.primitive : PRIMITIVE_NONE;
     }
     return stored_emits(words.yz) ? words.z : PRIMITIVE_NONE;
 }

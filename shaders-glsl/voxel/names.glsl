@@ -5,3 +5,5 @@
 #define STRUCTURE_NAME(name) voxel_##name
 // Words of the cursor that a paused ray keeps.
 #define STRUCTURE_CURSOR_WORDS 8u
+// Every part of a geometry is searched by itself, and the nearer of the hits is taken.
+#define STRUCTURE_STORES_FRAGMENTS

@@ -105,7 +105,8 @@ bool voxel_take(VoxelRef s, Ray ray, VoxelTraversal traversal, VoxelSpan span, f
     if (verdict != TEST_ACCEPTED) {
         return false;
     }
-    vec2 found = vec2(uintBitsToFloat(place), 0.0);
+    // Of a mirror the triangle is known, and the surface is the fragment's.
+    vec2 found = uintBitsToFloat(uvec2(place, VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR ? HIT_STORED : 0u));
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_INDEX) {
         found = plane_barycentrics(primitive, ray.origin + t * ray.direction);
     }

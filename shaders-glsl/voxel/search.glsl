@@ -117,7 +117,7 @@ bool voxel_search(VoxelRef s, Ray ray, vec2 interval, bool any_hit, inout VoxelT
     while (more) {
         vec2 within = vec2(max(interval.x, traversal.cells.t_in - traversal.cells.error_in),
             min(interval.y, traversal.cells.t_out + traversal.cells.t_error));
-        if (within.x > state.best.t) {
+        if (!traversal.in_list && within.x > state.best.t) {
             trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, within.x, within.y);
             break;
         }

@@ -19,7 +19,7 @@ Surface voxel_surface_at(VoxelRef s, Ray ray, Hit hit) {
             return surface_miss(ray);
         }
         uvec3 words = uvec3(voxel_word(s, place, 1u), voxel_word(s, place, 2u), voxel_word(s, place, 3u));
-        uint emitter = voxel_emitter(words);
+        uint emitter = voxel_emitter(hit, words);
         if (emitter == PRIMITIVE_NONE) {
             return voxel_attributes_surface(words, ray, hit, size);
         }

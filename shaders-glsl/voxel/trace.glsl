@@ -69,8 +69,8 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint work = 0u;
     while (more) {
         vec2 interval = voxel_interval(traversal);
-        // Nothing behind the best hit can be nearer.
-        if (interval.x > state.best.t) {
+        // Nothing behind the best hit can be nearer. A search that was begun goes on, as without a pause.
+        if (!entered && interval.x > state.best.t) {
             trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, interval.x, interval.y);
             break;
         }
@@ -122,7 +122,7 @@ uint voxel_status(VoxelRef s) {
 Hit voxel_hit(VoxelRef s, Hit best) {
     Hit hit = best;
     if (VOXEL_IDS != 0u && hit.primitive == PRIMITIVE_UNKNOWN) {
-        stored_hit_name(hit, voxel_word(s, floatBitsToUint(hit.a), 4u));
+        stored_hit_name(hit, geometry_id(voxel_word(s, floatBitsToUint(hit.a), 4u)));
     }
     return hit;
 }

@@ -6,7 +6,7 @@ use crate::slots::{check_read, check_recorded};
 use crate::{
     Addressing, AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, Modules, RayQueue,
     SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc,
-    TraceMode, Viewpoint, default_work_budget,
+    TraceMode, TracedPart, Viewpoint, default_work_budget,
 };
 
 /// Tests every triangle: O(rays x triangles), no memory of its own.
@@ -155,7 +155,17 @@ impl Structure for BruteForce {
         rounds: u32,
     ) {
         let geometry = &self.geometry;
-        self.kernels.record_trace(recorder, geometry, None, 0, queue, domain, mode, rounds, false);
+        self.kernels.record_trace(
+            recorder,
+            geometry,
+            None,
+            0,
+            queue,
+            domain,
+            mode,
+            rounds,
+            TracedPart::Whole,
+        );
     }
 
     fn record_continued_trace(
@@ -167,7 +177,7 @@ impl Structure for BruteForce {
         rounds: u32,
     ) {
         let geometry = &self.geometry;
-        self.kernels.record_trace(recorder, geometry, None, 0, queue, domain, mode, rounds, true);
+        self.kernels.record_trace(recorder, geometry, None, 0, queue, domain, mode, rounds, TracedPart::Next);
     }
 
     fn record_surfaces(
@@ -176,7 +186,8 @@ impl Structure for BruteForce {
         queue: &RayQueue,
         domain: Domain,
     ) -> Result<(), AdsError> {
-        let lookup = self.kernels.surfaces().ok_or(AdsError::NoScene { structure: self.name() })?;
+        let lookup =
+            self.kernels.surfaces(TracedPart::Whole).ok_or(AdsError::NoScene { structure: self.name() })?;
         lookup.record(recorder, self.geometry.whole(), None, 0, queue, domain);
         Ok(())
     }

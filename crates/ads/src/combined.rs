@@ -4,16 +4,18 @@ use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
 use crate::{
     AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, GeometryParts, ListCounts,
-    RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceMode, Viewpoint,
+    RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceMode, TracedPart,
+    Viewpoint,
 };
 
 /// Number of parts.
 const PARTS: usize = 2;
 
-/// Two structures of a kind over the two parts of a geometry. A ray is traced through the static part and then, with the
-/// hit found there, through the moving one: the nearer hit wins, and at the same t the lower id, as within one structure.
-/// So hits are those of one structure over all triangles, bit for bit, where it finds every triangle
-/// ([`StructureKind::Primitive`]); others are refused.
+/// Two structures of a kind over the two parts of a geometry. A ray is traced through the static part and then through the
+/// moving one: the nearer of the hits that either alone gives wins, and at the same t the lower id, as within one
+/// structure; of stored fragments the static one. So hits are those of one structure over all triangles, bit for bit, where
+/// it finds every triangle ([`StructureKind::Primitive`]). Others have the errors of two structures, each with views and
+/// cells around its own part.
 ///
 /// As a [`Structure`] it builds both parts. What builds only the part that moved is a loop over frames that keeps each
 /// part by itself (`rasray_tracer::FrameStructure`), through [`Combined::change_part`].
@@ -29,17 +31,13 @@ impl Combined {
     /// Makes both structures, the static one first.
     ///
     /// # Errors
-    /// What `make` returns, or [`AdsError::InParts`] for structures that do not find every triangle, or are not of a kind.
+    /// What `make` returns, or [`AdsError::InParts`] for structures that are not of a kind.
     pub fn new<E: From<AdsError>>(
         geometry: &GeometryParts,
         mut make: impl FnMut(&Geometry) -> Result<Box<dyn Structure>, E>,
     ) -> Result<Self, E> {
         let parts = [make(geometry.static_part())?, make(geometry.moving_part())?];
         let structure = parts[0].name();
-        if parts.iter().any(|part| part.kind() != StructureKind::Primitive) {
-            let reason = "its hits are not those of every triangle, so those of two parts may differ from those of one";
-            return Err(AdsError::InParts { structure, reason }.into());
-        }
         if parts[1].name() != structure || parts[0].counters() != parts[1].counters() {
             let reason = "both are the same structure, with the same counters";
             return Err(AdsError::InParts { structure, reason }.into());
@@ -252,8 +250,14 @@ impl Structure for Combined {
         queue: &RayQueue,
         domain: Domain,
     ) -> Result<(), AdsError> {
-        // Surfaces are those of triangles of the whole, whichever part is asked; the queue has noted faults of the first.
-        self.parts[1].record_surfaces(recorder, queue, domain)
+        if self.kind().finds_triangles() {
+            // The queue has noted faults of the first.
+            return self.parts[1].record_surfaces(recorder, queue, domain);
+        }
+        for (structure, part) in self.parts.iter().zip([TracedPart::First, TracedPart::Next]) {
+            structure.record_surfaces_of_part(recorder, queue, domain, part)?;
+        }
+        Ok(())
     }
 
     fn fault(&self, device: &Device) -> Result<Option<String>, GpuError> {

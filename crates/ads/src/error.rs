@@ -80,7 +80,7 @@ pub enum AdsError {
         /// Which buffer, and what it lacks.
         reason: String,
     },
-    /// A structure that cannot be built apart for some of the triangles, or that was not given what its parts need.
+    /// Structures that are no two parts of one, or that were not given what their parts need.
     #[error("{structure} cannot be in parts: {reason}")]
     InParts {
         /// Name of the structure.

@@ -4,6 +4,7 @@ use bytemuck::bytes_of;
 use rasray_gpu::{
     Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout, Stage,
 };
+use rasray_shaders_glsl::constants::ads::{PART_FIRST, PART_NEXT, PART_WHOLE};
 use rasray_shaders_glsl::records::{NextRoundConstants, TraceConstants};
 use rasray_shaders_glsl::{Shader, constant_ids::contract::COUNTERS};
 
@@ -11,6 +12,27 @@ use crate::addressing::halves;
 use crate::{
     AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, SceneBinding, TraceMode, TraceModules,
 };
+
+/// What a structure is traced for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TracedPart {
+    /// All triangles.
+    Whole,
+    /// The part of a geometry that is traced first.
+    First,
+    /// The part that is traced next, which goes on from the hits that a queue has of the first.
+    Next,
+}
+
+impl TracedPart {
+    fn constant(self) -> u32 {
+        match self {
+            Self::Whole => PART_WHOLE,
+            Self::First => PART_FIRST,
+            Self::Next => PART_NEXT,
+        }
+    }
+}
 
 /// What the kernels of a structure are made from.
 #[derive(Clone, Debug)]
@@ -114,12 +136,13 @@ impl TraceKernels {
         Ok(())
     }
 
-    fn constants(&self, address: u64, domain: Domain) -> TraceConstants {
+    fn constants(&self, address: u64, domain: Domain, part: TracedPart) -> TraceConstants {
         TraceConstants {
             structure: halves(address),
             domain: domain.word(),
             work_budget: self.work_budget,
-            ..TraceConstants::default()
+            part: part.constant(),
+            any_hit: 0,
         }
     }
 
@@ -145,8 +168,8 @@ impl TraceKernels {
     }
 
     /// Records a trace of the slots of `domain`: one dispatch for all, then up to `rounds - 1` for
-    /// the rays that paused. Rays still paused after that are counted as unfinished. With `continues` rays keep the hits
-    /// that the queue has, unless a better one is found.
+    /// the rays that paused. Rays still paused after that are counted as unfinished. Through the next part rays keep the
+    /// hits that the queue has, unless a better one is found.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -158,14 +181,10 @@ impl TraceKernels {
         domain: Domain,
         mode: TraceMode,
         rounds: u32,
-        continues: bool,
+        part: TracedPart,
     ) {
         let any_hit = mode == TraceMode::Occluded;
-        let constants = TraceConstants {
-            continues: continues.into(),
-            any_hit: any_hit.into(),
-            ..self.constants(address, domain)
-        };
+        let constants = TraceConstants { any_hit: any_hit.into(), ..self.constants(address, domain, part) };
         let round = std::mem::offset_of!(QueueHeader, round) as u64;
         let after_paused = std::mem::offset_of!(QueueHeader, unfinished) as u64;
         recorder.begin_pass(Stage::Trace(mode), &self.trace_labels[usize::from(any_hit)]);
@@ -192,17 +211,17 @@ impl TraceKernels {
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::INDIRECT_READ | Access::TRANSFER);
     }
 
-    /// The surfaces of hits; absent where the kernels were made without a scene. Hits are on triangles by their ids, so for a
-    /// part of a geometry the whole of it is bound.
-    pub fn surfaces(&self) -> Option<Lookup<'_>> {
+    /// The surfaces of hits of a part; absent where the kernels were made without a scene. Hits are on triangles by their
+    /// ids, so for a part of a geometry the whole of it is bound.
+    pub fn surfaces(&self, part: TracedPart) -> Option<Lookup<'_>> {
         let kernel = self.surfaces.as_ref()?;
-        Some(Lookup { kernels: self, kernel, stage: Stage::Surfaces })
+        Some(Lookup { kernels: self, kernel, stage: Stage::Surfaces, part })
     }
 
     /// First hits of camera rays, in place of a trace; absent where there are none.
     pub fn first_hits(&self) -> Option<Lookup<'_>> {
         let kernel = self.first_hits.as_ref()?;
-        Some(Lookup { kernels: self, kernel, stage: Stage::Visible })
+        Some(Lookup { kernels: self, kernel, stage: Stage::Visible, part: TracedPart::Whole })
     }
 }
 
@@ -212,9 +231,15 @@ pub struct Lookup<'a> {
     kernels: &'a TraceKernels,
     kernel: &'a Kernel,
     stage: Stage,
+    part: TracedPart,
 }
 
 impl Lookup<'_> {
+    /// Which part's hits it is of.
+    pub fn part(&self) -> TracedPart {
+        self.part
+    }
+
     /// Records it for the slots of `domain`. What it wrote is visible to what follows.
     pub fn record(
         &self,
@@ -225,7 +250,7 @@ impl Lookup<'_> {
         queue: &RayQueue,
         domain: Domain,
     ) {
-        let constants = self.kernels.constants(address, domain);
+        let constants = self.kernels.constants(address, domain, self.part);
         recorder.begin_pass(self.stage, self.kernel.label);
         self.kernels.bind(recorder, &self.kernel.pipeline, geometry, structure, queue, constants);
         queue.record_dispatch(recorder, domain);

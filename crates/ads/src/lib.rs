@@ -69,7 +69,7 @@ pub use geometry::Geometry;
 pub use geometry_desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
 pub use geometry_parts::GeometryParts;
 pub use groups::folded;
-pub use kernels::{Lookup, TraceKernels, TraceKernelsDesc};
+pub use kernels::{Lookup, TraceKernels, TraceKernelsDesc, TracedPart};
 pub use lengths::Lengths;
 pub use list_counts::ListCounts;
 pub use list_sort::ListSort;

@@ -10,7 +10,7 @@ use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Counters, Demand, Dependencies, Design,
     Domain, Geometry, InlineTrace, ListCounts, Modules, Parts, PoolName, PoolSize, PoolStatus, Pools,
     RayQueue, RecordLayout, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
-    TraceKernelsDesc, TraceMode, Viewpoint, default_work_budget,
+    TraceKernelsDesc, TraceMode, TracedPart, Viewpoint, default_work_budget,
 };
 
 /// A demand that [varies](Design::varies) is met with capacity for one in so many more. Pages of a small scene differ by up to
@@ -52,7 +52,6 @@ impl<D: Design> Pooled<D> {
         geometry: &Geometry,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
-        Self::check_part(&config, geometry)?;
         let sizes = D::first_plan(&config, geometry)?;
         let common = config.common();
         let Common { addressing, counters, .. } = common;
@@ -148,15 +147,6 @@ impl<D: Design> Pooled<D> {
         D::first_rounds(&self.parts, &self.known())
     }
 
-    /// Fragments are not stored with the ids that a part's triangles have in the whole.
-    fn check_part(config: &D::Config, geometry: &Geometry) -> Result<(), AdsError> {
-        if geometry.is_part() && !D::kind(config).finds_triangles() {
-            let reason = "it stores fragments, of which those of one part depend on the other";
-            return Err(AdsError::InParts { structure: D::NAME, reason });
-        }
-        Ok(())
-    }
-
     fn trace(
         &self,
         recorder: &mut Recorder<'_>,
@@ -164,14 +154,14 @@ impl<D: Design> Pooled<D> {
         domain: Domain,
         mode: TraceMode,
         rounds: u32,
-        continues: bool,
+        part: TracedPart,
     ) {
         let (Parts { pools, geometry, .. }, kernels) = (&self.parts, &self.kernels);
         let corrupted = D::CORRUPTED;
         if self.is_scene_new {
             pools.record_forget(recorder);
         }
-        pools.record_trace(recorder, kernels, geometry, queue, domain, mode, rounds, continues, corrupted);
+        pools.record_trace(recorder, kernels, geometry, queue, domain, mode, rounds, part, corrupted);
     }
 }
 
@@ -207,7 +197,6 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
-        Self::check_part(&self.parts.config, geometry)?;
         if let Some(sizes) = D::plan_for(&self.parts, geometry)? {
             self.resize(device, &sizes)?;
         }
@@ -326,7 +315,7 @@ impl<D: Design> Structure for Pooled<D> {
         mode: TraceMode,
         rounds: u32,
     ) {
-        self.trace(recorder, queue, domain, mode, rounds, false);
+        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Whole);
     }
 
     fn record_continued_trace(
@@ -337,7 +326,7 @@ impl<D: Design> Structure for Pooled<D> {
         mode: TraceMode,
         rounds: u32,
     ) {
-        self.trace(recorder, queue, domain, mode, rounds, true);
+        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Next);
     }
 
     fn record_surfaces(
@@ -346,8 +335,18 @@ impl<D: Design> Structure for Pooled<D> {
         queue: &RayQueue,
         domain: Domain,
     ) -> Result<(), AdsError> {
+        self.record_surfaces_of_part(recorder, queue, domain, TracedPart::Whole)
+    }
+
+    fn record_surfaces_of_part(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        domain: Domain,
+        part: TracedPart,
+    ) -> Result<(), AdsError> {
         let Parts { pools, geometry, .. } = &self.parts;
-        let lookup = self.kernels.surfaces().ok_or(AdsError::NoScene { structure: self.name() })?;
+        let lookup = self.kernels.surfaces(part).ok_or(AdsError::NoScene { structure: self.name() })?;
         pools.record_lookup(recorder, lookup, geometry.whole(), queue, domain, D::CORRUPTED);
         Ok(())
     }

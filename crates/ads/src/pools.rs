@@ -13,8 +13,13 @@ use crate::addressing::halves;
 use crate::slots::Slots;
 use crate::{
     Addressing, AdsError, Domain, Geometry, InlineTrace, Lookup, PoolName, PoolSize, QueueHeader, RayQueue,
-    Sizes, TraceKernels, TraceMode,
+    Sizes, TraceKernels, TraceMode, TracedPart,
 };
+
+/// Where the header of a queue notes how many list entries with an invalid index a structure met: that of the last part, and
+/// that of the part before it.
+const NOTED: u64 = offset_of!(QueueHeader, corrupted) as u64;
+const NOTED_BEFORE: u64 = offset_of!(QueueHeader, corrupted_before) as u64;
 
 /// The header's name among the pools; it is the first.
 const HEADER: &str = "header";
@@ -286,8 +291,8 @@ impl Pools {
     }
 
     /// Records a trace of the slots of `domain`. Traces count list entries with an invalid index in the word of the
-    /// header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]). With `continues` the
-    /// queue has hits and counts of another part.
+    /// header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]). For the next part
+    /// the queue has hits and counts of the first.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -298,25 +303,26 @@ impl Pools {
         domain: Domain,
         mode: TraceMode,
         rounds: u32,
-        continues: bool,
+        part: TracedPart,
         corrupted: usize,
     ) {
         self.keep(recorder);
-        if continues {
-            let [noted, before] =
-                [offset_of!(QueueHeader, corrupted), offset_of!(QueueHeader, corrupted_before)]
-                    .map(|at| at as u64);
+        if part == TracedPart::Next {
             recorder.barrier(Access::COMPUTE | Access::TRANSFER_WRITE, Access::TRANSFER);
-            recorder.copy(queue.header(), noted, queue.header(), before, 4);
+            recorder.copy(queue.header(), NOTED, queue.header(), NOTED_BEFORE, 4);
             recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER);
         }
         let (set, address) = (self.set(), self.address());
-        kernels.record_trace(recorder, geometry, set, address, queue, domain, mode, rounds, continues);
-        self.record_corrupted(recorder, queue, corrupted);
+        kernels.record_trace(recorder, geometry, set, address, queue, domain, mode, rounds, part);
+        self.record_corrupted(recorder, queue, (corrupted, NOTED));
     }
 
-    fn record_corrupted(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, corrupted: usize) {
-        let noted = offset_of!(QueueHeader, corrupted) as u64;
+    fn record_corrupted(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        (corrupted, noted): (usize, u64),
+    ) {
         recorder.barrier(Access::COMPUTE, Access::TRANSFER);
         recorder.copy(&self.pools[0], corrupted as u64, queue.header(), noted, 4);
         recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::INDIRECT_READ);
@@ -334,7 +340,9 @@ impl Pools {
     ) {
         self.keep(recorder);
         lookup.record(recorder, geometry, self.set(), self.address(), queue, domain);
-        self.record_corrupted(recorder, queue, corrupted);
+        // Traced before the next part, whose count the queue has by now.
+        let noted = if lookup.part() == TracedPart::First { NOTED_BEFORE } else { NOTED };
+        self.record_corrupted(recorder, queue, (corrupted, noted));
     }
 }
 

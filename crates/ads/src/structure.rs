@@ -4,7 +4,7 @@ use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout
 
 use crate::{
     AdsError, BuildStatus, Check, Counters, Domain, Geometry, ListCounts, RayQueue, SceneBinding, Sizes,
-    Viewpoint,
+    TracedPart, Viewpoint,
 };
 
 /// What a structure's hits are, and hence what may be demanded of them.
@@ -240,6 +240,22 @@ pub trait Structure {
         queue: &RayQueue,
         domain: Domain,
     ) -> Result<(), AdsError>;
+
+    /// Records the lookup of surfaces after a trace through two parts of a geometry, of which this one is `part`: the structure of
+    /// the first part, then that of the next. Where hits are triangles either knows all of them, so that one lookup by
+    /// [`Structure::record_surfaces`] does.
+    ///
+    /// # Errors
+    /// As [`Structure::record_surfaces`].
+    fn record_surfaces_of_part(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        domain: Domain,
+        _part: TracedPart,
+    ) -> Result<(), AdsError> {
+        self.record_surfaces(recorder, queue, domain)
+    }
 
     /// Whether it has first hits of camera rays ([`Structure::record_first_hits`]).
     fn has_first_hits(&self) -> bool {

@@ -67,10 +67,6 @@ fn first_build(
         None => create(scene.geometry()).map(Into::into),
     }
     .map_err(|error| match error {
-        SystemsError::Ads(error @ AdsError::InParts { .. }) => refuse(ExperimentError::usage(
-            error.to_string(),
-            "leave out --refresh, or choose another --system",
-        )),
         SystemsError::Ads(error) => ads_error(error, spec),
         other => refuse(ExperimentError::usage(other.to_string(), "see `rasray render --help`")),
     })?;

@@ -174,8 +174,8 @@ impl Refresh {
         match self {
             Self::All => "Everything",
             Self::Moving => {
-                "What moves; what stands still has a part of its own, built once. The same hits, for systems that find every \
-                 triangle"
+                "What moves; what stands still has a part of its own, built once. The same hits of systems that find every \
+                 triangle, the nearer of both parts' hits of others"
             }
         }
     }

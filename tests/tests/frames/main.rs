@@ -4,6 +4,7 @@ mod adaptive;
 mod changing;
 mod crowd;
 mod kept;
+mod nearer_part;
 mod parts;
 mod pictures;
 mod refresh;

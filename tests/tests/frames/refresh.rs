@@ -38,7 +38,7 @@ fn moment(seconds: f64) -> Moment {
     Moment { seconds, clips: vec![0] }
 }
 
-fn rays(random: &mut Random, [lower, upper]: [[f32; 3]; 2], towards: [[f32; 3]; 2]) -> Vec<Ray> {
+pub fn rays(random: &mut Random, [lower, upper]: [[f32; 3]; 2], towards: [[f32; 3]; 2]) -> Vec<Ray> {
     let within = |random: &mut Random, [lower, upper]: [[f32; 3]; 2]| -> [f32; 3] {
         std::array::from_fn(|axis| random.between(lower[axis], upper[axis]))
     };
@@ -55,7 +55,7 @@ fn rays(random: &mut Random, [lower, upper]: [[f32; 3]; 2], towards: [[f32; 3]; 
         .collect()
 }
 
-fn header(bench: &Bench, buffer: &rasray_gpu::Buffer) -> GeometryHeader {
+pub fn header(bench: &Bench, buffer: &rasray_gpu::Buffer) -> GeometryHeader {
     let bytes = bench.device().download(buffer, 0, size_of::<GeometryHeader>() as u64);
     pod_read_unaligned(&bytes.expect("the device works"))
 }
