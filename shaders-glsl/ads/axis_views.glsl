@@ -12,6 +12,10 @@
 
 #define AXIS_VIEWS 3u
 
+// How far rounding may move the depths of a triangle in a cell of the view that it faces most, in cells, where
+// axis_depth_is_certain.
+#define AXIS_DEPTH_SLACK 0.2
+
 // One view. Precise expressions take their values from such a local copy, not from a buffer.
 struct AxisView {
     vec3 lower;          // metres: lower corner of the cube, axes of the world
@@ -101,11 +105,16 @@ float axis_extent(AxisView view, vec3 a, vec3 b, vec3 c) {
     return rise < abs(normal.z) ? rise / abs(normal.z) * view.cell : view.cell;
 }
 
+// More than rounding moves corners and rays, in cells.
+float axis_reach_slack(AxisView view) {
+    return 1.0e-4 + 1.0e-6 * float(view.resolution);
+}
+
 // Whether a triangle (frame of the view) reaches into a cell, or touches it within rounding: more than is exact,
 // never less. Precise: passes that count and store must agree.
 bool axis_reaches_into(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     // In cells, from the centre.
-    float slack = 1.0e-4 + 1.0e-6 * float(view.resolution);
+    float slack = axis_reach_slack(view);
     vec2 center = vec2(cell) + 0.5;
     precise vec2 pa = a.xy / view.cell - center;
     precise vec2 pb = b.xy / view.cell - center;
@@ -135,6 +144,18 @@ bool axis_reaches_into(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
         }
     }
     return true;
+}
+
+// Whether rounding moves the depths of a triangle in a cell by less than AXIS_DEPTH_SLACK cells: by less than a tenth of
+// a cell where its plane rises, and than a twentieth at a distance from corner a.
+bool axis_depth_is_certain(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
+    vec3 ab = abs(b - a);
+    vec3 ac = abs(c - a);
+    float facing = abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+    // Of a component of the normal, by as much as moves corners in `axis_reaches_into`.
+    float error = axis_reach_slack(view) * view.cell * (ab.x + ab.y + ab.z + ac.x + ac.y + ac.z);
+    vec2 away = abs(axis_center(view, cell).xy - a.xy);
+    return 32.0 * error < facing && (away.x + away.y) * 2.5 * error < 0.05 * view.cell * facing;
 }
 
 #endif

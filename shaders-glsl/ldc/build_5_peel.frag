@@ -6,7 +6,6 @@
 #include "contract/extensions.glsl"
 #include "ldc/blocks.glsl"
 #include "ldc/covered.glsl"
-#include "contract/alpha.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_axis;
 
@@ -17,7 +16,7 @@ void main() {
     uint primitive = primitive_and_axis.x;
     AxisView view = ldc_built_view(primitive_and_axis.y);
     if (!ldc_fragments_fit(build.structure) || !ldc_fragment(view, primitive, cell, z, barycentrics)
-        || !alpha_accepts(primitive, barycentrics)) {
+        || !ldc_keeps(primitive, barycentrics)) {
         return;
     }
     uint layer = build.step / 2u;

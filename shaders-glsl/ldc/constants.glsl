@@ -6,6 +6,7 @@
 #define LDC_ACCEPT_TOLERANCE 0u
 #define LDC_ACCEPT_SLOPE 1u
 #define LDC_ACCEPT_PLANE 2u
+#define LDC_ACCEPT_TRIANGLE 3u
 
 // Which cells a triangle gets a fragment in.
 #define LDC_COVERAGE_HARDWARE 0u

@@ -1,9 +1,10 @@
 // What: which cells a triangle covers in the view it faces most, and at which depth, the same for every builder.
-// Reads: geometry, header. Writes: nothing.
+// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: nothing.
 // Where the rasterizer draws, without attachments, no layers are needed: the view travels as a varying.
 #ifndef LDC_COVERED_GLSL
 #define LDC_COVERED_GLSL
 
+#include "contract/alpha.glsl"
 #include "ads/axis_views.glsl"
 #include "ads/geometry.glsl"
 #include "ldc/header.glsl"
@@ -47,6 +48,11 @@ bool ldc_fragment(AxisView view, uint primitive, ivec2 cell, out float z, out ve
     }
     z = max(z, 0.0);
     return covers;
+}
+
+// Whether a cell keeps a fragment there: where rays meet triangles, masks are evaluated at the hit.
+bool ldc_keeps(uint primitive, vec2 barycentrics) {
+    return LDC_ACCEPT == LDC_ACCEPT_TRIANGLE || alpha_accepts(primitive, barycentrics);
 }
 
 #endif

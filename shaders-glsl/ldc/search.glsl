@@ -43,7 +43,8 @@ float ldc_margin(LdcRef s) {
         return LDC_HEADER(s).tolerance;
     }
     // A plane has a slope of at most one cell per cell, and the ray may hit it before or behind its segment.
-    float slack = LDC_ACCEPT == LDC_ACCEPT_PLANE ? 3.0 * LDC_PLANE_SLACK : 0.0;
+    float slack = LDC_ACCEPT == LDC_ACCEPT_PLANE ? 3.0 * LDC_PLANE_SLACK
+        : (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE ? AXIS_DEPTH_SLACK : 0.0);
     return (1.001 + slack) * LDC_HEADER(s).cell + 2.0 * ldc_depth_rounding(s);
 }
 
@@ -88,6 +89,12 @@ void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout T
         trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
         state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
     }
+}
+
+// Tests the triangle of a fragment or of a conservative list, wherever the ray hits it. The caller counts the test.
+void ldc_test_triangle(Ray ray, uint primitive, inout TraceState state) {
+    float infinity = uintBitsToFloat(0x7F800000u);
+    test_triangle(ray, primitive, -infinity, infinity, state.best);
 }
 
 // How far a fragment may be from the ray, by its triangle's own slope: its rise over half a cell, but no less than two
@@ -179,6 +186,8 @@ uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout
 // Searches the nodes of the conservative list; true if the work budget ended first.
 bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout TraceState state, inout uint work) {
     vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
+    // Nodes have the depths of their triangles.
+    float margin = LDC_ACCEPT == LDC_ACCEPT_TRIANGLE ? AXIS_DEPTH_SLACK * search.sizes.cell : search.sizes.margin;
     while (search.place != 0u) {
         if (work >= work_budget) {
             return true;
@@ -191,10 +200,13 @@ bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout Tr
         if (node.primitive == PRIMITIVE_NONE) {
             continue;
         }
-        if (LDC_SKIP == 0u || conservative_intersects(node, depths.x - search.sizes.margin, depths.y
-            + search.sizes.margin)) {
+        if (LDC_SKIP == 0u || conservative_intersects(node, depths.x - margin, depths.y + margin)) {
             state.tests++;
-            test_with_planes(ray, node.primitive, search.t_low, search.t_high, state.best);
+            if (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE) {
+                ldc_test_triangle(ray, node.primitive, state);
+            } else {
+                test_with_planes(ray, node.primitive, search.t_low, search.t_high, state.best);
+            }
         } else {
             trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
         }
@@ -234,7 +246,10 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
                 }
                 continue;
             }
-            if (LDC_ACCEPT == LDC_ACCEPT_PLANE) {
+            if (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE) {
+                state.tests++;
+                ldc_test_triangle(ray, ldc_primitive(s, place), state);
+            } else if (LDC_ACCEPT == LDC_ACCEPT_PLANE) {
                 ldc_test_plane(s, ray, search, ldc_primitive(s, place), state);
             } else {
                 ldc_evaluate_depth(s, ray, search, depths, place, z, state);

@@ -5,7 +5,6 @@
 #ifndef LDC_VISIT_GLSL
 #define LDC_VISIT_GLSL
 
-#include "contract/alpha.glsl"
 #include "ldc/blocks.glsl"
 #include "ldc/covered.glsl"
 
@@ -13,7 +12,7 @@
 void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
     float z;
     vec2 barycentrics;
-    if (ldc_fragment(ldc_built_view(axis), primitive, cell, z, barycentrics) && alpha_accepts(primitive, barycentrics)) {
+    if (ldc_fragment(ldc_built_view(axis), primitive, cell, z, barycentrics) && ldc_keeps(primitive, barycentrics)) {
         uint layer = atomicAdd(LDC_LISTS(build.structure)[ldc_cell(build.structure, axis, cell)], 1u);
         if (LDC_BUILD == LDC_BUILD_PEEL && build.step == 0u) {
             ldc_count_layer(build.structure, layer);
@@ -24,7 +23,7 @@ void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
 void ldc_visit_store(uint primitive, uint axis, ivec2 cell) {
     float z;
     vec2 barycentrics;
-    if (!ldc_fragment(ldc_built_view(axis), primitive, cell, z, barycentrics) || !alpha_accepts(primitive, barycentrics)) {
+    if (!ldc_fragment(ldc_built_view(axis), primitive, cell, z, barycentrics) || !ldc_keeps(primitive, barycentrics)) {
         return;
     }
     uint place = atomicAdd(LDC_LISTS(build.structure)[ldc_cell(build.structure, axis, cell)], 1u);

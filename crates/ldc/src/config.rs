@@ -13,6 +13,9 @@ pub enum Accept {
     Slope,
     /// The ray intersects the plane of its triangle within the cell.
     Plane,
+    /// The ray intersects its triangle, wherever that is. With [`Coverage::Conservative`], which it needs, every cell
+    /// keeps all triangles that reach into it, and hits are those of brute force.
+    Triangle,
 }
 
 /// In which cells a triangle gets a fragment.
@@ -173,8 +176,13 @@ impl Config {
             return refused(
                 "accept",
                 format!("{:?}", self.accept).to_lowercase(),
-                "the acceptances plane and slope need the payload `index`, which identifies the triangle",
+                "the acceptances triangle, plane and slope need the payload `index`, which identifies the triangle",
             );
+        }
+        if self.accept == Accept::Triangle && self.coverage != Coverage::Conservative {
+            let expected = "triangles alone are hit only where cells keep all that reaches into them: use the coverage \
+                            `conservative`, or accept `plane`";
+            return refused("accept", "triangle".to_owned(), expected);
         }
         if self.ids && self.payload == Payload::Index {
             let expected = "the payload `index` identifies triangles already: leave it off";
@@ -196,6 +204,11 @@ impl Config {
         check_work_budget(self.work_budget, true)
     }
 
+    /// Whether what rays hit may lie before or behind the surface, so that [`Config::ends`] matter.
+    fn has_ends(&self) -> bool {
+        matches!(self.accept, Accept::Tolerance | Accept::Slope)
+    }
+
     /// Bytes of a fragment's payload, and of the triangle that is kept for diagnostics.
     pub(crate) fn payload_bytes(&self) -> u64 {
         let payload = match self.payload {
@@ -211,6 +224,7 @@ impl Config {
             Accept::Tolerance => numbers::LDC_ACCEPT_TOLERANCE,
             Accept::Slope => numbers::LDC_ACCEPT_SLOPE,
             Accept::Plane => numbers::LDC_ACCEPT_PLANE,
+            Accept::Triangle => numbers::LDC_ACCEPT_TRIANGLE,
         };
         let coverage = match self.coverage {
             Coverage::Hardware => numbers::LDC_COVERAGE_HARDWARE,
@@ -229,7 +243,7 @@ impl Config {
             Payload::Index => numbers::LDC_PAYLOAD_INDEX,
             Payload::Attributes => numbers::LDC_PAYLOAD_ATTRIBUTES,
         };
-        let ends = if self.accept != Accept::Plane { self.ends } else { Ends::Touching };
+        let ends = if self.has_ends() { self.ends } else { Ends::Touching };
         vec![
             (ids::LDC_ACCEPT, accept),
             (ids::LDC_ENDS, ends.number()),
@@ -275,7 +289,7 @@ impl Config {
         if self.accept == Accept::Tolerance {
             options.push(("tolerance", self.tolerance.to_string()));
         }
-        if self.accept != Accept::Plane {
+        if self.has_ends() {
             options.push(("ends", self.ends.name().to_owned()));
         }
         if self.making == Making::Peel {

@@ -10,7 +10,7 @@ use rasray_gpu::{BindingSet, Recorder, Requirements};
 
 use crate::build::Build;
 use crate::layout::{Demand, first_plan, formula_bytes, layer_capacity, plan, scratch, scratch_words};
-use crate::{Config, Contents, Header, Pool, well_formed};
+use crate::{Accept, Config, Contents, Header, Pool, well_formed};
 
 /// Fragments of three orthographic views, each triangle in the one it faces most; made from a [`Config`].
 pub type LayeredDepthCube = Pooled<Build>;
@@ -65,8 +65,8 @@ impl Design for Build {
     const UNSORTED: Option<usize> = Some(offset_of!(Header, unsorted));
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
 
-    fn kind(_config: &Config) -> StructureKind {
-        StructureKind::Fragment
+    fn kind(config: &Config) -> StructureKind {
+        if config.accept == Accept::Triangle { StructureKind::Primitive } else { StructureKind::Fragment }
     }
 
     fn depends_on(_config: &Config) -> Dependencies {

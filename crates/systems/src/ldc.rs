@@ -71,7 +71,12 @@ const OPTIONS: &[Setter<Config>] = &[
     }),
     ("accept", |config, given| {
         given
-            .choice(&[("tolerance", Accept::Tolerance), ("slope", Accept::Slope), ("plane", Accept::Plane)])
+            .choice(&[
+                ("tolerance", Accept::Tolerance),
+                ("slope", Accept::Slope),
+                ("plane", Accept::Plane),
+                ("triangle", Accept::Triangle),
+            ])
             .map(|value| config.accept = value)
     }),
     ("ends", |config, given| {

@@ -226,6 +226,10 @@ pub const OPTIONS: &[StructureOption] = &[
                 "The ray intersects the plane of its triangle within the cell; needs the payload index or plane",
             ),
             (
+                "triangle",
+                "The ray intersects its triangle, wherever that is; needs the coverage conservative",
+            ),
+            (
                 "parity",
                 "An odd number of fragments lies before one point of the ray, and an even number before the next",
             ),

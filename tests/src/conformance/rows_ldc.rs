@@ -28,6 +28,14 @@ pub(super) const ROWS: &[Row] = &[
         tier: Tier::Full,
         ..ldc("ldc-robust-256", Preset::Robust, &[("resolution", "256")], Cases::Shallow, ldc_law(256), &[])
     },
+    // Triangles in every cell that they reach into, and nothing but these is hit.
+    Row::exact(
+        "ldc-triangles-16",
+        "ldc",
+        &[("resolution", "16"), ("accept", "triangle")],
+        Tier::Quick,
+        Cases::Shallow,
+    ),
     // Fragments are hit at their own depth, plus or minus the rise of their triangles over half a cell.
     ldc(
         "ldc-slope-64",
