@@ -94,11 +94,10 @@ const uint ABUFFER_PAGE_STRIDE = ABUFFER_PAGE_WORDS + ABUFFER_PAGE_SLOTS * ABUFF
 
 // Widens the depths of a cell. Word 0 holds the complement of the smallest depth's bits, so that a
 // cleared cell is empty and both ends are maxima; positive floats order like their bits.
-void abuffer_widen_bounds(AbufferRef s, uint cell, float z) {
+void abuffer_widen_bounds(AbufferRef s, uint cell, float lower, float upper) {
     uint word = cell * ABUFFER_BOUNDS_STRIDE;
-    uint bits = floatBitsToUint(z);
-    atomicMax(ABUFFER_BOUNDS(s)[word], ~bits);
-    atomicMax(ABUFFER_BOUNDS(s)[word + 1u], bits);
+    atomicMax(ABUFFER_BOUNDS(s)[word], ~floatBitsToUint(lower));
+    atomicMax(ABUFFER_BOUNDS(s)[word + 1u], floatBitsToUint(upper));
 }
 
 // The same for one end only, where only the nearest fragments are kept: the near end is known before they

@@ -1,13 +1,15 @@
-// What: what a binning pass of an A-buffer does with a triangle in a view; BIN_VISIT says which pass it is.
+// What: what a binning pass of an A-buffer does with a triangle in a view; BIN_VISIT says which pass it is, and
+// CONSERVATIVE that the pass that stores fragments stores conservative lists, too.
 // Reads: geometry, header, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: see abuffer/visit.glsl.
 // Source: MMRT section 3.3, by computing instead of drawing. The same functions decide as in the raster builder.
 #ifndef ABUFFER_BINNED_GLSL
 #define ABUFFER_BINNED_GLSL
 
 #include "ads/constants.glsl"
-#include "abuffer/visit.glsl"
-#if BIN_VISIT == BIN_VISIT_CONSERVATIVE
+#if BIN_VISIT == BIN_VISIT_CONSERVATIVE || defined(CONSERVATIVE)
 #include "abuffer/visit_conservative.glsl"
+#else
+#include "abuffer/visit.glsl"
 #endif
 
 // Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
@@ -72,8 +74,8 @@ bool bin_begin(BinTriangle triangle, uint place, out Bin bin) {
 }
 
 void bin_visit(Bin bin, ivec2 place) {
-#if BIN_VISIT == BIN_VISIT_CONSERVATIVE
-    abuffer_visit_conservative(bin.primitive, bin.view, place);
+#if BIN_VISIT == BIN_VISIT_CONSERVATIVE || defined(CONSERVATIVE)
+    abuffer_visit_reached(bin.primitive, bin.view, place);
 #else
     CellCoverage coverage;
     if (!abuffer_covers(bin.a, bin.b, bin.c, place, bin.resolution, coverage)) {

@@ -1,6 +1,7 @@
-// What: keeps the triangle in cells that it reaches into without covering their centre, so that every cell
-// lists all that a ray may hit in it.
-// Reads: geometry, header. Writes: bounds (heads, marks), conservative lists, header.conservative_demand. Conservative coverage only.
+// What: keeps triangles without a fragment, and those seen edge-on, in cells that they reach into without covering
+// their centre.
+// Reads: geometry, header, marks. Writes: bounds, marks, conservative lists, header.conservative_demand. Edge-on coverage
+// only.
 // Source: not in the paper, which mentions edge-on triangles as a limitation.
 #version 460
 #include "contract/extensions.glsl"
@@ -10,5 +11,5 @@
 layout(location = 0) flat in uvec2 primitive_and_view;
 
 void main() {
-    abuffer_visit_conservative(primitive_and_view.x, primitive_and_view.y, abuffer_place(gl_FragCoord));
+    abuffer_visit_reached(primitive_and_view.x, primitive_and_view.y, abuffer_place(gl_FragCoord));
 }

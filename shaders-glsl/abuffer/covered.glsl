@@ -21,14 +21,18 @@ bool abuffer_keeps(uint primitive, CellCoverage coverage) {
     return ABUFFER_CONSERVATIVE || alpha_accepts(primitive, coverage.barycentrics);
 }
 
+// How far a triangle reaches in depth from its fragment at z: itself, rounding included, not its plane.
+float abuffer_triangle_extent(bool known, vec2 depths, float z) {
+    return known ? max(depths.y - z, z - depths.x) : uintBitsToFloat(0x7F800000u);
+}
+
 // Whether a triangle covers the centre of a cell, and what it is there. a, b, c in the view.
 bool abuffer_covers(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution, out CellCoverage coverage) {
     bool covered = coverage_at_center(a, b, c, place, resolution, coverage);
     if (covered && ABUFFER_CONSERVATIVE) {
-        // Of the triangle itself, rounding included, not of its plane.
         vec2 depths;
         bool known = abuffer_overlaps(build.structure, a, b, c, place, resolution, depths);
-        coverage.extent = known ? max(depths.y - coverage.z, coverage.z - depths.x) : uintBitsToFloat(0x7F800000u);
+        coverage.extent = abuffer_triangle_extent(known, depths, coverage.z);
     }
     return covered;
 }

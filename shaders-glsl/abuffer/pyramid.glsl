@@ -35,10 +35,11 @@ void abuffer_pyramid_write(AbufferRef s, uint word, uvec2 words) {
 // Triangles of a conservative list whose depths are evaluated; a cell with more is never skipped.
 #define ABUFFER_PYRAMID_CONSERVATIVE 1024u
 
-// The depths that the triangles of a cell's conservative list have in it.
+// The depths that the triangles of a cell's conservative list have in it. Without buckets, which lie between the bounds
+// of fragments, those of the cell include them.
 uvec2 abuffer_pyramid_conservative(AbufferRef s, uint cell) {
     uvec2 words = uvec2(0u);
-    uint link = abuffer_conservative_head(s, cell);
+    uint link = ABUFFER_BUCKETED ? abuffer_conservative_head(s, cell) : 0u;
     float rounding = ABUFFER_HEADER(s).rounding;
     for (uint i = 0u; link != 0u; i++) {
         if (i == ABUFFER_PYRAMID_CONSERVATIVE) {

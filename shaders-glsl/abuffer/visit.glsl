@@ -55,7 +55,7 @@ void abuffer_visit_bounds(uint primitive, uint cell, CellCoverage coverage) {
     if (ABUFFER_SINGLE_LAYER != 0u) {
         abuffer_widen_near(build.structure, cell, coverage.z);
     } else {
-        abuffer_widen_bounds(build.structure, cell, coverage.z);
+        abuffer_widen_bounds(build.structure, cell, coverage.z, coverage.z);
         abuffer_widen_extent(build.structure, cell, coverage.extent);
     }
 }
@@ -95,7 +95,7 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
     } else {
         abuffer_widen_extent(build.structure, cell, coverage.extent);
         if (ABUFFER_HAS_ENDS) {
-            abuffer_widen_bounds(build.structure, cell, z);
+            abuffer_widen_bounds(build.structure, cell, z, z);
         }
     }
     uint list = abuffer_list(cell, bucket);

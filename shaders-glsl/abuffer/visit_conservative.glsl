@@ -1,11 +1,12 @@
-// What: stores a triangle in the conservative list of a cell that it reaches into without covering the centre, the same
-// for every builder.
-// Reads: geometry, header. Writes: bounds (heads, marks), conservative lists, header.conservative_demand.
+// What: what the build does with a triangle in a cell that it reaches into, the same for every builder: with conservative
+// coverage it stores a fragment where the triangle covers the centre, and else the triangle in the conservative list;
+// with edge-on coverage, once all fragments are stored, triangles that have none or are seen edge-on.
+// Reads: geometry, header, marks. Writes: see abuffer/visit.glsl; conservative lists, header.conservative_demand.
 // Source: not in the paper, which mentions edge-on triangles as a limitation.
 #ifndef ABUFFER_VISIT_CONSERVATIVE_GLSL
 #define ABUFFER_VISIT_CONSERVATIVE_GLSL
 
-#include "abuffer/covered.glsl"
+#include "abuffer/visit.glsl"
 #include "abuffer/conservative.glsl"
 
 // Whether the plane of a triangle reaches much farther in depth over a cell than the cell is wide. a, b, c in the view.
@@ -15,13 +16,17 @@ bool abuffer_is_edge_on(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
     return !(abs(normal.x) + abs(normal.y) <= ABUFFER_EDGE_ON_SLOPE * facing);
 }
 
-// Whether the conservative list keeps a triangle that reaches into a cell outside of its centre.
-bool abuffer_conservative_keeps(uint primitive, vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
-    return ABUFFER_CONSERVATIVE || !abuffer_is_marked(build.structure, primitive)
-        || abuffer_is_edge_on(a, b, c, place, resolution);
+// Stores a triangle with these depths in the conservative list of a cell.
+void abuffer_add_conservative(uint primitive, uint cell, vec2 depths) {
+    // In a set of its own where other invocations read the first set.
+    abuffer_mark(build.structure, primitive, abuffer_mark_sets() - 1u);
+    if (ABUFFER_HAS_ENDS && !ABUFFER_BUCKETED) {
+        abuffer_widen_bounds(build.structure, cell, depths.x, depths.y);
+    }
+    conservative_add(build.structure, cell, primitive, depths);
 }
 
-void abuffer_visit_conservative(uint primitive, uint view, ivec2 place) {
+void abuffer_visit_reached(uint primitive, uint view, ivec2 place) {
     uint resolution = abuffer_resolution(build.structure, view);
     uint cell = abuffer_cell(build.structure, view, place);
     if (cell >= abuffer_cell_count(build.structure)) {
@@ -31,18 +36,19 @@ void abuffer_visit_conservative(uint primitive, uint view, ivec2 place) {
     vec3 b;
     vec3 c;
     geometry_vertices(primitive, a, b, c);
-    if (!triangle_has_area(a, b, c)) {
-        return;
-    }
-    abuffer_view_vertices(build.structure, primitive, view, a, b, c);
+    bool has_area = triangle_has_area(a, b, c);
+    abuffer_view_corners(build.structure, view, a, b, c);
     vec2 depths;
     CellCoverage coverage;
-    if (abuffer_overlaps(build.structure, a, b, c, place, resolution, depths)
-        && !coverage_at_center(a, b, c, place, resolution, coverage)
-        && abuffer_conservative_keeps(primitive, a, b, c, place, resolution)) {
-        // In a set of its own where other invocations read the first set.
-        abuffer_mark(build.structure, primitive, abuffer_mark_sets() - 1u);
-        conservative_add(build.structure, cell, primitive, depths);
+    bool reached = abuffer_overlaps(build.structure, a, b, c, place, resolution, depths);
+    if (coverage_at_center(a, b, c, place, resolution, coverage)) {
+        if (ABUFFER_CONSERVATIVE) {
+            coverage.extent = abuffer_triangle_extent(reached, depths, coverage.z);
+            abuffer_visit_store(primitive, cell, coverage);
+        }
+    } else if (reached && has_area && (ABUFFER_CONSERVATIVE || !abuffer_is_marked(build.structure, primitive)
+        || abuffer_is_edge_on(a, b, c, place, resolution))) {
+        abuffer_add_conservative(primitive, cell, depths);
     }
 }
 

@@ -44,15 +44,16 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
     bool sorted = voxel_lists_sorted(s);
     // Depths at the cell's centre that are searched. Where a triangle faces its view most, its plane rises
     // by a maximum of one cell from the centre to a corner. A cell more finds triangles that the ray hits in the
-    // next cell, whose centre they may not cover. Where cells keep all that reaches into them nothing may be
-    // lost, not the hits on slivers whose planes rounding has turned: then all of the list is searched.
+    // next cell, whose centre they may not cover. Where cells keep all that reaches into them, that cell has them itself,
+    // and slivers whose planes rounding may have turned are first in their lists and tested at all depths.
     float origin_z = traversal.origin[traversal.axis];
     float direction_z = traversal.direction[traversal.axis];
     float z_in = origin_z + interval.x * direction_z;
     float z_out = origin_z + interval.y * direction_z;
     bool triangles = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE;
-    float slack = VOXEL_AXES == VOXEL_AXES_TRIANGLE && !triangles
-        ? 2.01 * width + 4.8e-7 * (abs(origin_z) + max(abs(interval.x), abs(interval.y)) * abs(direction_z))
+    float rise = triangles ? 1.0 + AXIS_DEPTH_SLACK : 2.01;
+    float slack = VOXEL_AXES == VOXEL_AXES_TRIANGLE
+        ? rise * width + 4.8e-7 * (abs(origin_z) + max(abs(interval.x), abs(interval.y)) * abs(direction_z))
         : uintBitsToFloat(0x7F800000u);
     float low = min(z_in, z_out) - slack;
     float high = max(z_in, z_out) + slack;
@@ -60,8 +61,11 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
     if (!traversal.in_list) {
         trace_log(STEP_LIST, index, max(cursor.link, 1u) - 1u, cursor.last, low, high);
         if (sorted && voxel_contiguous() && cursor.link != 0u && cursor.last - cursor.link >= VOXEL_BISECT_FROM) {
-            uint first = voxel_bisect(s, uvec2(cursor.link - 1u, cursor.last), low, state, work);
-            cursor.link = first < cursor.last ? first + 1u : 0u;
+            uvec2 list = uvec2(cursor.link - 1u, cursor.last);
+            if (!triangles || voxel_read(s, list.x, state, work) != VOXEL_ANY_DEPTH) {
+                uint first = voxel_bisect(s, list, low, state, work);
+                cursor.link = first < cursor.last ? first + 1u : 0u;
+            }
         }
     }
     traversal.in_list = false;
@@ -79,12 +83,15 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
         state.entries++;
         float z = voxel_z(s, place);
         trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
-        if (z > high && sorted) {
+        bool anywhere = triangles && z == VOXEL_ANY_DEPTH;
+        if (z > high && sorted && !anywhere) {
             trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
             return false;
         }
         uint primitive = voxel_primitive(s, place);
-        if (z < low || z > high) {
+        // With conservative coverage the last two bits of a depth say how far the triangle's depths reach from it.
+        float less = triangles ? width * (1.0 - 0.125 * float(1u << (floatBitsToUint(z) & 3u))) : 0.0;
+        if ((z < low + less || z > high - less) && !anywhere) {
             trace_log(STEP_FRAGMENT, primitive, TEST_OUTSIDE_CELL, 0u, 0.0, z);
             continue;
         }

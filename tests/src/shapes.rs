@@ -55,3 +55,18 @@ pub fn all_sizes() -> Vec<Triangle> {
     }
     triangles
 }
+
+/// Needles of any direction within 12 of the origin, so thin that rounding turns the planes of many, and a few as wide as
+/// cells.
+pub fn needles() -> Vec<Triangle> {
+    let mut random = Random::new(77);
+    (0..400)
+        .map(|index| {
+            let (from, along, aside) = (random.point(-4.0, 4.0), random.direction(), random.direction());
+            let length = random.between(1.0, 8.0);
+            let width = 10.0_f32.powi(-(index % 8));
+            let to = std::array::from_fn(|axis| from[axis] + length * along[axis]);
+            [from, to, std::array::from_fn(|axis| from[axis] + width * aside[axis])]
+        })
+        .collect()
+}

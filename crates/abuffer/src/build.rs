@@ -9,7 +9,7 @@ use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
 
 use crate::layout::{cell_count, draws, scratch};
-use crate::{Config, Header, March, Pool, Storage};
+use crate::{Config, Coverage, Header, March, Pool, Storage};
 
 /// Pipelines of the build: the design of an [`ABuffer`](crate::ABuffer).
 #[derive(Debug)]
@@ -53,9 +53,12 @@ impl Build {
             bounds: config.has_bounds_pass().then(|| covered("build_3_bounds", masked)).transpose()?,
             scale: scaled.then(|| pipelines.compute("build_4_scale")).transpose()?,
             lengths: (config.storage == Storage::Sb).then(lengths).transpose()?,
-            store: covered("build_7_store", stored)?,
-            conservative: config
-                .has_conservative_lists()
+            store: if config.tests_triangles() {
+                visits.visit("build_raster.conservative", "build_7_store", ".conservative")?
+            } else {
+                covered("build_7_store", stored)?
+            },
+            conservative: (config.coverage == Coverage::EdgeOn)
                 .then(|| visits.visit("build_raster.conservative", "build_8_conservative", ""))
                 .transpose()?,
             lost: pipelines.compute("build_9_lost")?,

@@ -71,8 +71,19 @@ pub struct Config {
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The repaired structure: exact march, plane acceptance, triangle ids.
+    /// The repaired structure: cells keep every triangle that reaches into them, rays test triangles and skip blocks of
+    /// cells. Hits are those of brute force.
     pub fn robust(resolution: u32) -> Self {
+        Self {
+            storage: Storage::Ll,
+            march: March::Pyramid,
+            coverage: Coverage::Conservative,
+            ..Self::at_centres(resolution)
+        }
+    }
+
+    /// Fragments alone: cells keep the triangles that cover their centres, rays visit every cell and meet planes.
+    pub fn at_centres(resolution: u32) -> Self {
         Self {
             resolution,
             views: Views::Cube,
@@ -112,7 +123,7 @@ impl Config {
             accept: Accept::Thickness,
             payload: Payload::Attributes,
             coverage: Coverage::Hardware,
-            ..Self::robust(resolution)
+            ..Self::at_centres(resolution)
         }
     }
 
@@ -166,19 +177,19 @@ impl Config {
                 expected: "the binning builder does not draw: use builder `raster` with coverage `hardware`",
             });
         }
-        if self.has_conservative_lists() && (self.accept != Accept::Plane || self.payload != Payload::Index) {
-            return Err(AdsError::Option {
-                option: "coverage",
-                value: self.coverage.name().to_owned(),
-                expected: "the coverages conservative and edge-on test triangles, which fragments identify with \
-                           `accept=plane` and `payload=index` only",
-            });
-        }
         if self.has_conservative_lists() && self.single_layer {
             return Err(AdsError::Option {
                 option: "single-layer",
                 value: "on".to_owned(),
                 expected: "the coverages conservative and edge-on keep triangles behind others: leave it off",
+            });
+        }
+        if self.has_conservative_lists() && !self.may_test_triangles() {
+            return Err(AdsError::Option {
+                option: "coverage",
+                value: self.coverage.name().to_owned(),
+                expected: "the coverages conservative and edge-on test triangles, which fragments identify with \
+                           `accept=plane` and `payload=index` only",
             });
         }
         Ok(())
@@ -203,6 +214,11 @@ impl Config {
         } else {
             [columns, rows + 1]
         }
+    }
+
+    /// Whether cells may keep triangles outside of their centres, with the other options that there are.
+    pub fn may_test_triangles(&self) -> bool {
+        self.accept == Accept::Plane && self.payload == Payload::Index && !self.single_layer
     }
 
     /// Whether cells keep triangles outside of their centres.

@@ -315,7 +315,7 @@ mod tests {
                     coverage,
                     builder,
                     camera_resolution: [24, 15],
-                    ..Config::robust(64)
+                    ..Config::at_centres(64)
                 };
                 let bytes = plan(&config, DEMAND).expect("options are in range").bytes();
                 assert_eq!(bytes, formula_bytes(&config, DEMAND).total(), "{config:?}");
@@ -360,7 +360,8 @@ mod tests {
     /// bytes of payload, is 128 MB. The formula per cell and fragment gives 130 MiB there.
     #[test]
     fn formula_agrees_with_the_papers_table() {
-        let config = Config { payload: Payload::Attributes, accept: Accept::Interval, ..Config::robust(480) };
+        let config =
+            Config { payload: Payload::Attributes, accept: Accept::Interval, ..Config::at_centres(480) };
         let formula = formula_bytes(&config, Demand { nodes: 2_400_000, ..Demand::default() });
         let per_cell = formula.cells / cell_count(&config);
         let total = (720 * 480 + 6 * 480 * 480) * per_cell + formula.fragments;
@@ -371,13 +372,13 @@ mod tests {
     #[test]
     fn out_of_range_options_are_named() {
         let message = |config: &Config, demand| plan(config, demand).unwrap_err().to_string();
-        let config = Config { buckets: 33, ..Config::robust(64) };
+        let config = Config { buckets: 33, ..Config::at_centres(64) };
         assert!(message(&config, Demand::default()).contains("buckets is 33"));
-        let config = Config { resolution: 0, ..Config::robust(64) };
+        let config = Config { resolution: 0, ..Config::at_centres(64) };
         assert!(message(&config, Demand::default()).contains("resolution is 0"));
         let many = Demand { nodes: 1 << 32, ..Demand::default() };
-        assert!(message(&Config::robust(64), many).contains("nodes"));
-        let config = Config { storage: Storage::Paged, page: 3, ..Config::robust(64) };
+        assert!(message(&Config::at_centres(64), many).contains("nodes"));
+        let config = Config { storage: Storage::Paged, page: 3, ..Config::at_centres(64) };
         assert!(message(&config, Demand::default()).contains("page is 3"));
         let config = Config { page: 1, ..config };
         let many = Demand { nodes: 1 << 28, ..Demand::default() };

@@ -105,6 +105,16 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
     Given::apply_all(spec, OPTIONS, &mut config)?;
+    let given = |option| spec.options().get(option).is_some();
+    if spec.preset() == Preset::Robust {
+        // Options that conservative coverage does not go with ask for another, as buckets do for lists that have them.
+        if !given("coverage") && !config.may_test_triangles() {
+            config.coverage = Coverage::Exact;
+        }
+        if !given("storage") && given("buckets") {
+            config.storage = Storage::Dllb;
+        }
+    }
     if spec.options().get("camera-resolution").is_none() {
         config.camera_resolution = [config.resolution; 2];
     }

@@ -40,7 +40,8 @@ pub(crate) const SYSTEM: System = System {
 /// The configuration that a spec stands for.
 pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let preset = match spec.preset() {
-        Preset::Robust => Config { storage: Storage::Paged, ..Config::robust(voxel::RESOLUTION) },
+        // Pages are not sorted: where cells keep all that reaches into them, rays would read all of that.
+        Preset::Robust => Config { storage: Storage::Paged, ..Config::at_centres(voxel::RESOLUTION) },
         Preset::Published => voxel::of_the_paper(spec, Config::published_selective(PUBLISHED_RESOLUTION)),
     };
     voxel::config(spec, preset, Payload::Mirror)

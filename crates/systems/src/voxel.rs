@@ -106,6 +106,11 @@ pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
     Given::apply_all(spec, OPTIONS, &mut config)?;
+    // Options that conservative coverage does not go with ask for another.
+    let is_default = spec.options().get("coverage").is_none();
+    if is_default && config.coverage == Coverage::Conservative && !config.may_test_triangles() {
+        config.coverage = Coverage::Exact;
+    }
     if config.payload != Payload::Index {
         config.payload = attributes;
     }

@@ -185,8 +185,14 @@ pub const VOXEL_LEAVES_GRID: u32 = 256;
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The repaired structure: each triangle in the view it faces most, every cell, planes.
+    /// The repaired structure: each triangle in the view it faces most, in all cells that it reaches into. Hits are
+    /// those of brute force.
     pub fn robust(resolution: u32) -> Self {
+        Self { coverage: Coverage::Conservative, ..Self::at_centres(resolution) }
+    }
+
+    /// Fragments alone: each triangle in the view it faces most, in cells whose centres it covers; every cell, planes.
+    pub fn at_centres(resolution: u32) -> Self {
         Self {
             resolution,
             grid: None,
@@ -223,7 +229,7 @@ impl Config {
             coverage: Coverage::Hardware,
             payload: Payload::Material,
             storage: Storage::Linked,
-            ..Self::robust(resolution)
+            ..Self::at_centres(resolution)
         }
     }
 
@@ -244,6 +250,11 @@ impl Config {
             Leaves::Voxels => self.resolution.min(VOXEL_LEAVES_GRID),
         };
         self.grid.unwrap_or(balanced).clamp(1, numbers::VOXEL_GRID_LIMIT)
+    }
+
+    /// Whether cells may keep all that reaches into them ([`Coverage::Conservative`]).
+    pub fn may_test_triangles(&self) -> bool {
+        self.axes == Axes::Triangle && self.accept == Accept::Plane && self.leaves == Leaves::Fragments
     }
 
     /// What makes a voxel occupied.
@@ -303,20 +314,20 @@ impl Config {
                 expected: "fragments mark voxels only with the axes `all`; with others use `triangles`",
             });
         }
-        let decided = self.axes == Axes::Triangle && self.accept == Accept::Plane;
-        if self.coverage == Coverage::Conservative && !decided {
+        if self.coverage == Coverage::Conservative && !self.may_test_triangles() {
             return Err(AdsError::Option {
                 option: "coverage",
                 value: "conservative".to_owned(),
-                expected: "cells that keep all that reaches into them need the axes `triangle` and the acceptance `plane`",
+                expected: "cells that keep all that reaches into them need the axes `triangle`, the acceptance `plane` \
+                           and the leaves `fragments`; otherwise use the coverage `exact`",
             });
         }
         let is_plain = self.axes == Axes::Triangle && self.payload == Payload::Index;
-        if self.leaves == Leaves::Voxels && (!is_plain || self.coverage == Coverage::Conservative) {
+        if self.leaves == Leaves::Voxels && !is_plain {
             return Err(AdsError::Option {
                 option: "leaves",
                 value: "voxels".to_owned(),
-                expected: "voxels are hit themselves only with the axes `triangle`, the payload `index` and another coverage than `conservative`",
+                expected: "voxels are hit themselves only with the axes `triangle` and the payload `index`",
             });
         }
         if self.ids && self.payload != Payload::Material {

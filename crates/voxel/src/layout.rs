@@ -182,8 +182,8 @@ mod tests {
     fn plan_equals_formula() {
         for (resolution, grid) in [(64, None), (512, Some(64)), (33, Some(7)), (1, None)] {
             for config in [
-                Config { grid, ..Config::robust(resolution) },
-                Config { grid, builder: Builder::Binning, ..Config::robust(resolution) },
+                Config { grid, ..Config::at_centres(resolution) },
+                Config { grid, builder: Builder::Binning, ..Config::at_centres(resolution) },
                 Config { grid, ..Config::published_hu(resolution) },
                 Config { grid, payload: Payload::Index, ..Config::published_hu(resolution) },
                 Config { grid, ids: true, ..Config::published_hu(resolution) },
@@ -196,21 +196,21 @@ mod tests {
                 },
                 Config { grid, ..Config::published_selective(resolution) },
                 Config { grid, storage: Storage::Contiguous, ..Config::published_selective(resolution) },
-                Config { grid, storage: Storage::Linked, ..Config::robust(resolution) },
-                Config { grid, storage: Storage::Paged, page: 5, ..Config::robust(resolution) },
-                Config { grid, leaves: Leaves::Voxels, ..Config::robust(resolution) },
-                Config { grid, traversal: Traversal::Octree, ..Config::robust(resolution) },
+                Config { grid, storage: Storage::Linked, ..Config::at_centres(resolution) },
+                Config { grid, storage: Storage::Paged, page: 5, ..Config::at_centres(resolution) },
+                Config { grid, leaves: Leaves::Voxels, ..Config::at_centres(resolution) },
+                Config { grid, traversal: Traversal::Octree, ..Config::at_centres(resolution) },
                 Config {
                     grid,
                     traversal: Traversal::Octree,
                     leaves: Leaves::Voxels,
-                    ..Config::robust(resolution)
+                    ..Config::at_centres(resolution)
                 },
                 Config {
                     grid,
                     leaves: Leaves::Voxels,
                     builder: Builder::Binning,
-                    ..Config::robust(resolution)
+                    ..Config::at_centres(resolution)
                 },
             ] {
                 let demand = Demand { entries: 12_345, long_lists: 3, large: 7, nodes: 99 };
@@ -229,25 +229,27 @@ mod tests {
     #[test]
     fn out_of_range_options_are_named() {
         let message = |config: Config| plan(&config, Demand::default()).unwrap_err().to_string();
-        assert!(message(Config { resolution: 0, ..Config::robust(64) }).contains("resolution is 0"));
-        assert!(message(Config { grid: Some(1025), ..Config::robust(64) }).contains("grid is 1025"));
-        assert!(message(Config { samples: 0, ..Config::robust(64) }).contains("samples is 0"));
-        assert!(message(Config { page: 9, ..Config::robust(64) }).contains("page is 9"));
-        assert!(message(Config { work_budget: Some(0), ..Config::robust(64) }).contains("work budget is 0"));
+        assert!(message(Config { resolution: 0, ..Config::at_centres(64) }).contains("resolution is 0"));
+        assert!(message(Config { grid: Some(1025), ..Config::at_centres(64) }).contains("grid is 1025"));
+        assert!(message(Config { samples: 0, ..Config::at_centres(64) }).contains("samples is 0"));
+        assert!(message(Config { page: 9, ..Config::at_centres(64) }).contains("page is 9"));
+        assert!(
+            message(Config { work_budget: Some(0), ..Config::at_centres(64) }).contains("work budget is 0")
+        );
         assert!(message(Config { accept: Accept::Plane, ..Config::published_hu(64) }).contains("march"));
         let bent = Config { coverage: Coverage::Conservative, ..Config::published_hu(64) };
         assert!(message(bent).contains("coverage is conservative"));
-        let nameless = message(Config { payload: Payload::Material, ..Config::robust(64) });
+        let nameless = message(Config { payload: Payload::Material, ..Config::at_centres(64) });
         assert!(nameless.contains("accept") && nameless.contains("payload"), "{nameless}");
         let many = Demand { entries: 1 << 32, ..Demand::default() };
-        assert!(plan(&Config::robust(64), many).unwrap_err().to_string().contains("fragments"));
-        let sparse = Config { traversal: Traversal::Octree, ..Config::robust(64) };
+        assert!(plan(&Config::at_centres(64), many).unwrap_err().to_string().contains("fragments"));
+        let sparse = Config { traversal: Traversal::Octree, ..Config::at_centres(64) };
         let nodes = u64::from(VOXEL_NODE_LIMIT);
         assert!(plan(&sparse, Demand { nodes, ..Demand::default() }).is_ok());
         let many = Demand { nodes: nodes + 1, ..Demand::default() };
         assert!(plan(&sparse, many).unwrap_err().to_string().contains("nodes"));
         // A word of a list can address fewer pages than 32 bits could.
-        let paged = Config { storage: Storage::Paged, page: 1, ..Config::robust(64) };
+        let paged = Config { storage: Storage::Paged, page: 1, ..Config::at_centres(64) };
         let many = Demand { entries: u64::from(PAGE_LIMIT) + 1, ..Demand::default() };
         assert!(plan(&paged, many).unwrap_err().to_string().contains("fragments"));
         assert!(plan(&paged, Demand { entries: PAGE_LIMIT.into(), ..many }).is_ok());

@@ -23,7 +23,7 @@ const NEEDLE: &str = "inside of a needle a thousandth thick, nearly all of which
 const DUST: &str = "triangles far smaller than cells: those without a cell's centre are lost";
 
 /// Cases whose errors fall with the size of a cell as others do, from a higher start.
-pub(super) const ROBUST_LAWS: &[Law] = &[
+pub(super) const CENTRES_LAWS: &[Law] = &[
     line("G11", "part of it is seen at grazing angles, where its border is wide", 18.0),
     line("E2-far", COARSE, 5.0),
     line("E2-400-far", COARSE, 36.0),
@@ -53,10 +53,10 @@ pub(super) const ROBUST_LAWS: &[Law] = &[
 ];
 
 /// Planes in 16 x 16 cells per face.
-pub(super) const ROBUST_16: &[Deviation] = &[deviation("Z6-pixel", THIN, 0.99, 1.0)];
+pub(super) const CENTRES_16: &[Deviation] = &[deviation("Z6-pixel", THIN, 0.99, 1.0)];
 
 /// Planes in 64 x 64 cells per face.
-pub(super) const ROBUST_64: &[Deviation] = &[
+pub(super) const CENTRES_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
     deviation("G7", THIN, 0.49, 0.767),
@@ -135,7 +135,7 @@ pub(super) const CUBE_CAMERA_64: &[Deviation] = &[
 ];
 
 /// Planes in 128 x 128 cells per face.
-pub(super) const ROBUST_128: &[Deviation] = &[
+pub(super) const CENTRES_128: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
     deviation("G7", THIN, 0.49, 0.767),
@@ -153,7 +153,7 @@ pub(super) const ROBUST_128: &[Deviation] = &[
 ];
 
 /// Planes in 256 x 256 cells per face.
-pub(super) const ROBUST_256: &[Deviation] = &[
+pub(super) const CENTRES_256: &[Deviation] = &[
     deviation("G1", THIN, 0.695, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
     deviation("G7", THIN, 0.488, 0.77),

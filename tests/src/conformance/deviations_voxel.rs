@@ -48,11 +48,11 @@ pub(super) const LAWS: &[Law] = &[
 ];
 
 /// Planes in 16 x 16 cells per view.
-pub(super) const ROBUST_16: &[Deviation] =
+pub(super) const CENTRES_16: &[Deviation] =
     &[deviation("Z6-pixel", SMALL, 0.99, 1.0), deviation("Z7", SMALL, 0.4, 0.626)];
 
 /// Planes in 64 x 64 cells per view.
-pub(super) const ROBUST_64: &[Deviation] = &[
+pub(super) const CENTRES_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
     deviation("G7", THIN, 0.49, 0.767),
@@ -71,7 +71,7 @@ pub(super) const ROBUST_64: &[Deviation] = &[
 ];
 
 /// Planes in 128 x 128 cells per view.
-pub(super) const ROBUST_128: &[Deviation] = &[
+pub(super) const CENTRES_128: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
     deviation("G7", THIN, 0.49, 0.767),

@@ -5,9 +5,9 @@ use rasray_systems::Preset;
 use super::deviations;
 use super::row::{Cases, Demand, Deviation, Row, Tier, published_law};
 
-const fn robust_law(resolution: u32) -> Demand {
+const fn centres_law(resolution: u32) -> Demand {
     // One ray in a hundred at 64 cells along a side.
-    Demand::Law { resolution, per_cell: 0.64, depth_tolerance: 1e-3, laws: deviations::ROBUST_LAWS }
+    Demand::Law { resolution, per_cell: 0.64, depth_tolerance: 1e-3, laws: deviations::CENTRES_LAWS }
 }
 
 const fn mmrt(
@@ -24,38 +24,38 @@ const fn mmrt(
 /// All of them.
 pub(super) const ROWS: &[Row] = &[
     mmrt(
-        "mmrt-robust-16",
+        "mmrt-centres-16",
         Preset::Robust,
-        &[("resolution", "16")],
+        &[("resolution", "16"), ("coverage", "exact")],
         Cases::Deep,
-        robust_law(16),
-        deviations::ROBUST_16,
+        centres_law(16),
+        deviations::CENTRES_16,
     ),
     mmrt(
-        "mmrt-robust-64",
+        "mmrt-centres-64",
         Preset::Robust,
-        &[("resolution", "64")],
+        &[("resolution", "64"), ("coverage", "exact")],
         Cases::Shallow,
-        robust_law(64),
-        deviations::ROBUST_64,
+        centres_law(64),
+        deviations::CENTRES_64,
     ),
     mmrt(
-        "mmrt-robust-128",
+        "mmrt-centres-128",
         Preset::Robust,
-        &[("resolution", "128")],
+        &[("resolution", "128"), ("coverage", "exact")],
         Cases::Shallow,
-        robust_law(128),
-        deviations::ROBUST_128,
+        centres_law(128),
+        deviations::CENTRES_128,
     ),
     Row {
         tier: Tier::Full,
         ..mmrt(
-            "mmrt-robust-256",
+            "mmrt-centres-256",
             Preset::Robust,
-            &[("resolution", "256")],
+            &[("resolution", "256"), ("coverage", "exact")],
             Cases::Shallow,
-            robust_law(256),
-            deviations::ROBUST_256,
+            centres_law(256),
+            deviations::CENTRES_256,
         )
     },
     // The cube's cells and finer ones of the camera, which looks away from the axes; then the camera alone.
@@ -64,18 +64,23 @@ pub(super) const ROWS: &[Row] = &[
         ..mmrt(
             "mmrt-cube-camera-64",
             Preset::Robust,
-            &[("resolution", "64"), ("views", "cube+camera"), ("camera-resolution", "128")],
+            &[
+                ("resolution", "64"),
+                ("coverage", "exact"),
+                ("views", "cube+camera"),
+                ("camera-resolution", "128"),
+            ],
             Cases::Shallow,
-            robust_law(64),
+            centres_law(64),
             deviations::CUBE_CAMERA_64,
         )
     },
     mmrt(
         "mmrt-camera-64",
         Preset::Robust,
-        &[("resolution", "64"), ("views", "camera")],
+        &[("resolution", "64"), ("coverage", "exact"), ("views", "camera")],
         Cases::Shallow,
-        robust_law(64),
+        centres_law(64),
         deviations::CAMERA_64,
     ),
     // Planes, and in addition the triangles that are lost or seen edge-on.
@@ -86,7 +91,7 @@ pub(super) const ROWS: &[Row] = &[
             Preset::Robust,
             &[("resolution", "64"), ("coverage", "edge-on")],
             Cases::Shallow,
-            robust_law(64),
+            centres_law(64),
             deviations::EDGE_ON_64,
         )
     },
@@ -98,35 +103,24 @@ pub(super) const ROWS: &[Row] = &[
             Preset::Robust,
             &[("resolution", "64"), ("payload", "plane")],
             Cases::Shallow,
-            robust_law(64),
+            centres_law(64),
             deviations::PLANES_64,
         )
     },
     // What reaches into a cell is kept there: hits are those of triangles.
+    Row::exact("mmrt-robust-16", "mmrt", &[("resolution", "16")], Tier::Quick, Cases::All),
+    Row::exact("mmrt-robust-64", "mmrt", &[("resolution", "64")], Tier::Full, Cases::Shallow),
     Row::exact(
-        "mmrt-conservative-16",
+        "mmrt-robust-cells-16",
         "mmrt",
-        &[("resolution", "16"), ("coverage", "conservative")],
-        Tier::Quick,
+        &[("resolution", "16"), ("march", "exact"), ("storage", "dllb")],
+        Tier::Full,
         Cases::All,
     ),
     Row::exact(
-        "mmrt-conservative-64",
+        "mmrt-robust-cube-camera-32",
         "mmrt",
-        &[("resolution", "64"), ("coverage", "conservative"), ("march", "pyramid")],
-        Tier::Full,
-        Cases::Shallow,
-    ),
-    Row::exact(
-        "mmrt-conservative-cube-camera-32",
-        "mmrt",
-        &[
-            ("resolution", "32"),
-            ("coverage", "conservative"),
-            ("views", "cube+camera"),
-            ("camera-resolution", "48"),
-            ("storage", "sb"),
-        ],
+        &[("resolution", "32"), ("views", "cube+camera"), ("camera-resolution", "48"), ("storage", "sb")],
         Tier::Full,
         Cases::Shallow,
     ),

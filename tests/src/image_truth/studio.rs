@@ -18,8 +18,8 @@ use crate::harness::Bench;
 pub enum System {
     /// Every triangle: exact.
     BruteForce,
-    /// The A-buffer's robust preset with this many cells along a side.
-    MmrtRobust(u32),
+    /// The A-buffer, of which rays meet fragments at the centres of this many cells along a side.
+    Fragments(u32),
 }
 
 impl System {
@@ -27,8 +27,9 @@ impl System {
     fn spec(self) -> Spec {
         let spec = match self {
             Self::BruteForce => Spec::new("brute-force", "robust", []),
-            Self::MmrtRobust(resolution) => {
-                Spec::new("mmrt", "robust", [("resolution".to_owned(), resolution.to_string())])
+            Self::Fragments(resolution) => {
+                let options = [("resolution", resolution.to_string()), ("coverage", "exact".to_owned())];
+                Spec::new("mmrt", "robust", options.map(|(name, value)| (name.to_owned(), value)))
             }
         };
         spec.expect("both systems are registered")

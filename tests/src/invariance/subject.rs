@@ -23,8 +23,9 @@ const MORE: &[Row] = &[("bricks", "robust", &[("views", "cube"), ("grid", "24")]
 
 /// More of them, in the full tier only.
 const LARGE: &[Row] = &[
-    ("mmrt", "robust", &[("coverage", "conservative"), ("resolution", "24"), ("capacity", "40000")]),
-    ("hu", "robust", &[("coverage", "conservative"), ("resolution", "16")]),
+    ("mmrt", "robust", &[("coverage", "exact"), ("resolution", "24"), ("capacity", "40000")]),
+    ("ldc", "robust", &[("accept", "triangle"), ("resolution", "16")]),
+    ("hu", "robust", &[("coverage", "exact"), ("resolution", "16")]),
     ("mmrt", "robust", &[("single-layer", "on"), ("resolution", "24"), ("capacity", "40000")]),
     ("mmrt", "robust", &[("payload", "plane"), ("resolution", "24"), ("capacity", "40000")]),
 ];

@@ -74,7 +74,7 @@ fn both_builders_store_the_same_fragments() {
                 views,
                 camera_resolution: [resolution + 9, resolution],
                 addressing,
-                ..Config::robust(resolution)
+                ..Config::at_centres(resolution)
             };
             let [drawn, computed] = Builder::ALL
                 .map(|builder| built(&bench, &triangles, Config { builder, ..config }, eye, &rays));
@@ -102,7 +102,7 @@ fn every_edge_capacity_of_large_triangles() {
     let bench = Bench::new();
     let (triangles, rays) = (scene(), rays(500));
     let geometry = bench.geometry(&triangles);
-    let config = Config { builder: Builder::Binning, ..Config::robust(48) };
+    let config = Config { builder: Builder::Binning, ..Config::at_centres(48) };
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     let demand = Demand {
         nodes: 1 << 20,

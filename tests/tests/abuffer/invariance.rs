@@ -18,7 +18,7 @@ const RESOLUTION: u32 = 24;
 
 /// The repaired structure.
 fn robust() -> Config {
-    Config { fragments: Some(40_000), ..Config::robust(RESOLUTION) }
+    Config { fragments: Some(40_000), ..Config::at_centres(RESOLUTION) }
 }
 
 /// The published march and acceptance.

@@ -115,7 +115,7 @@ fn a_single_layer_is_the_nearest_of_all() {
                 addressing,
                 inline: index % 3 == 0,
                 camera_resolution: [41, 30],
-                ..Config::robust(32)
+                ..Config::at_centres(32)
             };
             let [all, kept] = compare(&bench, config, &geometry, None, EYE);
             assert!(kept > 1000 && kept < all * 9 / 10, "{kept} of {all} fragments, {config:?}");
@@ -130,7 +130,7 @@ fn holes_of_masks_show_the_layer_behind() {
     let scene = stage(&bench, "atrium:detail=0.25", 16);
     assert!(scene.binding().alpha_masked);
     for builder in Builder::ALL {
-        let config = Config { builder, ..Config::robust(48) };
+        let config = Config { builder, ..Config::at_centres(48) };
         let opaque = Config { single_layer: true, ..config };
         let (_, without_masks) = built(&bench, opaque, scene.geometry(), None, scene.eye());
         let (_, with_masks) = built(&bench, opaque, scene.geometry(), Some(scene.binding()), scene.eye());
@@ -168,7 +168,7 @@ fn through_centres_a_single_layer_is_enough() {
             march,
             views: Views::Camera,
             camera_resolution: [SIDE; 2],
-            ..Config::robust(SIDE)
+            ..Config::at_centres(SIDE)
         };
         let [of_all, of_single] = [false, true]
             .map(|single_layer| built(&bench, Config { single_layer, ..all }, &geometry, None, EYE).0);
@@ -191,7 +191,7 @@ fn through_centres_a_single_layer_is_enough() {
 
 #[test]
 fn a_single_layer_excludes_conservative_coverage() {
-    let config = Config { single_layer: true, coverage: Coverage::Conservative, ..Config::robust(16) };
+    let config = Config { single_layer: true, coverage: Coverage::Conservative, ..Config::at_centres(16) };
     let message = config.validate().expect_err("refused").to_string();
     assert!(message.contains("single-layer"), "{message}");
 }

@@ -73,19 +73,19 @@ fn a_deep_cell_is_sorted_by_every_storage() {
     let rays = rays_between_layers(LAYERS, 200);
     let expected = brute_force(&bench, &triangles, &rays);
     assert!(expected.iter().all(Hit::is_hit));
-    let one = |storage| Config { storage, buckets: 1, ..Config::robust(16) };
+    let one = |storage| Config { storage, buckets: 1, ..Config::at_centres(16) };
     // Lists of 10,000, of 5,000, and of fewer than one dispatch sorts.
     let configs = [
         one(Storage::Ll),
         one(Storage::Dll),
         one(Storage::Paged),
-        Config { storage: Storage::Sb, inline: true, ..Config::robust(16) },
-        Config { storage: Storage::Llb, buckets: 2, ..Config::robust(16) },
-        Config { buckets: 16, ..Config::robust(16) },
+        Config { storage: Storage::Sb, inline: true, ..Config::at_centres(16) },
+        Config { storage: Storage::Llb, buckets: 2, ..Config::at_centres(16) },
+        Config { buckets: 16, ..Config::at_centres(16) },
         one(Storage::Llb),
         one(Storage::Dllb),
         one(Storage::Sb),
-        Config { buckets: 2, ..Config::robust(16) },
+        Config { buckets: 2, ..Config::at_centres(16) },
     ];
     for &config in first(&configs, 6) {
         let structure = abuffer(&bench, config, &triangles, [0.0; 3]);
@@ -118,7 +118,7 @@ fn lists_that_one_thread_cannot_sort_together_are_sorted() {
     };
     let triangles: Vec<Triangle> = (0..LAYERS).flat_map(wide).collect();
     for storage in [Storage::Ll, Storage::Dll] {
-        let config = Config { storage, ..Config::robust(16) };
+        let config = Config { storage, ..Config::at_centres(16) };
         let structure = abuffer(&bench, config, &triangles, [0.0; 3]);
         let header = structure.header().expect("the header is readable");
         // A cell has one fragment per layer, two on the diagonal.
@@ -137,7 +137,7 @@ fn a_list_beyond_the_limit_is_counted_and_searched_in_full() {
     let triangles = layers(layers_beyond);
     let rays = rays_between_layers(layers_beyond, 60);
     let expected = brute_force(&bench, &triangles, &rays);
-    let config = Config { storage: Storage::Ll, ..Config::robust(16) };
+    let config = Config { storage: Storage::Ll, ..Config::at_centres(16) };
     let structure = abuffer(&bench, config, &triangles, [0.0; 3]);
     let status = structure.status(0).expect("the header is readable");
     assert_eq!((status.unsorted, status.corrupted), (1, 0), "{status:?}");
@@ -156,7 +156,7 @@ fn triangles_around_the_eye_are_found() {
         let mut triangles = closed_box([-4.0; 3], [4.0; 3]);
         let close = 2.0_f32.powi(-17);
         triangles.push([[-0.02, -0.02, close], [0.02, -0.02, close], [0.0, 0.02, close]].map(shifted));
-        let structure = abuffer(&bench, Config::robust(64), &triangles, eye);
+        let structure = abuffer(&bench, Config::at_centres(64), &triangles, eye);
         let header = structure.header().expect("the header is readable");
         assert!(header.near_size > close && header.near_size < 1e-3, "{}", header.near_size);
         assert_eq!(header.near_demand, 1);
@@ -192,7 +192,7 @@ fn a_room_is_exact_at_every_resolution() {
     let rays: Vec<Ray> = (0..1000).map(|_| Ray::new(random.point(-1.9, 1.9), random.direction())).collect();
     let expected = brute_force(&bench, &triangles, &rays);
     for resolution in [1, 2, 3, 5, 7, 33, 100, 255] {
-        let structure = abuffer(&bench, Config::robust(resolution), &triangles, [0.0; 3]);
+        let structure = abuffer(&bench, Config::at_centres(resolution), &triangles, [0.0; 3]);
         let hits = bench.trace(&structure, &rays).hits;
         let occluded = bench.occluded(&structure, &rays);
         for (ray, (hit, expected)) in hits.iter().zip(&expected).enumerate() {
@@ -219,7 +219,7 @@ fn an_eye_far_outside_sees_a_coarse_scene() {
     let oracle = oracle_of(&triangles);
     let verdicts: Vec<_> = rays.iter().map(|ray| oracle.closest(&oracle_ray(ray))).collect();
     for distance in [20.0, 1.0e3, 1.0e6] {
-        let structure = abuffer(&bench, Config::robust(RESOLUTION), &triangles, [0.0, 0.0, -distance]);
+        let structure = abuffer(&bench, Config::at_centres(RESOLUTION), &triangles, [0.0, 0.0, -distance]);
         let hits = bench.trace(&structure, &rays).hits;
         assert!(hits.iter().filter(|hit| hit.is_hit()).all(|hit| hit.t.is_finite() && hit.t > 0.0));
         assert!(
@@ -243,7 +243,7 @@ fn an_eye_far_outside_sees_a_coarse_scene() {
 fn invalid_rays_miss_and_finish() {
     let bench = Bench::new();
     let triangles = closed_box([-2.0; 3], [2.0; 3]);
-    let structure = abuffer(&bench, Config::robust(32), &triangles, [0.0; 3]);
+    let structure = abuffer(&bench, Config::at_centres(32), &triangles, [0.0; 3]);
     let good = Ray::new([0.1, 0.2, 0.3], [0.3, -0.5, 0.8]);
     let mut rays = vec![good];
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
@@ -282,7 +282,7 @@ fn limits_and_exclusion_are_kept() {
     for depth in [2.0, 3.0, 4.0] {
         triangles.push([[-9.0, -9.0, depth], [9.0, -9.0, depth], [0.0, 18.0, depth]]);
     }
-    let structure = abuffer(&bench, Config::robust(32), &triangles, [0.0; 3]);
+    let structure = abuffer(&bench, Config::at_centres(32), &triangles, [0.0; 3]);
     let mut random = Random::new(9);
     for _ in 0..20 {
         let direction = [random.between(-0.3, 0.3), random.between(-0.3, 0.3), 1.0];

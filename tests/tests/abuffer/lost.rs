@@ -57,7 +57,7 @@ fn built(bench: &Bench, config: Config, triangles: &[Triangle]) -> ABuffer {
 fn triangles_without_a_fragment_are_counted() {
     let bench = Bench::new();
     let triangles = scene();
-    let robust = Config { views: Views::Cube, ..Config::robust(32) };
+    let robust = Config { views: Views::Cube, ..Config::at_centres(32) };
     let mut counts = Vec::new();
     for config in [
         robust,
@@ -119,7 +119,7 @@ fn conservative_coverage_finds_what_brute_force_finds() {
     let brute = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
     let (expected, occluded) = (bench.trace(&brute, &rays).hits, bench.occluded(&brute, &rays));
     for resolution in [1, 16, 32, 128] {
-        let conservative = Config { coverage: Coverage::Conservative, ..Config::robust(resolution) };
+        let conservative = Config { coverage: Coverage::Conservative, ..Config::at_centres(resolution) };
         let kept = built(&bench, conservative, &triangles);
         assert_eq!(kept.kind(), StructureKind::Primitive);
         assert_eq!(kept.report().expect("the header is readable").lost, Some(0));
@@ -130,7 +130,7 @@ fn conservative_coverage_finds_what_brute_force_finds() {
         if resolution < 32 {
             continue;
         }
-        let exact = built(&bench, Config::robust(resolution), &triangles);
+        let exact = built(&bench, Config::at_centres(resolution), &triangles);
         assert_eq!(exact.kind(), StructureKind::Fragment);
         let contents = exact.download(bench.device()).expect("the device works");
         let named: HashSet<u32> = contents.data[..contents.header.demand as usize].iter().copied().collect();
@@ -152,7 +152,7 @@ fn edge_on_triangles_are_found() {
     let brute = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
     let expected = bench.trace(&brute, &rays).hits;
     for resolution in [1, 32, 128] {
-        let exact = Config::robust(resolution);
+        let exact = Config::at_centres(resolution);
         let made = |coverage| built(&bench, Config { coverage, ..exact }, &triangles);
         let [without, with, all] = [Coverage::Exact, Coverage::EdgeOn, Coverage::Conservative].map(made);
         assert_eq!(with.kind(), StructureKind::Fragment);
@@ -201,7 +201,7 @@ fn conservative_lists_of_what_is_lost_are_searched_to_their_end() {
     let mut triangles = scene();
     triangles.extend(closed_box([-90.0; 3], [90.0; 3]));
     let (geometry, rays) = (bench.geometry(&triangles), rays(&triangles));
-    let edge_on = Config { coverage: Coverage::EdgeOn, ..Config::robust(32) };
+    let edge_on = Config { coverage: Coverage::EdgeOn, ..Config::at_centres(32) };
     // Those of the quick tier come first: every value, not each storage.
     let mut configs = vec![
         edge_on,
@@ -246,7 +246,7 @@ fn conservative_lists_are_searched_to_their_end() {
     }));
     let brute = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
     let expected: Vec<_> = bench.trace(&brute, &rays).hits.iter().map(bits).collect();
-    let conservative = Config { coverage: Coverage::Conservative, ..Config::robust(32) };
+    let conservative = Config { coverage: Coverage::Conservative, ..Config::at_centres(32) };
     let with_camera = Config { views: Views::CubeCamera, camera_resolution: [21, 12], ..conservative };
     // Those of the quick tier come first: every value, not each storage.
     let mut configs = vec![
@@ -278,7 +278,7 @@ fn conservative_lists_are_searched_to_their_end() {
 #[test]
 fn marks_grow_with_the_geometry() {
     let bench = Bench::new();
-    let mut structure = built(&bench, Config::robust(32), &closed_box([-10.0; 3], [10.0; 3]));
+    let mut structure = built(&bench, Config::at_centres(32), &closed_box([-10.0; 3], [10.0; 3]));
     assert_eq!(structure.report().expect("the header is readable").lost, Some(0));
     let triangles = scene();
     structure.set_geometry(bench.device(), &bench.geometry(&triangles)).expect("it fits");

@@ -15,7 +15,7 @@ use rasray_tracer::build_until_complete;
 const EYE: [f32; 3] = [0.3, -0.7, 0.2];
 
 fn planes(resolution: u32) -> Config {
-    Config { payload: Payload::Plane, ..Config::robust(resolution) }
+    Config { payload: Payload::Plane, ..Config::at_centres(resolution) }
 }
 
 fn built(bench: &Bench, config: Config, triangles: &[Triangle]) -> ABuffer {
@@ -60,7 +60,7 @@ fn stored_planes_are_those_of_the_triangles() {
     let triangles = all_sizes();
     for (storage, builder) in Storage::ALL.into_iter().zip(Builder::ALL.into_iter().cycle()) {
         let [named, stored] = [Payload::Index, Payload::Plane].map(|payload| {
-            let config = Config { payload, storage, builder, inline: true, ..Config::robust(32) };
+            let config = Config { payload, storage, builder, inline: true, ..Config::at_centres(32) };
             let structure = built(&bench, config, &triangles);
             let contents = structure.download(bench.device()).expect("the device works");
             well_formed(&contents).unwrap_or_else(|fault| panic!("{config:?}: {fault}"));
@@ -103,7 +103,7 @@ fn stored_planes_are_met_where_those_of_triangles_are() {
     let mut triangles: Vec<Triangle> = closed_box([-10.0; 3], [10.0; 3]).to_vec();
     triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 10));
     let rays = rays(4000, 6.0);
-    let named = bench.trace(&built(&bench, Config::robust(128), &triangles), &rays).hits;
+    let named = bench.trace(&built(&bench, Config::at_centres(128), &triangles), &rays).hits;
     let stored = bench.trace(&built(&bench, planes(128), &triangles), &rays).hits;
     let agrees = |named: &Hit, stored: &Hit| match (named.is_hit(), stored.is_hit()) {
         (true, true) => (named.t - stored.t).abs() <= 2.0e-6 * named.t.max(1.0),
@@ -229,6 +229,6 @@ fn planes_exclude_what_asks_for_triangles() {
     assert!(message(conservative).contains("payload=index"));
     let slope = Config { accept: Accept::Slope, ..planes(16) };
     assert!(message(slope).contains("slope"));
-    let normal = Config { payload: Payload::Normal, ..Config::robust(16) };
+    let normal = Config { payload: Payload::Normal, ..Config::at_centres(16) };
     assert!(message(normal).contains("accept"));
 }

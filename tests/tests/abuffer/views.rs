@@ -58,7 +58,7 @@ fn keys(hits: &[Hit]) -> Vec<[u32; 4]> {
 fn a_camera_along_an_axis_is_a_face() {
     let bench = Bench::new();
     let (triangles, rays) = (scene(false), seen_rays(ALONG_Z, 600));
-    let cube = Config::robust(24);
+    let cube = Config::at_centres(24);
     let expected = bench.trace(&built(&bench, cube, &triangles, EYE.into()), &rays).hits;
     let hit = expected.iter().filter(|hit| hit.is_hit()).count();
     assert!(hit > 100, "{hit} of {} rays hit", rays.len());
@@ -81,7 +81,7 @@ fn a_camera_alone_knows_what_it_sees_and_nothing_else() {
     let bench = Bench::new();
     let triangles = scene(false);
     let camera = TURNED;
-    let config = Config { views: Views::Camera, camera_resolution: [40, 19], ..Config::robust(8) };
+    let config = Config { views: Views::Camera, camera_resolution: [40, 19], ..Config::at_centres(8) };
     let structure = built(&bench, config, &triangles, at_eye(camera));
     let contents = contents(&bench, &structure);
     // Of an even and an odd number, the smaller one is increased by one.
@@ -134,7 +134,7 @@ fn a_turned_camera_keeps_the_law_of_fragments() {
         let config = Config {
             views: Views::Camera,
             camera_resolution: [resolution, resolution / 2],
-            ..Config::robust(8)
+            ..Config::at_centres(8)
         };
         wrong(config) as f64 / rays.len() as f64
     };
@@ -151,7 +151,7 @@ fn a_view_of_a_camera_needs_one() {
     let bench = Bench::new();
     let geometry = bench.geometry(&scene(false));
     for views in [Views::CubeCamera, Views::Camera] {
-        let config = Config { views, ..Config::robust(8) };
+        let config = Config { views, ..Config::at_centres(8) };
         let mut structure =
             ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
         let flat = CameraView { half_height: 0.0, ..ALONG_Z };

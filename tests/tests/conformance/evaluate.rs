@@ -102,7 +102,7 @@ fn dropped(prepared: &Prepared, share: f64) -> Hits {
 fn laws_and_deviations_are_held_from_both_sides() {
     let bench = Bench::new();
     let prepared = prepare(&bench, "Z8", 20_000);
-    let law = row("mmrt-robust-64");
+    let law = row("mmrt-centres-64");
     // The limit is one in a hundred.
     for (share, broken) in [(0.0, false), (0.009, false), (0.011, false), (0.016, true), (0.5, true)] {
         assert_eq!(!faults(law, &prepared, &dropped(&prepared, share)).is_empty(), broken, "{share}");
@@ -172,7 +172,7 @@ fn another_answer_of_a_repeated_build_is_noticed() {
 fn a_hit_on_what_has_no_area_is_noticed() {
     let bench = Bench::new();
     let prepared = prepare(&bench, "G3", 2000);
-    let law = row("mmrt-robust-64");
+    let law = row("mmrt-centres-64");
     let nothing = vec![None; prepared.rays.len()];
     assert_eq!(faults(law, &prepared, &nothing), Vec::<String>::new());
     for ray in [0, 1000] {
@@ -206,13 +206,13 @@ fn inadmissible_answers_are_held_from_both_sides() {
         hits
     };
     for (name, share, broken) in [
-        ("mmrt-robust-64", 0.0, false),
-        ("mmrt-robust-64", 0.04, false),
-        ("mmrt-robust-64", 0.2, true),
+        ("mmrt-centres-64", 0.0, false),
+        ("mmrt-centres-64", 0.04, false),
+        ("mmrt-centres-64", 0.2, true),
         // One that is excused up to a share, and from one.
-        ("hu-robust-64", 0.33, false),
-        ("hu-robust-64", 0.6, true),
-        ("hu-robust-64", 0.0, true),
+        ("hu-centres-64", 0.33, false),
+        ("hu-centres-64", 0.6, true),
+        ("hu-centres-64", 0.0, true),
     ] {
         let faults = faults(row(name), &prepared, &lose(share));
         assert_eq!(

@@ -88,7 +88,7 @@ fn ten_million_triangles_are_traced_or_refused() {
             }
         };
         let mut structure =
-            ABuffer::new(bench.device(), Config::robust(64), &geometry, None).expect("it is valid");
+            ABuffer::new(bench.device(), Config::at_centres(64), &geometry, None).expect("it is valid");
         let rays: Vec<Ray> = case.rays.iter().map(|ray| Ray::new(ray.origin, ray.direction)).collect();
         let hits = bench.build_and_trace(&mut structure, case.eye, &rays);
         let hits = named(&hits);

@@ -16,7 +16,7 @@ const CONFIDENCE: f64 = 1.0 - 5.0e-8;
 
 /// The published acceptance with the exact march and coverage, so that it alone shows.
 fn interval(resolution: u32) -> Config {
-    Config { accept: Accept::Interval, ..Config::robust(resolution) }
+    Config { accept: Accept::Interval, ..Config::at_centres(resolution) }
 }
 
 fn sampled(resolution: u32) -> Config {
@@ -55,7 +55,7 @@ fn half_of_the_rays_that_hit_a_wall_head_on_pass_between_its_samples() {
         assert_rate("head-on", missed, 0.5, 2.0 / f64::from(resolution));
     }
     // Planes close the gaps between samples. At the open wall's edge cells have no sample.
-    let missed = run(&bench, Config::robust(256), &prepared).confusion.missed;
+    let missed = run(&bench, Config::at_centres(256), &prepared).confusion.missed;
     assert!(missed.value().expect("rays hit") < 2.0 / 256.0, "{missed:?}");
 }
 
@@ -66,7 +66,7 @@ fn slopes_close_the_gaps_of_a_wall_hit_head_on() {
     let bench = Bench::new();
     let prepared = prepare(&bench, "V4", 5_000);
     let median = |resolution: u32| {
-        let config = Config { accept: Accept::Slope, ..Config::robust(resolution) };
+        let config = Config { accept: Accept::Slope, ..Config::at_centres(resolution) };
         let measured = run(&bench, config, &prepared);
         // At the open wall's edge cells have no sample.
         let missed = measured.confusion.missed;
@@ -111,7 +111,7 @@ fn rays_parallel_to_the_image_plane_need_planes() {
         assert_eq!(measured.confusion.non_finite.count, 0);
     }
     // The wall is open: within a cell of its edge there may be no sample.
-    let missed = run(&bench, Config::robust(256), &prepared).confusion.missed;
+    let missed = run(&bench, Config::at_centres(256), &prepared).confusion.missed;
     assert!(missed.value().expect("rays hit") <= 1.0 / 256.0, "{missed:?}");
 }
 
@@ -150,7 +150,7 @@ struct Fares {
 fn inside_a_sphere(bench: &Bench, triangles: &[Triangle], resolution: u32, count: usize) -> Fares {
     let geometry = bench.geometry(triangles);
     let mut structure =
-        ABuffer::new(bench.device(), Config::robust(resolution), &geometry, None).expect("valid");
+        ABuffer::new(bench.device(), Config::at_centres(resolution), &geometry, None).expect("valid");
     build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
         .expect("the build completes");
     let mut random = Random::new(21);
@@ -228,7 +228,7 @@ fn equal_depths_go_to_the_lowest_id_in_every_build() {
     let bench = Bench::new();
     for (id, copies) in [("Z4", 2), ("Z14", 3)] {
         let prepared = prepare(&bench, id, 2000);
-        for config in [Config::robust(64), interval(64)] {
+        for config in [Config::at_centres(64), interval(64)] {
             let mut structure = ABuffer::new(bench.device(), config, &prepared.geometry, None)
                 .expect("the options are valid");
             let mut first: Option<Vec<(u32, u32)>> = None;
@@ -249,7 +249,7 @@ fn a_single_depth_and_the_greatest_depth_are_hit() {
     let bench = Bench::new();
     for id in ["Z8", "Z9"] {
         let prepared = prepare(&bench, id, 2000);
-        for config in [Config::robust(64), interval(64), sampled(64)] {
+        for config in [Config::at_centres(64), interval(64), sampled(64)] {
             for buckets in [1, 4, 32] {
                 let measured = run(&bench, Config { buckets, ..config }, &prepared);
                 assert_eq!(measured.lost, 0, "{id}, {buckets} buckets, {config:?}");
@@ -274,7 +274,7 @@ fn thin_shells_are_resolved_down_to_a_known_thickness() {
         shells.iter().take_while(resolved).last().copied()
     };
     // Planes resolve whatever single precision does.
-    assert_eq!(thinnest(Config::robust(64)), Some("Z11-6"));
+    assert_eq!(thinnest(Config::at_centres(64)), Some("Z11-6"));
     // A sample's depth is taken within the step it lies in: steps are finer than a millimetre at most.
     assert_eq!(thinnest(sampled(64)), Some("Z11-3"));
 }

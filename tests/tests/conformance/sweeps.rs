@@ -62,7 +62,7 @@ fn planes_are_hit_as_often_as_their_slope_says() {
         let config = Config {
             accept: Accept::Interval,
             addressing: Addressing::Address,
-            ..Config::robust(resolution)
+            ..Config::at_centres(resolution)
         };
         let mut structure =
             ABuffer::new(bench.device(), config, &prepared.geometry, None).expect("the options are valid");
@@ -90,7 +90,7 @@ fn planes_are_hit_as_often_as_their_slope_says() {
     }
     for id in ["V2-4", "V2-5", "V2-6"] {
         let prepared = prepare(&bench, id, 500);
-        let config = Config { accept: Accept::Interval, ..Config::robust(256) };
+        let config = Config { accept: Accept::Interval, ..Config::at_centres(256) };
         let mut structure =
             ABuffer::new(bench.device(), config, &prepared.geometry, None).expect("the options are valid");
         let missed = measure(&bench, &mut structure, &prepared, 1e-3, 0.0).confusion.missed;

@@ -50,7 +50,8 @@ fn no_ray_of_a_hard_case_passes_the_voxel_of_its_hit() {
         let exact = bench.trace(&brute.expect("pipelines can be made"), &prepared.rays).hits;
         for (tried, grid) in [16, 100].into_iter().enumerate() {
             let ends = Ends::Touching;
-            let config = Config { leaves: Leaves::Voxels, grid: Some(grid), ends, ..Config::robust(grid) };
+            let config =
+                Config { leaves: Leaves::Voxels, grid: Some(grid), ends, ..Config::at_centres(grid) };
             let structure = built_of(&bench, config, &prepared.geometry);
             let header = structure.header().expect("the header is readable");
             let hits = bench.trace(&structure, &prepared.rays).hits;

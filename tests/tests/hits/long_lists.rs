@@ -37,7 +37,7 @@ fn every_edge_capacity_of_long_lists_of_a_buffers() {
     use rasray_abuffer::{ABuffer, Config, Demand, Storage, plan};
     let bench = Bench::new();
     for (storage, layers, resolution) in [(Storage::Dll, 900, 20), (Storage::Sb, 1_100, 8)] {
-        let config = Config { storage, ..Config::robust(resolution) };
+        let config = Config { storage, ..Config::at_centres(resolution) };
         let triangles = plates(layers);
         let mut structure = ABuffer::new(bench.device(), config, &bench.geometry(&triangles), None)
             .expect("the options are valid");
@@ -61,7 +61,7 @@ fn rays_through_long_lists_are_given_the_rounds_they_need() {
     let geometry = bench.geometry(&triangles);
     let tracer = BatchTracer::new(bench.device(), 100).expect("a queue fits");
     let built = |work_budget| {
-        let config = Config { work_budget, ..Config::robust(8) };
+        let config = Config { work_budget, ..Config::at_centres(8) };
         let mut structure =
             ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
         build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
@@ -87,7 +87,7 @@ fn every_edge_capacity_of_long_lists_of_voxels() {
     use rasray_voxel::{Config, Demand, Voxels, plan};
     let bench = Bench::new();
     let triangles = plates(SHORT_LIST_LIMIT as usize + 50);
-    let config = Config::robust(5);
+    let config = Config::at_centres(5);
     let mut structure = Voxels::new(bench.device(), config, &bench.geometry(&triangles), None)
         .expect("the options are valid");
     let demand = Demand { entries: 1 << 18, ..Demand::default() };

@@ -11,3 +11,4 @@ mod on_surface;
 mod ray_work;
 mod replay;
 mod single_sided;
+mod slivers;

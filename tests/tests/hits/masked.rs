@@ -21,6 +21,7 @@ const RAYS: usize = 1500;
 const EXACT: &[(&str, &[(&str, &str)])] = &[
     ("dirt", &[("resolution", "64")]),
     ("hu", &[("resolution", "64"), ("coverage", "conservative")]),
+    ("ldc", &[("resolution", "64"), ("accept", "triangle")]),
     ("mmrt", &[("resolution", "64"), ("coverage", "conservative"), ("builder", "binning")]),
     ("mmrt", &[("resolution", "64"), ("coverage", "conservative"), ("storage", "sb"), ("march", "pyramid")]),
     ("hu", &[("resolution", "64"), ("coverage", "conservative"), ("builder", "binning")]),
@@ -28,7 +29,7 @@ const EXACT: &[(&str, &[(&str, &str)])] = &[
 ];
 
 /// How many of [`EXACT`] the quick tier tries.
-const QUICK: usize = 4;
+const QUICK: usize = 5;
 
 /// Presets that must be among those found by what they promise.
 const KEEPERS: &[&str] = &["brute-force robust", "bricks robust", "bvh robust", "dirt robust"];

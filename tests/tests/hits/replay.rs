@@ -45,7 +45,7 @@ fn abuffer(bench: &Bench, geometry: &Geometry, config: Config) -> Box<dyn Struct
 const MORE: [Row; 6] = [
     ("bvh", "robust", &[("builder", "lbvh")]),
     ("dirt", "robust", &[("storage", "llb")]),
-    ("mmrt", "robust", &[("coverage", "conservative")]),
+    ("mmrt", "robust", &[("coverage", "exact"), ("storage", "dllb")]),
     ("mmrt", "robust", &[("march", "pyramid"), ("storage", "sb")]),
     ("hu", "robust", &[("storage", "ll")]),
     ("selective", "published", &[("march", "exact"), ("payload", "index")]),
@@ -196,7 +196,7 @@ fn the_replay_of_a_lost_hit_shows_the_cell_that_lost_it() {
     let oracle = oracle_of(&triangles);
     let truths: Vec<Verdict> = rays.iter().map(|ray| oracle.closest(&oracle_ray(ray))).collect();
     let robust =
-        abuffer(&bench, &geometry, Config { counters: Counters::Steps, ..Config::robust(RESOLUTION) });
+        abuffer(&bench, &geometry, Config { counters: Counters::Steps, ..Config::at_centres(RESOLUTION) });
     // Few samples leave cells out; depth intervals refuse fragments of slanted triangles.
     let interval = Config { accept: Accept::Interval, ..published() };
     let broken = [("interval", interval), ("4 samples", Config { samples: 4, ..interval })];
@@ -279,7 +279,7 @@ fn a_structure_that_logs_nothing_says_so() {
         assert!(refused.to_string().contains("Counters::Steps"));
     }
     // One whose build exceeded its capacity gives no answer and says why.
-    let config = Config { counters: Counters::Steps, fragments: Some(0), ..Config::robust(RESOLUTION) };
+    let config = Config { counters: Counters::Steps, fragments: Some(0), ..Config::at_centres(RESOLUTION) };
     let mut cramped = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     let recorded = bench.device().submit(|recorder| cramped.record_build(recorder, 0, EYE.into()));
     recorded.expect("the device works").value.expect("the build is recorded");

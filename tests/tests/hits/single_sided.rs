@@ -296,7 +296,7 @@ type Row = (&'static str, &'static str, &'static [(&'static str, &'static str)])
 
 /// Structures of fragments, of which each stands for its triangle in another way.
 const FRAGMENTS: &[Row] = &[
-    ("mmrt", "robust", &[("resolution", "192")]),
+    ("mmrt", "robust", &[("resolution", "192"), ("coverage", "exact")]),
     ("mmrt", "robust", &[("resolution", "192"), ("payload", "plane")]),
     ("mmrt", "published", &[("resolution", "192"), ("payload", "index")]),
     ("mmrt", "published", &[("resolution", "192"), ("payload", "attributes")]),
@@ -304,7 +304,7 @@ const FRAGMENTS: &[Row] = &[
     ("ldc", "robust", &[("resolution", "192")]),
     ("ldc", "published", &[("resolution", "192"), ("payload", "index")]),
     ("ldc", "published", &[("resolution", "192"), ("payload", "attributes")]),
-    ("hu", "robust", &[("resolution", "192")]),
+    ("hu", "robust", &[("resolution", "192"), ("coverage", "exact")]),
     ("hu", "published", &[("resolution", "192"), ("payload", "index")]),
     ("hu", "published", &[("resolution", "192"), ("payload", "attributes")]),
     ("selective", "robust", &[("resolution", "192")]),

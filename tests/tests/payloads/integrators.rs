@@ -16,12 +16,10 @@ const BOUNCES: u32 = 2;
 
 /// How far the means of occlusion and of light may be off, relative, where hits may be: at least and at most,
 /// so that what passes unexpectedly is noticed. Published fragments of mmrt are as thick as half a step, which hides more
-/// than there is; its robust ones lose what is seen edge-on from the eye.
+/// than there is.
 const ALLOWED: &[(&str, Preset, [[f32; 2]; 2])] = &[
-    ("mmrt", Preset::Robust, [[0.0, 0.06], [0.0, 0.25]]),
     ("mmrt", Preset::Published, [[0.2, 0.8], [0.03, 0.2]]),
     ("dirt", Preset::Published, [[0.0, 0.12], [0.0, 0.03]]),
-    ("hu", Preset::Robust, [[0.0, 0.03], [0.0, 0.01]]),
     ("hu", Preset::Published, [[0.0, 0.1], [0.0, 0.03]]),
     ("selective", Preset::Robust, [[0.0, 0.03], [0.0, 0.01]]),
     ("selective", Preset::Published, [[0.03, 0.2], [0.0, 0.1]]),

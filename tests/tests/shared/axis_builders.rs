@@ -78,7 +78,7 @@ fn both_builders_of_voxels_store_the_same_fragments() {
     use rasray_voxel::{Accept, Axes, Config, Coverage, March, Marking, Payload, Storage};
     let bench = Bench::new();
     let geometry = bench.geometry(&all_sizes());
-    let robust = Config::robust;
+    let robust = Config::at_centres;
     let published = |axes| Config {
         axes,
         payload: Payload::Index,
@@ -142,7 +142,7 @@ fn every_edge_capacity_of_large_triangles_of_voxels() {
     use rasray_voxel::{Config, Demand, plan};
     let bench = Bench::new();
     let triangles = all_sizes();
-    let config = Config { builder: Builder::Binning, ..Config::robust(40) };
+    let config = Config { builder: Builder::Binning, ..Config::at_centres(40) };
     let mut structure = Voxels::new(bench.device(), config, &bench.geometry(&triangles), None)
         .expect("the options are valid");
     let demand = Demand { entries: 1 << 16, ..Demand::default() };

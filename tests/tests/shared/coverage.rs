@@ -225,7 +225,7 @@ fn fault(contents: &Contents, triangles: &[Triangle], resolution: u32) -> Option
 fn built(bench: &Bench, triangles: &[Triangle], resolution: u32, eye: [f32; 3]) -> Contents {
     let geometry = bench.geometry(triangles);
     let mut structure =
-        ABuffer::new(bench.device(), Config::robust(resolution), &geometry, None).expect("an A-buffer");
+        ABuffer::new(bench.device(), Config::at_centres(resolution), &geometry, None).expect("an A-buffer");
     build_until_complete(bench.device(), &mut structure, eye, Timing::None).expect("the build completes");
     structure.download(bench.device()).expect("the device answers")
 }

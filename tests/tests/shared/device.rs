@@ -141,7 +141,7 @@ fn brute_force_runs_on_what_it_requires() {
 #[test]
 fn the_abuffer_runs_with_exactly_what_it_requires() {
     for addressing in [Addressing::Descriptor, Addressing::Address] {
-        let config = Config { addressing, ..Config::robust(32) };
+        let config = Config { addressing, ..Config::at_centres(32) };
         let requirements = ABuffer::requirements_of(&config);
         let device = exact_device(&requirements);
         let mut structure =
@@ -155,8 +155,8 @@ fn the_abuffer_runs_with_exactly_what_it_requires() {
 
 #[test]
 fn the_abuffer_says_which_feature_an_option_lacks() {
-    let config = Config { addressing: Addressing::Address, ..Config::robust(32) };
-    let device = exact_device(&ABuffer::requirements_of(&Config::robust(32)));
+    let config = Config { addressing: Addressing::Address, ..Config::at_centres(32) };
+    let device = exact_device(&ABuffer::requirements_of(&Config::at_centres(32)));
     let error =
         ABuffer::new(&device, config, &geometry(&device), None).expect_err("addresses are not enabled");
     assert!(error.to_string().contains("bufferDeviceAddress"), "{error}");
@@ -167,7 +167,7 @@ fn the_abuffer_says_which_feature_an_option_lacks() {
 #[test]
 fn using_what_was_not_requested_is_noticed() {
     let device = exact_device(&Requirements::floor());
-    let result = ABuffer::new(&device, Config::robust(32), &geometry(&device), None);
+    let result = ABuffer::new(&device, Config::at_centres(32), &geometry(&device), None);
     let messages = device.validation_messages();
     let text = messages.join("\n");
     match result {

@@ -91,7 +91,7 @@ fn every_edge_capacity(config: Config) {
 
 #[test]
 fn every_edge_capacity_of_one_view_a_triangle() {
-    every_edge_capacity(Config::robust(32));
+    every_edge_capacity(Config::at_centres(32));
 }
 
 #[test]
@@ -108,9 +108,9 @@ fn every_edge_capacity_of_one_view_a_voxel() {
 fn every_edge_capacity_of_every_storage() {
     for (index, storage) in Storage::ALL.into_iter().enumerate() {
         let tried = [
-            Config { storage, ..Config::robust(32) },
+            Config { storage, ..Config::at_centres(32) },
             Config { storage, march: March::Exact, ..hu(24) },
-            Config { storage, page: 3, coverage: Coverage::Conservative, ..Config::robust(20) },
+            Config { storage, page: 3, coverage: Coverage::Conservative, ..Config::at_centres(20) },
         ];
         for &config in in_turn(&tried, index) {
             every_edge_capacity(config);
@@ -121,7 +121,7 @@ fn every_edge_capacity_of_every_storage() {
 #[test]
 fn every_edge_capacity_by_address() {
     for (index, storage) in Storage::ALL.into_iter().enumerate() {
-        let tried = [Config::robust(32), selective(32)];
+        let tried = [Config::at_centres(32), selective(32)];
         for &config in in_turn(&tried, index) {
             every_edge_capacity(Config { storage, addressing: Addressing::Address, ..config });
         }
@@ -134,11 +134,11 @@ fn bytes_are_those_of_the_formula() {
     let bench = Bench::new();
     let triangles = scene();
     for config in [
-        Config { sort: false, ..Config::robust(16) },
+        Config { sort: false, ..Config::at_centres(16) },
         Config { grid: Some(9), ..hu(33) },
         selective(50),
-        Config { storage: Storage::Paged, page: 8, ..Config::robust(40) },
-        Config { storage: Storage::Linked, ..Config::robust(40) },
+        Config { storage: Storage::Paged, page: 8, ..Config::at_centres(40) },
+        Config { storage: Storage::Linked, ..Config::at_centres(40) },
         Config { storage: Storage::Contiguous, ..selective(40) },
     ] {
         let mut structure = made(&bench, config, &triangles);
@@ -190,7 +190,7 @@ fn lists_of_ten_thousand_are_searched() {
             Ray::new([0.4, 0.3, depth(behind) + 5.0e-5], [0.0, 0.0, direction])
         })
         .collect();
-    let base = Config { fragments: Some(1 << 16), ..Config::robust(2) };
+    let base = Config { fragments: Some(1 << 16), ..Config::at_centres(2) };
     let published = Config { fragments: Some(1 << 16), storage: Storage::Contiguous, ..hu(2) };
     let marched = Config { march: March::Exact, axes: Axes::Triangle, ..published };
     let mut parities = [None, None];
@@ -236,7 +236,7 @@ fn every_fault_of_a_list_is_noticed() {
     let bench = Bench::new();
     let triangles = scene();
     let count = triangles.len() as u32;
-    for config in [Config::robust(16), selective(16), hu(16)] {
+    for config in [Config::at_centres(16), selective(16), hu(16)] {
         let storage = config.storage;
         let mut structure = made(&bench, Config { fragments: Some(1 << 16), ..config }, &triangles);
         assert!(bench.build_once(&mut structure, [0.0; 3]).complete);

@@ -24,7 +24,7 @@ fn milliseconds(repeats: u32, mut call: impl FnMut()) -> Option<f64> {
 /// Fragments in voxels, by DDA and by the octree; and voxels as fine as the cells of the fragments, both ways: the paper
 /// compares its fragments with rays traced down to the leaves of an octree of that size.
 fn compared(cells: u32) -> [(&'static str, Config); 4] {
-    let fragments = Config { counters: Counters::Sums, ..Config::robust(cells) };
+    let fragments = Config { counters: Counters::Sums, ..Config::at_centres(cells) };
     let voxels = Config { leaves: Leaves::Voxels, grid: Some(cells), ..fragments };
     let octree = |config| Config { traversal: Traversal::Octree, ..config };
     [

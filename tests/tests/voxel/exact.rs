@@ -5,7 +5,7 @@ use rasray_ads::{BruteForce, Ray, Structure, StructureKind};
 use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
-use rasray_tests::shapes::all_sizes;
+use rasray_tests::shapes::{all_sizes, needles};
 use rasray_tracer::build_until_complete;
 use rasray_voxel::{Addressing, Config, Coverage, Storage, Voxels, well_formed};
 
@@ -48,7 +48,7 @@ fn cells_that_keep_all_that_reaches_into_them_lose_no_hit() {
         let found = bench.occluded(&structure, &rays);
         (structure.kind(), wrong + found.iter().zip(&occluded).filter(|(a, b)| a != b).count())
     };
-    let kept = |resolution| Config { coverage: Coverage::Conservative, ..Config::robust(resolution) };
+    let kept = |resolution| Config { coverage: Coverage::Conservative, ..Config::at_centres(resolution) };
     for config in [
         kept(1),
         kept(16),
@@ -63,11 +63,29 @@ fn cells_that_keep_all_that_reaches_into_them_lose_no_hit() {
     ] {
         assert_eq!(different(config), (StructureKind::Primitive, 0), "{config:?}");
     }
-    let (kind, wrong) = different(Config::robust(16));
+    let (kind, wrong) = different(Config::at_centres(16));
     assert_eq!(kind, StructureKind::Fragment);
     assert!(
         wrong > 100,
         "cells that keep what covers their centres answer {wrong} of {} rays wrong",
         rays.len()
     );
+}
+
+/// Depths that rounding leaves open are stored as none, in some cells of long needles and in no cell of others.
+#[test]
+fn some_slivers_are_tested_at_all_depths_of_their_cells() {
+    let bench = Bench::new();
+    let geometry = bench.geometry(&needles());
+    for resolution in [21, 64, 512] {
+        let mut structure = Voxels::new(bench.device(), Config::robust(resolution), &geometry, None)
+            .expect("the options are valid");
+        build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
+            .expect("the build completes");
+        let contents = structure.download(bench.device()).expect("the device works");
+        let depths = contents.fragments.chunks(2).map(|fragment| fragment[0]);
+        let (anywhere, kept) = (depths.clone().filter(|&depth| depth == 0).count(), depths.count());
+        println!("{resolution} cells along a side: {anywhere} of {kept} at all depths");
+        assert!(0 < anywhere && anywhere < kept, "{anywhere} of {kept}");
+    }
 }

@@ -9,7 +9,7 @@ use rasray_tests::voxels::{built, contents};
 use rasray_voxel::{Builder, Config, Contents, Ends, Leaves, well_formed};
 
 fn voxels(grid: u32) -> Config {
-    Config { leaves: Leaves::Voxels, grid: Some(grid), ends: Ends::Touching, ..Config::robust(grid) }
+    Config { leaves: Leaves::Voxels, grid: Some(grid), ends: Ends::Touching, ..Config::at_centres(grid) }
 }
 
 /// From outside of everything to points within.

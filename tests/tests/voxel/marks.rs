@@ -54,7 +54,7 @@ fn every_voxel_that_a_triangle_reaches_into_is_searched() {
         (39, 100, all_by(Marking::Triangles)),
         (39, 100, all_by(Marking::Fragments)),
     ] {
-        let config = Config { grid: Some(grid), axes, voxels, ..Config::robust(resolution) };
+        let config = Config { grid: Some(grid), axes, voxels, ..Config::at_centres(resolution) };
         let structure = built(&bench, config, &triangles);
         let contents = contents(&bench, &structure);
         let header = structure.header().expect("the header is readable");
@@ -128,7 +128,7 @@ fn triangles_decide_axes_where_there_are_no_fragments() {
     }
     for marking in [Marking::Triangles, Marking::Fragments] {
         let config =
-            Config { axes: Axes::All, voxels: Some(marking), grid: Some(GRID), ..Config::robust(128) };
+            Config { axes: Axes::All, voxels: Some(marking), grid: Some(GRID), ..Config::at_centres(128) };
         let structure = built(&bench, config, &triangles);
         let header = structure.header().expect("the header is readable");
         let of_walls = built(&bench, config, &walls).header().expect("the header is readable").fragments;

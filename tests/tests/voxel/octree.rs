@@ -98,7 +98,7 @@ fn answers(
 #[test]
 fn hits_are_those_of_rays_that_visit_every_voxel() {
     let bench = Bench::new();
-    let robust = |grid, resolution| Config { grid: Some(grid), ..Config::robust(resolution) };
+    let robust = |grid, resolution| Config { grid: Some(grid), ..Config::at_centres(resolution) };
     let voxels = |grid| Config { leaves: Leaves::Voxels, ..robust(grid, 64) };
     for (scene, triangles) in [sparse(), all_sizes()].into_iter().enumerate() {
         let configs = [
@@ -140,7 +140,7 @@ fn hits_are_those_of_rays_that_visit_every_voxel() {
 #[test]
 fn empty_nodes_are_skipped() {
     let bench = Bench::new();
-    let config = Config { grid: Some(128), leaves: Leaves::Voxels, ..Config::robust(64) };
+    let config = Config { grid: Some(128), leaves: Leaves::Voxels, ..Config::at_centres(64) };
     let (_, _, [cells, _]) = answers(&bench, config, &sparse(), 4000);
     let (_, _, [fewer, _]) = answers(&bench, octree(config), &sparse(), 4000);
     assert!(2 * fewer < cells, "{fewer} of {cells} cells");
@@ -150,7 +150,7 @@ fn empty_nodes_are_skipped() {
 fn the_octree_says_of_each_voxel_what_the_grid_says() {
     let bench = Bench::new();
     for (triangles, grid) in [(sparse(), 1), (sparse(), 5), (all_sizes(), 16), (sparse(), 100)] {
-        let config = octree(Config { grid: Some(grid), ..Config::robust(48) });
+        let config = octree(Config { grid: Some(grid), ..Config::at_centres(48) });
         let structure = built(&bench, config, &triangles);
         let mut contents = contents(&bench, &structure);
         well_formed(&contents, triangles.len() as u32).expect("the octree is well formed");
@@ -178,7 +178,7 @@ fn the_octree_says_of_each_voxel_what_the_grid_says() {
 #[test]
 fn nodes_grow_to_what_they_take() {
     let bench = Bench::new();
-    let (triangles, config) = (sparse(), octree(Config { grid: Some(64), ..Config::robust(64) }));
+    let (triangles, config) = (sparse(), octree(Config { grid: Some(64), ..Config::at_centres(64) }));
     let complete = built(&bench, config, &triangles);
     let header = complete.header().expect("the header is readable");
     let expected = bench.trace(&complete, &rays(&complete, 500)).hits;

@@ -40,7 +40,7 @@ fn fragments_saved_are_those_that_geometry_allows() {
     ];
     for (name, triangles, least) in scenes {
         let stored = |axes| {
-            let config = Config { axes, coverage: Coverage::Exact, ..Config::robust(RESOLUTION) };
+            let config = Config { axes, coverage: Coverage::Exact, ..Config::at_centres(RESOLUTION) };
             let structure = built(&bench, config, &triangles);
             structure.report().expect("the header is readable").stored.expect("fragments are counted") as f64
         };
@@ -64,7 +64,7 @@ fn fragments_saved_are_those_that_geometry_allows() {
         assert!(saved >= bound - silhouettes, "{name} saves {saved} of its fragments of {bound} possible");
         // A voxel on an edge between surfaces of two axes keeps those of one only: what is saved beyond the bound is
         // what rays will miss there.
-        let edges = 2.0 / f64::from(Config::robust(RESOLUTION).grid());
+        let edges = 2.0 / f64::from(Config::at_centres(RESOLUTION).grid());
         assert!((by_voxel - bound).abs() <= edges + silhouettes, "{name}: {by_voxel} of {bound}");
     }
 }
@@ -91,7 +91,7 @@ fn builds_repeat_to_the_bit() {
     triangles.extend(triangles.clone());
     triangles.extend(tilted(&closed_box([-0.5; 3], [0.5; 3])));
     let marked_before = Config { voxels: Some(Marking::Triangles), ..hu(64) };
-    for config in [Config::robust(64), hu(64), marked_before, selective(64)] {
+    for config in [Config::at_centres(64), hu(64), marked_before, selective(64)] {
         let sorted = Config { storage: Storage::Contiguous, ..config };
         let first = contents(&bench, &built(&bench, sorted, &triangles));
         let expected = lists(&first);
@@ -144,10 +144,10 @@ fn budgets_change_no_hit() {
     let bench = Bench::new();
     let (triangles, rays) = (layered(), rays(200));
     for config in [
-        Config::robust(32),
-        Config { sort: false, ..Config::robust(32) },
-        Config { storage: Storage::Linked, axes: Axes::All, ..Config::robust(32) },
-        Config { storage: Storage::Paged, ..Config::robust(32) },
+        Config::at_centres(32),
+        Config { sort: false, ..Config::at_centres(32) },
+        Config { storage: Storage::Linked, axes: Axes::All, ..Config::at_centres(32) },
+        Config { storage: Storage::Paged, ..Config::at_centres(32) },
         hu(32),
         Config { storage: Storage::Contiguous, ..hu(32) },
         Config { storage: Storage::Contiguous, sort: false, ..hu(32) },
@@ -173,12 +173,12 @@ fn storages_change_no_hit() {
     let (mut triangles, rays) = (layered(), rays(2000));
     triangles.extend(tilted(&sphere([-1.0, 0.5, 1.5], 1.5, 12)));
     let configs = [
-        Config::robust(64),
-        Config { coverage: Coverage::Conservative, ..Config::robust(16) },
+        Config::at_centres(64),
+        Config { coverage: Coverage::Conservative, ..Config::at_centres(16) },
         hu(64),
         Config { march: March::Exact, ..hu(48) },
         selective(64),
-        Config { accept: Accept::Parity, ..Config::robust(64) },
+        Config { accept: Accept::Parity, ..Config::at_centres(64) },
     ];
     for (index, config) in configs.into_iter().enumerate() {
         let expected = built(&bench, Config { storage: Storage::Contiguous, ..config }, &triangles);
@@ -205,7 +205,7 @@ fn a_room_is_exact_at_every_resolution() {
     let mut random = Random::new(4);
     let rays: Vec<Ray> = (0..1000).map(|_| Ray::new(random.point(-1.9, 1.9), random.direction())).collect();
     for (resolution, grid) in [(1, 1), (2, 5), (3, 3), (7, 2), (33, 64), (100, 17), (255, 28)] {
-        let config = Config { grid: Some(grid), ..Config::robust(resolution) };
+        let config = Config { grid: Some(grid), ..Config::at_centres(resolution) };
         let structure = built(&bench, config, &triangles);
         let hits = bench.trace(&structure, &rays).hits;
         let occluded = bench.occluded(&structure, &rays);
@@ -230,7 +230,7 @@ fn a_traversal_as_long_as_the_budget_reaches_its_end() {
     let bench = Bench::new();
     let plate = |x: f32, y: f32, z: f32| [[x, y - 0.1, z], [x + 0.1, y, z], [x - 0.1, y + 0.1, z]];
     let triangles = [plate(-0.9, -0.9, -1.0), plate(0.9, 0.9, 0.0), plate(-0.9, 0.9, 1.0)];
-    let config = Config { grid: Some(1), ..Config::robust(2048) };
+    let config = Config { grid: Some(1), ..Config::at_centres(2048) };
     let structure = built(&bench, config, &triangles);
     let rays: Vec<Ray> = (0..64)
         .map(|k| {
@@ -248,7 +248,7 @@ fn limits_and_exclusion_are_kept() {
     let bench = Bench::new();
     let triangles: Vec<Triangle> =
         [2.0, 3.0, 4.0].map(|z| [[-9.0, -9.0, z], [9.0, -9.0, z], [0.0, 18.0, z]]).to_vec();
-    let structure = built(&bench, Config::robust(32), &triangles);
+    let structure = built(&bench, Config::at_centres(32), &triangles);
     let ray = Ray::new([0.1, -0.2, 0.0], [0.1, 0.2, 1.0]);
     let rays = [
         ray,

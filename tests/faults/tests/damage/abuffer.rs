@@ -147,14 +147,14 @@ fn check(config: Config, damages: &[Damage]) {
 #[test]
 fn damaged_lists_reached_by_descriptor_are_survived_and_told() {
     if in_child("damage::abuffer::damaged_lists_reached_by_descriptor_are_survived_and_told") {
-        check(Config::robust(32), &DAMAGES);
+        check(Config::at_centres(32), &DAMAGES);
     }
 }
 
 #[test]
 fn damaged_lists_reached_by_address_are_survived_and_told() {
     if in_child("damage::abuffer::damaged_lists_reached_by_address_are_survived_and_told") {
-        check(Config { addressing: Addressing::Address, ..Config::robust(32) }, &DAMAGES);
+        check(Config { addressing: Addressing::Address, ..Config::at_centres(32) }, &DAMAGES);
     }
 }
 
@@ -171,7 +171,7 @@ fn damaged_lists_of_every_storage_are_survived_and_told() {
         for (turn, storage) in Storage::ALL.into_iter().enumerate() {
             for &inline in in_turn(&[false, true], turn) {
                 println!("{}, inline: {inline}", storage.name());
-                check(Config { storage, inline, ..Config::robust(32) }, &DAMAGES_OF_ANY);
+                check(Config { storage, inline, ..Config::at_centres(32) }, &DAMAGES_OF_ANY);
             }
         }
     }
@@ -180,7 +180,7 @@ fn damaged_lists_of_every_storage_are_survived_and_told() {
 #[test]
 fn damaged_conservative_lists_are_survived_and_told() {
     if in_child("damage::abuffer::damaged_conservative_lists_are_survived_and_told") {
-        let config = Config { coverage: Coverage::Conservative, ..Config::robust(32) };
+        let config = Config { coverage: Coverage::Conservative, ..Config::at_centres(32) };
         for addressing in [Addressing::Descriptor, Addressing::Address] {
             check(Config { addressing, ..config }, &DAMAGES_OF_CONSERVATIVE_LISTS);
         }

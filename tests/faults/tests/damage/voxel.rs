@@ -123,7 +123,7 @@ fn damaged_links_of_voxels_are_survived_and_told() {
     if in_child("damage::voxel::damaged_links_of_voxels_are_survived_and_told") {
         for storage in [Storage::Linked, Storage::Paged] {
             println!("{}", storage.name());
-            check(Config { storage, ..Config::robust(32) }, &OF_LINKS);
+            check(Config { storage, ..Config::at_centres(32) }, &OF_LINKS);
             check(Config { storage, ..Config::published_hu(32) }, &OF_LINKS);
         }
     }
@@ -134,7 +134,7 @@ fn damaged_links_of_voxels_reached_by_address_are_survived_and_told() {
     if in_child("damage::voxel::damaged_links_of_voxels_reached_by_address_are_survived_and_told") {
         for storage in [Storage::Linked, Storage::Paged] {
             let addressing = Addressing::Address;
-            check(Config { storage, addressing, ..Config::robust(32) }, &OF_LINKS);
+            check(Config { storage, addressing, ..Config::at_centres(32) }, &OF_LINKS);
         }
     }
 }
@@ -144,7 +144,7 @@ fn damaged_lists_of_voxels_of_every_storage_are_survived_and_told() {
     if in_child("damage::voxel::damaged_lists_of_voxels_of_every_storage_are_survived_and_told") {
         for (turn, storage) in Storage::ALL.into_iter().enumerate() {
             println!("{}", storage.name());
-            let planes = Config { storage, ..Config::robust(32) };
+            let planes = Config { storage, ..Config::at_centres(32) };
             let parity = Config { storage, payload: Payload::Index, ..Config::published_selective(32) };
             for &config in in_turn(&[planes, parity], turn) {
                 check(config, &OF_ANY);
@@ -156,7 +156,7 @@ fn damaged_lists_of_voxels_of_every_storage_are_survived_and_told() {
 #[test]
 fn damaged_nodes_of_the_octree_are_survived_and_told() {
     if in_child("damage::voxel::damaged_nodes_of_the_octree_are_survived_and_told") {
-        let octree = Config { traversal: Traversal::Octree, ..Config::robust(32) };
+        let octree = Config { traversal: Traversal::Octree, ..Config::at_centres(32) };
         check(octree, &OF_NODES);
     }
 }

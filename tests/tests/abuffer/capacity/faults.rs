@@ -67,7 +67,7 @@ fn long_list(contents: &Contents) -> (usize, Vec<usize>) {
 fn every_fault_of_a_list_is_noticed() {
     let bench = Bench::new();
     let geometry = bench.geometry(&scene());
-    let config = Config { buckets: 2, ..Config::robust(16) };
+    let config = Config { buckets: 2, ..Config::at_centres(16) };
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     structure
         .resize(bench.device(), &plan(&config, capacity(50_000, 64)).expect("in range"))

@@ -36,7 +36,7 @@ fn rays() -> Vec<Ray> {
 }
 
 fn config(storage: Storage) -> Config {
-    Config { storage, ..Config::robust(16) }
+    Config { storage, ..Config::at_centres(16) }
 }
 
 /// The same with conservative lists.
@@ -236,7 +236,7 @@ fn a_structure_that_was_never_built_is_not_ready() {
 fn formula_equals_allocations_without_slack() {
     let bench = Bench::new();
     let geometry = bench.geometry(&scene());
-    let robust = Config::robust;
+    let robust = Config::at_centres;
     let mut configs: Vec<Config> = Storage::ALL.map(config).into();
     let storages = [Storage::Ll, Storage::Sb, Storage::Paged, Storage::Dll, Storage::Llb, Storage::Dllb];
     configs.extend(first(&storages, 3).iter().map(|&storage| Config {

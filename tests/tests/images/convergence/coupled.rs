@@ -37,7 +37,7 @@ fn difference(image: &[[f32; 3]], truth: &[[f32; 3]]) -> Difference {
 fn exact_hits_leave_rounding_and_fragments_leave_their_law() {
     let bench = Bench::new();
     let (scene, camera) = cornell();
-    let systems = [System::BruteForce, System::MmrtRobust(64), System::MmrtRobust(256)];
+    let systems = [System::BruteForce, System::Fragments(64), System::Fragments(256)];
     let mut shares = Vec::new();
     for system in systems {
         let mut stage = Studio::new(&bench, &scene, camera.clone(), SIZE, system);
@@ -68,8 +68,8 @@ fn wrong_occlusion_falls_with_the_size_of_a_cell() {
     let (scene, camera) = cornell();
     for (system, limit) in [
         (System::BruteForce, 0.0),
-        (System::MmrtRobust(64), 12.0 / 64.0),
-        (System::MmrtRobust(256), 12.0 / 256.0),
+        (System::Fragments(64), 12.0 / 64.0),
+        (System::Fragments(256), 12.0 / 256.0),
     ] {
         let mut stage = Studio::new(&bench, &scene, camera.clone(), SIZE, system);
         stage.reseed(5);

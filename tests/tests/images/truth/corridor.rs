@@ -114,7 +114,7 @@ fn fragments_know_their_planes_well_enough_for_ten_reflections() {
         reflectance: REFLECTANCE,
         rise: RISE,
         samples: 2,
-        system: System::MmrtRobust(4 * RESOLUTION),
+        system: System::Fragments(4 * RESOLUTION),
     };
     let truth = grey(f64::from(REFLECTANCE).powi(10));
     let slack = law(right.system, 11);

@@ -96,7 +96,7 @@ fn a_sphere_on_a_plane_hides_its_share() {
     // 10 m / N here.
     let resolution = 4 * RESOLUTION;
     let slack = 1.5 * 10.0 / f64::from(resolution) / truth(1.0)[0];
-    let fragments = System::MmrtRobust(resolution);
+    let fragments = System::Fragments(resolution);
     let name = format!("sphere 1 m aside, {fragments:?}");
     let stage = Studio::new(&bench, &scene(1.0), camera(1.0), 32, fragments);
     assert_truth(&name, &occlusion(&bench, &stage), truth(1.0), slack);

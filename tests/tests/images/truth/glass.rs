@@ -106,7 +106,7 @@ fn stacks_of_glass_let_through_what_their_interfaces_leave() {
 #[test]
 fn fragments_show_light_through_two_plates() {
     let bench = Bench::new();
-    let system = System::MmrtRobust(RESOLUTION);
+    let system = System::Fragments(RESOLUTION);
     let truth = grey(interface_transmission(&stacks()[1].interfaces));
     // One trace per interface, and one to the lamp.
     let slack = law(system, 5);

@@ -48,7 +48,7 @@ fn no_light_enters_a_closed_box() {
     assert!(mean(&leaking) > 1e-4, "{}", mean(&leaking));
 
     // Fragments leave gaps of a cell's width along edges: the law bounds what comes in.
-    let system = System::MmrtRobust(RESOLUTION);
+    let system = System::Fragments(RESOLUTION);
     let mut scene = closed_box();
     scene.meshes.truncate(6);
     scene.instances.truncate(6);

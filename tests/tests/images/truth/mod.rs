@@ -18,7 +18,7 @@ use rasray_tests::tier::Counts;
 const RESOLUTION: u32 = 64;
 
 /// Brute force and the A-buffer.
-const SYSTEMS: [System; 2] = [System::BruteForce, System::MmrtRobust(RESOLUTION)];
+const SYSTEMS: [System; 2] = [System::BruteForce, System::Fragments(RESOLUTION)];
 
 /// Samples over those of the quick tier.
 const MORE: Counts<u32> = Counts { quick: 1, software: 4, full: 16 };
@@ -38,7 +38,7 @@ fn by_system<T>(system: System, exact: T, fragments: T) -> T {
 fn law(system: System, traces: u32) -> f64 {
     match system {
         System::BruteForce => 0.0,
-        System::MmrtRobust(resolution) => 0.64 / f64::from(resolution) * f64::from(traces),
+        System::Fragments(resolution) => 0.64 / f64::from(resolution) * f64::from(traces),
     }
 }
 
