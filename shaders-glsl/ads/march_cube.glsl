@@ -7,8 +7,9 @@
 #define ADS_MARCH_CUBE_GLSL
 
 #include "ads/views.glsl"
+#include "contract/constants.glsl"
 
-#define SEGMENT_NEAR 6u
+#define SEGMENT_NEAR VIEW_NEAR
 // In place of a face: the ray is tested against every triangle.
 #define SEGMENT_ALL 7u
 // Six planes, two sides of the near region, and the end.

@@ -13,7 +13,7 @@
 #define QUEUE_SET 2
 #endif
 
-// Counts and sums of one queue. 96 bytes.
+// Counts and sums of one queue. 112 bytes.
 struct QueueHeader {
     uint groups_x;        // indirect dispatch of the next round
     uint groups_y;        // always 1
@@ -31,6 +31,10 @@ struct QueueHeader {
     uint entries_high;    // list entries read, high word
     uint tests_low;       // primitives tested, low word
     uint tests_high;      // primitives tested, high word
+    uint views_low;       // views entered, low word
+    uint views_high;      // views entered, high word
+    uint searched_low;    // cells visited that were not rejected, low word
+    uint searched_high;   // cells visited that were not rejected, high word
     uint selected_x;      // indirect dispatch over the slots selected
     uint selected_y;      // always 1
     uint selected_z;      // always 1

@@ -1,7 +1,7 @@
-// What: writes the steps of one slot of a queue, in the order in which they are taken.
+// What: counts what the steps of a ray tell, and writes those of one slot of a queue in the order in which they are taken.
 // Reads: the logged slot; geometry. Writes: steps, and their number also where they do not fit. Triangles are logged by
 // their ids.
-// Dead code unless specialisation constant 0 is COUNTERS_STEPS.
+// Dead code unless specialisation constant 0 is at least COUNTERS_SUMS, and writing unless it is COUNTERS_STEPS.
 #ifndef ADS_QUEUE_LOG_GLSL
 #define ADS_QUEUE_LOG_GLSL
 
@@ -12,18 +12,42 @@
 // Whether this invocation's slot is the logged one. Evaluated once per ray, since structures log in many places.
 bool trace_log_on = false;
 
+// Of this dispatch: views entered, and cells visited that were not rejected. A cell is rejected where nothing of what it
+// holds is read: it is empty, or its bounds, buckets or mask say that the ray misses all of it.
+uint trace_log_views = 0u;
+uint trace_log_searched = 0u;
+// 1: a cell was visited, and nothing of what it holds has been read yet.
+uint trace_log_unread = 0u;
+// One more than the view entered last; 0 before the first.
+uint trace_log_view = 0u;
+
 void trace_log_begin(uint slot) {
     trace_log_on = COUNTERS >= COUNTERS_STEPS && slot == queue_logged_slot;
 }
 
+// The kind is a constant wherever steps are logged, so that little of this is left.
+void trace_log_count(uint kind, uint a) {
+    bool reads = kind == STEP_ENTRY || kind == STEP_OCCUPIED;
+    // A segment may end and the next one begin in the same view.
+    if (kind == STEP_VIEW && a != VIEW_NEAR) {
+        trace_log_views += trace_log_view != a + 1u ? 1u : 0u;
+        trace_log_view = a + 1u;
+    }
+    trace_log_searched += reads ? trace_log_unread : 0u;
+    trace_log_unread = kind == STEP_CELL ? 1u : (reads || kind == STEP_VIEW ? 0u : trace_log_unread);
+}
+
 void trace_log(uint kind, uint a, uint b, uint c, float t_low, float t_high) {
-    if (trace_log_on) {
-        if (kind == STEP_TEST || kind == STEP_FRAGMENT || kind == STEP_BEST) {
-            a = geometry_id_of(a);
-        }
-        uint place = atomicAdd(queue_step_demand, 1u);
-        if (place < uint(queue_steps.length())) {
-            queue_steps[place] = TraceStep(kind, queue_header.round, a, b, c, t_low, t_high);
+    if (COUNTERS >= COUNTERS_SUMS) {
+        trace_log_count(kind, a);
+        if (trace_log_on) {
+            if (kind == STEP_TEST || kind == STEP_FRAGMENT || kind == STEP_BEST) {
+                a = geometry_id_of(a);
+            }
+            uint place = atomicAdd(queue_step_demand, 1u);
+            if (place < uint(queue_steps.length())) {
+                queue_steps[place] = TraceStep(kind, queue_header.round, a, b, c, t_low, t_high);
+            }
         }
     }
 }

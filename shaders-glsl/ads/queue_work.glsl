@@ -6,22 +6,26 @@
 #include "ads/queue.glsl"
 #include "contract/trace_state.glsl"
 
-// Adds to the 64-bit sums of the header.
+// Adds to a 64-bit sum of the header.
+#define QUEUE_ADD(name, count) { \
+    uint before = atomicAdd(queue_header.name##_low, count); \
+    if (before + count < before) { \
+        atomicAdd(queue_header.name##_high, 1u); \
+    } \
+}
+
 void queue_add_work(uint cells, uint entries, uint tests) {
-    if (COUNTERS < COUNTERS_SUMS) {
-        return;
+    if (COUNTERS >= COUNTERS_SUMS) {
+        QUEUE_ADD(cells, cells)
+        QUEUE_ADD(entries, entries)
+        QUEUE_ADD(tests, tests)
     }
-    uint before = atomicAdd(queue_header.cells_low, cells);
-    if (before + cells < before) {
-        atomicAdd(queue_header.cells_high, 1u);
-    }
-    before = atomicAdd(queue_header.entries_low, entries);
-    if (before + entries < before) {
-        atomicAdd(queue_header.entries_high, 1u);
-    }
-    before = atomicAdd(queue_header.tests_low, tests);
-    if (before + tests < before) {
-        atomicAdd(queue_header.tests_high, 1u);
+}
+
+void queue_add_visits(uint views, uint searched) {
+    if (COUNTERS >= COUNTERS_SUMS) {
+        QUEUE_ADD(views, views)
+        QUEUE_ADD(searched, searched)
     }
 }
 

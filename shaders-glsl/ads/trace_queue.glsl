@@ -28,16 +28,21 @@ void queue_store_work(uint slot, TraceState state) {
     if (COUNTERS < COUNTERS_PER_RAY || slot >= uint(queue_work.length())) {
         return;
     }
-    RayWork work = RayWork(state.cells, state.entries, state.tests, state.rounds);
-    if (trace.part == PART_NEXT) {
-        // What came with this round is added to the work in other parts.
+    // A ray takes part in every round until it ends.
+    bool first = queue_header.round == 0u;
+    RayWork work = RayWork(state.cells, state.entries, state.tests, 1u, trace_log_views, trace_log_searched);
+    if (!first || trace.part == PART_NEXT) {
         RayWork sum = queue_work[slot];
-        TraceState before = queue_states[slot];
-        bool first = queue_header.round == 0u;
-        work.cells += sum.cells - (first ? 0u : before.cells);
-        work.entries += sum.entries - (first ? 0u : before.entries);
-        work.tests += sum.tests - (first ? 0u : before.tests);
-        work.rounds += sum.rounds - (first ? 0u : before.rounds);
+        work.rounds += sum.rounds;
+        work.views += sum.views;
+        work.searched += sum.searched;
+        if (trace.part == PART_NEXT) {
+            // What came with this round is added to the work in other parts.
+            TraceState before = queue_states[slot];
+            work.cells += sum.cells - (first ? 0u : before.cells);
+            work.entries += sum.entries - (first ? 0u : before.entries);
+            work.tests += sum.tests - (first ? 0u : before.tests);
+        }
     }
     queue_work[slot] = work;
 }
@@ -54,7 +59,7 @@ TraceState queue_state(uint slot, Ray ray) {
         state.cells = queue_states[slot].cells;
         state.entries = queue_states[slot].entries;
         state.tests = queue_states[slot].tests;
-        state.rounds = queue_states[slot].rounds;
+        state.visit = queue_states[slot].visit;
     }
     return state;
 }
@@ -68,7 +73,7 @@ void queue_set_state(uint slot, TraceState state) {
         queue_states[slot].cells = state.cells;
         queue_states[slot].entries = state.entries;
         queue_states[slot].tests = state.tests;
-        queue_states[slot].rounds = state.rounds;
+        queue_states[slot].visit = state.visit;
     }
 }
 
@@ -94,6 +99,8 @@ bool trace_begin(uint slot, Ray ray, out TraceState state) {
     state = trace_state_begin(ray);
     if (queue_header.round > 0u) {
         state = queue_state(slot, ray);
+        trace_log_unread = state.visit & 1u;
+        trace_log_view = state.visit >> 1;
     } else if (trace.part == PART_NEXT) {
         Hit before = queue_hit(slot);
         if (before.primitive == PRIMITIVE_NONE) {
@@ -107,8 +114,9 @@ bool trace_begin(uint slot, Ray ray, out TraceState state) {
 }
 
 void trace_store(uint slot, uint result, TraceState state, Hit hit) {
-    state.rounds += 1u;
+    state.visit = trace_log_view << 1 | trace_log_unread;
     queue_store_work(slot, state);
+    queue_add_visits(trace_log_views, trace_log_searched);
     if (result == TRACE_PAUSED) {
         trace_log(STEP_PAUSE, 0u, 0u, 0u, 0.0, 0.0);
         queue_set_state(slot, state);

@@ -105,8 +105,8 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
                 r = brick_ray(origin, ray.direction, face);
                 up = greaterThanEqual(r.heading, vec3(0.0));
             }
-            trace_log(STEP_VIEW, face, 0u, 0u, t, t_last);
             if (begins) {
+                trace_log(STEP_VIEW, face, 0u, 0u, t, t_last);
                 cell = axes ? box_line_cell_at(line, t, traversal.cells)
                     : brick_cell_at(r, t, traversal.half_side, traversal.rounding, traversal.slices);
                 cell = clamp(cell, ivec3(0), traversal.cells - 1);

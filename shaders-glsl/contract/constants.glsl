@@ -63,7 +63,7 @@
 // Kinds of steps that a traversal logs, with the meaning of a, b, c, t_low and t_high.
 // A dispatch begins for the ray; a: the round, b: 1 where the trace goes on from the hit of another part.
 #define STEP_ROUND 1u
-// A view (or the near region) is entered; a: the view, t: its interval along the ray.
+// A view (or the near region) is entered; a: the view or VIEW_NEAR, t: its interval along the ray.
 #define STEP_VIEW 2u
 // A cell is visited, to be searched or skipped; a: the view, b and c: column and row (signed), t: its interval along
 // the ray, widened.
@@ -86,6 +86,12 @@
 #define STEP_PAUSE 11u
 // The ray is answered; a: what the trace function returned, b: the primitive, t_low: t.
 #define STEP_END 12u
+
+// The cell visited, a voxel, holds something that is searched in cells of its own; a: the axes along which it is, as bits.
+#define STEP_OCCUPIED 13u
+
+// In place of a view: the near region around the centre of a cube's faces.
+#define VIEW_NEAR 6u
 
 // Verdicts of tests.
 #define TEST_ACCEPTED 0u

@@ -21,7 +21,7 @@ TraceState trace_state_begin(Ray ray) {
     state.cells = 0u;
     state.entries = 0u;
     state.tests = 0u;
-    state.rounds = 0u;
+    state.visit = 0u;
     return state;
 }
 

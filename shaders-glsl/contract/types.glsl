@@ -37,15 +37,19 @@ struct TraceState {
     uint cells;               // cells visited so far
     uint entries;             // list entries read so far
     uint tests;               // primitive tests so far
-    uint rounds;              // dispatches so far
+    // where work is counted: bit 0 is set where a cell was visited and nothing of what it holds has been read yet, the bits
+    // above are one more than the view entered last
+    uint visit;
 };
 
-// The work of a ray. 16 bytes.
+// The work of a ray. 24 bytes.
 struct RayWork {
     uint cells;               // cells visited
     uint entries;             // list entries read
     uint tests;               // primitives tested
     uint rounds;              // dispatches the ray took part in
+    uint views;               // views entered, each once until another is; the near region is none
+    uint searched;            // of the cells visited, those in which a list entry was read or cells of its own were searched
 };
 
 // What is shaded. 128 bytes. Metres relative to the frame origin, linear Rec. 709, W/(sr m^2).

@@ -87,10 +87,12 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
         }
         uint bits = VOXEL_TRAVERSAL == VOXEL_TRAVERSAL_OCTREE ? voxel_look_up(s, entered, traversal, state, work)
             : voxel_bits(s, voxel_index(s, traversal.voxel));
-        entered = false;
         if (bits == 0u) {
             trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);
+        } else if (!entered) {
+            trace_log(STEP_OCCUPIED, bits, 0u, 0u, 0.0, 0.0);
         }
+        entered = false;
         if (VOXEL_LEAVES == VOXEL_LEAVES_VOXELS && bits != 0u) {
             voxel_take_voxel(s, ray, traversal.voxels.t_in, voxel_index(s, traversal.voxel), state);
             if (state.best.primitive != PRIMITIVE_NONE) {

@@ -85,6 +85,11 @@ pub struct QueueCounters {
     pub entries: u64,
     /// Primitives tested; zero unless counters are enabled.
     pub tests: u64,
+    /// Views entered, each once until another is, the near region not counted; zero unless counters are enabled.
+    pub views: u64,
+    /// Cells stepped that were not rejected: in which a list entry was read, or which are voxels with something in them;
+    /// zero unless counters are enabled.
+    pub searched: u64,
 }
 
 impl RayQueue {
@@ -369,6 +374,8 @@ impl RayQueue {
             cells: wide(header.cells_low, header.cells_high),
             entries: wide(header.entries_low, header.entries_high),
             tests: wide(header.tests_low, header.tests_high),
+            views: wide(header.views_low, header.views_high),
+            searched: wide(header.searched_low, header.searched_high),
         }
     }
 }

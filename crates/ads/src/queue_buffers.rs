@@ -33,7 +33,7 @@ pub struct QueueBuffers {
     /// A [`Surface`](crate::Surface) per slot, 128 bytes, which lookups of surfaces write. Absent: there are none, as without
     /// [`QueueParts::surfaces`].
     pub surfaces: Option<Buffer>,
-    /// A [`RayWork`](crate::RayWork) per slot, 16 bytes. Absent: work is not kept per ray, as without [`QueueParts::work`].
+    /// A [`RayWork`](crate::RayWork) per slot, 24 bytes. Absent: work is not kept per ray, as without [`QueueParts::work`].
     pub work: Option<Buffer>,
 }
 

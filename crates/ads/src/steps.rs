@@ -8,9 +8,6 @@ use rasray_shaders_glsl::{constants::contract as numbers, records};
 
 use crate::{PRIMITIVE_NONE, PRIMITIVE_UNKNOWN};
 
-/// The number of the near region among the views of a cube.
-const VIEW_NEAR: u32 = 6;
-
 /// The number of the view of a camera.
 const VIEW_CAMERA: u32 = 7;
 
@@ -42,6 +39,8 @@ pub enum StepKind {
     Pause,
     /// The ray was answered.
     End,
+    /// The voxel visited holds something, which is searched in cells of its own.
+    Occupied,
     /// A number that has no meaning here.
     Unknown,
 }
@@ -125,6 +124,7 @@ impl TraceStep {
             numbers::STEP_BEST => StepKind::Best,
             numbers::STEP_PAUSE => StepKind::Pause,
             numbers::STEP_END => StepKind::End,
+            numbers::STEP_OCCUPIED => StepKind::Occupied,
             _ => StepKind::Unknown,
         }
     }
@@ -172,6 +172,11 @@ impl TraceStep {
         (self.kind() == StepKind::Cell).then(|| (self.a, self.b.cast_signed(), self.c.cast_signed()))
     }
 
+    /// Whether the near region is entered, which is no view.
+    pub fn is_near_region(&self) -> bool {
+        self.kind() == StepKind::View && self.a == numbers::VIEW_NEAR
+    }
+
     /// The primitive of a test, a fragment, a best hit or an answer, where one is known.
     pub fn primitive(&self) -> Option<u32> {
         let id = match self.kind() {
@@ -199,7 +204,7 @@ impl fmt::Display for TraceStep {
         match self.kind() {
             StepKind::Round if self.b != 0 => write!(f, "round {a} of the next part"),
             StepKind::Round => write!(f, "round {a}"),
-            StepKind::View if a == VIEW_NEAR => write!(f, "near region, t {t_low} to {t_high}"),
+            StepKind::View if a == numbers::VIEW_NEAR => write!(f, "near region, t {t_low} to {t_high}"),
             StepKind::View if a == VIEW_CAMERA => write!(f, "the camera's view, t {t_low} to {t_high}"),
             StepKind::View => write!(f, "view {a}, t {t_low} to {t_high}"),
             StepKind::Cell => {
@@ -224,6 +229,7 @@ impl fmt::Display for TraceStep {
             StepKind::Pause => write!(f, "pause: work budget used up"),
             StepKind::End if a == numbers::TRACE_NOT_READY => write!(f, "answer: the structure is not built"),
             StepKind::End => write!(f, "answer: {}, t {t_low}", name_of(b)),
+            StepKind::Occupied => write!(f, "occupied, searched along the axes {a:#05b}"),
             StepKind::Unknown => write!(f, "step {} ({a}, {b}, {}, {t_low}, {t_high})", self.kind, self.c),
         }
     }

@@ -216,6 +216,9 @@ fn run_of(
     counters.nodes_per_ray = per_ray(traced.counters.entries);
     counters.cells_per_ray = per_ray(traced.counters.cells);
     counters.tests_per_ray = per_ray(traced.counters.tests);
+    let QueueCounters { cells, views, searched, .. } = traced.counters;
+    counters.views_per_ray = per_ray(views).filter(|_| views > 0);
+    counters.rejected_share = (cells > 0).then(|| 1.0 - searched as f64 / cells as f64);
     counters.lists.clone_from(&contestant.lists);
     counters.unfinished = Some(traced.counters.unfinished.into());
     let mut run = contestant.run(device)?;

@@ -143,6 +143,18 @@ const COLUMNS: &[Column] = &[
         cell: |run| number(counter(run, |counters| counters.tests_per_ray), 2),
     },
     Column {
+        heading: "views/ray",
+        is_main: false,
+        meaning: "views entered per ray",
+        cell: |run| number(counter(run, |counters| counters.views_per_ray), 2),
+    },
+    Column {
+        heading: "rejected",
+        is_main: false,
+        meaning: "share of the cells stepped in which nothing was read: empty, or rejected by bounds, buckets or masks",
+        cell: |run| number(counter(run, |counters| counters.rejected_share), 4),
+    },
+    Column {
         heading: "layers",
         is_main: false,
         meaning: "fragments or triangles of a cell that holds any, on average",

@@ -217,6 +217,13 @@ pub struct Counters {
     /// Primitive tests per ray.
     #[serde(default, skip_serializing_if = "absent")]
     pub tests_per_ray: Option<f64>,
+    /// Views entered per ray; absent where the structure has none.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub views_per_ray: Option<f64>,
+    /// Share of the cells stepped in which nothing was read: empty, or rejected by their bounds, buckets or masks; absent
+    /// where none was stepped.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub rejected_share: Option<f64>,
     /// Entries that the pools were asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demand: Option<u64>,

@@ -123,6 +123,7 @@ pub(super) fn run_text(run: &Run) -> String {
         [row("rays", times.rays.map(grouped)), row("rate", rate)].into_iter().flatten().collect();
     if let Some(counters) = &run.counters {
         let per_ray = |value: Option<f64>| value.map(|value| format!("{value:.2}"));
+        let share = |value: Option<f64>| value.map(|value| format!("{:.2} %", 100.0 * value));
         rows.extend(
             [
                 row("fragments", counters.fragments.map(grouped)),
@@ -131,6 +132,8 @@ pub(super) fn run_text(run: &Run) -> String {
                 row("nodes per ray", per_ray(counters.nodes_per_ray)),
                 row("cells per ray", per_ray(counters.cells_per_ray)),
                 row("tests per ray", per_ray(counters.tests_per_ray)),
+                row("views per ray", per_ray(counters.views_per_ray)),
+                row("cells rejected", share(counters.rejected_share)),
                 row("demand", counters.demand.map(grouped)),
                 row("capacity", counters.capacity.map(grouped)),
                 row("overflow", counters.overflow.map(grouped)),

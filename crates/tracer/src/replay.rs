@@ -94,11 +94,25 @@ impl Replay {
     /// The work that the kept steps add up to; equal to [`Replay::work`] where none is omitted.
     pub fn logged_work(&self) -> RayWork {
         let count = |kind| self.steps.iter().filter(|step| step.kind() == kind).count() as u32;
+        let of_cells = |step: &&TraceStep| {
+            use StepKind::{Cell, Entry, Occupied, View};
+            matches!(step.kind(), Cell | Entry | Occupied | View)
+        };
+        // A cell is searched where something of what it holds is read next.
+        let of_cells: Vec<StepKind> = self.steps.iter().filter(of_cells).map(TraceStep::kind).collect();
+        let is_searched = |pair: &&[StepKind]| {
+            pair[0] == StepKind::Cell && matches!(pair[1], StepKind::Entry | StepKind::Occupied)
+        };
+        let is_view = |step: &&TraceStep| step.kind() == StepKind::View && !step.is_near_region();
+        let mut views: Vec<u32> = self.steps.iter().filter(is_view).map(|step| step.a).collect();
+        views.dedup();
         RayWork {
             cells: count(StepKind::Cell),
             entries: count(StepKind::Entry) + count(StepKind::Node),
             tests: count(StepKind::Test),
             rounds: count(StepKind::Round),
+            views: views.len() as u32,
+            searched: of_cells.windows(2).filter(is_searched).count() as u32,
         }
     }
 
@@ -134,7 +148,7 @@ impl fmt::Display for Replay {
                 StepKind::Round | StepKind::Pause | StepKind::End => 1,
                 StepKind::View => 2,
                 StepKind::Cell | StepKind::Node => 3,
-                StepKind::List | StepKind::Skip => 4,
+                StepKind::List | StepKind::Skip | StepKind::Occupied => 4,
                 _ => 5,
             };
             writeln!(f, "{:width$}{step}", "", width = 2 * depth)?;

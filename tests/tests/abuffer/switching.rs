@@ -51,7 +51,7 @@ fn rays_that_are_snapped_lose_hits_by_the_sides_of_faces_only() {
     let triangles = scene(false);
     let rays = general_rays(4000);
     let lost = |resolution: u32| {
-        let config = Config::robust(resolution);
+        let config = Config::at_centres(resolution);
         let exact = hits_of(&bench, config, &triangles, None, &rays);
         let snap = hits_of(&bench, snapped(config), &triangles, None, &rays);
         let mut lost = 0;
@@ -83,7 +83,7 @@ fn the_march_of_snapped_rays_may_pause_anywhere() {
         (Views::CubeCamera, March::Exact, Some(ALONG_Z)),
         (Views::Camera, March::Samples, Some(ALONG_Z)),
     ] {
-        let config = snapped(Config { views, march, ..Config::robust(24) });
+        let config = snapped(Config { views, march, ..Config::at_centres(24) });
         let expected = hits_of(&bench, config, &triangles, camera, &rays);
         let paused = hits_of(&bench, Config { work_budget: Some(2), ..config }, &triangles, camera, &rays);
         for ((ray, expected), paused) in rays.iter().zip(&expected).zip(&paused) {
@@ -107,7 +107,7 @@ fn rays_that_the_camera_sees_are_searched_in_its_view_alone() {
         .map(|_| (point(), point()))
         .map(|(from, to)| Ray { t_max: 1.0, ..Ray::new(from, std::array::from_fn(|i| to[i] - from[i])) })
         .collect();
-    let config = Config { camera_resolution: [24; 2], ..Config::robust(48) };
+    let config = Config { camera_resolution: [24; 2], ..Config::at_centres(48) };
     let of = |config| hits_of(&bench, config, &triangles, Some(ALONG_Z), &rays);
     let camera = of(Config { views: Views::Camera, ..config });
     let both = Config { views: Views::CubeCamera, ..config };

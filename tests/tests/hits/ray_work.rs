@@ -47,8 +47,9 @@ fn trace(bench: &Bench, subject: &Subject, counters: Counters, rays: &[Ray]) -> 
 /// What is wrong with work against sums.
 fn difference(work: &[RayWork], sums: &QueueCounters) -> Option<String> {
     let sum = |part: fn(&RayWork) -> u32| work.iter().map(|w| u64::from(part(w))).sum::<u64>();
-    let added = [sum(|w| w.cells), sum(|w| w.entries), sum(|w| w.tests)];
-    let expected = [sums.cells, sums.entries, sums.tests];
+    let added =
+        [sum(|w| w.cells), sum(|w| w.entries), sum(|w| w.tests), sum(|w| w.views), sum(|w| w.searched)];
+    let expected = [sums.cells, sums.entries, sums.tests, sums.views, sums.searched];
     (added != expected).then(|| format!("{added:?} added up, {expected:?} in the header"))
 }
 
@@ -71,6 +72,7 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
                 let of_any_order = |counters: QueueCounters| QueueCounters { tests: 0, ..counters };
                 assert_eq!(of_any_order(sums.counters), of_any_order(per_ray.counters), "{name}, {mode:?}");
             }
+            assert!(sums.counters.searched <= sums.counters.cells, "{name}: {:?}", sums.counters);
             assert!(sums.counters.cells + sums.counters.tests > 2000, "{:?}", sums.counters);
             assert_eq!(difference(&per_ray.work, &per_ray.counters), None, "{name}, {mode:?}");
             assert!(per_ray.counters.cells + per_ray.counters.tests > 2000, "{:?}", per_ray.counters);
@@ -98,6 +100,56 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
             assert!(difference(&wrong, &per_ray.counters).is_some());
         }
     }
+}
+
+/// A wall on the face +z, a ray in front of it that crosses its cells, and what else stretches the bounds so far.
+#[test]
+fn cells_are_rejected_by_their_bounds_and_by_nothing_else() {
+    const SIDE: u32 = 16;
+    let bench = Bench::new();
+    // On the face its corners are (-0.64, -1.2), (0.64, -1.2) and (0, 4).
+    let wall = [[-3.2, -6.0, 5.0], [3.2, -6.0, 5.0], [0.0, 20.0, 5.0]];
+    let aside = [[9.0, -0.5, 1.5], [9.0, 0.5, 1.5], [9.0, 0.0, 2.0]];
+    let geometry = bench.geometry(&[wall, aside]);
+    // From column 3 to column 12 of the row whose centre is at 11/16, at a depth of 2.
+    let row = 11.0 / 16.0;
+    let mut ray = Ray::new([-1.2, 2.0 * row, 2.0], [1.0, 0.0, 0.0]);
+    ray.t_max = 2.4;
+    let config = |skip| rasray_abuffer::Config {
+        skip,
+        counters: Counters::PerRay,
+        ..rasray_abuffer::Config::robust(SIDE)
+    };
+    let work = |skip, ray| {
+        let mut structure = rasray_abuffer::ABuffer::new(bench.device(), config(skip), &geometry, None)
+            .expect("the options are valid");
+        build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
+            .expect("the build completes");
+        let outcome = bench.trace(&structure, &[ray]);
+        assert!(!outcome.hits[0].is_hit());
+        outcome.work[0]
+    };
+    let covered = (3..=12)
+        .map(|column| (2.0 * f64::from(column) + 1.0) / f64::from(SIDE) - 1.0)
+        .filter(|x| x.abs() < 0.64 * (4.0 - f64::from(row)) / 5.2)
+        .count() as u32;
+    assert_eq!(covered, 6, "columns 5 to 10");
+    let (skipping, reading) = (work(true, ray), work(false, ray));
+    assert_eq!((skipping.views, skipping.cells, skipping.searched, skipping.entries), (1, 10, 0, 0));
+    assert_eq!((reading.views, reading.cells, reading.searched, reading.entries), (1, 10, covered, covered));
+    // A ray that crosses a diagonal of the face is followed in several segments and stays in the view.
+    ray.origin[1] = 2.0 * 3.0 / 16.0;
+    assert_eq!(work(true, ray).views, 1);
+    // Through a layered depth cube a ray enters all three views.
+    let mut cube = rasray_ldc::LayeredDepthCube::new(
+        bench.device(),
+        rasray_ldc::Config { counters: Counters::PerRay, ..rasray_ldc::Config::robust(SIDE) },
+        &geometry,
+        None,
+    )
+    .expect("the options are valid");
+    build_until_complete(bench.device(), &mut cube, [0.0; 3], Timing::None).expect("the build completes");
+    assert_eq!(bench.trace(&cube, &[ray]).work[0].views, 3);
 }
 
 /// A structure that counts per ray may trace a queue without capacity for it: nothing is written past its end.
