@@ -1,7 +1,7 @@
 // What: Whitted's ray tracing, one step per closest hit: emission, one light sample, and the rays that go on from there.
 // With CUBE_MAP_LOOKUP a cube map answers mirrored and refracted rays; with CUBE_MAP_DRAWN the rays are those of its texels.
 // Reads: scene tables through scene/*.glsl; the cube map. Writes: state and waiting rays, through
-// integrators/whitted_storage.glsl.
+// integrators/whitted_storage.glsl; the film's count of samples that sent a ray on.
 // Source: docs/whitted.md; Whitted 1980; docs/cube-map.md.
 #ifndef INTEGRATORS_WHITTED_GLSL
 #define INTEGRATORS_WHITTED_GLSL
@@ -176,14 +176,22 @@ WhittedStep whitted_step(uint slot, inout WhittedState state, Ray ray, Surface s
     if (state.node.depth >= wave.limit) return asked;
     if (whitted_has(WHITTED_SELECTS_REFLECTIVE) && state.node.depth == 0u && !is_reflective) return asked;
     bool all = whitted_has(WHITTED_SELECTS_ALL);
-    if (refracts && (all || whitted_is_worth(throughput * through))) {
+    refracts = refracts && (all || whitted_is_worth(throughput * through));
+    mirrors = mirrors && (all || whitted_is_worth(throughput * mirror));
+#ifndef CUBE_MAP_DRAWN
+    if (wave.round == 0u && (refracts || mirrors)) {
+        uint before = atomicAdd(film_faults.selected_low, 1u);
+        if (before == 0xFFFFFFFFu) atomicAdd(film_faults.selected_high, 1u);
+    }
+#endif
+    if (refracts) {
         WhittedRay left =
             whitted_leave(state.node, s, ray, normalize(refracted), footprint, throughput * through);
         left.node.branch = whitted_branch(state.node, true);
         if (s.thickness > 0.0) left.node.medium = s.side == 1u ? s.material : MATERIAL_NONE;
         whitted_follow(slot, state, asked, left);
     }
-    if (mirrors && (all || whitted_is_worth(throughput * mirror))) {
+    if (mirrors) {
         whitted_follow(slot, state, asked,
                        whitted_leave(state.node, s, ray, normalize(mirrored), footprint, throughput * mirror));
     }

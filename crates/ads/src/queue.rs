@@ -355,6 +355,13 @@ impl RayQueue {
         self.buffers().iter().map(|buffer| buffer.size()).sum()
     }
 
+    /// Names and bytes of the buffers.
+    pub fn bytes_by_part(&self) -> impl Iterator<Item = (&'static str, u64)> {
+        const NAMES: [&str; BUFFERS] =
+            ["header", "rays", "hits", "traversal states", "lists", "surfaces", "work", "steps"];
+        NAMES.into_iter().zip(self.buffers().map(Buffer::size))
+    }
+
     /// Sums over all traces since the reset. Submits and waits: for use after a trace, in tests and tools.
     ///
     /// # Errors

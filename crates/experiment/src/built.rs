@@ -305,6 +305,7 @@ impl Built {
             diagnostic_bytes: (report.diagnostic_bytes > 0).then_some(report.diagnostic_bytes),
             device_peak_bytes: Some(device.peak_bytes()),
             by_part: report.bytes_by_part.into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect(),
+            ..Memory::default()
         })
     }
 

@@ -115,6 +115,7 @@ pub(super) fn compare_images(
         let of_camera = Contestant { config, spec, built, lists: Vec::new() };
         let mut run = of_camera.run(device)?;
         frame.describe(&mut run);
+        rendering.write_memory(run.memory.get_or_insert_default());
         run.adaptive = frame.adaptive.map(|rule| pixels.adaptive(rule));
         pixels.write_times(&mut run.times);
         let beauty = pixels.means();

@@ -86,6 +86,12 @@ pub(super) fn render_pixels(
     counters.unfinished = Some(image.unfinished());
     counters.cut = (faults.cut > 0).then(|| faults.cut.into());
     let film = image.film().read_pixels(device).map_err(device_error)?;
+    if image.passes().integrator().selects() {
+        let selected = u64::from(faults.selected_low) | u64::from(faults.selected_high) << 32;
+        let samples = film.iter().map(|pixel| u64::from(pixel.samples)).sum::<u64>();
+        let samples = samples + u64::from(faults.non_finite);
+        counters.selected_share = (samples > 0).then(|| selected as f64 / samples as f64);
+    }
     let samples_done = image.samples_done();
     Ok(Pixels { film, samples_done, passes: std::mem::take(&mut rendering.passes), counters, first_use_ms })
 }
@@ -213,9 +219,8 @@ pub(super) fn render(
     for (name, bytes) in stage.scene.bytes_by_part() {
         memory.by_part.insert(format!("scene {name}"), *bytes);
     }
-    if let Some(maps) = rendering.image().passes().shadow_maps() {
-        memory.by_part.insert("shadow maps".to_owned(), maps.bytes());
-    }
+    rendering.write_memory(&mut memory);
+    rendering.write_memory_by_part(&mut memory);
     let mut stages = posing.stages();
     stages.extend(built.stages());
     stages.extend(pixels.passes.stages());

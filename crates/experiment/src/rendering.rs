@@ -16,7 +16,7 @@ use crate::error::ExperimentError;
 use crate::jobs::{Frame, OccluderKind, Primary};
 use crate::passes::Passes;
 use crate::shard::Shard;
-use rasray_report::{Pass, PassOf};
+use rasray_report::{Memory, Pass, PassOf};
 
 /// Makes the integrator of a frame.
 fn integrator(frame: &Frame, desc: &IntegratorDesc<'_>) -> Result<Box<dyn Integrator>, ExperimentError> {
@@ -176,6 +176,24 @@ impl Rendering {
     /// What is on the film.
     pub fn image(&self) -> &ImageRenderer {
         &self.image
+    }
+
+    /// Adds the bytes of what the image is made in.
+    pub(super) fn write_memory(&self, memory: &mut Memory) {
+        let passes = self.image.passes();
+        let bytes: u64 = passes.bytes_by_part().iter().map(|(_, bytes)| bytes).sum();
+        memory.frame_bytes = Some(bytes);
+        memory.frame_bytes_per_pixel = Some(bytes as f64 / f64::from(passes.film().pixel_count()));
+    }
+
+    /// Adds the same part by part, and shadow maps.
+    pub(super) fn write_memory_by_part(&self, memory: &mut Memory) {
+        let passes = self.image.passes();
+        let parts = passes.bytes_by_part().into_iter();
+        memory.by_part.extend(parts.map(|(name, bytes)| (format!("image {name}"), bytes)));
+        if let Some(maps) = passes.shadow_maps() {
+            memory.by_part.insert("shadow maps".to_owned(), maps.bytes());
+        }
     }
 
     /// Film, counters and times start at 0 again.

@@ -6,8 +6,9 @@ use std::ops::ControlFlow;
 
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_experiment::{
-    AovSelection, CompareJob, Comparison, DeviceChoice, Frame, HardJob, IntegratorRow, KeptScene,
-    OccluderKind, OptionValues, Primary, RaySet, Refresh, RenderJob, Sampler, Shard, SystemConfig, open,
+    AovSelection, CompareJob, Comparison, DeviceChoice, Frame, HardJob, IntegratorRow, IntegratorSpec,
+    KeptScene, OccluderKind, OptionValues, Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler, Shard,
+    SystemConfig, open,
 };
 use rasray_hard_cases::Scale;
 use rasray_ray_files::HitsFile;
@@ -192,6 +193,87 @@ fn a_hard_case_has_a_verdict_and_a_wrong_answer_breaks_it() {
     hard.hits_files = &given;
     let with_given = backend.hard(&hard, &mut |_| ControlFlow::Continue(())).expect("the device works");
     assert_eq!(met(&with_given), [Some(true), Some(false)]);
+}
+
+/// An image of one sample per pixel, through a tree.
+fn render(name: &str, integrator: (&str, OptionValues), [width, height]: [u32; 2]) -> RenderOutput {
+    let mut loaded = load(OsStr::new(name)).expect("a built-in scene");
+    loaded.light(None);
+    let mut backend = open(&DeviceChoice { validation: true, ..DeviceChoice::default() }).expect("a device");
+    let row = IntegratorRow::named(integrator.0).expect("registered");
+    let integrator = IntegratorSpec::new(row, &integrator.1).expect("values that are taken");
+    let frame = Frame { integrator, width, height, ..job(&loaded, &["bvh"], &[]).frame };
+    let job = RenderJob {
+        scene: &loaded.scene,
+        moment: None,
+        camera: default_view(&loaded.scene).camera,
+        system: systems(&["bvh"]).remove(0),
+        refresh: Refresh::All,
+        needs: Needs::of(&loaded.scene, frame.workload()),
+        frame,
+        shard: None,
+        aovs: AovSelection::default(),
+        repetitions: 0,
+    };
+    let mut kept = KeptScene::default();
+    backend.render(&job, &mut kept, &mut |_| ControlFlow::Continue(())).expect("the device works")
+}
+
+/// The scene says how many pixels show a mirror first, counted when it was made: all other surfaces are Lambertian.
+#[test]
+fn the_share_of_samples_that_are_traced_on_is_that_of_pixels_with_a_mirror() {
+    for (name, expected) in [("mirror-hall:0", 0.0), ("mirror-hall:40", 0.4)] {
+        let options = OptionValues::default().with("select", "reflective");
+        let counters = render(name, ("whitted", options), [160, 90]).counters.expect("it was counted");
+        let share = counters.selected_share.expect("it selects");
+        println!("{name}: {share}");
+        assert!((share - expected).abs() <= if expected > 0.0 { 0.01 } else { 0.0 }, "{name}: {share}");
+    }
+}
+
+/// What an image is made in, slot by slot: ray 48, hit 16, traversal 64, lists 16 and surface 128 bytes; per pixel of the film
+/// 16; the header of a queue, its two placeholders, and what the film counts.
+#[test]
+fn bytes_of_an_image_are_those_of_its_slots_and_pixels() {
+    let slots = 32 * 24;
+    let output = render("cornell", ("raycast", OptionValues::default()), [32, 24]);
+    assert_eq!(output.counters.expect("it was counted").selected_share, None, "nothing is traced on");
+    let memory = output.memory.expect("it was counted");
+    let bytes = slots * (48 + 16 + 64 + 16 + 128) + 112 + 2 * 16 + 16 * slots + 20;
+    assert_eq!(memory.frame_bytes, Some(bytes), "{:?}", memory.by_part);
+    assert_eq!(memory.frame_bytes_per_pixel, Some(bytes as f64 / slots as f64));
+    let of_image = memory.by_part.iter().filter(|(name, _)| name.starts_with("image "));
+    assert_eq!(of_image.map(|(_, bytes)| bytes).sum::<u64>(), bytes);
+    assert_eq!(memory.by_part["image surfaces"], 128 * slots);
+}
+
+/// The time of fetching surfaces is apart from that of shading them, and what fetches by drawing has bytes of its own.
+#[test]
+fn fetching_by_drawing_is_a_stage_and_a_part_of_memory() {
+    let path = |fetch: &'static str| {
+        let options = OptionValues::default().with("fetch", fetch).with("bounces", 1);
+        render("cornell", ("path", options), [32, 24])
+    };
+    let [direct, raster] = ["direct", "raster"].map(path);
+    let fetch = |output: &RenderOutput| {
+        output.memory.as_ref().and_then(|memory| memory.by_part.get("image fetch").copied())
+    };
+    assert_eq!(fetch(&direct), None);
+    assert!(fetch(&raster) > Some(0));
+    let added = raster
+        .memory
+        .as_ref()
+        .and_then(|memory| memory.frame_bytes)
+        .zip(direct.memory.and_then(|memory| memory.frame_bytes));
+    assert_eq!(added.map(|(raster, direct)| raster - direct), fetch(&raster));
+    let stages =
+        |output: &RenderOutput| output.stages.iter().map(|stage| stage.stage.clone()).collect::<Vec<_>>();
+    for stage in ["surfaces", "shade"] {
+        assert!(stages(&raster).iter().any(|found| found == stage), "{:?}", stages(&raster));
+    }
+    let drawn: Vec<_> = raster.passes.iter().filter(|pass| pass.label.contains("fetch")).collect();
+    assert!(drawn.len() >= 2, "{:?}", raster.passes);
+    assert!(drawn.iter().all(|pass| pass.stage.as_deref() == Some("surfaces")), "{drawn:?}");
 }
 
 /// Whatever the job before was: at another moment, of another size, seed, share, system or part that is built.

@@ -110,6 +110,24 @@ impl ImagePasses {
         self.integrator.film()
     }
 
+    /// Names and bytes of the buffers of an image: the film, queues part by part, what the integrator keeps per slot, what
+    /// fetches surfaces by drawing, and what draws first hits. Shadow maps are apart.
+    pub fn bytes_by_part(&self) -> Vec<(&'static str, u64)> {
+        let integrator = self.integrator();
+        let mut parts = vec![("film", integrator.film().bytes())];
+        for (name, bytes) in integrator.queues().iter().flat_map(|queue| queue.bytes_by_part()) {
+            match parts.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, sum)) => *sum += bytes,
+                None => parts.push((name, bytes)),
+            }
+        }
+        parts.push(("integrator states", integrator.state_bytes()));
+        parts.push(("fetch", integrator.fetch_bytes()));
+        parts.push(("first hits", self.visibility.as_ref().map_or(0, Visibility::bytes)));
+        parts.retain(|(_, bytes)| *bytes > 0);
+        parts
+    }
+
     /// Shows another scene from the next recording on, in a film of the same size. Kernels stay; shadow maps grow where
     /// there are more lights.
     ///

@@ -152,14 +152,26 @@ pub trait Integrator {
     /// Maximum number of traces that a wave records, without its rest.
     fn traces_per_wave(&self) -> u32;
 
-    /// Bytes per slot in addition to the queues.
+    /// Whether it traces on from some surfaces alone and counts the samples of which it does
+    /// ([`FilmFaults`](crate::FilmFaults)).
+    fn selects(&self) -> bool {
+        false
+    }
+
+    /// Bytes in addition to the queues and to [`Integrator::fetch_bytes`].
     fn state_bytes(&self) -> u64 {
         0
     }
 
-    /// Bytes of queues and states, without the film.
+    /// Bytes of what fetches surfaces by drawing.
+    fn fetch_bytes(&self) -> u64 {
+        0
+    }
+
+    /// Bytes of queues, states and fetch, without the film.
     fn bytes(&self) -> u64 {
-        self.queues().iter().map(|queue| queue.bytes()).sum::<u64>() + self.state_bytes()
+        let queues = self.queues().iter().map(|queue| queue.bytes()).sum::<u64>();
+        queues + self.state_bytes() + self.fetch_bytes()
     }
 
     /// Records that film and counters start at 0.

@@ -125,6 +125,18 @@ const COLUMNS: &[Column] = &[
         },
     },
     Column {
+        heading: "image B/pixel",
+        is_main: false,
+        meaning: "bytes of film, queues and states per pixel of an image",
+        cell: |run| number(run.memory.as_ref()?.frame_bytes_per_pixel, 1),
+    },
+    Column {
+        heading: "traced on",
+        is_main: false,
+        meaning: "share of an image's samples whose first surface sent a mirrored or a refracted ray on",
+        cell: |run| number(counter(run, |counters| counters.selected_share), 4),
+    },
+    Column {
         heading: "cells/ray",
         is_main: false,
         meaning: "cells stepped per ray",

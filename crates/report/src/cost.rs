@@ -144,7 +144,7 @@ impl Pass {
 }
 
 /// Bytes.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Memory {
     /// The structure's allocations after the final build.
@@ -159,6 +159,12 @@ pub struct Memory {
     /// Kept only to measure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diagnostic_bytes: Option<u64>,
+    /// What an image is made in: film, queues, states, and what draws; without structure, scene and shadow maps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame_bytes: Option<u64>,
+    /// The same per pixel of the image.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub frame_bytes_per_pixel: Option<f64>,
     /// Most that was allocated on the device at a time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub device_peak_bytes: Option<u64>,
@@ -202,6 +208,10 @@ pub struct Counters {
     /// Triangles with an area that cover no cell's centre in any view, so that rays pass through them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lost: Option<u64>,
+    /// Of images whose integrator traces on from some surfaces alone: the share of samples whose first surface sent a mirrored
+    /// or a refracted ray on.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub selected_share: Option<f64>,
     /// List entries stored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub entries: Option<u64>,

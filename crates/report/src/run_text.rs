@@ -140,6 +140,7 @@ pub(super) fn run_text(run: &Run) -> String {
                 row("regrows", counters.regrows.map(grouped)),
                 row("unfinished", counters.unfinished.map(grouped)),
                 row("cut rays", counters.cut.map(grouped)),
+                row("samples traced on", share(counters.selected_share)),
             ]
             .into_iter()
             .flatten(),
@@ -159,9 +160,12 @@ pub(super) fn run_text(run: &Run) -> String {
             ("by formula", memory.formula_bytes),
             ("capacity", memory.capacity_bytes),
             ("diagnostics", memory.diagnostic_bytes),
+            ("image", memory.frame_bytes),
             ("device, peak", memory.device_peak_bytes),
         ];
         let totals = totals.into_iter().filter_map(|(name, value)| row(name, value.map(bytes)));
+        let per_pixel = memory.frame_bytes_per_pixel.map(|bytes| format!("{bytes:.1} B"));
+        let totals = totals.chain(row("image, per pixel", per_pixel));
         section(&mut text, " memory", parts.chain(totals).collect());
     }
     if let Some(accuracy) = &run.accuracy {

@@ -288,7 +288,11 @@ impl Integrator for Path {
     fn state_bytes(&self) -> u64 {
         let (Shadows::Occluded { pending: shadows, .. } | Shadows::Passing { waiting: shadows }) =
             &self.shadows;
-        self.states.size() + shadows.size() + self.fetch.as_ref().map_or(0, Fetch::bytes)
+        self.states.size() + shadows.size()
+    }
+
+    fn fetch_bytes(&self) -> u64 {
+        self.fetch.as_ref().map_or(0, Fetch::bytes)
     }
 
     fn record_reset(&self, recorder: &mut Recorder<'_>) {

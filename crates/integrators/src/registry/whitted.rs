@@ -299,6 +299,10 @@ impl Integrator for Whitted {
         self.rounds.now() * self.queues().len() as u32
     }
 
+    fn selects(&self) -> bool {
+        true
+    }
+
     fn state_bytes(&self) -> u64 {
         self.states.size() + self.waiting.size()
     }
