@@ -101,7 +101,9 @@ fn secondary_rays_of_parities_come_near_the_truth() {
     for payload in ["index", "attributes"] {
         assert!(error_of("hu", &[("payload", payload)]) < 0.03, "{payload}");
     }
-    assert!(error_of("mmrt", &[]) < 0.05);
+    assert!(error_of("mmrt", &[("view-switching", "exact")]) < 0.05);
+    // Rays that are snapped from view to view lose a little more: 0.064.
+    assert!(error_of("mmrt", &[]) < 0.08);
     assert!(error_of("mmrt", &[("accept", "interval")]) > 0.2);
 }
 
