@@ -16,13 +16,16 @@ pub fn takes(
 }
 
 /// The options of a subject that may not change a hit, each with the values that it takes alone or together with one
-/// other choice of these: pages go with paged lists only.
+/// other choice of these: pages go with paged lists only. Left out are values that make a structure of another kind: a
+/// payload that conservative lists do not go with takes fragments alone.
 pub fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)> {
     let mut rows = subject.spec.system().options();
     rows.retain(|row| !row.hits.may_change(subject.kind));
     let options = rows.iter().filter_map(|StructureOption { row, .. }| {
         let mut values = row.tried();
         values.retain(|value| takes(subject, rows.iter().copied(), (row.name, *value)));
+        let keeps_kind = |changed: Subject| changed.spec.kind().ok() == Some(subject.kind);
+        values.retain(|value| subject.with(&[(row.name, *value)]).is_none_or(keeps_kind));
         (!values.is_empty()).then_some((row.name, values))
     });
     options.collect()

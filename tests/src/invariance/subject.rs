@@ -19,11 +19,13 @@ const BESIDE: &[Row] = &[
 ];
 
 /// Presets with options that make another structure, or one in which other options decide.
-const MORE: &[Row] = &[("bricks", "robust", &[("views", "cube"), ("grid", "24")])];
+const MORE: &[Row] = &[
+    ("bricks", "robust", &[("views", "cube"), ("grid", "24")]),
+    ("mmrt", "robust", &[("coverage", "exact"), ("resolution", "24"), ("capacity", "40000")]),
+];
 
 /// More of them, in the full tier only.
 const LARGE: &[Row] = &[
-    ("mmrt", "robust", &[("coverage", "exact"), ("resolution", "24"), ("capacity", "40000")]),
     ("ldc", "robust", &[("accept", "triangle"), ("resolution", "16")]),
     ("hu", "robust", &[("coverage", "exact"), ("resolution", "16")]),
     ("mmrt", "robust", &[("single-layer", "on"), ("resolution", "24"), ("capacity", "40000")]),

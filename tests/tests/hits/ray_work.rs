@@ -118,7 +118,7 @@ fn cells_are_rejected_by_their_bounds_and_by_nothing_else() {
     let config = |skip| rasray_abuffer::Config {
         skip,
         counters: Counters::PerRay,
-        ..rasray_abuffer::Config::robust(SIDE)
+        ..rasray_abuffer::Config::at_centres(SIDE)
     };
     let work = |skip, ray| {
         let mut structure = rasray_abuffer::ABuffer::new(bench.device(), config(skip), &geometry, None)
