@@ -76,8 +76,8 @@ fn every_feature_can_be_missing_or_is_missed_by_name() {
     println!("{compared} comparisons, {refused} refusals");
     assert!(compared > 0 && refused > 3);
     // A list of hits of another resolution is not the same: the comparison can fail.
-    let coarse = spec("mmrt", "robust").and_then(|spec| Ok(spec.with_option("resolution", "16")?));
-    let position = subjects.iter().position(|spec| name(spec) == "mmrt robust").expect("registered");
+    let coarse = spec("ldc", "robust").and_then(|spec| Ok(spec.with_option("resolution", "16")?));
+    let position = subjects.iter().position(|spec| name(spec) == "ldc robust").expect("registered");
     assert_ne!(bits(&device, &coarse.expect("an option")).expect("hits"), expected[position]);
     assert_eq!(finish(device), Vec::<String>::new());
 }
@@ -127,8 +127,10 @@ fn without_timestamps_the_host_times() {
 #[test]
 fn a_small_binding_is_refused_by_name_or_reached_by_address() {
     // The lists of 6 * 130^2 cells and 4 buckets have 3,244,800 bytes.
-    let descriptor = spec("mmrt", "robust").and_then(|spec| Ok(spec.with_option("resolution", "128")?));
-    let descriptor = descriptor.expect("an option of mmrt");
+    let sized =
+        [("resolution", "128"), ("buckets", "4")].map(|(name, value)| (name.to_owned(), value.to_owned()));
+    let descriptor = spec("mmrt", "robust").and_then(|spec| Ok(spec.with_options(sized)?));
+    let descriptor = descriptor.expect("options of mmrt");
     let address = descriptor.with_option("addressing", "address").expect("an option of mmrt");
     let whole = device().expect("a device");
     let expected = bits(&whole, &descriptor).expect("hits");
