@@ -11,6 +11,7 @@ use rasray_experiment::{
     SystemConfig, open,
 };
 use rasray_hard_cases::Scale;
+use rasray_options::Value;
 use rasray_ray_files::HitsFile;
 use rasray_report::{ListRecord, Run};
 use rasray_scene::needs::Needs;
@@ -131,7 +132,9 @@ fn what_lists_hold_is_counted_where_it_is_asked_for() {
     let names = ["mmrt", "selective", "bvh"];
     let mut job = job(&loaded, &names, &[RaySet::Incoherent]);
     for config in &mut job.systems[..2] {
-        config.options = OptionValues::default().with("resolution", 32);
+        // Fragments alone: entries of conservative lists are no layers.
+        let fragments = OptionValues::default().with("coverage", Value::Word("exact"));
+        config.options = fragments.with("resolution", 32);
     }
     let mut runs = |job: &CompareJob<'_>| {
         let compared =
