@@ -79,11 +79,11 @@ fn a_queue_of_buffers_of_the_host_traces_what_is_in_them() {
     // Rays and hits alone, and everything; larger than they have to be.
     let alone = QueueBuffers::new(of_host("rays", 48 * 70, up), of_host("hits", 16 * 80, down));
     let all = QueueBuffers {
-        header: Some(of_host("header", 96, BufferUsage::ALL)),
+        header: Some(of_host("header", 112, BufferUsage::ALL)),
         states: Some(of_host("states", 64 * 64, BufferUsage::STORAGE)),
         list: Some(of_host("list", 16 * 64, BufferUsage::STORAGE)),
         surfaces: Some(of_host("surfaces", 128 * 64, BufferUsage::STORAGE)),
-        work: Some(of_host("work", 16 * 64, BufferUsage::STORAGE)),
+        work: Some(of_host("work", 24 * 64, BufferUsage::STORAGE)),
         ..QueueBuffers::new(of_host("rays", 48 * 64, up), of_host("hits", 16 * 64, down))
     };
     for buffers in [alone.clone(), all.clone()] {
@@ -112,7 +112,7 @@ fn a_queue_of_buffers_of_the_host_traces_what_is_in_them() {
         ),
         (|of, make| of.hits = make("short", 1023, BufferUsage::STORAGE), "buffer `short` has 1023"),
         (|of, make| of.hits = make("copied", 1024, BufferUsage::TRANSFER_DST), "as a storage buffer"),
-        (|of, make| of.header = Some(make("header", 96, BufferUsage::STORAGE)), "with all usages"),
+        (|of, make| of.header = Some(make("header", 112, BufferUsage::STORAGE)), "with all usages"),
         (|of, make| of.list = Some(make("list", 4 * 64, BufferUsage::STORAGE)), "list of 64 slots"),
         (|of, make| of.states = Some(make("states", 64, BufferUsage::STORAGE)), "states of 64 slots"),
         (|of, _| of.hits = of.rays.clone(), "is given twice, also for hits"),
