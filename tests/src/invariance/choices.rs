@@ -23,9 +23,16 @@ pub fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)
     rows.retain(|row| !row.hits.may_change(subject.kind));
     let options = rows.iter().filter_map(|StructureOption { row, .. }| {
         let mut values = row.tried();
-        values.retain(|value| takes(subject, rows.iter().copied(), (row.name, *value)));
-        let keeps_kind = |changed: Subject| changed.spec.kind().ok() == Some(subject.kind);
-        values.retain(|value| subject.with(&[(row.name, *value)]).is_none_or(keeps_kind));
+        let keeps_kind = |chosen: &[(&str, &str)]| {
+            subject.with(chosen).is_some_and(|changed| changed.spec.kind().ok() == Some(subject.kind))
+        };
+        values.retain(|value| {
+            let others = rows.iter().filter(|other| other.row.name != row.name);
+            let mut choices =
+                others.flat_map(|other| other.row.tried().into_iter().map(|choice| (other.row.name, choice)));
+            keeps_kind(&[(row.name, *value)])
+                || choices.any(|choice| keeps_kind(&[choice, (row.name, *value)]))
+        });
         (!values.is_empty()).then_some((row.name, values))
     });
     options.collect()
