@@ -103,15 +103,24 @@ impl Replay {
         let is_searched = |pair: &&[StepKind]| {
             pair[0] == StepKind::Cell && matches!(pair[1], StepKind::Entry | StepKind::Occupied)
         };
-        let is_view = |step: &&TraceStep| step.kind() == StepKind::View && !step.is_near_region();
-        let mut views: Vec<u32> = self.steps.iter().filter(is_view).map(|step| step.a).collect();
-        views.dedup();
+        // A ray enters a view where it was in another; each part begins anew.
+        let (mut view, mut views) = (None, 0);
+        for step in &self.steps {
+            match step.kind() {
+                StepKind::Round if step.a == 0 => view = None,
+                StepKind::View if !step.is_near_region() => {
+                    views += u32::from(view != Some(step.a));
+                    view = Some(step.a);
+                }
+                _ => {}
+            }
+        }
         RayWork {
             cells: count(StepKind::Cell),
             entries: count(StepKind::Entry) + count(StepKind::Node),
             tests: count(StepKind::Test),
             rounds: count(StepKind::Round),
-            views: views.len() as u32,
+            views,
             searched: of_cells.windows(2).filter(is_searched).count() as u32,
         }
     }
