@@ -46,7 +46,7 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraver
         uint primitive = PRIMITIVE_NONE;
         if (in_conservative) {
             state.entries++;
-            trace_log(STEP_ENTRY, search.link, 0u, 0u, 0.0, 0.0);
+            trace_log_visit(STEP_ENTRY, search.link, 0u, 0u, 0.0, 0.0);
             ConservativeNode node = conservative_node(s, search.link);
             search.link = node.next;
             primitive = node.primitive;

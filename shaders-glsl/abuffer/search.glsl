@@ -113,7 +113,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                 break;
             }
             float z = abuffer_z(s, current);
-            trace_log(STEP_ENTRY, current, 0u, 0u, z, z);
+            trace_log_visit(STEP_ENTRY, current, 0u, 0u, z, z);
             if (end_early && (backward ? z < low : z > high)) {
                 trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
                 // Read from the far side to the near one, buckets that follow hold smaller depths.

@@ -14,7 +14,7 @@ float abuffer_probe(AbufferRef s, uint link, inout TraceState state, inout uint 
     work++;
     state.entries++;
     float z = abuffer_z(s, link);
-    trace_log(STEP_ENTRY, link, 0u, 0u, z, z);
+    trace_log_visit(STEP_ENTRY, link, 0u, 0u, z, z);
     return z;
 }
 

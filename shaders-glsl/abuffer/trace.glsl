@@ -49,7 +49,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
         if (restored) {
             abuffer_restore(state, traversal, search);
         } else {
-            trace_log(STEP_VIEW, traversal.segment.face, 0u, 0u, traversal.segment.t_begin, traversal.segment.t_end);
+            trace_log_visit(STEP_VIEW, traversal.segment.face, 0u, 0u, traversal.segment.t_begin, traversal.segment.t_end);
             searching = false;
         }
         restored = false;
@@ -69,7 +69,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                 }
                 work++;
                 state.cells++;
-                trace_log(STEP_CELL, traversal.segment.face, uint(traversal.searched.x), uint(traversal.searched.y),
+                trace_log_visit(STEP_CELL, traversal.segment.face, uint(traversal.searched.x), uint(traversal.searched.y),
                     search.t_low, search.t_high);
                 // A search that was begun goes on: only cells whose search has not begun are skipped.
                 if (ABUFFER_STEP == ABUFFER_STEP_SKIPS && !searching

@@ -21,8 +21,27 @@ uint trace_log_unread = 0u;
 // One more than the view entered last; 0 before the first.
 uint trace_log_view = 0u;
 
+// Place of the first step of this dispatch.
+uint trace_log_first = 0u;
+
 void trace_log_begin(uint slot) {
     trace_log_on = COUNTERS >= COUNTERS_STEPS && slot == queue_logged_slot;
+    if (trace_log_on) {
+        trace_log_first = queue_step_demand;
+    }
+}
+
+// Steps name triangles by the numbers that they have in a part. Here, once for all of a dispatch, they get their ids.
+void trace_log_end() {
+    if (COUNTERS >= COUNTERS_STEPS && trace_log_on) {
+        uint end = min(queue_step_demand, uint(queue_steps.length()));
+        for (uint place = trace_log_first; place < end; place++) {
+            uint kind = queue_steps[place].kind;
+            if (kind == STEP_TEST || kind == STEP_FRAGMENT || kind == STEP_BEST) {
+                queue_steps[place].a = geometry_id_of(queue_steps[place].a);
+            }
+        }
+    }
 }
 
 // The kind is a constant wherever steps are logged, so that little of this is left.
@@ -38,18 +57,20 @@ void trace_log_count(uint kind, uint a) {
 }
 
 void trace_log(uint kind, uint a, uint b, uint c, float t_low, float t_high) {
-    if (COUNTERS >= COUNTERS_SUMS) {
-        trace_log_count(kind, a);
-        if (trace_log_on) {
-            if (kind == STEP_TEST || kind == STEP_FRAGMENT || kind == STEP_BEST) {
-                a = geometry_id_of(a);
-            }
-            uint place = atomicAdd(queue_step_demand, 1u);
-            if (place < uint(queue_steps.length())) {
-                queue_steps[place] = TraceStep(kind, queue_header.round, a, b, c, t_low, t_high);
-            }
+    if (trace_log_on) {
+        uint place = atomicAdd(queue_step_demand, 1u);
+        if (place < uint(queue_steps.length())) {
+            queue_steps[place] = TraceStep(kind, queue_header.round, a, b, c, t_low, t_high);
         }
     }
+}
+
+// The same of a view, a cell, or something of what a cell holds, which are counted as well.
+void trace_log_visit(uint kind, uint a, uint b, uint c, float t_low, float t_high) {
+    if (COUNTERS >= COUNTERS_SUMS) {
+        trace_log_count(kind, a);
+    }
+    trace_log(kind, a, b, c, t_low, t_high);
 }
 
 #endif

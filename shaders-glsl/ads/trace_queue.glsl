@@ -114,6 +114,7 @@ bool trace_begin(uint slot, Ray ray, out TraceState state) {
 }
 
 void trace_store(uint slot, uint result, TraceState state, Hit hit) {
+    trace_log_end();
     state.visit = trace_log_view << 1 | trace_log_unread;
     queue_store_work(slot, state);
     queue_add_visits(trace_log_views, trace_log_searched);

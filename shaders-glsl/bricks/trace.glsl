@@ -106,7 +106,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
                 up = greaterThanEqual(r.heading, vec3(0.0));
             }
             if (begins) {
-                trace_log(STEP_VIEW, face, 0u, 0u, t, t_last);
+                trace_log_visit(STEP_VIEW, face, 0u, 0u, t, t_last);
                 cell = axes ? box_line_cell_at(line, t, traversal.cells)
                     : brick_cell_at(r, t, traversal.half_side, traversal.rounding, traversal.slices);
                 cell = clamp(cell, ivec3(0), traversal.cells - 1);
@@ -136,7 +136,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
             t_out = max(min(exits.x, min(exits.y, exits.z)), t);
             if (enters) {
                 state.cells++;
-                trace_log(STEP_CELL, face, uint(cell.x), uint(cell.y), t, t_out);
+                trace_log_visit(STEP_CELL, face, uint(cell.x), uint(cell.y), t, t_out);
             }
             if (box.listed) {
                 entries = brick_entries(s, traversal, box.list, corrupted);
@@ -159,7 +159,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
                 if (alone == BRICK_ALONE_NONE) {
                     state.entries++;
                     primitive = BRICK_ENTRIES(s)[entry];
-                    trace_log(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
+                    trace_log_visit(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
                 } else if (alone == BRICK_ALONE_NEAR) {
                     primitive = BRICK_NEAR_LIST(s)[entry];
                 }
@@ -249,7 +249,7 @@ uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
         alone = distant ? BRICK_ALONE_ALL : (intersects_near ? BRICK_ALONE_NEAR : BRICK_ALONE_NONE);
     }
     if (!resumed && alone != BRICK_ALONE_NONE) {
-        trace_log(STEP_VIEW, distant ? SEGMENT_ALL : SEGMENT_NEAR, 0u, 0u, clip.x, clip.y);
+        trace_log_visit(STEP_VIEW, distant ? SEGMENT_ALL : SEGMENT_NEAR, 0u, 0u, clip.x, clip.y);
     }
     if (brick_trace_cells(s, ray, origin, clip.x, clip.y, near, slack, alone, any_hit, resumed, state)) {
         return TRACE_PAUSED;

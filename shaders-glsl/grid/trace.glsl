@@ -62,7 +62,7 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
         cell = grid_cell_of_bits(state.cursor[2]);
         entry = state.cursor[3];
     } else {
-        trace_log(STEP_VIEW, 0u, 0u, 0u, t, t_last);
+        trace_log_visit(STEP_VIEW, 0u, 0u, 0u, t, t_last);
         cell = clamp(box_line_cell_at(line, t, ivec3(cells)), ivec3(0), ivec3(cells) - 1);
     }
     uvec2 tested = uvec2(PRIMITIVE_NONE);
@@ -83,7 +83,7 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
         if (enters) {
             state.cells++;
             entry = entries.x;
-            trace_log(STEP_CELL, 0u, uint(cell.x), uint(cell.y), t, t_out);
+            trace_log_visit(STEP_CELL, 0u, uint(cell.x), uint(cell.y), t, t_out);
             if (entries.x == entries.y) {
                 trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, t, t_out);
             } else {
@@ -98,7 +98,7 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
             work++;
             state.entries++;
             uint primitive = GRID_ENTRIES(s)[entry];
-            trace_log(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
+            trace_log_visit(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
             if (primitive == PRIMITIVE_NONE || (primitive != tested.x && primitive != tested.y)) {
                 grid_test(s, primitive, ray, state);
                 tested = uvec2(primitive, tested.x);
@@ -145,7 +145,7 @@ uint grid_trace(GridRef s, Ray ray, inout TraceState state, bool any_hit) {
         uint work = 0u;
         uint place = state.cursor[3];
         if (state.cursor[0] == 0u) {
-            trace_log(STEP_VIEW, SEGMENT_ALL, 0u, 0u, clip.x, clip.y);
+            trace_log_visit(STEP_VIEW, SEGMENT_ALL, 0u, 0u, clip.x, clip.y);
         }
         if (listed_test(s, ray, true, any_hit, place, state, work)) {
             state.cursor[0] = bits_put(true, GRID_CURSOR_STARTED);

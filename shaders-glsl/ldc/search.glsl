@@ -173,7 +173,7 @@ uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout
         float found = ldc_depth(s, middle);
         work++;
         state.entries++;
-        trace_log(STEP_ENTRY, middle, 0u, 0u, found, found);
+        trace_log_visit(STEP_ENTRY, middle, 0u, 0u, found, found);
         if (found < z) {
             begin = middle + 1u;
         } else {
@@ -194,7 +194,7 @@ bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout Tr
         }
         work++;
         state.entries++;
-        trace_log(STEP_ENTRY, search.place, 0u, 0u, 0.0, 0.0);
+        trace_log_visit(STEP_ENTRY, search.place, 0u, 0u, 0.0, 0.0);
         ConservativeNode node = conservative_node(s, search.place);
         search.place = node.next;
         if (node.primitive == PRIMITIVE_NONE) {
@@ -238,7 +238,7 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
             uint place = search.place;
             float z = ldc_depth(s, place);
             search.place++;
-            trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
+            trace_log_visit(STEP_ENTRY, place, 0u, 0u, z, z);
             if (z < wanted.x || z > wanted.y) {
                 trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, wanted.x, wanted.y);
                 if (LDC_SKIP != 0u && ordered && z > wanted.y) {

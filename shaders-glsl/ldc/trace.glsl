@@ -122,7 +122,7 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
                 search.t_low = interval.x;
                 search.t_high = interval.y;
                 state.cells++;
-                trace_log(STEP_CELL, 2u * traversal.axis, uint(search.cell.x), uint(search.cell.y), interval.x,
+                trace_log_visit(STEP_CELL, 2u * traversal.axis, uint(search.cell.x), uint(search.cell.y), interval.x,
                     interval.y);
                 if (ldc_search(s, ray, ordered, search, state, work)) {
                     return true;
@@ -170,7 +170,7 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
             ldc_restore(state, traversal, search);
             restored = false;
         } else {
-            trace_log(STEP_VIEW, 2u * axis, 0u, 0u, clip.x, clip.y);
+            trace_log_visit(STEP_VIEW, 2u * axis, 0u, 0u, clip.x, clip.y);
             more = ldc_begin_view(clip, traversal);
         }
         if (ldc_trace_view(s, ray, any_hit, ordered, more, traversal, search, state, work)) {

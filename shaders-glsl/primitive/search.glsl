@@ -80,7 +80,7 @@ bool primitive_search(PrimitiveRef s, Ray ray, PrimitiveTile tile, float slack, 
             work++;
             state.entries++;
             uint primitive = primitive_list_next(s, search.list);
-            trace_log(STEP_ENTRY, search.list.at, 0u, 0u, 0.0, 0.0);
+            trace_log_visit(STEP_ENTRY, search.list.at, 0u, 0u, 0.0, 0.0);
             if (primitive != PRIMITIVE_NONE) {
                 bool better = primitive_test_in_tile(s, tile, primitive, ray, state);
                 search.found = search.found || better;

@@ -40,7 +40,7 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
             }
             work++;
             state.cells++;
-            trace_log(STEP_CELL, traversal.segment.face, uint(traversal.searched.x), uint(traversal.searched.y),
+            trace_log_visit(STEP_CELL, traversal.segment.face, uint(traversal.searched.x), uint(traversal.searched.y),
                 traversal.search.t_low, traversal.search.t_high);
             MarchSkip skip;
             // What is touched outside of a cell lies within the bounds of its block.
@@ -107,7 +107,7 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
                 continue;
             }
             primitive_begin_traversal(s, origin, direction, traversal);
-            trace_log(STEP_VIEW, traversal.segment.face, 0u, 0u, traversal.segment.t_begin, traversal.segment.t_end);
+            trace_log_visit(STEP_VIEW, traversal.segment.face, 0u, 0u, traversal.segment.t_begin, traversal.segment.t_end);
         }
         restored = false;
         t = traversal.segment.t_end;

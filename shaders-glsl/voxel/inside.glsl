@@ -105,7 +105,7 @@ bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelTrav
         if (!nearest) {
             state.cells++;
             work++;
-            trace_log(STEP_CELL, traversal.axis, uint(point.cell.x), uint(point.cell.y), point.t, point.t);
+            trace_log_visit(STEP_CELL, traversal.axis, uint(point.cell.x), uint(point.cell.y), point.t, point.t);
         }
     }
     bool sorted = voxel_lists_sorted(s);

@@ -19,7 +19,7 @@ float voxel_read(VoxelRef s, uint place, inout TraceState state, inout uint work
     float z = voxel_z(s, place);
     state.entries++;
     work++;
-    trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
+    trace_log_visit(STEP_ENTRY, place, 0u, 0u, z, z);
     return z;
 }
 
@@ -82,7 +82,7 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
         }
         state.entries++;
         float z = voxel_z(s, place);
-        trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
+        trace_log_visit(STEP_ENTRY, place, 0u, 0u, z, z);
         bool anywhere = triangles && z == VOXEL_ANY_DEPTH;
         if (z > high && sorted && !anywhere) {
             trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
@@ -134,7 +134,7 @@ bool voxel_search(VoxelRef s, Ray ray, vec2 interval, bool any_hit, inout VoxelT
             }
             work++;
             state.cells++;
-            trace_log(STEP_CELL, traversal.axis, uint(traversal.cell.x), uint(traversal.cell.y), within.x, within.y);
+            trace_log_visit(STEP_CELL, traversal.axis, uint(traversal.cell.x), uint(traversal.cell.y), within.x, within.y);
         }
         if (voxel_search_list(s, ray, within, traversal, state, work)) {
             return true;

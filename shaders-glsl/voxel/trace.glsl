@@ -83,14 +83,14 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
             state.cells++;
             // A cell of a fourth view, whose rows are those of all layers.
             uint row = uint(traversal.voxel.y) + VOXEL_HEADER(s).grid * uint(traversal.voxel.z);
-            trace_log(STEP_CELL, AXIS_VIEWS, uint(traversal.voxel.x), row, interval.x, interval.y);
+            trace_log_visit(STEP_CELL, AXIS_VIEWS, uint(traversal.voxel.x), row, interval.x, interval.y);
         }
         uint bits = VOXEL_TRAVERSAL == VOXEL_TRAVERSAL_OCTREE ? voxel_look_up(s, entered, traversal, state, work)
             : voxel_bits(s, voxel_index(s, traversal.voxel));
         if (bits == 0u) {
             trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);
         } else if (!entered) {
-            trace_log(STEP_OCCUPIED, bits, 0u, 0u, 0.0, 0.0);
+            trace_log_visit(STEP_OCCUPIED, bits, 0u, 0u, 0.0, 0.0);
         }
         entered = false;
         if (VOXEL_LEAVES == VOXEL_LEAVES_VOXELS && bits != 0u) {
