@@ -1,11 +1,8 @@
 //! Plans of many comparisons: stopped, resumed, divided and merged, their pages are those of one process.
 
-use std::path::Path;
-use std::process::Output;
-
 use rasray_report::Report;
 
-use crate::scripted::{command, entries, stderr};
+use crate::scripted::{done, entries, read, scripted, stderr};
 
 const PLAN: &str = r#"
 title = "Two things"
@@ -27,21 +24,6 @@ systems = "mmrt"
 seed = [1, 2]
 small = { seed = 1 }
 "#;
-
-fn run(folder: &Path, line: &str) -> Output {
-    command(folder, line).output().expect("the command starts")
-}
-
-/// What a command that succeeds says.
-fn done(folder: &Path, line: &str) -> String {
-    let output = run(folder, line);
-    assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
-    stderr(&output)
-}
-
-fn read(folder: &Path, name: &str) -> String {
-    std::fs::read_to_string(folder.join(name)).expect(name)
-}
 
 /// A folder with a plan.
 fn planned() -> tempfile::TempDir {
@@ -127,7 +109,7 @@ fn a_dry_run_says_what_would_be_made_and_makes_nothing() {
     let folder = planned();
     let folder = folder.path();
     let before = entries(folder);
-    let output = run(folder, "ablate plan.toml --output out --dry-run");
+    let output = scripted(folder, "ablate plan.toml --output out --dry-run");
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(text.contains("cornell mmrt storage=ll incoherent seed=1  [Storages; Seeds]"), "{text}");
     assert!(text.contains("14 runs of 14: 2800 rays") && text.contains("14 runs by"), "{text}");
@@ -135,7 +117,7 @@ fn a_dry_run_says_what_would_be_made_and_makes_nothing() {
     done(folder, "ablate plan.toml --output out --shard 1/3");
     std::fs::rename(folder.join("out/cells.1-of-3.jsonl"), folder.join("out/cells.jsonl"))
         .expect("one share");
-    let output = run(folder, "ablate plan.toml --output out --dry-run");
+    let output = scripted(folder, "ablate plan.toml --output out --dry-run");
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(text.contains("9 runs of 14: 1800 rays") && !text.contains("    0  "), "{text}");
 }
@@ -161,7 +143,7 @@ fn what_is_wrong_with_a_plan_is_named_with_its_experiment() {
         (with("title =", "title"), "TOML parse error"),
     ] {
         std::fs::write(folder.join("plan.toml"), &plan).expect("a plan");
-        let output = run(folder, "ablate plan.toml --output out");
+        let output = scripted(folder, "ablate plan.toml --output out");
         assert_eq!(output.status.code(), Some(2), "{says}: {}", stderr(&output));
         assert!(
             stderr(&output).contains("plan.toml: ") && stderr(&output).contains(says),
@@ -171,7 +153,7 @@ fn what_is_wrong_with_a_plan_is_named_with_its_experiment() {
         assert!(stderr(&output).contains("help: "), "{}", stderr(&output));
         assert!(!folder.join("out/cells.jsonl").exists());
     }
-    let output = run(folder, "ablate none.toml --output out");
+    let output = scripted(folder, "ablate none.toml --output out");
     assert_eq!((output.status.code(), stderr(&output).contains("none.toml")), (Some(2), true));
     _ = std::fs::remove_dir(folder.join("out"));
     assert_eq!(entries(folder), before);
@@ -181,7 +163,7 @@ fn what_is_wrong_with_a_plan_is_named_with_its_experiment() {
 fn items_of_a_paper_are_listed_and_made_beside_its_numbers() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
-    let output = run(folder, "replicate --list");
+    let output = scripted(folder, "replicate --list");
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(
         text.matches("table1").count() == 5 && text.contains("selective") && text.contains("fig12"),
@@ -192,13 +174,13 @@ fn items_of_a_paper_are_listed_and_made_beside_its_numbers() {
     for words in ["## table1: ", "| build, 1024 over 512, Bunny | 2.71 |", "rasray replicate ldc table1"] {
         assert!(page.contains(words), "{words}: {page}");
     }
-    let output = run(folder, "replicate ldc fig99 --output out");
+    let output = scripted(folder, "replicate ldc fig99 --output out");
     assert_eq!(output.status.code(), Some(2));
     assert!(
         stderr(&output).contains("no item 'fig99' in ldc") && stderr(&output).contains("table1"),
         "{}",
         stderr(&output)
     );
-    let output = run(folder, "replicate ldc table1");
+    let output = scripted(folder, "replicate ldc table1");
     assert_eq!((output.status.code(), stderr(&output).contains("--output")), (Some(2), true));
 }

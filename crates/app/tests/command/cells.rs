@@ -1,30 +1,14 @@
 //! Comparisons whose runs are lines of a file: stopped, resumed, divided and merged, they are the report of one process.
 
 use std::path::Path;
-use std::process::Output;
 use std::time::{Duration, Instant};
 
 use rasray_report::{Report, Run};
 
-use crate::scripted::{command, entries, rasray, stderr};
+use crate::scripted::{command, done, entries, rasray, read, scripted, stderr};
 
 /// Three sets of rays by two systems.
 const SIX: &str = "compare cornell --systems mmrt,bvh --ray-set incoherent,camera,eye";
-
-fn scripted(folder: &Path, line: &str) -> Output {
-    command(folder, line).output().expect("the command starts")
-}
-
-/// What a command that succeeds says.
-fn done(folder: &Path, line: &str) -> String {
-    let output = scripted(folder, line);
-    assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
-    stderr(&output)
-}
-
-fn read(folder: &Path, name: &str) -> String {
-    std::fs::read_to_string(folder.join(name)).expect(name)
-}
 
 /// A report, or each line of one; without the command line, which says where it was written.
 fn reports(folder: &Path, name: &str) -> Vec<Report> {

@@ -2,17 +2,12 @@
 //! stopped.
 
 use std::path::Path;
-use std::process::Output;
 
 use exr::prelude::{FlatImage, FlatSamples, Text, read_all_flat_layers_from_file};
 use rasray_report::Report;
 
 use crate::motion::RISING;
-use crate::scripted::{command, entries, rasray, stderr};
-
-fn scripted(folder: &Path, line: &str) -> Output {
-    command(folder, line).output().expect("the command starts")
-}
+use crate::scripted::{entries, rasray, scripted, stderr};
 
 fn image(path: &Path) -> FlatImage {
     read_all_flat_layers_from_file(path).expect("an image")

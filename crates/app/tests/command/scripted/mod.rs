@@ -227,6 +227,23 @@ pub fn command(folder: &Path, line: &str) -> Command {
     command
 }
 
+/// What the command on the known answers gives.
+pub fn scripted(folder: &Path, line: &str) -> Output {
+    command(folder, line).output().expect("the command starts")
+}
+
+/// What that command says, which succeeds.
+pub fn done(folder: &Path, line: &str) -> String {
+    let output = scripted(folder, line);
+    assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
+    stderr(&output)
+}
+
+/// The text of a file.
+pub fn read(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).expect(name)
+}
+
 /// The built command, on a device.
 pub fn rasray(folder: &Path, line: &str) -> Output {
     Command::new(env!("CARGO_BIN_EXE_rasray"))
