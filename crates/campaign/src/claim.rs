@@ -1,9 +1,9 @@
 //! What a paper published, beside what came of its plan.
 
-use crate::plan::PlanError;
+use crate::plan::{PlanError, line, word_of};
 use rasray_report::{Experiment, Row, number};
 use std::collections::BTreeMap;
-use toml::{Table, Value};
+use toml::Value;
 
 /// A number of a paper, and which results are held against it.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +45,7 @@ impl Claim {
         let wrong = |message: String| PlanError::new(message, help);
         let Value::Table(mut table) = value else { return Err(wrong("a claim is no table".to_owned())) };
         let mut text = |name: &str| match table.remove(name) {
-            Some(Value::String(text)) => Ok(text.split_whitespace().collect::<Vec<_>>().join(" ")),
+            Some(Value::String(text)) => Ok(line(&text)),
             Some(_) => Err(wrong(format!("'{name}' of a claim is no text"))),
             None => Ok(String::new()),
         };
@@ -62,7 +62,10 @@ impl Claim {
             return Err(wrong(format!("claim '{says}': 'published' is not above 0")));
         }
         let mut settings = |name: &str| match table.remove(name) {
-            Some(Value::Table(settings)) => strings(settings)
+            Some(Value::Table(settings)) => settings
+                .iter()
+                .map(|(name, value)| Some((name.clone(), word_of(value)?)))
+                .collect::<Option<BTreeMap<_, _>>>()
                 .map(Some)
                 .ok_or_else(|| wrong(format!("claim '{says}': '{name}' has a value that is no setting's"))),
             Some(_) => Err(wrong(format!("claim '{says}': '{name}' is no table"))),
@@ -137,18 +140,6 @@ fn is_alike(row: &Row, other: &Row, name: &str) -> bool {
         (None, None) => true,
         _ => is_option(row) || is_option(other),
     }
-}
-
-/// Settings as words.
-fn strings(table: Table) -> Option<BTreeMap<String, String>> {
-    let word = |value: Value| match value {
-        Value::String(text) => Some(text),
-        Value::Integer(number) => Some(number.to_string()),
-        Value::Float(number) => Some(number.to_string()),
-        Value::Boolean(is) => Some(is.to_string()),
-        _ => None,
-    };
-    table.into_iter().map(|(name, value)| Some((name, word(value)?))).collect()
 }
 
 #[cfg(test)]

@@ -159,9 +159,8 @@ impl Plan {
     }
 
     /// One plan of several, in their order; names of experiments get the word before them, and a colon.
-    pub fn joined<'a>(title: &str, plans: impl IntoIterator<Item = (&'a str, Self)>) -> Self {
-        let named = |(word, plan): (&str, Self)| {
-            let word = word.to_owned();
+    pub fn joined(title: &str, plans: impl IntoIterator<Item = (String, Self)>) -> Self {
+        let named = |(word, plan): (String, Self)| {
             plan.experiments.into_iter().map(move |experiment| ExperimentPlan {
                 name: format!("{word}: {}", experiment.name),
                 ..experiment
@@ -226,7 +225,7 @@ fn is_own(key: &str) -> bool {
 }
 
 /// Text in one line.
-fn line(text: &str) -> String {
+pub(crate) fn line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
@@ -259,18 +258,25 @@ fn exclusions(value: Option<Value>) -> Result<Vec<Exclusion>, PlanError> {
     tables("exclude", value)?.into_iter().map(exclusion).collect()
 }
 
+/// A value of an option or a setting as a word; absent where it is none.
+pub(crate) fn word_of(value: &Value) -> Option<String> {
+    match value {
+        Value::String(text) => Some(text.clone()),
+        Value::Integer(number) => Some(number.to_string()),
+        // Without an exponent, and without a fraction where there is none.
+        Value::Float(number) if number.is_finite() => Some(number.to_string()),
+        Value::Boolean(is) => Some(is.to_string()),
+        _ => None,
+    }
+}
+
 /// The values of a key as words; one value stands for a list of it.
 fn words_of(key: &str, value: &Value) -> Result<Vec<String>, PlanError> {
-    let word = |value: &Value| match value {
-        Value::String(text) => Ok(text.clone()),
-        Value::Integer(number) => Ok(number.to_string()),
-        // Without an exponent, and without a fraction where there is none.
-        Value::Float(number) if number.is_finite() => Ok(format!("{number}")),
-        Value::Boolean(is) => Ok(is.to_string()),
-        _ => {
+    let word = |value: &Value| {
+        word_of(value).ok_or_else(|| {
             let help = "values are text, numbers, true or false, or a list of these";
-            Err(PlanError::new(format!("'{key}' has a value that is no option's"), help))
-        }
+            PlanError::new(format!("'{key}' has a value that is no option's"), help)
+        })
     };
     match value {
         Value::Array(list) if list.is_empty() => {

@@ -82,10 +82,6 @@ impl Campaign {
         lines.sort_by_key(|line| line.cell.as_ref().map(|cell| cell.place));
         let first = *lines.first()?;
         let title = first.cell.as_ref()?.campaign.as_ref()?.title.clone();
-        let program = match &first.commit {
-            Some(commit) => format!("{} ({commit})", first.version),
-            None => first.version.clone(),
-        };
         let mut experiments: BTreeMap<u32, Experiment> = BTreeMap::new();
         for line in lines {
             let asked = line.cell.as_ref().and_then(|cell| cell.campaign.as_ref());
@@ -96,7 +92,7 @@ impl Campaign {
             }
         }
         let experiments = experiments.into_values().collect();
-        Some(Self { title, program, device: first.device.clone(), experiments })
+        Some(Self { title, program: first.program(), device: first.device.clone(), experiments })
     }
 }
 

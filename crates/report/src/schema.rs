@@ -41,6 +41,16 @@ pub struct Report {
     pub runs: Vec<Run>,
 }
 
+impl Report {
+    /// The version of the program, and the commit where it is known.
+    pub fn program(&self) -> String {
+        match &self.commit {
+            Some(commit) => format!("{} ({commit})", self.version),
+            None => self.version.clone(),
+        }
+    }
+}
+
 /// How many rates a report estimates, and what must hold for all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -30,12 +30,19 @@ pub(super) struct Campaign<'a> {
     pub(super) line: &'a str,
 }
 
-/// A comparison of the plan.
-struct Planned<'a> {
+/// A comparison of the plan, as words of `rasray compare`.
+struct Worded<'a> {
     /// Place of its experiment.
     place: usize,
     plan: &'a ComparisonPlan,
     given: CompareArguments,
+}
+
+/// The same with what its options ask for.
+struct Planned<'a> {
+    place: usize,
+    plan: &'a ComparisonPlan,
+    asked: Asked<'a>,
 }
 
 /// Reads a plan.
@@ -60,11 +67,12 @@ impl<'a> Campaign<'a> {
         open: &mut OpenBackend<'_>,
         interrupt: &Interrupt,
     ) -> Result<Vec<Report>, AppError> {
-        let planned = self.planned()?;
-        let of_options = |planned: &Planned<'_>| {
-            Asked::of(&planned.given).map(|_| ()).map_err(|error| error.about(&self.name(planned)))
-        };
-        planned.iter().try_for_each(of_options)?;
+        let worded = self.worded()?;
+        let planned = worded.iter().map(|Worded { place, plan, given }| {
+            let asked = Asked::of(given).map_err(|error| error.about(&self.name(*place)))?;
+            Ok(Planned { place: *place, plan, asked })
+        });
+        let planned = planned.collect::<Result<Vec<_>, AppError>>()?;
         // A dry run makes no folder.
         let file = match self.given.dry_run && !self.given.folder().is_dir() {
             true => None,
@@ -100,8 +108,8 @@ impl<'a> Campaign<'a> {
         Ok(lines)
     }
 
-    /// The options of each comparison.
-    fn planned(&self) -> Result<Vec<Planned<'a>>, AppError> {
+    /// The words of each comparison, read.
+    fn worded(&self) -> Result<Vec<Worded<'a>>, AppError> {
         let read = |(place, plan): (usize, &'a ComparisonPlan)| {
             let given = comparison(&plan.words);
             let given = given.and_then(|given| match hard::asked_for(&given.scene) {
@@ -111,16 +119,15 @@ impl<'a> Campaign<'a> {
                     "compare them by themselves: rasray compare hard:all",
                 )),
             });
-            let name = &self.plan.experiments[place].name;
-            let given =
-                given.map_err(|error| error.about(&format!("{}: experiment '{name}'", self.about)))?;
-            Ok(Planned { place, plan, given })
+            let given = given.map_err(|error| error.about(&self.name(place)))?;
+            Ok(Worded { place, plan, given })
         };
         self.plan.comparisons().map(read).collect()
     }
 
-    fn name(&self, planned: &Planned<'_>) -> String {
-        format!("{}: experiment '{}'", self.about, self.plan.experiments[planned.place].name)
+    /// The experiment at a place, for messages.
+    fn name(&self, place: usize) -> String {
+        format!("{}: experiment '{}'", self.about, self.plan.experiments[place].name)
     }
 
     /// The file of the cells, in a folder that is there from now on.
@@ -149,12 +156,12 @@ impl<'a> Campaign<'a> {
             let subject = self.subject(planned, backend)?;
             let cells = subject.cells();
             let experiment = &self.plan.experiments[planned.place];
-            let known = unknown.entry(planned.place).or_insert_with(|| names(&experiment.exclusions));
+            let unknown = unknown.entry(planned.place).or_insert_with(|| names(&experiment.exclusions));
             let mut excluded = BTreeSet::new();
             for (place, record) in (0..cells.len()).filter_map(|place| Some((place, cells.record(place)?))) {
                 let mut settings = cell_settings(&record.depends_on);
                 settings.extend(planned.plan.settings.clone());
-                known.retain(|name| !settings.contains_key(name));
+                unknown.retain(|name| !settings.contains_key(name));
                 if experiment.exclusions.iter().any(|exclusion| exclusion.holds(&settings)) {
                     excluded.insert(place);
                 }
@@ -169,25 +176,21 @@ impl<'a> Campaign<'a> {
         if let Some((place, name)) =
             unknown.iter().find_map(|(place, names)| Some((*place, names.first()?.clone())))
         {
-            let experiment = &self.plan.experiments[place].name;
             return Err(AppError::usage(
-                format!(
-                    "{}: experiment '{experiment}' excludes by '{name}', which none of its runs has",
-                    self.about
-                ),
+                format!("{} excludes by '{name}', which none of its runs has", self.name(place)),
                 "name a setting such as scene, system, preset, ray-set or an option that the experiment sets",
             ));
         }
         Ok(CampaignCells::new(&self.plan.title, &comparisons))
     }
 
-    fn subject<'b>(&self, planned: &'b Planned<'_>, backend: &dyn Backend) -> Result<Subject<'b>, AppError> {
+    fn subject<'b>(&self, planned: &Planned<'b>, backend: &dyn Backend) -> Result<Subject<'b>, AppError> {
         let read = || {
-            let mut subject = Asked::of(&planned.given)?.read()?;
+            let mut subject = planned.asked.clone().read()?;
             subject.fit(backend)?;
             Ok(subject)
         };
-        read().map_err(|error: AppError| error.about(&self.name(planned)))
+        read().map_err(|error: AppError| error.about(&self.name(planned.place)))
     }
 
     /// Makes the cells that are wanted; how many were made.
@@ -222,19 +225,19 @@ impl<'a> Campaign<'a> {
                 made += 1;
                 if failed.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
-            let scene = &self.plan.experiments[planned.place].name;
+            let name = &self.plan.experiments[planned.place].name;
             with_progress(
                 interrupt,
                 |progress| progress.done > 0,
                 |progress| {
                     backend.compare(&job, &mut finished, &mut |own| {
-                        let task = format!("{scene}: {}", own.task);
+                        let task = format!("{name}: {}", own.task);
                         let done = before as u64 + if own.unit == "runs" { own.done } else { 0 };
                         progress(Progress { task: &task, done, total, unit: "runs" })
                     })
                 },
             )
-            .map_err(|error| error.about(&self.name(planned)))?;
+            .map_err(|error| error.about(&self.name(planned.place)))?;
             if let Some(error) = failed {
                 return Err(error);
             }

@@ -32,11 +32,10 @@ pub(crate) fn replicate(
     if given.list {
         return list(&chosen);
     }
-    let named = chosen.iter().flat_map(|(paper, items)| {
-        items.iter().map(|(item, plan)| (word(paper, item), plan.clone())).collect::<Vec<_>>()
-    });
-    let named: Vec<_> = named.collect();
-    let plan = Plan::joined("Replication", named.iter().map(|(word, plan)| (word.as_str(), plan.clone())));
+    let named = chosen
+        .iter()
+        .flat_map(|(paper, items)| items.iter().map(move |(item, plan)| (word(paper, item), plan.clone())));
+    let plan = Plan::joined("Replication", named);
     let lines =
         Campaign { plan: &plan, about: "tools/plans", given: campaign, line }.make(open, interrupt)?;
     let Some(made) = rasray_report::Campaign::of(&lines) else { return Ok(()) };

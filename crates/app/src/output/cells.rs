@@ -64,14 +64,10 @@ pub(crate) fn read_cells(path: &Path) -> Result<CellLines, AppError> {
 
 /// How a line is of something else than another, in words; `None` where both are of one comparison.
 pub(crate) fn difference(line: &Report, other: &Report) -> Option<String> {
-    let program = |report: &Report| match &report.commit {
-        Some(commit) => format!("rasray {} ({commit})", report.version),
-        None => format!("rasray {}", report.version),
-    };
     let device = |report: &Report| format!("{} ({})", report.device.name, report.device.driver);
     let list = |report: &Report| report.cell.as_ref().map(|cell| (cell.list.clone(), cell.cells));
-    if program(line) != program(other) {
-        return Some(format!("was made by {}, and not by {}", program(line), program(other)));
+    if line.program() != other.program() {
+        return Some(format!("was made by rasray {}, and not by rasray {}", line.program(), other.program()));
     }
     if line.device != other.device {
         return Some(format!("was measured on {}, and not on {}", device(line), device(other)));
