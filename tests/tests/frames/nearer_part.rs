@@ -153,8 +153,8 @@ fn payloads() -> Vec<Spec> {
         spec("mmrt", "published", &[("resolution", "64"), ("capacity", "400000")]),
         spec("hu", "published", &[("resolution", "96")]),
         spec("ldc", "published", &[("resolution", "96"), ("ids", "on")]),
-        spec("hu", "robust", &[("resolution", "96")]),
-        spec("mmrt", "robust", &[("resolution", "64")]),
+        spec("hu", "robust", &[("resolution", "96"), ("coverage", "exact")]),
+        spec("mmrt", "robust", &[("resolution", "64"), ("coverage", "exact")]),
         spec("selective", "robust", &[("resolution", "96"), ("grid", "24")]),
         spec("ldc", "robust", &[("resolution", "96")]),
         spec("hu", "robust", &[("leaves", "voxels"), ("resolution", "48")]),
@@ -283,8 +283,16 @@ fn compare(bench: &Bench, name: &str, scene: &Scene) {
         let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
         Spec::new(system, "robust", given).expect("the options are the system's")
     };
-    for system in ["mmrt", "hu", "selective", "ldc"] {
-        let spec = robust(system, &[("resolution", "192")]).with_counters(Counters::Sums);
+    // Where cells keep all that reaches into them rays find every triangle: here they keep fragments alone.
+    let of_fragments: [(&str, &[(&str, &str)]); 4] = [
+        ("mmrt", &[("coverage", "exact"), ("march", "exact"), ("storage", "dllb")]),
+        ("hu", &[("coverage", "exact")]),
+        ("selective", &[]),
+        ("ldc", &[]),
+    ];
+    for (system, options) in of_fragments {
+        let given = [("resolution", "192")].into_iter().chain(options.iter().copied()).collect::<Vec<_>>();
+        let spec = robust(system, &given).with_counters(Counters::Sums);
         let make = |part: &Geometry| spec.create(device, part, Some(gpu.binding()));
         let whole = make(gpu.geometry()).expect("the options are valid");
         let combined = Combined::new(&parts, make).expect("any structure can be in parts");
