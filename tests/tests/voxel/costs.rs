@@ -1,4 +1,4 @@
-//! What builds and rays of the paper's comparators cost, as a table: [the page](../../../docs/systems/hu.md).
+//! What builds and rays of the paper's comparators cost, as a table: [the page](../../../docs/measurements/hu.md#a-sparse-octree).
 
 use rasray_ads::{Counters, Hit, Structure};
 use rasray_tests::harness::{Bench, bits_of_any_build, processor_seconds};
