@@ -34,8 +34,19 @@ pub struct Progress<'a> {
 /// Told of progress at least once per wave of samples or rays; `Break` asks for an early end.
 pub type OnProgress<'a> = dyn FnMut(Progress<'_>) -> ControlFlow<()> + 'a;
 
-/// Told of each run of a comparison as soon as it is whole, and of the place of its cell; `Break` asks for an early end.
-pub type OnRun<'a> = dyn FnMut(usize, &Run) -> ControlFlow<()> + 'a;
+/// A run of a comparison that is whole.
+#[derive(Clone, Copy, Debug)]
+pub struct FinishedRun<'a> {
+    /// The place of its cell.
+    pub place: usize,
+    /// What it gave.
+    pub run: &'a Run,
+    /// Its image, `width * height` pixels of the frame, linear Rec. 709, rows from the top; absent of rays.
+    pub pixels: Option<&'a [[f32; 3]]>,
+}
+
+/// Told of each run of a comparison as soon as it is whole; `Break` asks for an early end.
+pub type OnRun<'a> = dyn FnMut(FinishedRun<'_>) -> ControlFlow<()> + 'a;
 
 /// A feature of the device.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use rasray_gpu::Device;
 use rasray_reference::oracle::{Accept, Oracle, Side};
 use rasray_reference::shading::{PosedScene, View};
 
-use crate::backend::{OnProgress, OnRun, Progress};
+use crate::backend::{FinishedRun, OnProgress, OnRun, Progress};
 use crate::contestant::Contestant;
 use crate::device_scene::{DeviceScene, device_error};
 use crate::error::ExperimentError;
@@ -185,7 +185,7 @@ fn compare_rays(
         let set = RaysWithTruth { name, rays, verdicts };
         compare_set(device, &taking, &set, wanted, |hits| hits, comparison)?;
         for (place, run) in comparison.places.iter().zip(&comparison.runs).skip(done) {
-            if finished(*place, run).is_break() {
+            if finished(FinishedRun { place: *place, run, pixels: None }).is_break() {
                 return Ok(ControlFlow::Break(()));
             }
         }

@@ -4,7 +4,7 @@ use rasray_metrics as metrics;
 use rasray_reference::integrators::{INTEGRATORS, Image, NaiveIntegrator};
 use rasray_reference::shading::{PosedScene, View};
 
-use crate::backend::{OnProgress, OnRun};
+use crate::backend::{FinishedRun, OnProgress, OnRun};
 use crate::built::Built;
 use crate::compare::Setting;
 use crate::contestant::Contestant;
@@ -43,6 +43,7 @@ fn image_error(
         flip_mean: Some(error.flip.mean),
         flip_p99: Some(error.flip.p99),
         flip_max: Some(error.flip.max),
+        flip_visible: Some(error.flip.visible),
         rmse: Some(error.rmse),
         relmse: Some(error.relmse),
         relmse_trimmed: Some(error.relmse_trimmed),
@@ -91,10 +92,10 @@ pub(super) fn compare_images(
     let mut add = |place: usize, mut run: Run, pixels: Vec<[f32; 3]>| {
         let (error, flip) = image_error(frame, &pixels, &reference, job.figures)?;
         run.image = Some(error);
+        let end = finished(FinishedRun { place, run: &run, pixels: Some(&pixels) });
         if let Some(images) = &mut comparison.figures.images {
             images.systems.push(SystemImage { run: comparison.runs.len(), pixels, flip });
         }
-        let end = finished(place, &run);
         comparison.add(place, run);
         Ok::<_, ExperimentError>(end)
     };

@@ -68,11 +68,13 @@ pub enum RaySet {
     Glossy,
     /// Origins uniform on the triangles, which are not excluded, directions uniform.
     Surface,
+    /// Pieces of random lines, each inside one pixel of the camera at the views' centre.
+    Pixel,
 }
 
 impl RaySet {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Incoherent,
         Self::Camera,
         Self::Eye,
@@ -80,6 +82,7 @@ impl RaySet {
         Self::Specular,
         Self::Glossy,
         Self::Surface,
+        Self::Pixel,
     ];
 
     /// Its name on the command line and in reports.
@@ -92,6 +95,7 @@ impl RaySet {
             Self::Specular => "specular",
             Self::Glossy => "glossy",
             Self::Surface => "surface",
+            Self::Pixel => "pixel",
         }
     }
 
@@ -105,6 +109,7 @@ impl RaySet {
             Self::Specular => "Mirrored directions from what the camera sees",
             Self::Glossy => "Directions around these, as of a polished surface",
             Self::Surface => "Origins uniform on the triangles, which are not excluded, directions uniform",
+            Self::Pixel => "Pieces of random lines, each inside one pixel of the camera at the views' centre",
         }
     }
 }

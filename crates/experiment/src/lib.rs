@@ -55,8 +55,8 @@ mod work_maps;
 
 pub use automatic::SystemRequest;
 pub use backend::{
-    Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OnRun, OpenBackend, Progress,
-    TexelCapacity,
+    Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, FinishedRun, OnProgress, OnRun,
+    OpenBackend, Progress, TexelCapacity,
 };
 pub use built::{Built, Resolved};
 pub use campaign::{CampaignCells, ExperimentCells};

@@ -57,6 +57,7 @@ impl RaySource<'_> {
             RaySet::Specular => self.bounce(count, mirrored),
             RaySet::Glossy => self.bounce(count, glossy),
             RaySet::Surface => self.surface(count),
+            RaySet::Pixel => self.pixels(count),
         };
         rays.into_iter().map(|ray| Ray { flags: self.flags.others, ..ray }).collect()
     }
@@ -108,6 +109,54 @@ impl RaySource<'_> {
         shading::Ray { culls_back_faces, ..ray }
     }
 
+    /// Lines in uniform directions through points that are uniform between the bounds along camera rays, cut where they
+    /// leave the pixel or the bounds: what a ray that passes a cell of the camera's view asks of it.
+    fn pixels(&self, count: u32) -> Vec<Ray> {
+        let eye = self.view.camera.world_from_camera.translation - self.frame_origin;
+        let to_centre = Vec3::from(self.center).as_dvec3() - eye;
+        let ray = |index| {
+            let stream = self.stream(index);
+            let [x, y] = [(20, self.view.width), (21, self.view.height)]
+                .map(|(dimension, size)| (stream.float(dimension) * size as f32).min(size as f32 - 1.0));
+            let through = |place| {
+                let ray = camera_ray(self.view, self.frame_origin, place);
+                Line { origin: ray.origin.as_dvec3() + to_centre, direction: ray.direction.as_dvec3() }
+            };
+            let corner = |[u, v]: [f32; 2]| through(Vec2::new(x.floor() + u, y.floor() + v));
+            let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(corner);
+            let middle = through(Vec2::new(x, y));
+            let [near, far] = middle.inside(&self.box_sides(), [0.0, f64::INFINITY])?;
+            let point = middle.at(near + (far - near) * f64::from(stream.float(22)));
+            let line = Line { origin: point, direction: Vec3::from(direction(stream)).as_dvec3() };
+            let sides: Vec<_> = (0..4)
+                .map(|side| {
+                    let [one, next] = [corners[side], corners[(side + 1) % 4]];
+                    let normal = one.direction.cross(next.at(1.0) - one.origin);
+                    let outwards = if normal.dot(corners[(side + 2) % 4].at(1.0) - one.origin) > 0.0 {
+                        -normal
+                    } else {
+                        normal
+                    };
+                    Side { normal: outwards, reach: outwards.dot(one.origin) }
+                })
+                .chain(self.box_sides())
+                .collect();
+            let [first, last] = line.inside(&sides, [f64::NEG_INFINITY, f64::INFINITY])?;
+            let ray = Ray::new(line.at(first).as_vec3().to_array(), line.direction.as_vec3().to_array());
+            Some(Ray { t_max: (last - first) as f32, ..ray })
+        };
+        // A camera that looks past the bounds must not keep looking for ever.
+        (0..count.saturating_mul(8)).filter_map(ray).take(count as usize).collect()
+    }
+
+    fn box_sides(&self) -> [Side; 6] {
+        std::array::from_fn(|side| {
+            let mut normal = DVec3::ZERO;
+            normal[side % 3] = if side < 3 { -1.0 } else { 1.0 };
+            Side { normal, reach: normal.dot(Vec3::from(self.bounds[side / 3]).as_dvec3()) }
+        })
+    }
+
     /// Directions of a lobe from what camera rays hit exactly.
     fn bounce(&self, count: u32, lobe: Lobe) -> Vec<Ray> {
         let mut rays = Vec::with_capacity(count as usize);
@@ -145,6 +194,40 @@ impl RaySource<'_> {
             rays.push(from_shading(&spawn_ray(&surface, direction, f32::INFINITY)));
         }
         rays
+    }
+}
+
+/// Points `origin + t direction`.
+#[derive(Clone, Copy)]
+struct Line {
+    origin: DVec3,
+    direction: DVec3,
+}
+
+/// Of the half space of the points with `normal . point <= reach`.
+#[derive(Clone, Copy)]
+struct Side {
+    normal: DVec3,
+    reach: f64,
+}
+
+impl Line {
+    fn at(&self, t: f64) -> DVec3 {
+        self.origin + self.direction * t
+    }
+
+    /// The t of an interval at which the line is within all half spaces; `None` where there are none.
+    fn inside(&self, sides: &[Side], [mut first, mut last]: [f64; 2]) -> Option<[f64; 2]> {
+        for side in sides {
+            let (slope, gap) = (side.normal.dot(self.direction), side.reach - side.normal.dot(self.origin));
+            match gap / slope {
+                t if slope > 0.0 => last = last.min(t),
+                t if slope < 0.0 => first = first.max(t),
+                _ if gap < 0.0 => return None,
+                _ => {}
+            }
+        }
+        (first < last && first.is_finite() && last.is_finite()).then_some([first, last])
     }
 }
 
@@ -258,5 +341,58 @@ mod tests {
             // What is below the surface comes nearer.
             assert!(share > 0.47 && (direction == grazing || share < 0.53), "{direction}: {share}");
         }
+    }
+
+    #[test]
+    fn pieces_of_lines_stay_in_a_pixel_as_the_centre_of_the_views_sees_it() {
+        let camera = rasray_scene::Camera {
+            name: String::new(),
+            world_from_camera: glam::DAffine3::from_rotation_y(0.3)
+                * glam::DAffine3::from_translation(DVec3::Z),
+            projection: rasray_scene::Projection::Perspective { fov_y: 0.9 },
+            aspect_ratio: None,
+            lens: None,
+        };
+        let view =
+            View { camera, width: 40, height: 30, samples: 1, seed: 3, sampler: shading::Sampler::Pcg };
+        let positions = [[-1.0, -1.0, -5.0], [1.0, -1.0, -5.0], [0.0, 1.0, -5.0]];
+        let oracle = Oracle::new(&positions, &[0, 1, 2], None).expect("a triangle");
+        let center = [0.1, 0.2, 0.3];
+        let source = RaySource {
+            view: &view,
+            frame_origin: DVec3::ZERO,
+            bounds: [[-2.0, -2.0, -5.0], [2.0, 2.0, 1.0]],
+            center,
+            oracle: &oracle,
+            positions: &positions,
+            indices: &[0, 1, 2],
+            flags: RayFlags::default(),
+        };
+        let rays = source.rays(RaySet::Pixel, 500);
+        assert_eq!(rays.len(), 500);
+        let camera_from_world = view.camera.world_from_camera.inverse();
+        let half = view.camera.half_extents(40, 30);
+        let pixel = |point: DVec3| {
+            let seen = camera_from_world.transform_vector3(point - Vec3::from(center).as_dvec3());
+            let [x, y] = [seen.x / -seen.z / half[0], -seen.y / -seen.z / half[1]];
+            [20.0 * (x + 1.0), 15.0 * (y + 1.0)]
+        };
+        let mut longest = 0.0_f64;
+        for ray in rays {
+            let [origin, direction] = [ray.origin, ray.direction].map(|one| Vec3::from(one).as_dvec3());
+            let t = f64::from(ray.t_max);
+            let own = pixel(origin + direction * (0.5 * t)).map(f64::floor);
+            for end in [origin, origin + direction * t] {
+                for (place, own) in pixel(end).into_iter().zip(own) {
+                    assert!((own - 1.0e-2..own + 1.01).contains(&place), "{place} of {own}");
+                }
+                assert!(
+                    end.cmpge(DVec3::new(-2.0, -2.0, -5.0) - 1.0e-5).all()
+                        && end.cmple(DVec3::new(2.0, 2.0, 1.0) + 1.0e-5).all()
+                );
+            }
+            longest = longest.max(t);
+        }
+        assert!(longest > 1.0, "{longest}");
     }
 }

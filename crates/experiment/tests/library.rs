@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_experiment::{
-    AovSelection, CompareJob, Comparison, DeviceChoice, Frame, HardJob, IntegratorRow, IntegratorSpec,
-    KeptScene, OccluderKind, OptionValues, Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler, Shard,
-    SystemConfig, open,
+    AovSelection, CompareJob, Comparison, DeviceChoice, FinishedRun, Frame, HardJob, IntegratorRow,
+    IntegratorSpec, KeptScene, OccluderKind, OptionValues, Primary, RaySet, Refresh, RenderJob, RenderOutput,
+    Sampler, Shard, SystemConfig, open,
 };
 use rasray_hard_cases::Scale;
 use rasray_options::Value;
@@ -72,7 +72,7 @@ fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
     let names = ["bricks", "brute-force"];
     let sets = [RaySet::Incoherent, RaySet::Surface];
     let Comparison { runs, mut kept, .. } = backend
-        .compare(&job(&loaded, &names, &sets), &mut |_, _| ControlFlow::Continue(()), &mut |_| {
+        .compare(&job(&loaded, &names, &sets), &mut |_| ControlFlow::Continue(()), &mut |_| {
             ControlFlow::Continue(())
         })
         .expect("the device works");
@@ -92,7 +92,7 @@ fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
     let mut one = job(&loaded, &names, &sets);
     one.only = Some(BTreeSet::from([3]));
     let mut told = Vec::new();
-    let mut finished = |place: usize, run: &Run| {
+    let mut finished = |FinishedRun { place, run, .. }: FinishedRun<'_>| {
         told.push((place, run.system.clone()));
         ControlFlow::Continue(())
     };
@@ -101,7 +101,7 @@ fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
     assert_eq!((alone.places, told), (vec![3], vec![(3, "brute-force".to_owned())]));
     assert_eq!(alone.runs[0].accuracy, runs[3].accuracy);
     assert_eq!(alone.kept.sets.len(), 1);
-    let mut stopped = |_: usize, _: &Run| ControlFlow::Break(());
+    let mut stopped = |_: FinishedRun<'_>| ControlFlow::Break(());
     let first = backend
         .compare(&job(&loaded, &names, &sets), &mut stopped, &mut |_| ControlFlow::Continue(()))
         .expect("the device works");
@@ -116,7 +116,7 @@ fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
     let mut again = job(&loaded, &names[..1], &sets[..1]);
     again.hits_files = vec![HitsFile { name: "given".to_owned(), hits }];
     let runs = backend
-        .compare(&again, &mut |_, _| ControlFlow::Continue(()), &mut |_| ControlFlow::Continue(()))
+        .compare(&again, &mut |_| ControlFlow::Continue(()), &mut |_| ControlFlow::Continue(()))
         .expect("the device works")
         .runs;
     let missed: Vec<_> =
@@ -138,7 +138,7 @@ fn what_lists_hold_is_counted_where_it_is_asked_for() {
     }
     let mut runs = |job: &CompareJob<'_>| {
         let compared =
-            backend.compare(job, &mut |_, _| ControlFlow::Continue(()), &mut |_| ControlFlow::Continue(()));
+            backend.compare(job, &mut |_| ControlFlow::Continue(()), &mut |_| ControlFlow::Continue(()));
         compared.expect("the device works").runs
     };
     let counters = |run: &Run| run.counters.clone().expect("they were counted");

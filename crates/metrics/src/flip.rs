@@ -15,7 +15,13 @@ pub struct Flip {
     pub p99: f64,
     /// Worst pixel.
     pub max: f64,
+    /// Share of the pixels above [`VISIBLE`].
+    pub visible: f64,
 }
+
+/// From where on a pixel counts as one that differs visibly. The authors of FLIP name no threshold: this is a tenth of the
+/// difference of black and white.
+pub const VISIBLE: f32 = 0.1;
 
 /// The variant for low dynamic range (LDR-FLIP) of displayed values (exposure 1, clamped, sRGB) in 8 bits
 /// a channel. What lies above 1 is white for it; HDR-FLIP, which looks at several exposures, is not
@@ -44,6 +50,7 @@ impl Flip {
             mean: values.iter().sum::<f64>() / values.len() as f64,
             p99: percentile(&values, 0.99).unwrap_or(f64::NAN),
             max: percentile(&values, 1.0).unwrap_or(f64::NAN),
+            visible: map.iter().filter(|value| **value > VISIBLE).count() as f64 / map.len() as f64,
         }
     }
 }
@@ -72,7 +79,7 @@ mod tests {
     fn opposite_images_differ_more_than_similar_ones() {
         let [black, dark, white] = [0.0, 0.02, 1.0].map(|value| vec![[value; 3]; 32 * 32]);
         let (near, far) = (measure(&dark, &black), measure(&white, &black));
-        assert_eq!(measure(&dark, &dark), Flip { mean: 0.0, p99: 0.0, max: 0.0 });
+        assert_eq!(measure(&dark, &dark), Flip { mean: 0.0, p99: 0.0, max: 0.0, visible: 0.0 });
         assert!(near.mean > 0.01 && near.mean < far.mean, "{near:?} {far:?}");
         assert!(far.mean > 0.9 && far.max <= 1.0, "{far:?}");
     }
@@ -89,6 +96,9 @@ mod tests {
         let map = flip_map(&test, &reference).expect("comparable");
         assert_eq!(Flip::of(&map), error);
         assert_eq!(f64::from(map[16 * 32 + 16]), error.max);
+        let count = map.iter().filter(|value| **value > VISIBLE).count();
+        assert!((1..100).contains(&count), "{count}");
+        assert_eq!(error.visible, count as f64 / map.len() as f64);
         assert!(map[0] < 1e-3, "{}", map[0]);
     }
 }

@@ -21,7 +21,7 @@ mod tone;
 
 pub use error::MetricsError;
 #[cfg(feature = "flip")]
-pub use flip::{Flip, flip, flip_map};
+pub use flip::{Flip, VISIBLE, flip, flip_map};
 pub use hits::{DeviceHit, HitConfusion, Truth, common_hits};
 pub use image::Image;
 pub use image_error::ImageError;

@@ -253,6 +253,12 @@ const COLUMNS: &[Column] = &[
         cell: |run| number(image(run, |error| error.flip_max), 3),
     },
     Column {
+        heading: "FLIP > 0.1",
+        is_main: false,
+        meaning: "share of the pixels whose FLIP is above 0.1",
+        cell: |run| number(image(run, |error| error.flip_visible), 5),
+    },
+    Column {
         heading: "RMSE",
         is_main: true,
         meaning: "root of the mean squared error of linear colours",

@@ -149,6 +149,9 @@ pub struct ImageError {
     /// FLIP of the worst pixel.
     #[serde(default, skip_serializing_if = "absent")]
     pub flip_max: Option<f64>,
+    /// Share of the pixels whose FLIP is above 0.1.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub flip_visible: Option<f64>,
     /// Root of the mean of (R - r)^2 over pixels and channels, linear.
     #[serde(default, skip_serializing_if = "absent")]
     pub rmse: Option<f64>,

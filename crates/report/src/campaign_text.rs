@@ -34,11 +34,18 @@ const fn column(name: &'static str, head: &'static str, form: Form, meaning: &'s
 }
 
 /// The columns, in their order; one that no row of an experiment has is left out.
-pub const COLUMNS: [Column; 20] = [
+pub const COLUMNS: [Column; 23] = [
     column("build_ms", "build ms", Form::Number, "Posed positions to traceable, median"),
     column("trace_ms", "trace ms", Form::Number, "Rays in to hits out, median"),
     column("mrays_per_s", "Mrays/s", Form::Number, "Millions of rays per second"),
     column("image_ms", "image ms", Form::Number, "All passes of the image on the device"),
+    column("stages.surfaces.ms", "surfaces ms", Form::Number, "Of that the stage from hits to surfaces"),
+    column(
+        "stages.shade.ms",
+        "shade ms",
+        Form::Number,
+        "Of that the stage from surfaces to radiance and further rays",
+    ),
     column("memory.structure_bytes", "bytes", Form::Bytes, "The structure's allocations"),
     column("counters.fragments", "fragments", Form::Count, "Fragments stored"),
     column("counters.entries", "entries", Form::Count, "List entries stored"),
@@ -57,6 +64,7 @@ pub const COLUMNS: [Column; 20] = [
     column("accuracy.missed", "missed", Form::Count, "Hits that were not found"),
     column("accuracy.dt_rel_p99", "dt/t p99", Form::Tiny, "99th percentile of |dt|/t over common hits"),
     column("image.flip_mean", "FLIP", Form::Number, "Mean over the pixels of LDR-FLIP"),
+    column("image.flip_visible", "visible", Form::Percent, "Pixels whose FLIP is above 0.1"),
     column("image.relmse", "relMSE", Form::Tiny, "Mean of (R - r)^2 / (r^2 + 0.01)"),
     column("image.bias", "bias", Form::Tiny, "Mean of R - r, linear"),
     column("image.psnr", "PSNR dB", Form::Number, "Of displayed values"),

@@ -215,6 +215,10 @@ pub(super) fn run_text(run: &Run) -> String {
             row("FLIP mean", number(image.flip_mean)),
             row("FLIP 99 %", number(image.flip_p99)),
             row("FLIP largest", number(image.flip_max)),
+            row(
+                "FLIP above 0.1",
+                image.flip_visible.map(|share| format!("{:.2} % of pixels", 100.0 * share)),
+            ),
             row("RMSE", number(image.rmse)),
             row("relMSE", number(image.relmse)),
             row("relMSE, trimmed", number(image.relmse_trimmed)),

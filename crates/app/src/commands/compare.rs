@@ -10,8 +10,8 @@ use crate::interrupt::Interrupt;
 use crate::output::{self, Cells};
 use crate::terminal::{self, Talk};
 use crate::version::origin;
-use rasray_experiment::{CompareJob, Comparison, OpenBackend, check_run};
-use rasray_report::{Run, table_within};
+use rasray_experiment::{CompareJob, Comparison, FinishedRun, OpenBackend, check_run};
+use rasray_report::table_within;
 use std::ops::ControlFlow;
 
 /// Traces the same rays through several systems and reports speed next to error; `line` is the command
@@ -48,7 +48,7 @@ pub(crate) fn compare(
         ..subject.job()
     };
     let mut failed = None;
-    let mut finished = |place: usize, run: &Run| {
+    let mut finished = |FinishedRun { place, run, .. }: FinishedRun<'_>| {
         failed = cells.add(place, run.clone(), subject.records(), interrupt).err();
         if failed.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };

@@ -5,10 +5,10 @@
 
 use rasray_experiment::{
     Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, ExperimentError, Feature,
-    FilmSums, HardJob, KeptScene, OnProgress, OnRun, PassCommands, Progress, RenderJob, RenderOutput, Stage,
-    TexelCapacity,
+    FilmSums, FinishedRun, HardJob, KeptScene, OnProgress, OnRun, PassCommands, Progress, RenderJob,
+    RenderOutput, Stage, TexelCapacity,
 };
-use rasray_report::{Counters, Device, HardRecord, ListRecord, Run, Times};
+use rasray_report::{Counters, Device, HardRecord, ImageError, ListRecord, Run, Times};
 use std::path::Path;
 use std::process::{Command, Output};
 use std::time::Duration;
@@ -128,7 +128,29 @@ impl Backend for Scripted {
                     .then(|| Counters { unfinished: Some(1), ..Counters::default() }),
                 ..Default::default()
             };
-            let end = finished(place, &run);
+            let end = finished(FinishedRun { place, run: &run, pixels: None });
+            comparison.places.push(place);
+            comparison.runs.push(run);
+            if end.is_break() {
+                break;
+            }
+        }
+        // Behind the sets the images, and that of the reference with another seed.
+        let first = job.ray_sets.len() * job.systems.len();
+        let images = job.systems.iter().map(|system| (system.system.name, system.preset.name()));
+        let images = images.chain([("reference", "another-seed")]).filter(|_| job.image);
+        for (place, (system, preset)) in (first..).zip(images) {
+            if job.only.as_ref().is_some_and(|only| !only.contains(&place)) {
+                continue;
+            }
+            let run = Run {
+                system: system.to_owned(),
+                preset: preset.to_owned(),
+                image: Some(ImageError { flip_visible: Some(0.25), ..ImageError::default() }),
+                ..Default::default()
+            };
+            let pixels = vec![[0.5; 3]; (job.frame.width * job.frame.height) as usize];
+            let end = finished(FinishedRun { place, run: &run, pixels: Some(&pixels) });
             comparison.places.push(place);
             comparison.runs.push(run);
             if end.is_break() {
