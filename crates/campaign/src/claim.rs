@@ -131,10 +131,15 @@ impl Finding {
     }
 }
 
-/// Whether two rows have a setting in common; an option that one of two systems does not take tells them not apart.
+/// Whether two rows have a setting in common; an option that one of two systems or integrators does not take tells
+/// them not apart.
 fn is_alike(row: &Row, other: &Row, name: &str) -> bool {
-    let is_option =
-        |row: &Row| row.report.cell.as_ref().is_some_and(|cell| cell.depends_on.options.contains_key(name));
+    let is_option = |row: &Row| {
+        let asked = row.report.cell.as_ref().map(|cell| &cell.depends_on);
+        let of_image = asked.and_then(|asked| asked.image.as_ref());
+        asked.is_some_and(|asked| asked.options.contains_key(name))
+            || of_image.is_some_and(|image| image.options.contains_key(name))
+    };
     match (row.settings.get(name), other.settings.get(name)) {
         (Some(one), Some(two)) => one == two,
         (None, None) => true,

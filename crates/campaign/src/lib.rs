@@ -6,10 +6,12 @@ mod claim;
 mod estimate;
 mod paper;
 mod plan;
+mod sheet;
 mod table;
 
 pub use claim::{Claim, Finding};
 pub use estimate::{Estimate, estimate};
 pub use paper::{Item, PAPERS, Paper, paper_page, word};
 pub use plan::{ComparisonPlan, Exclusion, ExperimentPlan, Plan, PlanError};
+pub use sheet::{SHEET_COLUMNS, Sheet, sheets};
 pub use table::csv_table;

@@ -2,6 +2,7 @@
 
 use crate::claim::{Claim, Finding};
 use crate::plan::{Plan, PlanError};
+use crate::sheet::Sheet;
 use rasray_report::{Campaign, Experiment, experiment_markdown, in_line, number};
 use std::fmt::Write;
 
@@ -43,7 +44,7 @@ pub const PAPERS: [Paper; 5] = [
     Paper {
         name: "dirt",
         cited: "Vardis, Vasilakis, Papaioannou: DIRT: Deferred Image-based Ray Tracing, HPG 2016",
-        items: items!("dirt": "table1", "table2", "table3", "fig7", "fig8", "fig9", "fig10", "fig11"),
+        items: items!("dirt": "table1", "table2", "table3", "fig7", "fig8", "fig9", "fig10", "fig11", "text"),
     },
     Paper {
         name: "hu",
@@ -106,14 +107,21 @@ pub fn paper_page(paper: &Paper, items: &[(&Item, Plan)], campaign: &Campaign) -
         if !plan.about.is_empty() {
             _ = writeln!(text, "{}\n", plan.about);
         }
-        for experiment in &plan.experiments {
+        if !plan.discussion.is_empty() {
+            _ = writeln!(text, "**Here.** {}\n", plan.discussion);
+        }
+        for (number, experiment) in plan.experiments.iter().enumerate() {
             let name = format!("{}: {}", word(paper, item), experiment.name);
             let made = campaign.experiments.iter().find(|made| made.name == name);
             _ = writeln!(text, "### {}\n", in_line(&experiment.name));
-            match made {
-                Some(made) => text += &section(&experiment.claims, made),
-                None => text += "Nothing was made.\n",
+            let Some(made) = made else {
+                text += "Nothing was made.\n";
+                continue;
+            };
+            if let Some(sheet) = Sheet::of(paper, item, number, made) {
+                text += &sheet.markdown();
             }
+            text += &section(&experiment.claims, made);
         }
     }
     text
@@ -175,7 +183,11 @@ mod tests {
                     item.plan(small).unwrap_or_else(|error| panic!("{} {}: {error}", paper.name, item.name));
                 assert!(!plan.about.is_empty() && plan.title != "Campaign", "{} {}", paper.name, item.name);
                 let words = plan.comparisons().map(|(_, one)| one.words.clone());
-                let size = if small { "--size=96x64" } else { "--size=640x360" };
+                let size = match (paper.name, item.name) {
+                    ("mmrt", "fig12") => "--size=800x800",
+                    _ if small => "--size=144x96",
+                    _ => "--size=640x360",
+                };
                 assert!(
                     words.into_iter().all(|words| words.contains(&size.to_owned())),
                     "{} {}",

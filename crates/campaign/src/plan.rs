@@ -30,6 +30,8 @@ pub struct Plan {
     pub title: String,
     /// What is to be known of it, such as how its scenes differ from those of a paper; may be empty.
     pub about: String,
+    /// What came of it, and why; may be empty.
+    pub discussion: String,
     /// In the order of the file.
     pub experiments: Vec<ExperimentPlan>,
 }
@@ -113,17 +115,18 @@ impl Plan {
         let file: Table = text.parse().map_err(|error: toml::de::Error| {
             PlanError::new(error.to_string().trim_end(), "write it as docs/campaigns.md shows")
         })?;
-        let (mut title, mut about) = ("Campaign".to_owned(), String::new());
+        let (mut title, mut about, mut discussion) = ("Campaign".to_owned(), String::new(), String::new());
         let (mut common, mut smaller, mut experiments) = (Table::new(), Table::new(), Vec::new());
         for (key, value) in file {
             match (key.as_str(), value) {
                 ("title", Value::String(text)) => title = line(&text),
                 ("about", Value::String(text)) => about = line(&text),
+                ("discussion", Value::String(text)) => discussion = line(&text),
                 ("common", Value::Table(table)) => common = table,
                 ("small", Value::Table(table)) => smaller = table,
                 ("experiment", Value::Array(list)) => experiments = list,
                 _ => {
-                    let help = "a plan has title, about, [common], [small] and one [[experiment]] or several";
+                    let help = "a plan has title, about, discussion, [common], [small] and one [[experiment]] or several";
                     return Err(PlanError::new(format!("'{key}' has no place at the top of a plan"), help));
                 }
             }
@@ -155,7 +158,7 @@ impl Plan {
         if read.is_empty() {
             return Err(PlanError::new("there is no experiment", "write one under [[experiment]]"));
         }
-        Ok(Self { title, about, experiments: read })
+        Ok(Self { title, about, discussion, experiments: read })
     }
 
     /// One plan of several, in their order; names of experiments get the word before them, and a colon.
@@ -167,7 +170,7 @@ impl Plan {
             })
         };
         let experiments = plans.into_iter().flat_map(named).collect();
-        Self { title: title.to_owned(), about: String::new(), experiments }
+        Self { title: title.to_owned(), about: String::new(), discussion: String::new(), experiments }
     }
 
     /// Comparisons in their order, each with the place of its experiment.

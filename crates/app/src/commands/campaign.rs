@@ -8,17 +8,18 @@ use super::targets::Form;
 use crate::arguments::{CampaignArguments, CompareArguments, comparison};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::output::{Cells, Destination};
+use crate::output::{Cells, Destination, encode_png_bytes};
 use crate::terminal;
 use crate::version::origin;
 use rasray_campaign::{ComparisonPlan, Exclusion, Plan, estimate};
 use rasray_experiment::{
-    Backend, CampaignCells, CompareJob, ExperimentCells, OpenBackend, Progress, check_run,
+    Backend, CampaignCells, CompareJob, ExperimentCells, FinishedRun, OpenBackend, Progress, check_run,
 };
-use rasray_report::{ExperimentRecord, Report, Run, cell_settings, in_line, in_order};
+use rasray_metrics::tone_map;
+use rasray_report::{ExperimentRecord, Report, cell_settings, in_line, in_order};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A campaign that is to be made.
 pub(super) struct Campaign<'a> {
@@ -219,9 +220,16 @@ impl<'a> Campaign<'a> {
             let job = CompareJob { only: Some(only), ..subject.job() };
             let before = made;
             let mut failed = None;
-            let mut finished = |place: usize, run: &Run| {
+            let size = [job.frame.width, job.frame.height];
+            let mut finished = |FinishedRun { place, run, pixels }: FinishedRun<'_>| {
                 let Some(place) = own.get(&place) else { return ControlFlow::Continue(()) };
-                failed = cells.add(*place, run.clone(), subject.records(), interrupt).err();
+                // A line says that its picture is there.
+                let kept = match (pixels, campaign.list().record(*place)) {
+                    (Some(pixels), Some(record)) => self.keep_picture(pixels, size, &record.key, interrupt),
+                    _ => Ok(()),
+                };
+                let added = kept.and_then(|()| cells.add(*place, run.clone(), subject.records(), interrupt));
+                failed = added.err();
                 made += 1;
                 if failed.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
@@ -243,6 +251,23 @@ impl<'a> Campaign<'a> {
             }
         }
         Ok(made)
+    }
+
+    /// Writes the picture of a run under its key.
+    fn keep_picture(
+        &self,
+        pixels: &[[f32; 3]],
+        size: [u32; 2],
+        key: &str,
+        interrupt: &Interrupt,
+    ) -> Result<(), AppError> {
+        let place = picture_place(self.given.folder(), key);
+        let folder = place.parent().unwrap_or(&place);
+        std::fs::create_dir_all(folder)
+            .map_err(|error| AppError::input(folder, error, "name a folder that can be made"))?;
+        let bytes = encode_png_bytes(&tone_map(pixels, 0.0), size, None)
+            .map_err(|error| AppError::refused(format!("a picture could not be encoded: {error}"), ""))?;
+        Destination::check(&place)?.write(&bytes, interrupt)
     }
 
     /// Says which cells would be made, and how long they would take.
@@ -288,6 +313,11 @@ impl<'a> Campaign<'a> {
         }
         Ok(())
     }
+}
+
+/// Where the picture of a run is.
+pub(super) fn picture_place(folder: &Path, key: &str) -> PathBuf {
+    folder.join("pictures").join(format!("{key}.png"))
 }
 
 /// The settings that exclusions look at.

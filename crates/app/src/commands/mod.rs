@@ -14,6 +14,7 @@ mod picture_targets;
 mod pictures;
 mod render;
 mod replicate;
+mod sheets;
 mod steps;
 mod subject;
 mod targets;

@@ -1,12 +1,13 @@
 //! `rasray replicate`.
 
 use super::campaign::Campaign;
+use super::sheets::write_sheet;
 use crate::arguments::{PaperChoice, ReplicateArguments};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::Destination;
 use crate::terminal;
-use rasray_campaign::{Item, PAPERS, Paper, Plan, paper_page, word};
+use rasray_campaign::{Item, PAPERS, Paper, Plan, paper_page, sheets, word};
 use rasray_experiment::OpenBackend;
 use rasray_report::{columns, json_shown};
 
@@ -40,6 +41,9 @@ pub(crate) fn replicate(
         Campaign { plan: &plan, about: "tools/plans", given: campaign, line }.make(open, interrupt)?;
     let Some(made) = rasray_report::Campaign::of(&lines) else { return Ok(()) };
     for (paper, items) in &chosen {
+        for sheet in sheets(paper, items, &made) {
+            write_sheet(&sheet, campaign.folder(), interrupt)?;
+        }
         let place = Destination::check(&campaign.folder().join(format!("{}.md", paper.name)))?;
         place.write(json_shown(&paper_page(paper, items, &made)).as_bytes(), interrupt)?;
     }

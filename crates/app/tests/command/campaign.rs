@@ -174,6 +174,22 @@ fn items_of_a_paper_are_listed_and_made_beside_its_numbers() {
     for words in ["## table1: ", "| build, 1024 over 512, Bunny | 2.71 |", "rasray replicate ldc table1"] {
         assert!(page.contains(words), "{words}: {page}");
     }
+    assert_eq!(entries(&folder.join("out")).iter().filter(|name| name.ends_with(".png")).count(), 0);
+    let said = done(folder, "replicate ldc fig1 --small --output pictures");
+    assert!(!said.contains("warning"), "{said}");
+    let page = read(folder, "pictures/ldc.md");
+    assert!(page.contains("](ldc-fig1.png)") && page.contains("| reference"), "{page}");
+    assert!(page.contains("25.0 %"), "{page}");
+    let sheet = image::open(folder.join("pictures/ldc-fig1.png")).expect("a picture").into_rgb8();
+    assert_eq!(
+        (sheet.width(), sheet.get_pixel(10, 10).0, sheet.get_pixel(1, 1).0),
+        (1172, [188; 3], [255; 3])
+    );
+    let kept = entries(&folder.join("pictures/pictures"));
+    assert!(kept.len() >= 4 && kept.iter().all(|name| name.len() == 64 + 4), "{kept:?}");
+    std::fs::remove_file(folder.join("pictures/pictures").join(&kept[0])).expect("a picture");
+    let said = done(folder, "replicate ldc fig1 --small --output pictures --resume");
+    assert!(said.contains(&format!("1 of {} pictures of ldc-fig1.png", kept.len())), "{said}");
     let output = scripted(folder, "replicate ldc fig99 --output out");
     assert_eq!(output.status.code(), Some(2));
     assert!(
