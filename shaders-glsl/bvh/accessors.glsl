@@ -138,6 +138,15 @@ void bvh_set_record(BvhRef s, uint record, BvhRecord value) {
     }
 }
 
+// A node of two children, read member by member, as an invocation reads what it wrote itself. An index past the end gives one
+// over the first record.
+BvhNode bvh_node(BvhRef s, uint node) {
+    if (node >= BVH_HEADER(s).node_capacity) {
+        return BvhNode(vec3(0.0), BVH_LEAF, vec3(0.0), BVH_LEAF, vec3(0.0), BVH_NONE, vec3(0.0), 0u);
+    }
+    return BVH_NODES(s)[node];
+}
+
 // Sets both children of a node. Boxes are left as they are.
 void bvh_set_children(BvhRef s, uint node, uint child_0, uint child_1) {
     if (node < BVH_HEADER(s).node_capacity) {
@@ -186,6 +195,14 @@ void bvh_set_scratch(BvhRef s, uint word, uint value) {
     if (word < BVH_HEADER(s).scratch_capacity) {
         BVH_SCRATCH(s)[word] = value;
     }
+}
+
+// Adds to a word that others add to at the same time, and answers what it was.
+uint bvh_add_scratch(BvhRef s, uint word, uint value) {
+    if (word >= BVH_HEADER(s).scratch_capacity) {
+        return 0u;
+    }
+    return atomicAdd(BVH_SCRATCH(s)[word], value);
 }
 
 #endif

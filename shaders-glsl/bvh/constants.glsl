@@ -40,6 +40,12 @@
 #define BVH_UNION 4u
 #define BVH_UNION_LEVELS 15u
 
+// Leaves of a treelet, rounds over the tree, and classes of subtrees by size in a round: the size of each is twice that of
+// the one before, so 2^27 triangles need fewer.
+#define BVH_TREELET 7u
+#define BVH_TREELET_ROUNDS 3u
+#define BVH_TREELET_CLASSES 32u
+
 // Threads in a workgroup of the build's passes.
 #define BVH_GROUP_SIZE 64u
 

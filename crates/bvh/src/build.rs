@@ -2,7 +2,10 @@
 
 use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan};
 use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
-use rasray_shaders_glsl::constants::bvh::{BVH_DIGIT_VALUES, BVH_DIGITS, BVH_GROUP_SIZE, BVH_SORT_CHUNK};
+use rasray_shaders_glsl::constants::bvh::{
+    BVH_DIGIT_VALUES, BVH_DIGITS, BVH_GROUP_SIZE, BVH_SORT_CHUNK, BVH_TREELET, BVH_TREELET_CLASSES,
+    BVH_TREELET_ROUNDS,
+};
 
 use crate::layout::union_levels;
 use crate::{Builder, Config, Pool};
@@ -31,24 +34,27 @@ struct LbvhPipelines {
     topology: ComputePipeline,
     /// Where later builds keep the order of the first.
     refit: Option<ComputePipeline>,
+    /// Where treelets of the tree by Morton codes are restructured.
+    treelets: Option<TreeletPipelines>,
+}
+
+#[derive(Debug)]
+struct TreeletPipelines {
+    sizes: ComputePipeline,
+    chains: ComputePipeline,
+    treelets: ComputePipeline,
 }
 
 impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
-        let compute = |name| pipelines.compute(name);
         let of_builder = match config.builder {
-            Builder::Sah => OfBuilder::Sah { boxes: compute("build_1_boxes")? },
-            builder @ (Builder::Lbvh | Builder::Refit) => OfBuilder::Lbvh(Box::new(LbvhPipelines {
-                codes: compute("build_2_codes")?,
-                counts: compute("build_3_counts")?,
-                scan: Scan::new(pipelines, "build_4_scan")?,
-                scatter: compute("build_5_scatter")?,
-                unions: compute("build_7_unions")?,
-                topology: compute("build_8_topology")?,
-                refit: if builder == Builder::Refit { Some(compute("build_9_refit")?) } else { None },
-            })),
+            Builder::Sah => OfBuilder::Sah { boxes: pipelines.compute("build_1_boxes")? },
+            Builder::Lbvh | Builder::Trbvh | Builder::Refit => {
+                OfBuilder::Lbvh(Box::new(LbvhPipelines::new(pipelines, config.builder)?))
+            }
         };
-        Ok(Self { of_builder, records: compute("build_6_records")?, status: compute("build_10_status")? })
+        let records = pipelines.compute("build_6_records")?;
+        Ok(Self { of_builder, records, status: pipelines.compute("build_13_status")? })
     }
 
     /// Records what the host needs to know of the triangles. The host has written the header.
@@ -80,12 +86,30 @@ impl Build {
             };
             pipelines.record_unions(recorder, target);
             pass(recorder, target, label, nodes, 0, triangles.saturating_sub(1));
+            if let Some(treelets) = &pipelines.treelets {
+                treelets.record(recorder, target);
+            }
         }
-        target.status_pass(recorder, "bvh/build_10_status", &self.status);
+        target.status_pass(recorder, "bvh/build_13_status", &self.status);
     }
 }
 
 impl LbvhPipelines {
+    fn new(pipelines: &BuildPipelines<'_>, builder: Builder) -> Result<Self, AdsError> {
+        let compute = |name| pipelines.compute(name);
+        let treelets = (builder == Builder::Trbvh).then(|| TreeletPipelines::new(pipelines));
+        Ok(Self {
+            codes: compute("build_2_codes")?,
+            counts: compute("build_3_counts")?,
+            scan: Scan::new(pipelines, "build_4_scan")?,
+            scatter: compute("build_5_scatter")?,
+            unions: compute("build_7_unions")?,
+            topology: compute("build_8_topology")?,
+            refit: (builder == Builder::Refit).then(|| compute("build_9_refit")).transpose()?,
+            treelets: treelets.transpose()?,
+        })
+    }
+
     /// Codes, and the order of the triangles by them.
     fn record_order(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
@@ -105,6 +129,35 @@ impl LbvhPipelines {
         let triangles = target.geometry.triangle_count();
         for (level, boxes) in (0..).zip(union_levels(triangles.into())) {
             pass(recorder, target, "bvh/build_7_unions", &self.unions, level, boxes as u32);
+        }
+    }
+}
+
+impl TreeletPipelines {
+    fn new(pipelines: &BuildPipelines<'_>) -> Result<Self, AdsError> {
+        Ok(Self {
+            sizes: pipelines.compute("build_10_sizes")?,
+            chains: pipelines.compute("build_11_chains")?,
+            treelets: pipelines.compute("build_12_treelets")?,
+        })
+    }
+
+    /// In each round a dispatch per class of subtrees by size: those of a class depend on those of smaller ones.
+    fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
+        let triangles = target.geometry.triangle_count();
+        // A class has half as many chains as the one before, at most.
+        let chains = |class: u32| (triangles / BVH_TREELET).checked_shr(class).unwrap_or(0);
+        if chains(0) == 0 {
+            return;
+        }
+        let counts = BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES;
+        pass(recorder, target, "bvh/build_10_sizes", &self.sizes, 0, triangles.max(counts));
+        for round in (0..BVH_TREELET_ROUNDS).take_while(|round| chains(*round) > 0) {
+            pass(recorder, target, "bvh/build_11_chains", &self.chains, round, triangles);
+            for class in (round..BVH_TREELET_CLASSES).take_while(|class| chains(*class) > 0) {
+                let step = BVH_TREELET_CLASSES * round + class;
+                pass(recorder, target, "bvh/build_12_treelets", &self.treelets, step, chains(class));
+            }
         }
     }
 }

@@ -12,6 +12,8 @@ pub enum Builder {
     Sah,
     /// The device, by Morton codes: fast to build, slower to trace.
     Lbvh,
+    /// The device: the same, and then treelets of the tree are restructured by surface area: slower to build, faster to trace.
+    Trbvh,
     /// The device: the first tree by Morton codes, after that only its boxes, over the same order of the triangles. Fastest
     /// to build, and slower to trace the farther the triangles have moved since the first build.
     Refit,
@@ -23,6 +25,7 @@ impl Builder {
         match self {
             Self::Sah => "sah",
             Self::Lbvh => "lbvh",
+            Self::Trbvh => "trbvh",
             Self::Refit => "refit",
         }
     }
@@ -94,7 +97,7 @@ impl Config {
     pub fn made_width(&self) -> Width {
         self.width.unwrap_or(match self.builder {
             Builder::Sah => Width::Four,
-            Builder::Lbvh | Builder::Refit => Width::Two,
+            Builder::Lbvh | Builder::Trbvh | Builder::Refit => Width::Two,
         })
     }
 
@@ -102,7 +105,7 @@ impl Config {
     pub fn made_leaf(&self) -> u32 {
         self.leaf.unwrap_or(match self.builder {
             Builder::Sah => 4,
-            Builder::Lbvh | Builder::Refit => 1,
+            Builder::Lbvh | Builder::Trbvh | Builder::Refit => 1,
         })
     }
 
@@ -119,13 +122,13 @@ impl Config {
                 "children",
                 children,
                 2..=2,
-                "2 per node of a tree by Morton codes, or builder `sah`",
+                "2 per node of a tree that the device builds, or builder `sah`",
             )?;
             check_range(
                 "leaf",
                 leaf,
                 1..=1,
-                "1 triangle per leaf of a tree by Morton codes, or builder `sah`",
+                "1 triangle per leaf of a tree that the device builds, or builder `sah`",
             )?;
         }
         check_work_budget(self.work_budget, false)
@@ -144,7 +147,7 @@ impl Config {
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         let builder = match self.builder {
             Builder::Sah => "host",
-            Builder::Lbvh | Builder::Refit => "device",
+            Builder::Lbvh | Builder::Trbvh | Builder::Refit => "device",
         };
         vec![("builder", builder.to_owned()), ("addressing", self.addressing.name().to_owned())]
     }

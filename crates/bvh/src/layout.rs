@@ -1,7 +1,10 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
 use rasray_ads::{AdsError, Scan, Sizes};
-use rasray_shaders_glsl::constants::bvh::{BVH_DIGIT_VALUES, BVH_LEAF_SHIFT, BVH_SORT_CHUNK, BVH_UNION};
+use rasray_shaders_glsl::constants::bvh::{
+    BVH_DIGIT_VALUES, BVH_LEAF_SHIFT, BVH_SORT_CHUNK, BVH_TREELET, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS,
+    BVH_UNION,
+};
 
 use crate::{Builder, Config, Header, Pool, Record, Width};
 
@@ -11,11 +14,15 @@ pub(crate) const NAME: &str = "bvh";
 /// Words that a triangle takes in the scratch pool of a build on the host before the order of the leaves: its box.
 pub(crate) const BOX_WORDS: u64 = 6;
 
+// Numbers of chains stand where the counts of a chunk's digits stood; sizes and chains of all classes, fewer than two words
+// per triangle, where the keys did (four).
+const _: () = assert!(BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES <= BVH_DIGIT_VALUES && BVH_TREELET > 1);
+
 /// Words of the scratch pool.
 fn scratch_words(builder: Builder, triangles: u64) -> u64 {
     match builder {
         Builder::Sah => (BOX_WORDS + 1) * triangles,
-        Builder::Lbvh | Builder::Refit => {
+        Builder::Lbvh | Builder::Trbvh | Builder::Refit => {
             let chunks = triangles.div_ceil(BVH_SORT_CHUNK.into());
             let counts = u64::from(BVH_DIGIT_VALUES) * chunks;
             4 * triangles + counts + Scan::sums(counts) + 6 * unions(triangles)
@@ -90,7 +97,7 @@ pub fn formula_bytes(config: &Config, nodes: u64, triangles: u64) -> FormulaByte
     };
     let scratch = match config.builder {
         Builder::Sah => 28 * triangles,
-        Builder::Lbvh | Builder::Refit => {
+        Builder::Lbvh | Builder::Trbvh | Builder::Refit => {
             let (mut boxes, mut level) = (0, triangles);
             while level > 1 {
                 level = level.div_ceil(4);
@@ -110,7 +117,7 @@ mod tests {
     #[test]
     fn plan_equals_formula() {
         let two = Config { width: Some(Width::Two), ..Config::new(Builder::Sah) };
-        let kinds = [Builder::Sah, Builder::Lbvh, Builder::Refit].map(Config::new);
+        let kinds = [Builder::Sah, Builder::Lbvh, Builder::Trbvh, Builder::Refit].map(Config::new);
         for config in kinds.into_iter().chain([two]) {
             for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
                 let sizes = plan(&config, triangles).expect("options are in range");
@@ -134,7 +141,7 @@ mod tests {
         assert!(refused(Config { leaf: Some(17), ..config }).contains("leaf is 17"));
         assert!(refused(Config { leaf: Some(0), ..config }).contains("leaf is 0"));
         assert!(refused(Config { work_budget: Some(0), ..config }).contains("work budget"));
-        for builder in [Builder::Lbvh, Builder::Refit] {
+        for builder in [Builder::Lbvh, Builder::Trbvh, Builder::Refit] {
             let config = Config::new(builder);
             // What such a tree has may be said.
             assert!(plan(&Config { width: Some(Width::Two), leaf: Some(1), ..config }, 1).is_ok());

@@ -26,7 +26,8 @@ pub(crate) const SYSTEM: System = System {
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
     ("builder", |config, given| {
-        let builders = [Builder::Sah, Builder::Lbvh, Builder::Refit].map(|builder| (builder.name(), builder));
+        let builders = [Builder::Sah, Builder::Lbvh, Builder::Trbvh, Builder::Refit];
+        let builders = builders.map(|builder| (builder.name(), builder));
         given.choice(&builders).map(|value| config.builder = value)
     }),
     ("children", |config, given| {

@@ -388,7 +388,11 @@ pub const OPTIONS: &[StructureOption] = &[
         &[
             ("sah", "A tree by the surface area heuristic, on the host"),
             ("lbvh", "A tree by Morton codes, on the device"),
-            ("refit", "The same, and later builds while the triangles stay find only its boxes anew"),
+            ("trbvh", "The same, then its treelets are restructured by surface area, on the device"),
+            (
+                "refit",
+                "A tree by Morton codes, of which later builds while the triangles stay find only the boxes anew",
+            ),
             ("raster", "Cells, by drawing"),
             ("binning", "Cells, by computing"),
         ],

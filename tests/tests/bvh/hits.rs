@@ -13,6 +13,14 @@ use rasray_tracer::{BatchTracer, build_until_complete};
 
 const RAYS: usize = 3000;
 
+/// Every builder of trees of its own, with every number of children that it makes.
+const KINDS: [(Builder, Width); 4] = [
+    (Builder::Sah, Width::Two),
+    (Builder::Sah, Width::Four),
+    (Builder::Lbvh, Width::Two),
+    (Builder::Trbvh, Width::Two),
+];
+
 /// Scattered layers, a sphere, a room, and triangles that coincide.
 fn scene() -> Vec<Triangle> {
     let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
@@ -152,6 +160,11 @@ fn by_surface_area_no_option_changes_a_hit() {
 }
 
 #[test]
+fn of_treelets_no_option_changes_a_hit() {
+    options_change_no_hit(Builder::Trbvh);
+}
+
+#[test]
 fn by_morton_codes_no_option_changes_a_hit() {
     options_change_no_hit(Builder::Lbvh);
 }
@@ -165,9 +178,7 @@ fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
     let geometry = bench.geometry(&triangles);
     let expected = reference_answers(&bench, &geometry, &rays);
     let tracer = BatchTracer::new(bench.device(), rays.len() as u32).expect("a queue fits");
-    for (builder, width) in
-        [(Builder::Sah, Width::Two), (Builder::Sah, Width::Four), (Builder::Lbvh, Width::Two)]
-    {
+    for (builder, width) in KINDS {
         let config = Config { work_budget: Some(16), width: Some(width), ..Config::new(builder) };
         let mut bvh = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
         build_until_complete(bench.device(), &mut bvh, [0.0; 3], Timing::None).expect("the build completes");
@@ -246,9 +257,7 @@ fn rays_that_remember_more_than_their_stack_lose_nothing() {
         let geometry = bench.geometry(&triangles);
         let expected = reference_answers(&bench, &geometry, &rays);
         assert!(expected.occluded.iter().any(|occluded| *occluded));
-        for (builder, width) in
-            [(Builder::Sah, Width::Two), (Builder::Sah, Width::Four), (Builder::Lbvh, Width::Two)]
-        {
+        for (builder, width) in KINDS {
             for budget in [None, Some(50)] {
                 let config = Config { work_budget: budget, width: Some(width), ..Config::new(builder) };
                 let found = of_bvh(&bench, config, &geometry, &rays, budget.map(|_| 400));

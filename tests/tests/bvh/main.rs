@@ -3,4 +3,6 @@
 mod hits;
 mod oracle;
 mod refit;
+mod scenes;
+mod treelets;
 mod trees;

@@ -2,7 +2,6 @@
 
 use rasray_bvh::{Builder, Bvh, Config};
 use rasray_experiment::HIT_ROUNDING;
-use rasray_gpu_scene::Posed;
 use rasray_reference::oracle;
 use rasray_tests::conformance::{Prepared, measure};
 use rasray_tests::hard_cases::{self, Expectation, HardCase, Scale, Triangle};
@@ -10,19 +9,13 @@ use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::tier::is_full;
 
+use super::scenes::built_in;
+
 /// Rays of one batch.
 const BATCH: usize = 100_000;
 
 fn batches() -> usize {
     if is_full() { 100 } else { 1 }
-}
-
-fn spheres() -> Vec<Triangle> {
-    let scene =
-        rasray_scene::builtin::builtin("spheres:10k").expect("it is built in").expect("it can be made");
-    let posed = Posed::new(&scene, glam::DVec3::ZERO, |_| 0).expect("ids fit");
-    let corner = |index: &u32| posed.positions[*index as usize];
-    posed.indices.as_chunks::<3>().0.iter().map(|corners| corners.each_ref().map(corner)).collect()
 }
 
 fn batch(triangles: &[Triangle], seed: u64) -> HardCase {
@@ -48,10 +41,10 @@ fn batch(triangles: &[Triangle], seed: u64) -> HardCase {
 #[test]
 fn every_hit_is_the_one_of_exact_arithmetic() {
     let bench = Bench::new();
-    let triangles = spheres();
+    let triangles = built_in("spheres:10k");
     assert!(triangles.len() > 9_000);
     let geometry = bench.geometry(&triangles);
-    let mut trees = [Builder::Sah, Builder::Lbvh].map(|builder| {
+    let mut trees = [Builder::Sah, Builder::Lbvh, Builder::Trbvh].map(|builder| {
         Bvh::new(bench.device(), Config::new(builder), &geometry, None).expect("the options are valid")
     });
     for seed in 0..batches() as u64 {

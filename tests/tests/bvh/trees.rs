@@ -20,6 +20,9 @@ const LARGEST: usize = 5_000;
 /// Bits of a code and of a place, of which each level of a tree by Morton codes uses one at least.
 const LBVH_LEVELS: usize = 62;
 
+/// By how much rounding of areas may raise the cost of a tree that is restructured where it falls.
+const ROUNDING: f64 = 1.0e-5;
+
 fn scattered(count: usize, seed: u64, size: f32) -> Vec<Triangle> {
     let mut random = Random::new(seed);
     (0..count)
@@ -37,7 +40,7 @@ fn tree(bench: &Bench, config: Config) -> Bvh {
     Bvh::new(bench.device(), config, &bench.geometry(&[]), None).expect("the options are valid")
 }
 
-fn build(bench: &Bench, config: Config, triangles: &[Triangle]) -> Contents {
+pub(crate) fn build(bench: &Bench, config: Config, triangles: &[Triangle]) -> Contents {
     rebuild(bench, &mut tree(bench, config), triangles)
 }
 
@@ -59,7 +62,7 @@ fn rebuild(bench: &Bench, bvh: &mut Bvh, triangles: &[Triangle]) -> Contents {
 }
 
 /// Checks the tree, and that its records are the triangles, bit for bit.
-fn checked(contents: &Contents, triangles: &[Triangle], what: &str) -> Shape {
+pub(crate) fn checked(contents: &Contents, triangles: &[Triangle], what: &str) -> Shape {
     let shape = well_formed(contents).unwrap_or_else(|fault| panic!("{what}: {fault}"));
     assert_eq!(contents.records.len(), triangles.len(), "{what}");
     for record in &contents.records {
@@ -70,9 +73,11 @@ fn checked(contents: &Contents, triangles: &[Triangle], what: &str) -> Shape {
 }
 
 /// Every builder with every width that it makes.
-fn kinds() -> [Config; 4] {
+fn kinds() -> [Config; 5] {
     let two = Config { width: Some(Width::Two), ..Config::new(Builder::Sah) };
-    [Config::new(Builder::Sah), two, Config::new(Builder::Lbvh), Config::new(Builder::Refit)]
+    let [sah, lbvh, trbvh, refit] =
+        [Builder::Sah, Builder::Lbvh, Builder::Trbvh, Builder::Refit].map(Config::new);
+    [sah, two, lbvh, trbvh, refit]
 }
 
 fn all_trees_of(config: Config) {
@@ -100,6 +105,8 @@ fn all_trees_of(config: Config) {
     }
     let mut by_descriptor = tree(&bench, config);
     let mut by_address = tree(&bench, Config { addressing: Addressing::Address, ..config });
+    // What treelets are restructured in.
+    let mut by_codes = (config.builder == Builder::Trbvh).then(|| tree(&bench, Config::new(Builder::Lbvh)));
     for (index, (name, triangles)) in scenes.iter().enumerate() {
         let mut trees = vec![&mut by_descriptor];
         // Every scene in the full tier, every third otherwise: modules differ only in how pools are reached.
@@ -111,6 +118,13 @@ fn all_trees_of(config: Config) {
             if config.builder == Builder::Lbvh {
                 assert_eq!(shape.leaves, triangles.len(), "{name}");
                 assert!(shape.levels <= LBVH_LEVELS, "{name}: {} levels", shape.levels);
+            }
+            if let Some(by_codes) = &mut by_codes {
+                assert_eq!(shape.leaves, triangles.len(), "{name}");
+                let before = checked(&rebuild(&bench, by_codes, triangles), triangles, name).cost;
+                // Boxes that are not finite have no area.
+                let is_lower = shape.cost.is_nan() || shape.cost <= before * (1.0 + ROUNDING);
+                assert!(is_lower, "{name}: {} and {before}", shape.cost);
             }
         }
     }
@@ -129,6 +143,11 @@ fn trees_by_surface_area_of_two_children_per_node_are_sound() {
 #[test]
 fn trees_by_morton_codes_are_sound() {
     all_trees_of(Config::new(Builder::Lbvh));
+}
+
+#[test]
+fn trees_of_treelets_are_sound_and_cost_no_more_than_those_they_are_made_of() {
+    all_trees_of(Config::new(Builder::Trbvh));
 }
 
 #[test]

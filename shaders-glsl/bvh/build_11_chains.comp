@@ -1,0 +1,27 @@
+// What: lists the chains of a round. Their order is that of arrival, which changes nothing: chains of a class share no node.
+// Reads: nodes, scratch (sizes). Writes: scratch (chains and their numbers).
+// Source: Karras and Aila 2013, section 4: in each round the smallest subtrees to restructure have twice as many leaves.
+#version 460
+#include "contract/extensions.glsl"
+#include "bvh/treelets.glsl"
+
+layout(local_size_x = BVH_GROUP_SIZE) in;
+
+void main() {
+    uint node = bvh_invocation();
+    if (node + 1u >= BVH_HEADER(build.structure).triangle_count) {
+        return;
+    }
+    uint size_class = class_of(size_of(node));
+    if (size_class == NO_CLASS || size_class < build.step) {
+        return;
+    }
+    for (uint slot = 0u; slot < 2u; slot++) {
+        if (class_of(size_of(bvh_child(build.structure, 2u * node + slot))) == size_class) {
+            return;
+        }
+    }
+    uint count_word = chain_count_word(BVH_TREELET_CLASSES * build.step + size_class);
+    uint place = bvh_add_scratch(build.structure, count_word, 1u);
+    bvh_set_scratch(build.structure, chains_word(size_class) + place, node);
+}
