@@ -74,6 +74,13 @@ impl Exclusion {
     }
 }
 
+impl std::fmt::Display for Exclusion {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let settings = self.0.iter().map(|(name, values)| format!("{name} = {}", values.join(" or ")));
+        write!(formatter, "{{ {} }}", settings.collect::<Vec<_>>().join(", "))
+    }
+}
+
 /// Keys of an experiment that are no options.
 const OWN: [&str; 5] = ["name", "exclude", "small", "claim", "with"];
 

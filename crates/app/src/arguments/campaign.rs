@@ -34,7 +34,7 @@ combination is made:
   scene = [\"cornell\", \"walker\"]
   systems = \"mmrt\"
   ray-set = [\"camera\", \"bounce\"]
-  \"mmrt.list-storage\" = [\"linked\", \"contiguous\"]
+  \"mmrt.storage\" = [\"ll\", \"sb\"]
   repetitions = 3
 
 The folder gets cells.jsonl, a line per run, which is whole or not there after a kill; table.csv, a row per run;

@@ -152,6 +152,7 @@ impl<'a> Campaign<'a> {
     ) -> Result<CampaignCells, AppError> {
         let mut comparisons = Vec::new();
         let mut unknown: BTreeMap<usize, BTreeSet<String>> = BTreeMap::new();
+        let mut held = BTreeSet::new();
         for planned in planned {
             stop_if_requested(interrupt)?;
             let subject = self.subject(planned, backend)?;
@@ -163,8 +164,11 @@ impl<'a> Campaign<'a> {
                 let mut settings = cell_settings(&record.depends_on);
                 settings.extend(planned.plan.settings.clone());
                 unknown.retain(|name| !settings.contains_key(name));
-                if experiment.exclusions.iter().any(|exclusion| exclusion.holds(&settings)) {
-                    excluded.insert(place);
+                for (number, exclusion) in experiment.exclusions.iter().enumerate() {
+                    if exclusion.holds(&settings) {
+                        excluded.insert(place);
+                        held.insert((planned.place, number));
+                    }
                 }
             }
             let experiment = ExperimentRecord {
@@ -181,6 +185,20 @@ impl<'a> Campaign<'a> {
                 format!("{} excludes by '{name}', which none of its runs has", self.name(place)),
                 "name a setting such as scene, system, preset, ray-set or an option that the experiment sets",
             ));
+        }
+        for (place, experiment) in self.plan.experiments.iter().enumerate() {
+            let of_it = |one: &&ExperimentCells| one.experiment.place == place as u32;
+            if comparisons.iter().filter(of_it).all(|one| one.excluded.len() == one.cells.len()) {
+                return Err(AppError::usage(
+                    format!("{} excludes all of its runs", self.name(place)),
+                    "exclude less, or leave the experiment out",
+                ));
+            }
+            for (number, exclusion) in experiment.exclusions.iter().enumerate() {
+                if !held.contains(&(place, number)) {
+                    terminal::warn(&format!("{} excludes {exclusion}, which no run is", self.name(place)));
+                }
+            }
         }
         Ok(CampaignCells::new(&self.plan.title, &comparisons))
     }
@@ -279,8 +297,16 @@ impl<'a> Campaign<'a> {
     ) -> Result<(), AppError> {
         let settings: Vec<_> = campaign.cells().map(cell_settings).collect();
         let names = in_order(settings.iter().flat_map(|own| own.keys().map(String::as_str)));
-        let value = |own: &BTreeMap<String, String>, name: &str| own.get(name).cloned();
-        let varies = |name: &&str| settings.iter().any(|own| value(own, name) != value(&settings[0], name));
+        // Images are told apart among images, and sets of rays among sets of rays.
+        let kind = |own: &BTreeMap<String, String>| own.contains_key("integrator");
+        let differs = |one: &BTreeMap<String, String>, other: &BTreeMap<String, String>, name: &str| {
+            let same_kind = kind(one) == kind(other) || ["ray-set", "integrator"].contains(&name);
+            same_kind && one.get(name) != other.get(name)
+        };
+        let firsts = [true, false].map(|images| settings.iter().find(|own| kind(own) == images));
+        let varies = |name: &&str| {
+            settings.iter().any(|own| firsts.iter().flatten().any(|first| differs(own, first, name)))
+        };
         let varied: Vec<_> = names.into_iter().filter(varies).collect();
         let mut text = String::new();
         for place in wanted {

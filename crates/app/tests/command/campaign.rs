@@ -139,6 +139,7 @@ fn what_is_wrong_with_a_plan_is_named_with_its_experiment() {
         (with("\"spheres:10k\"", "\"hard:E5\""), "a plan has no hard cases"),
         (with("\"spheres:10k\"", "\"nothing.glb\""), "nothing.glb"),
         (with("system = \"bvh\"", "sistem = \"bvh\""), "excludes by 'sistem'"),
+        (with("scene = \"cornell\", system = \"bvh\"", "rays = 100"), "'Storages' excludes all of its runs"),
         (with("name = \"Seeds\"", "name = \"Storages\""), "two experiments"),
         (with("title =", "title"), "TOML parse error"),
     ] {
@@ -157,6 +158,43 @@ fn what_is_wrong_with_a_plan_is_named_with_its_experiment() {
     assert_eq!((output.status.code(), stderr(&output).contains("none.toml")), (Some(2), true));
     _ = std::fs::remove_dir(folder.join("out"));
     assert_eq!(entries(folder), before);
+}
+
+#[test]
+fn an_exclusion_that_leaves_out_nothing_is_named() {
+    let folder = planned();
+    let folder = folder.path();
+    let said = done(folder, "ablate plan.toml --output out --dry-run");
+    assert!(!said.contains("excludes"), "{said}");
+    let plan = PLAN.replace("scene = \"cornell\", system = \"bvh\"", "scene = \"cornel\", system = \"bvh\"");
+    std::fs::write(folder.join("plan.toml"), plan).expect("a plan");
+    let said = done(folder, "ablate plan.toml --output out --dry-run");
+    assert!(said.contains("'Storages' excludes { scene = cornel, system = bvh }"), "{said}");
+}
+
+#[test]
+fn plans_are_what_help_and_page_show() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let help = scripted(folder, "ablate --help").stdout;
+    let help = String::from_utf8_lossy(&help).into_owned();
+    let shown: Vec<_> = help
+        .lines()
+        .skip_while(|line| line.trim() != "[[experiment]]")
+        .take_while(|line| !line.trim().is_empty())
+        .collect();
+    let page = include_str!("../../../../docs/campaigns.md");
+    let (_, page) = page.split_once("```toml\n").expect("a plan");
+    let (page, _) = page.split_once("```").expect("its end");
+    for (plan, runs) in [(shown.join("\n"), "8 runs of 8"), (page.to_owned(), "77 runs of 77")] {
+        std::fs::write(folder.join("plan.toml"), &plan).expect("a plan");
+        let output = scripted(folder, "ablate plan.toml --output out --dry-run");
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{plan}: {}", stderr(&output));
+        assert!(text.contains(runs), "{plan}: {text}");
+        // What all images have in common tells none apart.
+        assert!(!text.contains("sampler="), "{text}");
+    }
 }
 
 #[test]
