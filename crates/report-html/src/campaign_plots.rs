@@ -272,10 +272,15 @@ fn curves(anchor: &str, experiment: &Experiment, parameter: &str, measure: &Meas
 
 fn scatter(anchor: &str, experiment: &Experiment, speed: &Measure, error: &Measure) -> Option<Plot> {
     let varied = experiment.varied();
-    let groups = grouped(experiment, speed, |row| {
-        let label = Label::of(row, &varied);
-        row.results.contains_key(error.name).then_some((label.contestant, label.workload))
-    });
+    let groups_by = |of: fn(Label) -> (String, String)| {
+        let names = |row: &Row| row.results.contains_key(error.name).then(|| of(Label::of(row, &varied)));
+        grouped(experiment, speed, names)
+    };
+    let mut groups = groups_by(|label| (label.contestant, label.workload));
+    // What has no other beside it is told apart by what it was asked for.
+    if groups.len() == 1 {
+        groups = groups_by(|label| (label.workload, label.contestant));
+    }
     let points: Vec<_> = groups
         .iter()
         .flat_map(|(contestant, loads)| loads.iter().map(move |(load, rows)| (contestant, load, rows)))

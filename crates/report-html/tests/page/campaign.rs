@@ -89,6 +89,21 @@ fn experiments_have_the_plots_of_what_they_vary() {
 }
 
 #[test]
+fn points_of_one_system_are_named_by_what_it_was_asked_for() {
+    let lines = [4, 8].map(|spp| {
+        let mut line = line(spp, "Samples of pixels", "mmrt", None, true);
+        let image = line.cell.as_mut().and_then(|cell| cell.depends_on.image.as_mut());
+        image.expect("an image").spp = spp;
+        line
+    });
+    let page = page(&lines);
+    let (_, plot) = page.split_once("image_ms-image.flip_mean").expect("speed against error");
+    for name in ["\"name\":\"spp 4\"", "\"name\":\"spp 8\""] {
+        assert!(plot.contains(name), "{name}");
+    }
+}
+
+#[test]
 fn a_single_run_has_a_table_and_no_plot() {
     let page = page(&lines()[..1]);
     assert!(page.contains("<tr><td") && !page.contains("plotly.js v"));
