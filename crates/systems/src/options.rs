@@ -87,7 +87,7 @@ pub const OPTIONS: &[StructureOption] = &[
         SameWithoutLoss,
         Values::Whole(1, 64),
         &["1", "2", "8", "12", "32", "64"],
-        "Depth buckets per cell",
+        "Depth buckets per cell; of mmrt up to 32, and with --storage llb, dllb or paged alone",
     ),
     row(
         "slices",
