@@ -1,6 +1,7 @@
 // What: the A-buffer's pools, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, bounds, lists, nodes, data, near-region list, scratch, conservative lists. Every access checks the capacity.
+// Reads, writes: header, bounds, lists, nodes, data, near-region list, scratch, conservative lists; with ABUFFER_READ_ONLY
+// bounds are read only. Every access checks the capacity.
 // Source: MMRT table 2: what a cell and a node hold under each storage.
 #ifndef ABUFFER_ACCESSORS_GLSL
 #define ABUFFER_ACCESSORS_GLSL
@@ -9,7 +10,7 @@
 #include "ads/bucket.glsl"
 
 #ifdef ADDRESSING_ADDRESS
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AbufferWordAddress { uint words[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) ABUFFER_HEADER_ACCESS buffer AbufferWordAddress { uint words[]; };
 #define ABUFFER_BOUNDS(s) AbufferWordAddress(ABUFFER_HEADER(s).bounds_address).words
 #define ABUFFER_LISTS(s) AbufferWordAddress(ABUFFER_HEADER(s).lists_address).words
 #define ABUFFER_NODES(s) AbufferWordAddress(ABUFFER_HEADER(s).nodes_address).words
@@ -18,7 +19,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AbufferWordA
 #define ABUFFER_SCRATCH(s) AbufferWordAddress(ABUFFER_HEADER(s).scratch_address).words
 #define ABUFFER_CONSERVATIVE_NODES(s) AbufferWordAddress(ABUFFER_HEADER(s).conservative_address).words
 #else
-layout(set = STRUCTURE_SET, binding = 1, scalar) buffer AbufferBoundsBuffer { uint abuffer_bounds_words[]; };
+layout(set = STRUCTURE_SET, binding = 1, scalar) ABUFFER_HEADER_ACCESS buffer AbufferBoundsBuffer { uint abuffer_bounds_words[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer AbufferListsBuffer { uint abuffer_list_words[]; };
 layout(set = STRUCTURE_SET, binding = 3, scalar) buffer AbufferNodesBuffer { uint abuffer_node_words[]; };
 layout(set = STRUCTURE_SET, binding = 4, scalar) buffer AbufferDataBuffer { uint abuffer_data_words[]; };
@@ -92,6 +93,14 @@ const uint ABUFFER_PAGE_SLOTS = ABUFFER_PAGED ? ABUFFER_PAGE : 1u;
 const uint ABUFFER_PAGE_WORDS = ABUFFER_PAGED ? 1u : 0u;
 const uint ABUFFER_PAGE_STRIDE = ABUFFER_PAGE_WORDS + ABUFFER_PAGE_SLOTS * ABUFFER_NODE_STRIDE;
 
+// The smallest depth of a cell. False where nothing has been found.
+bool abuffer_z_min(AbufferRef s, uint cell, out float z_min) {
+    uint word = ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE];
+    z_min = uintBitsToFloat(~word);
+    return word != 0u;
+}
+
+#ifndef ABUFFER_READ_ONLY
 // Widens the depths of a cell. Word 0 holds the complement of the smallest depth's bits, so that a
 // cleared cell is empty and both ends are maxima; positive floats order like their bits.
 void abuffer_widen_bounds(AbufferRef s, uint cell, float lower, float upper) {
@@ -110,13 +119,6 @@ void abuffer_widen_far(AbufferRef s, uint cell, float z) {
     atomicMax(ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE + 1u], floatBitsToUint(z));
 }
 
-// The smallest depth of a cell. False where nothing has been found.
-bool abuffer_z_min(AbufferRef s, uint cell, out float z_min) {
-    uint word = ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE];
-    z_min = uintBitsToFloat(~word);
-    return word != 0u;
-}
-
 // Widens the extent of a cell, where it has one.
 void abuffer_widen_extent(AbufferRef s, uint cell, float extent) {
     if (ABUFFER_HAS_EXTENT) {
@@ -133,6 +135,7 @@ void abuffer_store_scale(AbufferRef s, uint cell) {
     float scale = z_max == 0u ? 0.0 : bucket_scale(z_min, uintBitsToFloat(z_max), ABUFFER_BUCKETS);
     ABUFFER_BOUNDS(s)[word + 3u] = floatBitsToUint(scale);
 }
+#endif
 
 // Sets of marks of triangles: those that have a fragment; and where that decides what conservative lists keep, also
 // those that conservative lists keep.
@@ -150,6 +153,7 @@ uint abuffer_marks(AbufferRef s) {
     return abuffer_cell_count(s) * ABUFFER_BOUNDS_STRIDE;
 }
 
+#ifndef ABUFFER_READ_ONLY
 // Marks a triangle that a cell keeps in a set.
 void abuffer_mark(AbufferRef s, uint primitive, uint set) {
     uint word = abuffer_marks(s) + set * abuffer_mark_words(s) + primitive / 32u;
@@ -158,6 +162,7 @@ void abuffer_mark(AbufferRef s, uint primitive, uint set) {
         atomicOr(ABUFFER_BOUNDS(s)[word], bit);
     }
 }
+#endif
 
 // Whether a triangle has a fragment.
 bool abuffer_is_marked(AbufferRef s, uint primitive) {

@@ -54,6 +54,17 @@
 // edge-on there: about seven degrees.
 #define ABUFFER_EDGE_ON_SLOPE 8.0
 
+// What the depth bounds of a cell enclose before fragments are stored: those that it will have, or the boxes around
+// objects that are over it.
+#define ABUFFER_BOUNDS_GEOMETRY 0u
+#define ABUFFER_BOUNDS_BOXES 1u
+
+// Boxes around objects that there is room for; where there are more draws, several in a row share one.
+#define ABUFFER_BOXES 4096u
+
+// Words of such a box.
+#define ABUFFER_BOX_WORDS 6u
+
 // How the fragments of a cell are kept.
 #define ABUFFER_STORAGE_LL 0u
 #define ABUFFER_STORAGE_DLL 1u

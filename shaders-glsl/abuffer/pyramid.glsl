@@ -1,27 +1,11 @@
-// What: where the pyramids of an A-buffer are, the cube's and the camera's: behind the bounds of all cells
-// and the marks; and the depths of a cell in them.
+// What: the pyramids of an A-buffer, the cube's and the camera's, and the depths of a cell in them.
 // Reads: header, bounds, conservative lists. Writes: bounds, of blocks.
 // Source: not in the paper; DIRT section 4.1.1 has the same over lists of triangles.
 #ifndef ABUFFER_PYRAMID_GLSL
 #define ABUFFER_PYRAMID_GLSL
 
-#include "ads/pyramid.glsl"
+#include "abuffer/blocks.glsl"
 #include "abuffer/conservative.glsl"
-#include "abuffer/views.glsl"
-
-uint abuffer_pyramid_cells(AbufferRef s, uint view) {
-    return abuffer_resolution(s, view) + 2u;
-}
-
-// Level 1 of the faces, or of the camera.
-PyramidLevel abuffer_pyramid_first(AbufferRef s, uint view) {
-    uint base = abuffer_marks(s) + abuffer_mark_sets() * abuffer_mark_words(s);
-    PyramidLevel cube = pyramid_first(abuffer_pyramid_cells(s, 0u), VIEW_FACES, base);
-    if (view != ABUFFER_CAMERA) {
-        return cube;
-    }
-    return pyramid_first(abuffer_pyramid_cells(s, view), 1u, ABUFFER_HAS_CUBE ? pyramid_end(cube) : base);
-}
 
 uvec2 abuffer_pyramid_read(AbufferRef s, uint word) {
     return uvec2(ABUFFER_BOUNDS(s)[word], ABUFFER_BOUNDS(s)[word + 1u]);

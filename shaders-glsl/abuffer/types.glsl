@@ -25,6 +25,8 @@ layout(constant_id = 22) const uint ABUFFER_IDS = 0u;
 // Whether each ray places its samples at an offset of its own within their steps.
 layout(constant_id = 23) const uint ABUFFER_JITTER = 0u;
 layout(constant_id = 24) const uint ABUFFER_VIEW_SWITCHING = ABUFFER_SWITCH_EXACT;
+// What a cell's depth bounds enclose before its fragments are stored, of storages with buckets.
+layout(constant_id = 25) const uint ABUFFER_BOUNDS_OF = ABUFFER_BOUNDS_GEOMETRY;
 
 // How rays step and what they test, ABUFFER_STEP_* and ABUFFER_TEST_*. Each is most of a trace's code, so modules that
 // trace are compiled once for each (permutations.txt); elsewhere the options decide.

@@ -89,6 +89,15 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
         abuffer_widen_extent(build.structure, cell, coverage.extent);
     } else if (ABUFFER_BUCKETED) {
         AbufferBounds bounds = abuffer_bounds(build.structure, cell);
+        if (ABUFFER_BOUNDS_OF == ABUFFER_BOUNDS_BOXES) {
+            // Boxes say nothing of planes.
+            abuffer_widen_extent(build.structure, cell, coverage.extent);
+            if (bounds.empty || z < bounds.z_min || z > bounds.z_max) {
+                // The boxes do not enclose it, so passes disagree.
+                atomicAdd(ABUFFER_HEADER(build.structure).corrupted, 1u);
+                return;
+            }
+        }
         // The bounds pass may have seen a depth that differs in the last bit.
         z = clamp(z, bounds.z_min, bounds.z_max);
         bucket = bucket_of(z, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);

@@ -59,10 +59,23 @@ impl Bench {
     /// # Panics
     /// If the device fails.
     pub fn geometry(&self, triangles: &[[[f32; 3]; 3]]) -> Geometry {
-        let positions: Vec<[f32; 3]> = triangles.iter().flatten().copied().collect();
+        self.geometry_of_draws(&[triangles])
+    }
+
+    /// Posed triangles of several draws, at least one.
+    ///
+    /// # Panics
+    /// If the device fails.
+    pub fn geometry_of_draws(&self, objects: &[&[[[f32; 3]; 3]]]) -> Geometry {
+        let positions: Vec<[f32; 3]> = objects.iter().copied().flatten().flatten().copied().collect();
         let indices: Vec<u32> = (0..positions.len() as u32).collect();
-        let count = triangles.len() as u32;
-        let draws = [Draw { first_triangle: 0, triangle_count: count, ..Draw::default() }];
+        let mut count = 0;
+        let mut draws = Vec::new();
+        for object in objects {
+            let triangle_count = object.len() as u32;
+            draws.push(Draw { first_triangle: count, triangle_count, ..Draw::default() });
+            count += triangle_count;
+        }
         let mut bounds = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
         for p in &positions {
             for axis in 0..3 {
@@ -83,7 +96,7 @@ impl Bench {
             vertex_count: positions.len() as u32,
             triangle_count: count,
             count: None,
-            draw_count: 1,
+            draw_count: draws.len() as u32,
             bounds,
             frame_origin: [0.0; 3],
         };

@@ -3,13 +3,42 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Pyramid, SceneBinding, Visit, Visits,
+    AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Pyramid, SceneBinding, ViewDraw,
+    Visit, Visits,
 };
-use rasray_gpu::{Access, ComputePipeline, Recorder};
+use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
 
-use crate::layout::{cell_count, draws, scratch};
-use crate::{Config, Coverage, Header, March, Pool, Storage};
+use crate::layout::{box_count, cell_count, draws, scratch};
+use crate::{Bounds, Config, Coverage, Header, March, Pool, Storage};
+
+/// Depth bounds of cells from boxes around objects: what finds these, and what draws them.
+#[derive(Debug)]
+struct Boxes {
+    find: ComputePipeline,
+    draw: RasterPipeline,
+}
+
+impl Boxes {
+    fn new(pipelines: &BuildPipelines<'_>) -> Result<Self, AdsError> {
+        Ok(Self {
+            find: pipelines.compute("build_3_bounds.find")?,
+            draw: pipelines.raster("build_raster.boxes", "build_3_bounds.boxes")?,
+        })
+    }
+
+    fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, draws: &[ViewDraw], groups: u64) {
+        let vertices = 3 * box_count(target.geometry.desc().draw_count);
+        recorder.begin_pass(Stage::Build, "abuffer/build_3_bounds");
+        target.dispatch(recorder, &self.find, groups, 0);
+        recorder.barrier(Access::COMPUTE, Access::VERTEX_READ | Access::FRAGMENT);
+        for draw in draws {
+            target.draw_vertices(recorder, &self.draw, *draw, vertices);
+        }
+        recorder.barrier(Access::FRAGMENT, Access::COMPUTE | Access::FRAGMENT);
+        recorder.end_pass();
+    }
+}
 
 /// Pipelines of the build: the design of an [`ABuffer`](crate::ABuffer).
 #[derive(Debug)]
@@ -17,6 +46,7 @@ pub struct Build {
     near: ComputePipeline,
     large: Option<LargePass>,
     bounds: Option<Visit>,
+    boxes: Option<Boxes>,
     scale: Option<ComputePipeline>,
     lengths: Option<Lengths>,
     store: Visit,
@@ -45,12 +75,16 @@ impl Build {
         let covered = |name, variant| visits.visit("build_raster", name, variant);
         let scaled = config.has_buckets() && config.accept.needs_triangles();
         let lengths = || Lengths::new(pipelines, covered("build_5_count", masked)?, "build_6_scan");
+        let boxed = config.bounds == Bounds::Boxes;
         let sorted = if config.storage == Storage::Paged { ".pages" } else { "" };
         let reorder = || ListSort::new(pipelines, "build_11_reorder", sorted, "build_12_reorder_long");
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
             large: visits.large("build_2_large")?,
-            bounds: config.has_bounds_pass().then(|| covered("build_3_bounds", masked)).transpose()?,
+            bounds: (config.has_bounds_pass() && !boxed)
+                .then(|| covered("build_3_bounds", masked))
+                .transpose()?,
+            boxes: boxed.then(|| Boxes::new(pipelines)).transpose()?,
             scale: scaled.then(|| pipelines.compute("build_4_scale")).transpose()?,
             lengths: (config.storage == Storage::Sb).then(lengths).transpose()?,
             store: if config.tests_triangles() {
@@ -95,6 +129,9 @@ impl Build {
         }
         if let Some(bounds) = &self.bounds {
             bounds.record(recorder, target, &draws);
+        }
+        if let Some(boxes) = &self.boxes {
+            boxes.record(recorder, target, &draws, groups(triangles));
         }
         if let Some(scale) = &self.scale {
             target.compute_pass(recorder, "abuffer/build_4_scale", scale, groups(cells), 0, shaders);

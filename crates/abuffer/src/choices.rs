@@ -144,6 +144,36 @@ impl Coverage {
     }
 }
 
+/// What the depth bounds of a cell enclose before its fragments are stored. Changes no hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bounds {
+    /// The fragments that it will have: all triangles are drawn once more.
+    Geometry,
+    /// The boxes around objects that are over it: looser, and a box is drawn in place of its triangles. An object is a
+    /// draw of the geometry; of more than 4096 draws several in a row share a box.
+    Boxes,
+}
+
+impl Bounds {
+    /// Every choice.
+    pub const ALL: [Self; 2] = [Self::Geometry, Self::Boxes];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Geometry => "geometry",
+            Self::Boxes => "boxes",
+        }
+    }
+
+    pub(crate) fn number(self) -> u32 {
+        match self {
+            Self::Geometry => numbers::ABUFFER_BOUNDS_GEOMETRY,
+            Self::Boxes => numbers::ABUFFER_BOUNDS_BOXES,
+        }
+    }
+}
+
 /// Which views are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Views {

@@ -3,7 +3,7 @@
 use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::abuffer as ids;
 
-use crate::{Accept, Coverage, March, Payload, Storage, ViewSwitching, Views};
+use crate::{Accept, Bounds, Coverage, March, Payload, Storage, ViewSwitching, Views};
 
 /// All options.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +51,9 @@ pub struct Config {
     pub ids: bool,
     /// How coverage is decided.
     pub coverage: Coverage,
+    /// What the depth bounds of cells enclose. [`Bounds::Boxes`] goes with lists by depth bucket only, with
+    /// [`Builder::Raster`], and not with [`Coverage::Hardware`]. Changes no hit.
+    pub bounds: Bounds,
     /// How triangles are binned into cells. Changes no hit.
     pub builder: Builder,
     /// Sort lists, so that a search can end early. Changes no hit.
@@ -102,6 +105,7 @@ impl Config {
             payload: Payload::Index,
             ids: false,
             coverage: Coverage::Exact,
+            bounds: Bounds::Geometry,
             builder: Builder::Raster,
             sort: true,
             skip: true,
@@ -177,6 +181,7 @@ impl Config {
                 expected: "the binning builder does not draw: use builder `raster` with coverage `hardware`",
             });
         }
+        self.validate_bounds()?;
         if self.has_conservative_lists() && self.single_layer {
             return Err(AdsError::Option {
                 option: "single-layer",
@@ -193,6 +198,23 @@ impl Config {
             });
         }
         Ok(())
+    }
+
+    /// Checks that there are bounds before fragments are stored, and that boxes can enclose these.
+    fn validate_bounds(&self) -> Result<(), AdsError> {
+        let expected = match self.bounds {
+            Bounds::Boxes if !self.has_buckets() => {
+                "boxes give bounds to lists by depth bucket: use storage `llb`, `dllb` or `paged`, with all layers"
+            }
+            Bounds::Boxes if self.builder == Builder::Binning => {
+                "the binning builder does not draw boxes: use builder `raster`"
+            }
+            Bounds::Boxes if self.coverage == Coverage::Hardware => {
+                "the rasterizer's depths may lie outside of boxes: use coverage `exact`"
+            }
+            Bounds::Geometry | Bounds::Boxes => return Ok(()),
+        };
+        Err(AdsError::Option { option: "bounds", value: self.bounds.name().to_owned(), expected })
     }
 
     /// Whether every hit equals that of brute force: cells keep every triangle that reaches into them, and rays
@@ -291,6 +313,7 @@ impl Config {
             (ids::ABUFFER_IDS, u32::from(self.ids)),
             (ids::ABUFFER_JITTER, u32::from(self.jitter)),
             (ids::ABUFFER_VIEW_SWITCHING, self.view_switching.number()),
+            (ids::ABUFFER_BOUNDS_OF, self.bounds.number()),
         ]
     }
 
@@ -320,6 +343,7 @@ impl Config {
         }
         if self.has_buckets() {
             options.push(("buckets", self.buckets.to_string()));
+            options.push(("bounds", self.bounds.name().to_owned()));
         }
         if self.storage == Storage::Paged {
             options.push(("page", self.page.to_string()));

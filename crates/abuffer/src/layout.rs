@@ -1,9 +1,9 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
 use rasray_ads::{AdsError, ListCounts, Pyramid, Scan, Scratch, Sizes, ViewDraw};
-use rasray_shaders_glsl::constants::abuffer::ABUFFER_CAMERA;
+use rasray_shaders_glsl::constants::abuffer::{ABUFFER_BOX_WORDS, ABUFFER_BOXES, ABUFFER_CAMERA};
 
-use crate::{Accept, Builder, Config, Coverage, Header, March, Payload, Pool, Storage, Views};
+use crate::{Accept, Bounds, Builder, Config, Coverage, Header, March, Payload, Pool, Storage, Views};
 
 /// Cells of all views, each with a border of one cell.
 pub fn cell_count(config: &Config) -> u64 {
@@ -122,9 +122,19 @@ fn pyramid_words(config: &Config) -> u64 {
     if config.march == March::Pyramid { Pyramid::words(&draws(config)) } else { 0 }
 }
 
-/// Words of the bounds of all cells and blocks.
+/// Words of the boxes around objects.
+fn box_words(config: &Config) -> u64 {
+    if config.bounds == Bounds::Boxes { (ABUFFER_BOXES * ABUFFER_BOX_WORDS).into() } else { 0 }
+}
+
+/// Boxes around that many draws: one each, or where there is not room for so many, one for several in a row.
+pub(crate) fn box_count(draws: u32) -> u32 {
+    draws.div_ceil(draws.div_ceil(ABUFFER_BOXES).max(1)).max(1)
+}
+
+/// Words of the bounds of all cells and blocks, and of boxes around objects.
 pub(crate) fn bounds_and_blocks(config: &Config) -> u64 {
-    cell_count(config) * bounds_words(config) + pyramid_words(config)
+    cell_count(config) * bounds_words(config) + pyramid_words(config) + box_words(config)
 }
 
 /// What the pool of scratch holds: the sums of the scan of contiguous lists, and the words that binning and sorting use.
@@ -195,8 +205,8 @@ pub struct FormulaBytes {
     /// With ids: 4 per fragment, or slot of a page.
     pub ids: u64,
     /// Header, 4 per triangle of the near-region list, 8 per long list, or where that is more 4 per triangle with
-    /// many cells of a view where they are binned, 4 per 1024 cells for the scan of SB, and 4 per 32
-    /// triangles for their marks.
+    /// many cells of a view where they are binned, 4 per 1024 cells for the scan of SB, 4 per 32
+    /// triangles for their marks, and 98,304 for boxes around objects.
     pub rest: u64,
 }
 
@@ -266,7 +276,8 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
                 0
             })
             + 4 * sums
-            + 4 * demand.triangles.div_ceil(32),
+            + 4 * demand.triangles.div_ceil(32)
+            + if config.bounds == Bounds::Boxes { 98_304 } else { 0 },
     }
 }
 
@@ -323,6 +334,11 @@ mod tests {
                 assert_ne!(bytes, formula_bytes(&config, more).total(), "{config:?}");
                 let more = Demand { conservative: DEMAND.conservative + 1, ..DEMAND };
                 assert_eq!(kept, bytes != formula_bytes(&config, more).total(), "{config:?}");
+                let boxes = Config { bounds: Bounds::Boxes, ..config };
+                if let Ok(sizes) = plan(&boxes, DEMAND) {
+                    assert_eq!(sizes.bytes(), bytes + 98_304, "{boxes:?}");
+                    assert_eq!(sizes.bytes(), formula_bytes(&boxes, DEMAND).total(), "{boxes:?}");
+                }
                 let marked = Demand { triangles: 33, ..DEMAND };
                 let bytes = plan(&config, marked).expect("options are in range").bytes();
                 assert_eq!(bytes, formula_bytes(&config, marked).total(), "{config:?}");
@@ -367,6 +383,32 @@ mod tests {
         let total = (720 * 480 + 6 * 480 * 480) * per_cell + formula.fragments;
         let mebibytes = total as f64 / f64::from(1 << 20);
         assert!((mebibytes - 130.0).abs() < 0.5, "{mebibytes} MiB");
+    }
+
+    /// No draw is left without a box, and boxes are as many as there is room for at most.
+    #[test]
+    fn draws_share_boxes() {
+        for (draws, boxes) in [(0, 1), (1, 1), (17, 17), (4096, 4096), (4097, 2049), (10_000, 3334)] {
+            assert_eq!(box_count(draws), boxes, "{draws} draws");
+        }
+        assert!(box_count(u32::MAX) <= ABUFFER_BOXES);
+    }
+
+    #[test]
+    fn boxes_that_give_no_bounds_are_refused() {
+        let dllb = Config { bounds: Bounds::Boxes, ..Config::at_centres(64) };
+        assert!(dllb.validate().is_ok());
+        let refused = [
+            (Config { storage: Storage::Ll, ..dllb }, "storage `llb`"),
+            (Config { storage: Storage::Sb, ..dllb }, "storage `llb`"),
+            (Config { single_layer: true, ..dllb }, "all layers"),
+            (Config { builder: Builder::Binning, ..dllb }, "builder `raster`"),
+            (Config { coverage: Coverage::Hardware, ..dllb }, "coverage `exact`"),
+        ];
+        for (config, fix) in refused {
+            let message = config.validate().expect_err("refused").to_string();
+            assert!(message.contains("bounds is boxes") && message.contains(fix), "{message}");
+        }
     }
 
     #[test]

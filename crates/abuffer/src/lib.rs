@@ -19,7 +19,7 @@ mod structure;
 mod validate;
 
 pub use build::Build;
-pub use choices::{Accept, Coverage, March, Payload, Storage, ViewSwitching, Views};
+pub use choices::{Accept, Bounds, Coverage, March, Payload, Storage, ViewSwitching, Views};
 pub use config::Config;
 pub use fault::Fault;
 pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};

@@ -14,7 +14,7 @@ pub struct Contents {
     pub config: Config,
     /// The header.
     pub header: Header,
-    /// Bounds of each cell, and of the blocks of the pyramid.
+    /// Bounds of each cell, and of the blocks of the pyramid; marks of triangles; boxes around objects.
     pub bounds: Vec<u32>,
     /// Head (and tail) of each list; of contiguous lists all first places, then all counts; of paged ones the word that
     /// leads to the first page.

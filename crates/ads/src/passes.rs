@@ -202,13 +202,35 @@ impl BuildTarget<'_> {
         views: u32,
         step: u32,
     ) {
+        let draw = ViewDraw { side, views, first: step };
+        self.draw_onto(recorder, pipeline, draw, |recorder| self.geometry.record_draw(recorder, views));
+    }
+
+    /// Draws that many vertices per view in place of those of all triangles; nothing where there are no triangles.
+    pub fn draw_vertices(
+        &self,
+        recorder: &mut Recorder<'_>,
+        pipeline: &RasterPipeline,
+        draw: ViewDraw,
+        vertices: u32,
+    ) {
+        self.draw_onto(recorder, pipeline, draw, |recorder| recorder.draw(vertices, draw.views, 0));
+    }
+
+    fn draw_onto(
+        &self,
+        recorder: &mut Recorder<'_>,
+        pipeline: &RasterPipeline,
+        draw: ViewDraw,
+        record: impl FnOnce(&mut Recorder<'_>),
+    ) {
         if self.geometry.triangle_count() == 0 {
             return;
         }
-        recorder.begin_rendering(side, side);
+        recorder.begin_rendering(draw.side, draw.side);
         recorder.bind_raster(pipeline);
-        self.bind(recorder, step);
-        self.geometry.record_draw(recorder, views);
+        self.bind(recorder, draw.first);
+        record(recorder);
         recorder.end_rendering();
     }
 

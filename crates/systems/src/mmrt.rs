@@ -1,7 +1,7 @@
 //! MMRT: the A-buffer with the paper's presets.
 
 use rasray_abuffer::{
-    ABuffer, Accept, Builder, Config, Coverage, March, Payload, Storage, ViewSwitching, Views,
+    ABuffer, Accept, Bounds, Builder, Config, Coverage, March, Payload, Storage, ViewSwitching, Views,
 };
 
 use crate::given::{Given, Setter, names};
@@ -42,6 +42,9 @@ const OPTIONS: &[Setter<Config>] = &[
         given
             .choice(&Storage::ALL.map(|storage| (storage.name(), storage)))
             .map(|value| config.storage = value)
+    }),
+    ("bounds", |config, given| {
+        given.choice(&Bounds::ALL.map(|bounds| (bounds.name(), bounds))).map(|value| config.bounds = value)
     }),
     ("builder", |config, given| {
         given
@@ -107,11 +110,12 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     Given::apply_all(spec, OPTIONS, &mut config)?;
     let given = |option| spec.options().get(option).is_some();
     if spec.preset() == Preset::Robust {
-        // Options that conservative coverage does not go with ask for another, as buckets do for lists that have them.
+        // Options that conservative coverage does not go with ask for another, as buckets do for lists that have them,
+        // and boxes, which give these their bounds.
         if !given("coverage") && !config.may_test_triangles() {
             config.coverage = Coverage::Exact;
         }
-        if !given("storage") && given("buckets") {
+        if !given("storage") && (given("buckets") || config.bounds == Bounds::Boxes) {
             config.storage = Storage::Dllb;
         }
     }

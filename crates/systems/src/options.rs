@@ -2,45 +2,12 @@
 //! command line, its help, the page of options and the tests of invariance are made from these rows; each system says in
 //! its own file which of them it has and what they set.
 
-use rasray_options::{Least, OptionRow, Unit, Values, Word};
+use rasray_options::{Least, OptionRow, Unit, Values};
 
-use crate::structure_option::{Group, Hits, StructureOption};
+use crate::structure_option::{Group, Hits, StructureOption, of, row, switch, trying, words};
 
 /// Most cells along a side of a view.
 pub const VIEW_LIMIT: u32 = 8192;
-
-const fn of(row: OptionRow, group: Group, hits: Hits) -> StructureOption {
-    StructureOption { row, group, hits }
-}
-
-const fn row(
-    name: &'static str,
-    group: Group,
-    hits: Hits,
-    values: Values,
-    tried: &'static [&'static str],
-    doc: &'static str,
-) -> StructureOption {
-    of(OptionRow::new(name, values, doc).trying(tried), group, hits)
-}
-
-const fn words(
-    name: &'static str,
-    group: Group,
-    hits: Hits,
-    words: &'static [Word],
-    doc: &'static str,
-) -> StructureOption {
-    of(OptionRow::words(name, words, doc), group, hits)
-}
-
-const fn switch(name: &'static str, group: Group, hits: Hits, doc: &'static str) -> StructureOption {
-    of(OptionRow::switch(name, doc), group, hits)
-}
-
-const fn trying(tried: &'static [&'static str], option: StructureOption) -> StructureOption {
-    StructureOption { row: option.row.trying(tried), ..option }
-}
 
 use Group::{Diagnostic, Limit, Method, Size, Speed};
 use Hits::{MayChange, Same, SameForTriangles, SameWithoutLoss};
@@ -440,6 +407,16 @@ pub const OPTIONS: &[StructureOption] = &[
             ("coarsest", "The coarsest, then finer ones until one holds nothing"),
         ],
         "With --pyramid: the blocks that a ray compares its depths with first",
+    ),
+    words(
+        "bounds",
+        Speed,
+        Same,
+        &[
+            ("geometry", "The fragments that it will have: all triangles are drawn once more"),
+            ("boxes", "The boxes around objects that are over it: a box is drawn in place of its triangles"),
+        ],
+        "Lists by depth bucket: what a cell's range of depths encloses",
     ),
     words(
         "occupancy",

@@ -1,7 +1,7 @@
 //! What the registry says of an option in addition to its row: what it is for, and whether it may change a hit.
 
 use rasray_ads::StructureKind;
-use rasray_options::OptionRow;
+use rasray_options::{OptionRow, Values, Word};
 
 /// What an option is for, the order in which help shows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -78,4 +78,47 @@ pub struct StructureOption {
     pub group: Group,
     /// Whether it may change a hit.
     pub hits: Hits,
+}
+
+/// An option from its row.
+pub(crate) const fn of(row: OptionRow, group: Group, hits: Hits) -> StructureOption {
+    StructureOption { row, group, hits }
+}
+
+/// One with the values that tests try.
+pub(crate) const fn row(
+    name: &'static str,
+    group: Group,
+    hits: Hits,
+    values: Values,
+    tried: &'static [&'static str],
+    doc: &'static str,
+) -> StructureOption {
+    of(OptionRow::new(name, values, doc).trying(tried), group, hits)
+}
+
+/// One of words.
+pub(crate) const fn words(
+    name: &'static str,
+    group: Group,
+    hits: Hits,
+    words: &'static [Word],
+    doc: &'static str,
+) -> StructureOption {
+    of(OptionRow::words(name, words, doc), group, hits)
+}
+
+/// One that is on or off.
+pub(crate) const fn switch(
+    name: &'static str,
+    group: Group,
+    hits: Hits,
+    doc: &'static str,
+) -> StructureOption {
+    of(OptionRow::switch(name, doc), group, hits)
+}
+
+/// The same with other values for tests to try.
+pub(crate) const fn trying(tried: &'static [&'static str], option: StructureOption) -> StructureOption {
+    StructureOption { row: option.row.trying(tried), ..option }
 }

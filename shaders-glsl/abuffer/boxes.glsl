@@ -1,0 +1,98 @@
+// What: boxes around objects, from which cells take their depth bounds in place of fragments: where they are, behind the
+// bounds of cells, marks and blocks; what a view sees of one. An object is a draw: an instance of a mesh.
+// Reads: header, geometry, bounds. Writes: bounds, unless ABUFFER_READ_ONLY.
+// Source: MMRT section 3.3, which names bounding boxes as a replacement for the geometry.
+#ifndef ABUFFER_BOXES_GLSL
+#define ABUFFER_BOXES_GLSL
+
+#include "ads/float_keys.glsl"
+#include "ads/geometry.glsl"
+#include "abuffer/blocks.glsl"
+
+// The box that a triangle lies in.
+uint abuffer_box_of(uint primitive) {
+    uint draws = max(geometry_header.draw_count, 1u);
+    return geometry_draw(primitive) / ((draws + ABUFFER_BOXES - 1u) / ABUFFER_BOXES);
+}
+
+// First word of a box: the complements of its lower corner's keys, then its upper corner's keys. A cleared box is empty,
+// and all six words are integer maxima.
+uint abuffer_box_word(AbufferRef s, uint box) {
+    uint base = abuffer_marks(s) + abuffer_mark_sets() * abuffer_mark_words(s);
+    if (ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID) {
+        base = pyramid_end(abuffer_pyramid_first(s, ABUFFER_HAS_CAMERA ? ABUFFER_CAMERA : 0u));
+    }
+    return base + ABUFFER_BOX_WORDS * min(box, ABUFFER_BOXES - 1u);
+}
+
+#ifndef ABUFFER_READ_ONLY
+// Makes a word at least as large. Most triangles change none.
+void abuffer_widen_box_word(AbufferRef s, uint word, uint key) {
+    if (ABUFFER_BOUNDS(s)[word] < key) {
+        atomicMax(ABUFFER_BOUNDS(s)[word], key);
+    }
+}
+
+// Widens a box by the bounds of a triangle, frame of the world.
+void abuffer_widen_box(AbufferRef s, uint box, vec3 lower, vec3 upper) {
+    uint word = abuffer_box_word(s, box);
+    for (uint axis = 0u; axis < 3u; axis++) {
+        abuffer_widen_box_word(s, word + axis, ~key_of(lower[axis]));
+        abuffer_widen_box_word(s, word + 3u + axis, key_of(upper[axis]));
+    }
+}
+#endif
+
+// The corners of a box, frame of the world; false where nothing is in it.
+bool abuffer_box(AbufferRef s, uint box, out vec3 lower, out vec3 upper) {
+    uint word = abuffer_box_word(s, box);
+    for (uint axis = 0u; axis < 3u; axis++) {
+        lower[axis] = float_of(~ABUFFER_BOUNDS(s)[word + axis]);
+        upper[axis] = float_of(ABUFFER_BOUNDS(s)[word + 3u + axis]);
+    }
+    return ABUFFER_BOUNDS(s)[word + 3u] != 0u;
+}
+
+// How far rounding may move a point of a box, relative to the eye, and a corner of a triangle in it, against each other
+// in a view. Turning a point into a face does not round.
+vec3 abuffer_box_rounding(AbufferRef s, uint view, vec3 lower, vec3 upper) {
+    if (view != ABUFFER_CAMERA) {
+        return vec3(0.0);
+    }
+    vec3 reach = max(abs(lower), abs(upper));
+    vec3 sums = vec3(dot(abs(ABUFFER_HEADER(s).camera_x), reach), dot(abs(ABUFFER_HEADER(s).camera_y), reach),
+        dot(abs(ABUFFER_HEADER(s).camera_z), reach));
+    return 1.0e-6 * sums;
+}
+
+// What a view sees of a box with corners relative to the eye: its corners along the axes of the view, and the bounds in
+// x/z and y/z (lower, upper) of the cells whose centres what is in it may cover. False where there are none.
+bool abuffer_see_box(AbufferRef s, uint view, vec3 lower, vec3 upper, out vec3 first, out vec3 last, out vec4 bounds) {
+    float side = float(abuffer_resolution(s, view));
+    float limit = 1.0 + 2.0 / side;
+    const float far = 3.0e38;
+    first = vec3(far);
+    last = vec3(-far);
+    vec4 places = vec4(far, far, -far, -far);
+    for (uint corner = 0u; corner < 8u; corner++) {
+        bvec3 is_upper = bvec3((corner & 1u) != 0u, (corner & 2u) != 0u, (corner & 4u) != 0u);
+        vec3 p = abuffer_view_from_world(s, mix(lower, upper, is_upper), view);
+        first = min(first, p);
+        last = max(last, p);
+        vec2 place = p.xy / p.z;
+        places = vec4(min(places.xy, place), max(places.zw, place));
+    }
+    vec3 rounding = abuffer_box_rounding(s, view, lower, upper);
+    first -= rounding;
+    last += rounding;
+    bounds = vec4(-limit, -limit, limit, limit);
+    // A box that reaches the plane of the eye, or holds the eye, may be seen anywhere.
+    if (first.z > 1.0e-6 * last.z) {
+        // 1/32 of a cell for the hardware's grid.
+        vec2 margin = 1.0 / (16.0 * side) + 1.0e-6 + (rounding.xy + limit * rounding.z) / first.z;
+        bounds = vec4(max(places.xy - margin, bounds.xy), min(places.zw + margin, bounds.zw));
+    }
+    return last.z > 0.0 && bounds.x <= bounds.z && bounds.y <= bounds.w;
+}
+
+#endif
