@@ -9,6 +9,7 @@
 // Which cells list a triangle.
 #define PRIMITIVE_COVERAGE_HARDWARE 0u
 #define PRIMITIVE_COVERAGE_CONSERVATIVE 1u
+#define PRIMITIVE_COVERAGE_EXTENSION 2u
 
 // When a triangle that the ray intersects is a hit: by its t alone, or only where it lies in the tile that listed it.
 #define PRIMITIVE_ACCEPT_T 0u

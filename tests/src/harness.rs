@@ -28,6 +28,7 @@ pub fn requirements() -> Requirements {
     let mut requirements = Requirements::floor();
     requirements.required.push(Feature::FragmentStoresAndAtomics);
     requirements.optional.push((Feature::BufferDeviceAddress, "pools reached by address"));
+    requirements.optional.push((Feature::ConservativeRasterization, "lists of tiles that it touches"));
     requirements
 }
 

@@ -7,7 +7,7 @@ use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 
 use crate::layout::{cell_count, faces};
-use crate::{Config, Header, Pool, Storage};
+use crate::{Config, Coverage, Header, Pool, Storage};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -23,6 +23,9 @@ pub(crate) struct Build {
 
 impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
+        let touching = pipelines.touching();
+        let pipelines =
+            if config.coverage == Coverage::ConservativeExtension { &touching } else { pipelines };
         let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
         let visit = |name| visits.visit("build_raster", name, "");
         let lengths = || Lengths::new(pipelines, visit("build_5_count")?, "build_6_scan");

@@ -146,7 +146,7 @@ impl Config {
             (self.stop == robust.stop, ("stop", "bucket")),
             (self.depths == robust.depths, ("depths", "corners")),
             (self.march == robust.march, ("march", "jump")),
-            (self.coverage == robust.coverage, ("coverage", "hardware")),
+            (self.coverage == robust.coverage, ("coverage", self.coverage.name())),
             (self.views == robust.views, ("views", "camera")),
         ]
         .into_iter()
@@ -187,9 +187,10 @@ impl Config {
         check_range("resolution", self.resolution, 1..=8192, "1 to 8192 pixels along a side")?;
         check_range("tile", self.tile, 1..=64, "1 to 64 pixels along a side")?;
         check_range("buckets", self.buckets, 1..=64, "1 to 64 buckets per tile")?;
-        if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
+        if self.coverage != Coverage::Conservative && self.builder == Builder::Binning {
             let expected = "the binning builder does not draw: use builder `raster`";
-            return Err(AdsError::Option { option: "coverage", value: "hardware".to_owned(), expected });
+            let value = self.coverage.name().to_owned();
+            return Err(AdsError::Option { option: "coverage", value, expected });
         }
         if self.views == Views::Camera && self.centre == Centre::Fixed {
             let expected = "the camera's view is seen from the eye: use centre `eye`, or views `cube`";
@@ -207,6 +208,7 @@ impl Config {
         let coverage = match self.coverage {
             Coverage::Hardware => numbers::PRIMITIVE_COVERAGE_HARDWARE,
             Coverage::Conservative => numbers::PRIMITIVE_COVERAGE_CONSERVATIVE,
+            Coverage::ConservativeExtension => numbers::PRIMITIVE_COVERAGE_EXTENSION,
         };
         let accept = match self.accept {
             Accept::T => numbers::PRIMITIVE_ACCEPT_T,
@@ -268,7 +270,7 @@ impl Config {
             ("buckets", self.buckets.to_string()),
             ("pyramid", switch(self.has_pyramid())),
             ("pyramid-start", lower(&self.pyramid_start)),
-            ("coverage", lower(&self.coverage)),
+            ("coverage", self.coverage.name().to_owned()),
             ("accept", lower(&self.accept)),
             ("stop", lower(&self.stop)),
             ("depths", lower(&self.depths)),

@@ -5,9 +5,26 @@
 pub enum Coverage {
     /// All cells that the triangle reaches into, decided by a shared function; the rasterizer only proposes cells.
     Conservative,
+    /// Those of these that the rasterizer's own conservative rasterization touches (section 3.2): needs
+    /// [`rasray_gpu::Feature::ConservativeRasterization`], and loses what it does not touch.
+    ConservativeExtension,
     /// Those whose centre the rasterizer covers (section 4.2.4, where conservative rasterization is missing):
     /// rays that pass a listed triangle's neighbour are lost.
     Hardware,
+}
+
+impl Coverage {
+    /// Every coverage.
+    pub const ALL: [Self; 3] = [Self::Conservative, Self::ConservativeExtension, Self::Hardware];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Conservative => "conservative",
+            Self::ConservativeExtension => "conservative-extension",
+            Self::Hardware => "hardware",
+        }
+    }
 }
 
 /// When a triangle that a ray intersects is a hit.

@@ -6,11 +6,11 @@ use rasray_ads::{
     AdsError, BuildPipelines, CameraView, Dependencies, Design, Geometry, ListCounts, Parts, Pooled,
     RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, pools_of_words,
 };
-use rasray_gpu::{BindingSet, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Feature, Recorder, Requirements};
 
 use crate::build::Build;
 use crate::layout::{Demand, bin_groups, first_plan, formula_bytes, plan};
-use crate::{Centre, Config, Contents, Header, Pool, Views, well_formed};
+use crate::{Centre, Config, Contents, Coverage, Header, Pool, Views, well_formed};
 
 /// Lists of triangles per tile and depth bucket; made from a [`Config`].
 pub type PrimitiveLists = Pooled<Passes>;
@@ -94,7 +94,11 @@ impl Design for Passes {
     }
 
     fn requirements(config: &Config) -> Requirements {
-        config.builder.requirements()
+        let mut requirements = config.builder.requirements();
+        if config.coverage == Coverage::ConservativeExtension {
+            requirements.required.push(Feature::ConservativeRasterization);
+        }
+        requirements
     }
 
     fn constants(config: &Config) -> Vec<(u32, u32)> {

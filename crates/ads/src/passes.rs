@@ -2,8 +2,8 @@
 
 use bytemuck::bytes_of;
 use rasray_gpu::{
-    Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, RasterPipeline, RasterPipelineDesc,
-    Recorder, SetLayout, Stage,
+    Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, RasterOptions, RasterPipeline,
+    RasterPipelineDesc, Recorder, SetLayout, Stage,
 };
 use rasray_shaders_glsl::records::BuildConstants;
 
@@ -12,12 +12,13 @@ use crate::groups::folded;
 use crate::{AdsError, Geometry, Modules, PoolName, Pools, SceneBinding};
 
 /// Makes the pipelines of a build. Sets are geometry, structure and, where given, scene.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct BuildPipelines<'a> {
     device: &'a Device,
     modules: Modules,
     sets: Vec<&'a SetLayout>,
     constants: Vec<(u32, u32)>,
+    raster: RasterOptions,
 }
 
 impl<'a> BuildPipelines<'a> {
@@ -34,7 +35,14 @@ impl<'a> BuildPipelines<'a> {
         sets.extend(scene.map(|scene| &scene.layout));
         let constants =
             constants.iter().chain(scene.iter().flat_map(|scene| &scene.constants)).copied().collect();
-        Self { device, modules, sets, constants }
+        Self { device, modules, sets, constants, raster: RasterOptions::default() }
+    }
+
+    /// The same with draws that cover every pixel that a triangle touches, which need
+    /// [`Feature::ConservativeRasterization`](rasray_gpu::Feature::ConservativeRasterization).
+    #[must_use]
+    pub fn touching(&self) -> Self {
+        Self { raster: RasterOptions { conservative: true, ..self.raster }, ..self.clone() }
     }
 
     /// The label of the pass of the module of that name.
@@ -63,14 +71,15 @@ impl<'a> BuildPipelines<'a> {
     /// A module is not compiled in, or the device refuses it.
     pub fn raster(&self, vertex: &str, fragment: &str) -> Result<RasterPipeline, AdsError> {
         let (vertex, fragment) = (self.modules.find(vertex)?, self.modules.find(fragment)?);
-        Ok(self.device.create_raster_pipeline(&RasterPipelineDesc {
+        let desc = RasterPipelineDesc {
             name: fragment.name,
             vertex_spirv: &vertex.words(),
             fragment_spirv: &fragment.words(),
             sets: &self.sets,
             push_constant_bytes: size_of::<BuildConstants>() as u32,
             constants: &self.constants,
-        })?)
+        };
+        Ok(self.device.create_raster_pipeline_with(&desc, self.raster)?)
     }
 }
 

@@ -52,14 +52,7 @@ fn first_build(
     let refuse = |error: ExperimentError| FirstBuild::Other(error);
     let requirements = spec.requirements().map_err(|e| refuse(ExperimentError::usage(e.to_string(), "")))?;
     if let Some(missing) = requirements.required.iter().find(|feature| !device.has(**feature)) {
-        return Err(refuse(ExperimentError::device(
-            format!(
-                "system {} needs the feature {missing}, which {} lacks",
-                spec.system().name,
-                device.name()
-            ),
-            "choose another --device or --system",
-        )));
+        return Err(refuse(missing_feature(device, spec, *missing)));
     }
     let create = |geometry: &_| spec.create(device, geometry, Some(scene.binding()));
     let made: rasray_tracer::Refresh = match parts {
@@ -77,6 +70,21 @@ fn first_build(
             other => refuse(tracer_error(&other)),
         })?;
     Ok((structure, outcome))
+}
+
+/// A device that lacks what a system needs, or what one of its options asks for.
+fn missing_feature(device: &Device, spec: &Spec, missing: Feature) -> ExperimentError {
+    let (system, name) = (spec.system().name, device.name());
+    match spec.option_that_requires(missing) {
+        Some((option, value)) => ExperimentError::usage(
+            format!("--{option} {value} of {system} needs {missing}, which {name} lacks"),
+            format!("leave out --{option} {value}, or choose another --device"),
+        ),
+        None => ExperimentError::device(
+            format!("system {system} needs the feature {missing}, which {name} lacks"),
+            "choose another --device or --system",
+        ),
+    }
 }
 
 fn ads_error(error: AdsError, spec: &Spec) -> FirstBuild {

@@ -19,6 +19,9 @@ pub fn requirements() -> Requirements {
         .optional
         .push((GpuFeature::BufferDeviceAddress, "pools beyond the binding limit (--addressing address)"));
     requirements
+        .optional
+        .push((GpuFeature::ConservativeRasterization, "--coverage conservative-extension of dirt"));
+    requirements
 }
 
 /// The devices, and what the one in use means for each system.

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_experiment::{
-    AovSelection, CompareJob, Comparison, DeviceChoice, FinishedRun, Frame, HardJob, IntegratorRow,
+    AovSelection, CompareJob, Comparison, DeviceChoice, ExperimentError, FinishedRun, Frame, HardJob, IntegratorRow,
     IntegratorSpec, KeptScene, OccluderKind, OptionValues, Primary, RaySet, Refresh, RenderJob, RenderOutput,
     Sampler, Shard, SystemConfig, open,
 };
@@ -335,4 +335,26 @@ fn pictures_do_not_depend_on_what_was_kept() {
     }
     // At 0.5 s and at 1.25 s.
     assert_eq!(kept_kernels, 2);
+}
+
+/// What an option asks for and the device lacks is an error of the job, which names the option.
+#[test]
+fn an_option_whose_feature_the_device_lacks_is_to_be_left_out() {
+    let mut loaded = load(OsStr::new("cornell")).expect("a built-in scene");
+    loaded.light(None);
+    let mut backend = open(&DeviceChoice::default()).expect("a device");
+    let mut job = job(&loaded, &["dirt"], &[RaySet::Incoherent]);
+    let extension = OptionValues::default().with("coverage", Value::Word("conservative-extension"));
+    let dirt = System::named("dirt").expect("a system of the registry");
+    job.systems = vec![SystemConfig::new(dirt, Preset::Robust, extension)];
+    let goes_on = || ControlFlow::Continue(());
+    match backend.compare(&job, &mut |_, _| goes_on(), &mut |_| goes_on()) {
+        Ok(_) => println!("skipped: the device has VK_EXT_conservative_rasterization"),
+        Err(error) => {
+            assert!(matches!(error, ExperimentError::Usage { .. }), "{error}");
+            assert!(error.to_string().contains("VK_EXT_conservative_rasterization"), "{error}");
+            let help = error.help();
+            assert!(help.contains("leave out --coverage conservative-extension"), "{help}");
+        }
+    }
 }

@@ -47,7 +47,7 @@ const OPTIONS: &[Setter<Config>] = &[
     }),
     ("coverage", |config, given| {
         given
-            .choice(&[("conservative", Coverage::Conservative), ("hardware", Coverage::Hardware)])
+            .choice(&Coverage::ALL.map(|coverage| (coverage.name(), coverage)))
             .map(|value| config.coverage = value)
     }),
     ("accept", |config, given| {

@@ -164,17 +164,28 @@ pub const OPTIONS: &[StructureOption] = &[
             "What a fragment carries",
         ),
     ),
-    words(
-        "coverage",
-        Method,
-        MayChange,
-        &[
-            ("exact", "Those whose centre is inside, decided by the shared function"),
-            ("conservative", "Every cell it reaches into; with fragments, where no fragment represents it"),
-            ("edge-on", "The same for triangles that no cell keeps or that are seen edge-on"),
-            ("hardware", "Those that the rasterizer covers"),
-        ],
-        "Which cells a triangle is kept in",
+    trying(
+        // Few devices rasterize conservatively.
+        &["exact", "conservative", "edge-on", "hardware"],
+        words(
+            "coverage",
+            Method,
+            MayChange,
+            &[
+                ("exact", "Those whose centre is inside, decided by the shared function"),
+                (
+                    "conservative",
+                    "Every cell it reaches into; with fragments, where no fragment represents it",
+                ),
+                ("edge-on", "The same for triangles that no cell keeps or that are seen edge-on"),
+                ("hardware", "Those that the rasterizer covers"),
+                (
+                    "conservative-extension",
+                    "As conservative, where VK_EXT_conservative_rasterization touches them",
+                ),
+            ],
+            "Which cells a triangle is kept in",
+        ),
     ),
     words(
         "accept",

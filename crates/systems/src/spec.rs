@@ -1,7 +1,7 @@
 //! A row of the registry, and a system with everything that was chosen for it.
 
 use rasray_ads::{Counters, Geometry, RecordLayout, SceneBinding, Structure, StructureKind};
-use rasray_gpu::{Device, Requirements};
+use rasray_gpu::{Device, Feature, Requirements};
 use rasray_options::{OptionRow, OptionValues, Value};
 
 use crate::SystemsError;
@@ -252,6 +252,16 @@ impl Spec {
         (self.system.requirements)(self)
     }
 
+    /// The given option, as name and value, without which its structure does not require this feature of a device;
+    /// absent where no single one is why.
+    pub fn option_that_requires(&self, feature: Feature) -> Option<(&'static str, Value)> {
+        self.options.iter().find(|(option, _)| {
+            let others = self.options.iter().filter(|(other, _)| other != option).collect();
+            let without = Self::of(self.system, self.preset, others).and_then(|spec| spec.requirements());
+            without.is_ok_and(|requirements| !requirements.required.contains(&feature))
+        })
+    }
+
     /// What the hits of its structure are, without a device.
     ///
     /// # Errors
@@ -358,6 +368,21 @@ mod tests {
         let more = given.with_option("buckets", "2").expect("it is valid");
         assert_eq!((more.counters(), more.work_budget()), (Counters::PerRay, Some(40)));
         assert_eq!(more.options().len(), 2);
+    }
+
+    #[test]
+    fn an_option_is_named_that_requires_a_feature() {
+        let given = [("tile", "1"), ("coverage", "conservative-extension")];
+        let spec = spec("dirt", "robust", &given).expect("the options are valid");
+        let required = spec.requirements().expect("the options are valid").required;
+        let named = |feature| {
+            assert!(required.contains(&feature), "{feature}");
+            spec.option_that_requires(feature).map(|(option, value)| format!("{option} {value}"))
+        };
+        let extension = named(Feature::ConservativeRasterization);
+        assert_eq!(extension.as_deref(), Some("coverage conservative-extension"));
+        // Any coverage draws.
+        assert_eq!(named(Feature::FragmentStoresAndAtomics), None);
     }
 
     #[test]
