@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_experiment::{
-    AovSelection, CompareJob, Comparison, DeviceChoice, ExperimentError, FinishedRun, Frame, HardJob, IntegratorRow,
-    IntegratorSpec, KeptScene, OccluderKind, OptionValues, Primary, RaySet, Refresh, RenderJob, RenderOutput,
-    Sampler, Shard, SystemConfig, open,
+    AovSelection, CompareJob, Comparison, DeviceChoice, ExperimentError, FinishedRun, Frame, HardJob,
+    IntegratorRow, IntegratorSpec, KeptScene, OccluderKind, OptionValues, Primary, RaySet, Refresh,
+    RenderJob, RenderOutput, Sampler, Shard, SystemConfig, open,
 };
 use rasray_hard_cases::Scale;
 use rasray_options::Value;
