@@ -4,8 +4,7 @@
 // Source: Bürger et al. section 1.2, depth peeling; triangles tell equal depths apart, so that none is lost.
 #version 460
 #include "contract/extensions.glsl"
-#include "ldc/blocks.glsl"
-#include "ldc/covered.glsl"
+#include "ldc/visit.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_axis;
 
@@ -38,7 +37,6 @@ void main() {
         ldc_lower_depth(build.structure, place, bits);
     } else if (bits == ldc_bits_at(build.structure, place)) {
         ldc_lower_primitive(build.structure, place, primitive);
-        float stored = ldc_depth_of_bits(build.structure, bits);
-        ldc_widen_blocks(build.structure, view.axis, cell, stored, stored);
+        ldc_widen_by(primitive, view.axis, cell, bits);
     }
 }

@@ -6,9 +6,10 @@
 
 #include "ldc/accessors.glsl"
 
-// The first link of a cell's conservative list.
+// The first link of a cell's conservative list. Where rays meet triangles the other list holds all that reach into the cell.
 uint ldc_conservative_head(LdcRef s, uint cell) {
-    return LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE ? LDC_HEADS(s)[cell] : 0u;
+    bool kept = LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE && LDC_ACCEPT != LDC_ACCEPT_TRIANGLE;
+    return kept ? LDC_HEADS(s)[cell] : 0u;
 }
 
 #define ConservativeRef LdcRef

@@ -1,4 +1,4 @@
-// What: which cells a triangle covers in the view it faces most, and at which depth, the same for every builder.
+// What: which cells keep a triangle in the view it faces most, and at which depth, the same for every builder.
 // Reads: geometry, header, with ALPHA_SCENE the scene. Writes: nothing.
 // Where the rasterizer draws, without attachments, no layers are needed: the view travels as a varying.
 #ifndef LDC_COVERED_GLSL
@@ -7,6 +7,7 @@
 #include "contract/alpha.glsl"
 #include "ads/axis_views.glsl"
 #include "ads/geometry.glsl"
+#include "ads/reached.glsl"
 #include "ldc/header.glsl"
 #include "ldc/names.glsl"
 #include "ads/build_constants.glsl"
@@ -29,7 +30,8 @@ ivec2 ldc_cell_at(vec4 frag_coord) {
     return ivec2(frag_coord.xy) - 1;
 }
 
-// Depth and barycentrics of a triangle at a cell's centre; false where it gets no fragment there.
+// Depth and barycentrics of a triangle at a cell's centre; false where it gets no fragment there. Where rays meet
+// triangles every cell that it reaches into gets one, with the word of its depths in the cell (ads/reached.glsl).
 bool ldc_fragment(AxisView view, uint primitive, ivec2 cell, out float z, out vec2 barycentrics) {
     if (!axis_has_cell(view.resolution, cell)) {
         return false;
@@ -38,6 +40,16 @@ bool ldc_fragment(AxisView view, uint primitive, ivec2 cell, out float z, out ve
     vec3 b;
     vec3 c;
     ldc_view_vertices(view, primitive, a, b, c);
+    if (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE) {
+        if (!axis_reaches_into(view, a, b, c, cell)) {
+            return false;
+        }
+        float span;
+        float middle = reached_depth(view, a, b, c, cell, span);
+        z = reached_word(view, middle, span);
+        barycentrics = vec2(0.0);
+        return true;
+    }
     bool covers = axis_at_center(view, a, b, c, cell, z, barycentrics);
     if (LDC_COVERAGE == LDC_COVERAGE_HARDWARE && !covers) {
         vec3 center = axis_center(view, cell);

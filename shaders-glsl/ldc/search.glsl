@@ -7,6 +7,7 @@
 
 #include "ads/evaluate.glsl"
 #include "ads/evaluate_plane.glsl"
+#include "ads/reached.glsl"
 #include "ads/stored_words.glsl"
 #include "ldc/conservative.glsl"
 
@@ -42,7 +43,7 @@ float ldc_margin(LdcRef s) {
     if (LDC_ACCEPT == LDC_ACCEPT_TOLERANCE) {
         return LDC_HEADER(s).tolerance;
     }
-    // A plane has a slope of at most one cell per cell, and the ray may hit it before or behind its segment.
+    // Planes and triangles rise by at most one cell per cell. The ray may hit a plane before or behind its segment.
     float slack = LDC_ACCEPT == LDC_ACCEPT_PLANE ? 3.0 * LDC_PLANE_SLACK
         : (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE ? AXIS_DEPTH_SLACK : 0.0);
     return (1.001 + slack) * LDC_HEADER(s).cell + 2.0 * ldc_depth_rounding(s);
@@ -89,12 +90,6 @@ void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout T
         trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
         state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
     }
-}
-
-// Tests the triangle of a fragment or of a conservative list, wherever the ray hits it. The caller counts the test.
-void ldc_test_triangle(Ray ray, uint primitive, inout TraceState state) {
-    float infinity = uintBitsToFloat(0x7F800000u);
-    test_triangle(ray, primitive, -infinity, infinity, state.best);
 }
 
 // How far a fragment may be from the ray, by its triangle's own slope: its rise over half a cell, but no less than two
@@ -164,17 +159,27 @@ void ldc_evaluate_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint p
     }
 }
 
+// Reads the depth of a fragment.
+float ldc_read(LdcRef s, uint place, inout TraceState state, inout uint work) {
+    float z = ldc_depth(s, place);
+    work++;
+    state.entries++;
+    trace_log_visit(STEP_ENTRY, place, 0u, 0u, z, z);
+    return z;
+}
+
+// Whether a stored depth is that of a triangle that the ray may hit at any depth.
+bool ldc_is_anywhere(float z) {
+    return LDC_ACCEPT == LDC_ACCEPT_TRIANGLE && z == REACHED_ANY_DEPTH;
+}
+
 // The first place of a sorted list whose depth is not below z.
 uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout uint work) {
     uint begin = list.x;
     uint end = list.y;
     for (uint turn = 0u; turn < 32u && begin < end; turn++) {
         uint middle = begin + (end - begin) / 2u;
-        float found = ldc_depth(s, middle);
-        work++;
-        state.entries++;
-        trace_log_visit(STEP_ENTRY, middle, 0u, 0u, found, found);
-        if (found < z) {
+        if (ldc_read(s, middle, state, work) < z) {
             begin = middle + 1u;
         } else {
             end = middle;
@@ -186,8 +191,7 @@ uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout
 // Searches the nodes of the conservative list; true if the work budget ended first.
 bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout TraceState state, inout uint work) {
     vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
-    // Nodes have the depths of their triangles.
-    float margin = LDC_ACCEPT == LDC_ACCEPT_TRIANGLE ? AXIS_DEPTH_SLACK * search.sizes.cell : search.sizes.margin;
+    float margin = search.sizes.margin;
     while (search.place != 0u) {
         if (work >= work_budget) {
             return true;
@@ -202,16 +206,17 @@ bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout Tr
         }
         if (LDC_SKIP == 0u || conservative_intersects(node, depths.x - margin, depths.y + margin)) {
             state.tests++;
-            if (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE) {
-                ldc_test_triangle(ray, node.primitive, state);
-            } else {
-                test_with_planes(ray, node.primitive, search.t_low, search.t_high, state.best);
-            }
+            test_with_planes(ray, node.primitive, search.t_low, search.t_high, state.best);
         } else {
             trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
         }
     }
     return false;
+}
+
+// By how much less than the margin a fragment may be from the ray's depths: words of 32 bits say how far a triangle's reach.
+float ldc_margin_less(LdcSearch search, float z) {
+    return LDC_ACCEPT == LDC_ACCEPT_TRIANGLE && LDC_DEPTH_BITS == 32u ? search.sizes.cell * reached_less(z) : 0.0;
 }
 
 // Searches a cell; true if the work budget ended first.
@@ -226,20 +231,21 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
             search.begun = true;
             search.place = list.x;
             if (LDC_SKIP != 0u && ordered && list.y - list.x >= LDC_BISECTION_LENGTH) {
-                search.place = ldc_first_from(s, list, wanted.x, state, work);
+                // Triangles that may be hit at any depth come first: a list with any of them is read from its beginning.
+                bool from_begin = LDC_ACCEPT == LDC_ACCEPT_TRIANGLE
+                    && ldc_is_anywhere(ldc_read(s, list.x, state, work));
+                search.place = from_begin ? list.x : ldc_first_from(s, list, wanted.x, state, work);
             }
         }
         while (search.place < list.y) {
             if (work >= work_budget) {
                 return true;
             }
-            work++;
-            state.entries++;
             uint place = search.place;
-            float z = ldc_depth(s, place);
+            float z = ldc_read(s, place, state, work);
             search.place++;
-            trace_log_visit(STEP_ENTRY, place, 0u, 0u, z, z);
-            if (z < wanted.x || z > wanted.y) {
+            float less = ldc_margin_less(search, z);
+            if (!ldc_is_anywhere(z) && (z < wanted.x + less || z > wanted.y - less)) {
                 trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, wanted.x, wanted.y);
                 if (LDC_SKIP != 0u && ordered && z > wanted.y) {
                     break;
@@ -247,8 +253,7 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
                 continue;
             }
             if (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE) {
-                state.tests++;
-                ldc_test_triangle(ray, ldc_primitive(s, place), state);
+                test_anywhere(ray, ldc_primitive(s, place), state);
             } else if (LDC_ACCEPT == LDC_ACCEPT_PLANE) {
                 ldc_test_plane(s, ray, search, ldc_primitive(s, place), state);
             } else {

@@ -20,6 +20,21 @@ void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
     }
 }
 
+// Widens the depths of a cell's blocks by a depth stored for a triangle, by all of the triangle's where rays may hit it at
+// any.
+void ldc_widen_by(uint primitive, uint axis, ivec2 cell, uint bits) {
+    float z = ldc_depth_of_bits(build.structure, bits);
+    vec2 depths = vec2(z);
+    if (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE && z == REACHED_ANY_DEPTH) {
+        vec3 a;
+        vec3 b;
+        vec3 c;
+        ldc_view_vertices(ldc_built_view(axis), primitive, a, b, c);
+        depths = max(vec2(min(a.z, min(b.z, c.z)), max(a.z, max(b.z, c.z))), vec2(0.0));
+    }
+    ldc_widen_blocks(build.structure, axis, cell, depths.x, depths.y);
+}
+
 void ldc_visit_store(uint primitive, uint axis, ivec2 cell) {
     float z;
     vec2 barycentrics;
@@ -33,8 +48,7 @@ void ldc_visit_store(uint primitive, uint axis, ivec2 cell) {
     uint bits = ldc_depth_bits(build.structure, z);
     ldc_add_depth(build.structure, place, bits);
     ldc_set_primitive(build.structure, place, primitive);
-    float stored = ldc_depth_of_bits(build.structure, bits);
-    ldc_widen_blocks(build.structure, axis, cell, stored, stored);
+    ldc_widen_by(primitive, axis, cell, bits);
 }
 
 #endif

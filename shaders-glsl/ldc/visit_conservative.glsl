@@ -53,16 +53,11 @@ void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
     ldc_view_vertices(view, primitive, a, b, c);
     float z;
     vec2 barycentrics;
-    // Where rays meet triangles a fragment represents its own, and no other; with depths that rounding leaves open none.
-    bool triangles = LDC_ACCEPT == LDC_ACCEPT_TRIANGLE;
-    bool certain = !triangles || axis_depth_is_certain(view, a, b, c, place);
-    float z_nearest = min(a.z, min(b.z, c.z));
-    float z_farthest = max(a.z, max(b.z, c.z));
-    bool represented = certain || z_farthest - z_nearest <= view.cell;
-    if (!axis_reaches_into(view, a, b, c, place)
-        || (represented && axis_at_center(view, a, b, c, place, z, barycentrics))) {
+    if (!axis_reaches_into(view, a, b, c, place) || axis_at_center(view, a, b, c, place, z, barycentrics)) {
         return;
     }
+    float z_nearest = min(a.z, min(b.z, c.z));
+    float z_farthest = max(a.z, max(b.z, c.z));
     vec2 center = axis_center(view, place).xy;
     vec2 point = triangle_nearest_point(a.xy, b.xy, c.xy, center);
     float z_point = clamp(axis_plane_depth(a, b, c, point), z_nearest, z_farthest);
@@ -71,14 +66,12 @@ void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
     // A triangle far smaller than a cell is not represented by a surface that is near it only in units of the cell.
     vec3 sides = max(a, max(b, c)) - min(a, min(b, c));
     float size = min(view.cell, max(sides.x, max(sides.y, sides.z)));
-    if (!triangles && ldc_is_stood_for(view, cell, primitive, point, z_point, z_center, CONSERVATIVE_DEPTH * size)) {
+    if (ldc_is_stood_for(view, cell, primitive, point, z_point, z_center, CONSERVATIVE_DEPTH * size)) {
         return;
     }
     float extent = axis_extent(view, a, b, c);
     // The part of the triangle within the cell.
-    float z_low = certain ? clamp(z_center - extent, z_nearest, z_farthest) : z_nearest;
-    float z_high = certain ? clamp(z_center + extent, z_nearest, z_farthest) : z_farthest;
-    vec2 depths = max(vec2(z_low, z_high), vec2(0.0));
+    vec2 depths = max(clamp(z_center + vec2(-extent, extent), z_nearest, z_farthest), vec2(0.0));
     ldc_widen_blocks(build.structure, view.axis, place, depths.x, depths.y);
     conservative_add(build.structure, cell, primitive, depths);
 }

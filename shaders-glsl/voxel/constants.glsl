@@ -68,10 +68,6 @@
 // Maximum voxels along a side: three coordinates share a word of a paused ray.
 #define VOXEL_GRID_LIMIT 1024u
 
-// With conservative coverage, the depth of a triangle that may be hit at any depth of its cell: rounding leaves open how
-// its plane lies.
-#define VOXEL_ANY_DEPTH 0.0
-
 // Bits of a voxel: one for each axis it is searched along, and one for an occupied voxel.
 #define VOXEL_OCCUPIED 8u
 #define VOXEL_BITS 4u

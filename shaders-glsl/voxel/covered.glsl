@@ -7,6 +7,7 @@
 #define VOXEL_COVERED_GLSL
 
 #include "ads/geometry.glsl"
+#include "ads/reached.glsl"
 #include "voxel/lists.glsl"
 #include "voxel/names.glsl"
 #include "ads/build_constants.glsl"
@@ -25,37 +26,6 @@ vec3 voxel_unit_normal(vec3 a, vec3 b, vec3 c) {
     // Scaled first, so that no square overflows or vanishes.
     float largest = max(abs(normal.x), max(abs(normal.y), abs(normal.z)));
     return largest > 0.0 ? normalize(normal / largest) : vec3(0.0);
-}
-
-// The middle of the depths that a triangle has in a cell that it reaches into, and half their span in `span`; of all its
-// depths where rounding leaves those open. a, b, c in the frame of a view, which the triangle faces most. Precise: all
-// builders store the same.
-float voxel_reached_depth(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell, out float span) {
-    float nearest = min(a.z, min(b.z, c.z));
-    float farthest = max(a.z, max(b.z, c.z));
-    precise vec3 ab = b - a;
-    precise vec3 ac = c - a;
-    precise vec3 normal = abs(ab.yzx * ac.zxy - ab.zxy * ac.yzx);
-    precise float rise = min(0.5 * (normal.x + normal.y) / max(normal.z, 1.0e-30), 1.0) * view.cell;
-    rise = axis_depth_is_certain(view, a, b, c, cell) ? rise : farthest - nearest;
-    float z = clamp(axis_plane_depth(a, b, c, axis_center(view, cell).xy), nearest, farthest);
-    precise float low = clamp(z - rise, nearest, farthest);
-    precise float high = clamp(z + rise, nearest, farthest);
-    precise float half_span = 0.5 * (high - low);
-    span = half_span;
-    precise float middle = low + half_span;
-    return middle;
-}
-
-// The stored word of a triangle in a cell that it reaches into: the middle of its depths there, in whose last two bits
-// is half their span: an eighth of a cell, a quarter, a half or all of one. VOXEL_ANY_DEPTH where it is more.
-float voxel_reached_word(AxisView view, float middle, float span) {
-    if (span > 1.001 * view.cell) {
-        return VOXEL_ANY_DEPTH;
-    }
-    precise vec3 spans = vec3(0.125, 0.25, 0.5) * view.cell;
-    uint size = span <= spans.x ? 0u : (span <= spans.y ? 1u : (span <= spans.z ? 2u : 3u));
-    return uintBitsToFloat((floatBitsToUint(max(middle, 1.0e-30)) & ~3u) | size);
 }
 
 // What a fragment invocation finds in its cell.
@@ -87,7 +57,7 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
         if (!axis_reaches_into(view, a, b, c, cell)) {
             return false;
         }
-        found.z = voxel_reached_depth(view, a, b, c, cell, span);
+        found.z = reached_depth(view, a, b, c, cell, span);
     } else if (VOXEL_COVERAGE == VOXEL_COVERAGE_EXACT) {
         if (!axis_at_center(view, a, b, c, cell, found.z, found.barycentrics)) {
             return false;
@@ -113,7 +83,7 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
     ivec3 voxel = clamp(ivec3(floor(place)), ivec3(0), ivec3(VOXEL_HEADER(build.structure).grid) - 1);
     found.voxel = voxel_index(build.structure, axis_to_world(voxel, axis));
     if (VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE) {
-        found.z = voxel_reached_word(view, found.z, span);
+        found.z = reached_word(view, found.z, span);
     }
     return true;
 }

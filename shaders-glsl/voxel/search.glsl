@@ -8,6 +8,7 @@
 #include "contract/trace_log.glsl"
 #include "ads/evaluate.glsl"
 #include "ads/evaluate_plane.glsl"
+#include "ads/reached.glsl"
 #include "voxel/traversal.glsl"
 
 bool voxel_lists_sorted(VoxelRef s) {
@@ -62,7 +63,7 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
         trace_log(STEP_LIST, index, max(cursor.link, 1u) - 1u, cursor.last, low, high);
         if (sorted && voxel_contiguous() && cursor.link != 0u && cursor.last - cursor.link >= VOXEL_BISECT_FROM) {
             uvec2 list = uvec2(cursor.link - 1u, cursor.last);
-            if (!triangles || voxel_read(s, list.x, state, work) != VOXEL_ANY_DEPTH) {
+            if (!triangles || voxel_read(s, list.x, state, work) != REACHED_ANY_DEPTH) {
                 uint first = voxel_bisect(s, list, low, state, work);
                 cursor.link = first < cursor.last ? first + 1u : 0u;
             }
@@ -83,14 +84,14 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
         state.entries++;
         float z = voxel_z(s, place);
         trace_log_visit(STEP_ENTRY, place, 0u, 0u, z, z);
-        bool anywhere = triangles && z == VOXEL_ANY_DEPTH;
+        bool anywhere = triangles && z == REACHED_ANY_DEPTH;
         if (z > high && sorted && !anywhere) {
             trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
             return false;
         }
         uint primitive = voxel_primitive(s, place);
         // With conservative coverage the last two bits of a depth say how far the triangle's depths reach from it.
-        float less = triangles ? width * (1.0 - 0.125 * float(1u << (floatBitsToUint(z) & 3u))) : 0.0;
+        float less = triangles ? width * reached_less(z) : 0.0;
         if ((z < low + less || z > high - less) && !anywhere) {
             trace_log(STEP_FRAGMENT, primitive, TEST_OUTSIDE_CELL, 0u, 0.0, z);
             continue;

@@ -96,6 +96,7 @@ const REFUSED: &[(&str, usize)] = &[
     ("bricks robust with views=cube", 10),
     ("bvh robust", 4),
     ("ldc robust", 2),
+    ("ldc robust with accept=plane", 2),
     ("mmrt robust", 4),
     ("mmrt robust with coverage=exact", 4),
     ("mmrt robust with payload=plane", 4),

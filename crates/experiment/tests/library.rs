@@ -348,7 +348,7 @@ fn an_option_whose_feature_the_device_lacks_is_to_be_left_out() {
     let dirt = System::named("dirt").expect("a system of the registry");
     job.systems = vec![SystemConfig::new(dirt, Preset::Robust, extension)];
     let goes_on = || ControlFlow::Continue(());
-    match backend.compare(&job, &mut |_, _| goes_on(), &mut |_| goes_on()) {
+    match backend.compare(&job, &mut |_| goes_on(), &mut |_| goes_on()) {
         Ok(_) => println!("skipped: the device has VK_EXT_conservative_rasterization"),
         Err(error) => {
             assert!(matches!(error, ExperimentError::Usage { .. }), "{error}");

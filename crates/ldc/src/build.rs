@@ -10,7 +10,7 @@ use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 
 use crate::layout::{cell_count, layer_capacity, scratch};
-use crate::{Config, Coverage, Depth, Header, Making, Payload, Pool};
+use crate::{Accept, Config, Depth, Header, Making, Payload, Pool};
 
 /// Pipelines of the build: the design of [`LayeredDepthCube`](crate::LayeredDepthCube).
 #[derive(Debug)]
@@ -51,8 +51,10 @@ impl Build {
         }
         let masked = SceneBinding::mask_suffix(scene);
         let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
-        let covered = |name| visits.visit("build_raster", name, masked);
-        let draw = |name| pipelines.raster("build_raster", &format!("{name}{masked}"));
+        let proposed =
+            if config.accept == Accept::Triangle { "build_raster.conservative" } else { "build_raster" };
+        let covered = |name| visits.visit(proposed, name, masked);
+        let draw = |name| pipelines.raster(proposed, &format!("{name}{masked}"));
         let layers = match config.making {
             Making::Single => Layers::Single {
                 store: covered("build_4_store")?,
@@ -60,12 +62,12 @@ impl Build {
             },
             Making::Peel => Layers::Peel { peel: draw("build_5_peel")?, grow: draw("build_2_count")? },
         };
-        let kept = config.coverage == Coverage::Conservative;
         Ok(Self {
             large: visits.large("build_1_large")?,
             lengths: Lengths::new(pipelines, covered("build_2_count")?, "build_3_scan")?,
             layers,
-            conservative: kept
+            conservative: config
+                .has_conservative_lists()
                 .then(|| visits.visit("build_raster.conservative", "build_6_conservative", ""))
                 .transpose()?,
             attributes: stored.then(|| pipelines.compute("build_9_attributes")).transpose()?,

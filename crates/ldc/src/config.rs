@@ -13,8 +13,8 @@ pub enum Accept {
     Slope,
     /// The ray intersects the plane of its triangle within the cell.
     Plane,
-    /// The ray intersects its triangle, wherever that is. With [`Coverage::Conservative`], which it needs, every cell
-    /// keeps all triangles that reach into it, and hits are those of brute force.
+    /// The ray intersects its triangle, wherever that is. With [`Coverage::Conservative`], which it needs, the list of
+    /// every cell holds all triangles that reach into it, and hits are those of brute force.
     Triangle,
 }
 
@@ -26,7 +26,7 @@ pub enum Coverage {
     /// Those whose centre it covers by a watertight test; the rasterizer only proposes.
     Exact,
     /// The same, and it is kept in other cells that it reaches into, where no fragment represents
-    /// it: there hits on the triangle itself count.
+    /// it: there hits on the triangle itself count. With [`Accept::Triangle`] all cells that it reaches into.
     Conservative,
 }
 
@@ -86,7 +86,7 @@ pub struct Config {
     pub accept: Accept,
     /// Share of the cube's side, 0 to 1; only for [`Accept::Tolerance`].
     pub tolerance: f32,
-    /// Whether rays hit what they leave and end on; not for [`Accept::Plane`].
+    /// Whether rays hit what they leave and end on; only for [`Accept::Tolerance`] and [`Accept::Slope`].
     pub ends: Ends,
     /// How coverage is decided.
     pub coverage: Coverage,
@@ -117,7 +117,7 @@ pub struct Config {
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The repaired structure: planes, full depth, and nothing lost between the views.
+    /// The repaired structure: triangles in every cell that they reach into, so that hits are those of brute force.
     pub fn robust(resolution: u32) -> Self {
         Self {
             resolution,
@@ -126,7 +126,7 @@ impl Config {
             occupancy: Occupancy::Slices,
             making: Making::Single,
             layers: 256,
-            accept: Accept::Plane,
+            accept: Accept::Triangle,
             tolerance: 0.001,
             ends: Ends::Clear,
             coverage: Coverage::Conservative,
@@ -207,6 +207,11 @@ impl Config {
     /// Whether what rays hit may lie before or behind the surface, so that [`Config::ends`] matter.
     fn has_ends(&self) -> bool {
         matches!(self.accept, Accept::Tolerance | Accept::Slope)
+    }
+
+    /// Whether triangles are kept beside the lists of fragments: where rays meet triangles those lists hold all.
+    pub(crate) fn has_conservative_lists(&self) -> bool {
+        self.coverage == Coverage::Conservative && self.accept != Accept::Triangle
     }
 
     /// Bytes of a fragment's payload, and of the triangle that is kept for diagnostics.

@@ -4,7 +4,7 @@ use rasray_ads::{AdsError, Scan, Scratch, Sizes};
 
 use rasray_shaders_glsl::constants::ldc::LDC_LEVEL_BLOCKS;
 
-use crate::{Builder, Config, Coverage, Depth, Header, Making, Occupancy, Payload, Pool};
+use crate::{Accept, Builder, Config, Coverage, Depth, Header, Making, Occupancy, Payload, Pool};
 
 /// Cells of all three views.
 pub fn cell_count(resolution: u32) -> u64 {
@@ -50,10 +50,8 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         Occupancy::Bounds => 8,
         Occupancy::Slices => 16,
     };
-    let (heads, conservative) = match config.coverage {
-        Coverage::Conservative => (cells, demand.conservative),
-        Coverage::Exact | Coverage::Hardware => (0, 0),
-    };
+    let (heads, conservative) =
+        if config.has_conservative_lists() { (cells, demand.conservative) } else { (0, 0) };
     let sizes = [
         (Pool::Header, 1, size_of::<Header>() as u64),
         (Pool::Lists, cells, 4),
@@ -97,7 +95,7 @@ pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
 /// Bytes for counted cells, offsets of fragments, triangles outside of centres and long lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Per cell: the end of its list 4, and with conservative coverage the head of its conservative list 4.
+    /// Per cell: the end of its list 4, and where there is one the head of its conservative list 4.
     pub cells: u64,
     /// Per block: smallest and largest depth 8, and slices 8 where it keeps them.
     pub blocks: u64,
@@ -127,7 +125,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let upper = if config.levels == 2 { across.div_ceil(8) * along.div_ceil(8) } else { 0 };
     let block_bytes = if config.occupancy == Occupancy::Slices { 16 } else { 8 };
     let cells = side * side * 3;
-    let kept = config.coverage == Coverage::Conservative;
+    let kept = config.coverage == Coverage::Conservative && config.accept != Accept::Triangle;
     // Depths of 16 bits fill whole words.
     let depths = if config.depth == Depth::Bits16 { 4 * fragments.div_ceil(2) } else { 4 * fragments };
     let payload = if config.payload == Payload::Attributes { 8 } else { 4 };
@@ -150,15 +148,15 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Accept;
 
     #[test]
     fn plan_equals_formula() {
-        for (resolution, block, depth, coverage) in [
-            (64, [8, 8], Depth::Bits32, Coverage::Conservative),
-            (100, [64, 2], Depth::Bits16, Coverage::Hardware),
-            (33, [1, 4], Depth::Bits16, Coverage::Exact),
-            (1, [2, 2], Depth::Bits32, Coverage::Exact),
+        for (resolution, block, depth, coverage, accept) in [
+            (64, [8, 8], Depth::Bits32, Coverage::Conservative, Accept::Plane),
+            (64, [8, 8], Depth::Bits16, Coverage::Conservative, Accept::Triangle),
+            (100, [64, 2], Depth::Bits16, Coverage::Hardware, Accept::Plane),
+            (33, [1, 4], Depth::Bits16, Coverage::Exact, Accept::Plane),
+            (1, [2, 2], Depth::Bits32, Coverage::Exact, Accept::Slope),
         ] {
             for (occupancy, levels, making) in
                 [(Occupancy::Slices, 2, Making::Single), (Occupancy::Bounds, 1, Making::Peel)]
@@ -166,7 +164,8 @@ mod tests {
                 let robust = Config::robust(resolution);
                 let binned = making == Making::Single && coverage != Coverage::Hardware;
                 let builder = if binned { Builder::Binning } else { Builder::Raster };
-                let config = Config { block, depth, coverage, builder, occupancy, levels, making, ..robust };
+                let config =
+                    Config { block, depth, coverage, accept, builder, occupancy, levels, making, ..robust };
                 let stored = Config { payload: Payload::Attributes, accept: Accept::Tolerance, ..config };
                 let named = Config { ids: true, ..stored };
                 for (config, fragments) in [config, stored, named]
@@ -193,7 +192,8 @@ mod tests {
         assert!(refused(Config { work_budget: Some(1), ..Config::robust(64) }).contains("work budget"));
         let nameless = refused(Config { payload: Payload::Attributes, ..Config::robust(64) });
         assert!(nameless.contains("accept") && nameless.contains("payload"), "{nameless}");
-        let asked = |demand| plan(&Config::robust(64), demand).expect_err("refused").to_string();
+        let planes = Config { accept: Accept::Plane, ..Config::robust(64) };
+        let asked = |demand| plan(&planes, demand).expect_err("refused").to_string();
         assert!(asked(Demand { fragments: 1 << 32, ..Demand::default() }).contains("depths"));
         assert!(asked(Demand { conservative: 1 << 31, ..Demand::default() }).contains("conservative"));
     }

@@ -139,9 +139,12 @@ impl Design for Build {
     }
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
-        // One cell's conservative list may hold everything: a small object in a large world.
-        parts.usual_rounds()
-            + parts.rounds(header.conservative_demand.min(parts.elements(Pool::Conservative) as u32))
+        // One cell may hold everything: a small object in a large world.
+        let deepest = match parts.config.accept {
+            Accept::Triangle => header.demand.min(parts.geometry.triangle_count()),
+            _ => header.conservative_demand.min(parts.elements(Pool::Conservative) as u32),
+        };
+        parts.usual_rounds() + parts.rounds(deepest)
     }
 
     fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {

@@ -3,7 +3,7 @@
 use rasray_ads::ListCounts;
 use rasray_shaders_glsl::constants::ldc::{LDC_LEVEL_BLOCKS, LDC_SLICES};
 
-use crate::{Config, Coverage, Depth, Header, Occupancy, Payload, cell_count};
+use crate::{Accept, Config, Depth, Header, Occupancy, Payload, cell_count};
 
 /// All pools as downloaded, in words.
 #[derive(Clone, Debug)]
@@ -211,7 +211,9 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
                 return Err(Fault::Primitive { cell, primitive });
             }
             let z = contents.depth(place);
-            if !contents.blocks_hold(cell, z) {
+            // A triangle that may be hit at any depth has none, and its blocks' are those of its corners.
+            let anywhere = contents.config.accept == Accept::Triangle && contents.depth_bits(place) == 0;
+            if !anywhere && !contents.blocks_hold(cell, z) {
                 return Err(Fault::Depth { cell, place, z: z.to_string() });
             }
             let key = (contents.depth_bits(place), primitive);
@@ -232,7 +234,7 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
     if listed != stored {
         return Err(Fault::Count { stored, listed });
     }
-    let kept = contents.config.coverage == Coverage::Conservative;
+    let kept = contents.config.has_conservative_lists();
     let stored = if kept { contents.header.conservative_demand as usize } else { 0 };
     if nodes == stored { Ok(()) } else { Err(Fault::Count { stored, listed: nodes }) }
 }

@@ -109,6 +109,31 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
     Given::apply_all(spec, OPTIONS, &mut config)?;
+    // A coverage that triangles do not go with asks for planes.
+    let is_default = spec.options().get("accept").is_none();
+    if is_default && config.accept == Accept::Triangle && config.coverage != Coverage::Conservative {
+        config.accept = Accept::Plane;
+    }
     config.validate()?;
     Ok(config)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn accepted(options: &[(&str, &str)]) -> Result<Accept, SystemsError> {
+        let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        config(&Spec::new("ldc", "robust", given)?).map(|config| config.accept)
+    }
+
+    #[test]
+    fn triangles_are_hit_unless_another_coverage_asks_for_planes() {
+        let found = |options| accepted(options).expect("the options are valid");
+        assert_eq!(found(&[]), Accept::Triangle);
+        assert_eq!(found(&[("coverage", "exact")]), Accept::Plane);
+        assert_eq!(found(&[("coverage", "conservative")]), Accept::Triangle);
+        let refused = accepted(&[("coverage", "exact"), ("accept", "triangle")]).expect_err("holes");
+        assert!(refused.to_string().contains("accept"), "{refused}");
+    }
 }

@@ -76,8 +76,8 @@ fn every_feature_can_be_missing_or_is_missed_by_name() {
     println!("{compared} comparisons, {refused} refusals");
     assert!(compared > 0 && refused > 3);
     // A list of hits of another resolution is not the same: the comparison can fail.
-    let coarse = spec("ldc", "robust").and_then(|spec| Ok(spec.with_option("resolution", "16")?));
-    let position = subjects.iter().position(|spec| name(spec) == "ldc robust").expect("registered");
+    let coarse = spec("selective", "robust").and_then(|spec| Ok(spec.with_option("resolution", "16")?));
+    let position = subjects.iter().position(|spec| name(spec) == "selective robust").expect("registered");
     assert_ne!(bits(&device, &coarse.expect("an option")).expect("hits"), expected[position]);
     assert_eq!(finish(device), Vec::<String>::new());
 }

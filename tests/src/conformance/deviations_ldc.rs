@@ -22,7 +22,7 @@ const NEAR: &str =
 const DETAIL: &str = "detail smaller than a cell, most of which covers no cell's centre";
 
 /// Cases whose errors fall with the size of a cell as others do, from a higher start.
-pub(super) const ROBUST_LAWS: &[Law] = &[
+pub(super) const PLANES_LAWS: &[Law] = &[
     line("E2", SILHOUETTE, 2.0),
     line("E2-far", COARSE, 12.0),
     line("E2-400-far", COARSE, 36.0),

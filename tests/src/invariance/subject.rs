@@ -26,7 +26,7 @@ const MORE: &[Row] = &[
 
 /// More of them, in the full tier only.
 const LARGE: &[Row] = &[
-    ("ldc", "robust", &[("accept", "triangle"), ("resolution", "16")]),
+    ("ldc", "robust", &[("accept", "plane"), ("resolution", "16")]),
     ("hu", "robust", &[("coverage", "exact"), ("resolution", "16")]),
     ("mmrt", "robust", &[("single-layer", "on"), ("resolution", "24"), ("capacity", "40000")]),
     ("mmrt", "robust", &[("payload", "plane"), ("resolution", "24"), ("capacity", "40000")]),

@@ -135,7 +135,7 @@ const fn laws(case: &'static str, per_cell: f64, others: f64) -> [[Law; 1]; 2] {
 }
 
 /// Rows of fragments in the quick tier, all with 64 cells along a side.
-const FRAGMENTS: [&str; 3] = ["mmrt-centres-64", "hu-centres-64", "ldc-robust-64"];
+const FRAGMENTS: [&str; 3] = ["mmrt-centres-64", "hu-centres-64", "ldc-planes-64"];
 
 /// Rows that find triangles, and those of fragments whose rules are robust: of each structure one in the quick tier. Those
 /// of a law are held to that of the scene, and where it states none only to what the structure answers when it is made anew.

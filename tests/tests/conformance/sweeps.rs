@@ -135,7 +135,7 @@ fn steps_shorter_than_the_gap_between_plates_tell_them_apart() {
 fn halves_lose_pairs_that_floats_tell_apart() {
     const DEPTHS: usize = 4;
     let bench = Bench::new();
-    let robust = rasray_ldc::Config::robust(256);
+    let planes = rasray_ldc::Config { accept: rasray_ldc::Accept::Plane, ..rasray_ldc::Config::robust(256) };
     let floats = rasray_ldc::Config {
         depth: rasray_ldc::Depth::Bits32,
         payload: rasray_ldc::Payload::Index,
@@ -144,7 +144,7 @@ fn halves_lose_pairs_that_floats_tell_apart() {
     };
     let halves = rasray_ldc::Config { depth: rasray_ldc::Depth::Bits16, ..floats };
     for (name, config, bands) in [
-        ("planes", robust, [[0.0, 0.0]; DEPTHS]),
+        ("planes", planes, [[0.0, 0.0]; DEPTHS]),
         ("floats", floats, [[0.9, 1.0], [0.0, 0.005], [0.0, 0.005], [0.0, 0.005]]),
         ("halves", halves, [[0.9, 1.0], [0.05, 0.2], [0.2, 0.4], [0.2, 0.5]]),
     ] {

@@ -156,7 +156,7 @@ fn payloads() -> Vec<Spec> {
         spec("hu", "robust", &[("resolution", "96"), ("coverage", "exact")]),
         spec("mmrt", "robust", &[("resolution", "64"), ("coverage", "exact")]),
         spec("selective", "robust", &[("resolution", "96"), ("grid", "24")]),
-        spec("ldc", "robust", &[("resolution", "96")]),
+        spec("ldc", "robust", &[("resolution", "96"), ("accept", "plane")]),
         spec("hu", "robust", &[("leaves", "voxels"), ("resolution", "48")]),
     ]
 }
@@ -288,7 +288,7 @@ fn compare(bench: &Bench, name: &str, scene: &Scene) {
         ("mmrt", &[("coverage", "exact"), ("march", "exact"), ("storage", "dllb")]),
         ("hu", &[("coverage", "exact")]),
         ("selective", &[]),
-        ("ldc", &[]),
+        ("ldc", &[("accept", "plane")]),
     ];
     for (system, options) in of_fragments {
         let given = [("resolution", "192")].into_iter().chain(options.iter().copied()).collect::<Vec<_>>();

@@ -21,7 +21,7 @@ const RAYS: usize = 1500;
 const EXACT: &[(&str, &[(&str, &str)])] = &[
     ("dirt", &[("resolution", "64")]),
     ("hu", &[("resolution", "64"), ("coverage", "conservative")]),
-    ("ldc", &[("resolution", "64"), ("accept", "triangle")]),
+    ("ldc", &[("resolution", "64")]),
     ("mmrt", &[("resolution", "64"), ("coverage", "conservative"), ("builder", "binning")]),
     ("mmrt", &[("resolution", "64"), ("coverage", "conservative"), ("storage", "sb"), ("march", "pyramid")]),
     ("hu", &[("resolution", "64"), ("coverage", "conservative"), ("builder", "binning")]),

@@ -301,7 +301,7 @@ const FRAGMENTS: &[Row] = &[
     ("mmrt", "published", &[("resolution", "192"), ("payload", "index")]),
     ("mmrt", "published", &[("resolution", "192"), ("payload", "attributes")]),
     ("mmrt", "published", &[("resolution", "192"), ("payload", "normal")]),
-    ("ldc", "robust", &[("resolution", "192")]),
+    ("ldc", "robust", &[("resolution", "192"), ("accept", "plane")]),
     ("ldc", "published", &[("resolution", "192"), ("payload", "index")]),
     ("ldc", "published", &[("resolution", "192"), ("payload", "attributes")]),
     ("hu", "robust", &[("resolution", "192"), ("coverage", "exact")]),

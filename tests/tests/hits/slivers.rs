@@ -17,9 +17,9 @@ const EXACT: &[(&str, &[(&str, &str)])] = &[
     ("hu", &[("resolution", "512")]),
     ("hu", &[("resolution", "21"), ("grid", "7"), ("storage", "ll")]),
     ("selective", &[("resolution", "64"), ("coverage", "conservative")]),
-    ("ldc", &[("resolution", "64"), ("accept", "triangle")]),
-    ("ldc", &[("resolution", "256"), ("accept", "triangle"), ("depth", "16")]),
-    ("ldc", &[("resolution", "21"), ("accept", "triangle"), ("build", "peel")]),
+    ("ldc", &[("resolution", "64")]),
+    ("ldc", &[("resolution", "256"), ("depth", "16")]),
+    ("ldc", &[("resolution", "21"), ("build", "peel")]),
 ];
 
 #[test]

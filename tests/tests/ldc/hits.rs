@@ -12,6 +12,8 @@ use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tracer::build_until_complete;
 
+use crate::ldc::planes;
+
 fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> LayeredDepthCube {
     let geometry = bench.geometry(triangles);
     let mut structure =
@@ -47,7 +49,7 @@ fn tilted_box() -> Vec<Triangle> {
     closed_box([-2.0, -1.9, -1.7], [2.0, 1.8, 1.6]).into_iter().map(|triangle| triangle.map(turn)).collect()
 }
 
-/// Walls of a room touch at edges between views. Robust cubes lose no ray at any resolution; without conservative
+/// Walls of a room touch at edges between views. Planes lose no ray at any resolution; without conservative
 /// lists rays leave through the edges, fewer the smaller cells are. Rays start farther from the walls than
 /// two cells: closer to its origin a plane may be the one that a ray leaves.
 #[test]
@@ -65,9 +67,9 @@ fn no_ray_leaves_a_closed_room_through_its_edges() {
         hits.iter().filter(|hit| !hit.is_hit()).count()
     };
     for resolution in [16, 33, 100] {
-        assert_eq!(escaped(Config::robust(resolution)), 0, "resolution {resolution}");
+        assert_eq!(escaped(planes(resolution)), 0, "resolution {resolution}");
     }
-    let open = |resolution| escaped(Config { coverage: Coverage::Exact, ..Config::robust(resolution) });
+    let open = |resolution| escaped(Config { coverage: Coverage::Exact, ..planes(resolution) });
     let (coarse, fine) = (open(16), open(128));
     assert!(
         coarse > 2 * fine && fine > 0,
@@ -83,7 +85,7 @@ fn a_lamp_is_not_taken_for_its_ceiling() {
     let scene = stage(&bench, "cornell", 16);
     let (geometry, binding) = (scene.geometry(), Some(scene.binding()));
     let mut structure =
-        LayeredDepthCube::new(bench.device(), Config::robust(32), geometry, binding).expect("valid options");
+        LayeredDepthCube::new(bench.device(), planes(32), geometry, binding).expect("valid options");
     build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
         .expect("the build completes");
     let every_triangle = BruteForce::new(bench.device(), geometry, binding, false).expect("pipelines");
@@ -135,7 +137,7 @@ fn depth_on_walls_is_that_of_the_triangles() {
     let rays = random_rays(5, 2000, -0.4, 0.4);
     let expected = brute_force(&bench, &triangles, &rays);
     for (resolution, depth) in [(16, Depth::Bits32), (64, Depth::Bits32), (64, Depth::Bits16)] {
-        let structure = made(&bench, Config { depth, ..Config::robust(resolution) }, &triangles);
+        let structure = made(&bench, Config { depth, ..planes(resolution) }, &triangles);
         for (ray, (hit, expected)) in bench.trace(&structure, &rays).hits.iter().zip(&expected).enumerate() {
             let difference = (hit.t - expected.t).abs();
             assert!(difference <= 4.0e-6 * expected.t.max(1.0e-2), "ray {ray}: {hit:?} for {expected:?}");
@@ -153,7 +155,7 @@ fn errors_on_a_closed_mesh_fall_with_the_size_of_a_cell() {
     let truths = oracle.closest_batch(&rays.iter().map(oracle_ray).collect::<Vec<_>>());
     let mut shares = Vec::new();
     for resolution in [32, 64, 128] {
-        let structure = made(&bench, Config::robust(resolution), &triangles);
+        let structure = made(&bench, planes(resolution), &triangles);
         let (mut wrong, mut missed, mut total) = (0_u32, 0_u32, 0_u32);
         for (hit, truth) in bench.trace(&structure, &rays).hits.iter().zip(&truths) {
             let Some((primitive, t)) = truth.outcome.hit().filter(|_| !truth.ambiguous) else { continue };
@@ -200,7 +202,7 @@ fn a_deep_cell_finds_every_layer() {
             })
             .collect();
         for bits in [Depth::Bits32, Depth::Bits16] {
-            let config = Config { coverage: Coverage::Exact, depth: bits, ..Config::robust(8) };
+            let config = Config { coverage: Coverage::Exact, depth: bits, ..planes(8) };
             let structure = made(&bench, config, &triangles);
             let status = structure.status(0).expect("the header is readable");
             assert_eq!((status.unsorted, status.corrupted), (0, 0), "{status:?}");
@@ -218,6 +220,36 @@ fn a_deep_cell_finds_every_layer() {
                 assert!((hit.t - 5.0e-5).abs() <= 1.0e-6, "ray {index}: {}", hit.t);
             }
         }
+    }
+}
+
+/// Two thousand triangles in one cell, none of which covers its centre: a ray finds those at its depths by bisection, and
+/// reads no others.
+#[test]
+fn triangles_beside_a_centre_are_searched_by_depth() {
+    const LAYERS: usize = 2000;
+    let bench = Bench::new();
+    let depth = |layer: usize| 0.05 + layer as f32 * 1.0e-3;
+    // The cube is 2.1 m wide: of 64 cells along a side the first is 33 mm wide.
+    let layer = |layer| [[0.0, 0.0], [0.01, 0.0], [0.0, 0.01]].map(|[x, y]| [x, y, depth(layer)]);
+    let mut triangles: Vec<Triangle> = (0..LAYERS).map(layer).collect();
+    triangles.extend(quad([2.0, 2.1], [2.0, 2.1], 0.0));
+    let rays: Vec<Ray> = (0..200)
+        .map(|index| {
+            let z = depth(index * 617 % (LAYERS - 1)) + 5.0e-4;
+            Ray::new([0.2, 0.002, z], [-0.195, 0.0, 5.0e-4])
+        })
+        .collect();
+    let expected = brute_force(&bench, &triangles, &rays);
+    assert!(expected.iter().all(Hit::is_hit));
+    for depth in [Depth::Bits32, Depth::Bits16] {
+        let config = Config { depth, counters: Counters::Sums, ..Config::robust(64) };
+        let structure = made(&bench, config, &triangles);
+        let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
+        assert_eq!(hits, expected, "{depth:?}");
+        let entries = counters.entries / rays.len() as u64;
+        println!("{depth:?}: {entries} entries per ray of {LAYERS} triangles");
+        assert!(entries < LAYERS as u64 / 8, "{depth:?}: {entries} entries per ray");
     }
 }
 
@@ -242,7 +274,7 @@ fn traversals_longer_than_a_dispatch_arrive() {
         coverage: Coverage::Exact,
         counters: Counters::Sums,
         fragments: Some(1 << 22),
-        ..Config::robust(RESOLUTION)
+        ..planes(RESOLUTION)
     };
     let structure = made(&bench, config, &triangles);
     let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 8);
@@ -263,6 +295,7 @@ fn pauses_change_no_hit() {
     let robust = Config::robust(24);
     for config in [
         robust,
+        planes(24),
         Config { payload: Payload::Index, ..Config::published(24) },
         Config { skip: false, ..robust },
         // Nine blocks of the second level.
@@ -373,7 +406,7 @@ fn limits_and_exclusion_are_kept() {
     let bench = Bench::new();
     let plates: Vec<Triangle> =
         [2.0, 3.0, 4.0].map(|depth| [[-9.0, -9.0, depth], [9.0, -9.0, depth], [0.0, 18.0, depth]]).to_vec();
-    for accept in [Accept::Plane, Accept::Slope, Accept::Tolerance] {
+    for accept in [Accept::Plane, Accept::Slope, Accept::Tolerance, Accept::Triangle] {
         let ends = Ends::Touching;
         let structure = made(&bench, Config { accept, ends, ..Config::robust(32) }, &plates);
         let mut random = Random::new(9);

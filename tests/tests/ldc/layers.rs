@@ -2,13 +2,17 @@
 
 use rasray_ads::{Check, Geometry, Hit, Ray, Structure, TraceMode, Viewpoint};
 use rasray_gpu::Timing;
-use rasray_ldc::{Addressing, Config, Contents, Coverage, Depth, LayeredDepthCube, Making, well_formed};
+use rasray_ldc::{
+    Accept, Addressing, Config, Contents, Coverage, Depth, LayeredDepthCube, Making, well_formed,
+};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box};
 use rasray_tracer::build_until_complete;
+
+use crate::ldc::planes;
 
 /// Layers, a room, and a stack of plates in which every third is there three times.
 fn scene() -> Vec<Triangle> {
@@ -64,12 +68,14 @@ fn peeled_layers_are_those_of_a_single_pass() {
     let geometry = bench.geometry(&triangles);
     let mut random = Random::new(5);
     let rays: Vec<Ray> = (0..400).map(|_| Ray::new(random.point(-5.0, 5.0), random.direction())).collect();
-    for (depth, coverage, addressing) in [
-        (Depth::Bits32, Coverage::Conservative, Addressing::Descriptor),
-        (Depth::Bits16, Coverage::Hardware, Addressing::Descriptor),
-        (Depth::Bits16, Coverage::Exact, Addressing::Address),
+    for (depth, coverage, accept, addressing) in [
+        (Depth::Bits32, Coverage::Conservative, Accept::Plane, Addressing::Descriptor),
+        (Depth::Bits32, Coverage::Conservative, Accept::Triangle, Addressing::Descriptor),
+        (Depth::Bits16, Coverage::Conservative, Accept::Triangle, Addressing::Descriptor),
+        (Depth::Bits16, Coverage::Hardware, Accept::Plane, Addressing::Descriptor),
+        (Depth::Bits16, Coverage::Exact, Accept::Plane, Addressing::Address),
     ] {
-        let single = Config { depth, coverage, addressing, ..Config::robust(24) };
+        let single = Config { depth, coverage, accept, addressing, ..Config::robust(24) };
         let peel = Config { making: Making::Peel, ..single };
         let [single, peel] = [single, peel].map(|config| {
             let structure = made(&bench, &geometry, config);
@@ -87,11 +93,11 @@ fn peeled_layers_are_those_of_a_single_pass() {
         let deepest = expected.lists.iter().map(Vec::len).max().expect("there are cells");
         assert!(deepest > 30, "{deepest} layers");
         assert_eq!(peel.0.header.layer_demand as usize, deepest);
-        assert_eq!(expected.lists, peeled.lists, "{depth:?}, {coverage:?}");
-        assert_eq!(expected.blocks, peeled.blocks, "{depth:?}, {coverage:?}");
-        assert_eq!(expected.conservative, peeled.conservative, "{depth:?}, {coverage:?}");
+        assert_eq!(expected.lists, peeled.lists, "{depth:?}, {coverage:?}, {accept:?}");
+        assert_eq!(expected.blocks, peeled.blocks, "{depth:?}, {coverage:?}, {accept:?}");
+        assert_eq!(expected.conservative, peeled.conservative, "{depth:?}, {coverage:?}, {accept:?}");
         let key = |hit: &Hit| (hit.t.to_bits(), hit.primitive);
-        assert!(single.1.iter().map(key).eq(peel.1.iter().map(key)), "{depth:?}, {coverage:?}");
+        assert!(single.1.iter().map(key).eq(peel.1.iter().map(key)), "{depth:?}, {coverage:?}, {accept:?}");
     }
 }
 
@@ -118,7 +124,7 @@ fn three_passes_draw_three_times_the_triangles_and_store_the_same() {
         (Making::Single, Depth::Bits16, Coverage::Hardware),
         (Making::Peel, Depth::Bits32, Coverage::Exact),
     ] {
-        let one = Config { making, depth, coverage, ..Config::robust(24) };
+        let one = Config { making, depth, coverage, ..planes(24) };
         let [one, three] = [one, Config { passes: 3, ..one }].map(|config| {
             let mut structure = made(&bench, &geometry, config);
             let drawn = drawn(&bench, &mut structure);

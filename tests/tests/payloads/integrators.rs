@@ -23,7 +23,6 @@ const ALLOWED: &[(&str, Preset, [[f32; 2]; 2])] = &[
     ("hu", Preset::Published, [[0.0, 0.1], [0.0, 0.03]]),
     ("selective", Preset::Robust, [[0.0, 0.03], [0.0, 0.01]]),
     ("selective", Preset::Published, [[0.03, 0.2], [0.0, 0.1]]),
-    ("ldc", Preset::Robust, [[0.0, 0.01], [0.0, 0.01]]),
     ("ldc", Preset::Published, [[0.0, 0.02], [0.0, 0.01]]),
 ];
 

@@ -129,7 +129,8 @@ fn parallel_triangles_are_layers_of_an_a_buffer() {
 fn parallel_triangles_are_layers_of_a_layered_depth_cube() {
     let bench = Bench::new();
     let geometry = bench.geometry(&above_each_other());
-    let base = LdcConfig { coverage: rasray_ldc::Coverage::Exact, ..LdcConfig::robust(SIDE) };
+    let (coverage, accept) = (rasray_ldc::Coverage::Exact, rasray_ldc::Accept::Plane);
+    let base = LdcConfig { coverage, accept, ..LdcConfig::robust(SIDE) };
     for config in [
         base,
         LdcConfig { making: Making::Peel, ..base },

@@ -1,7 +1,7 @@
 //! Damaged lists of the layered depth cube.
 
 use rasray_faults::{in_child, scrambled};
-use rasray_ldc::{Addressing, Config, Contents, LayeredDepthCube};
+use rasray_ldc::{Accept, Addressing, Config, Contents, LayeredDepthCube};
 
 use crate::damage::survive::{self, Flag, each_conservative_node, survive};
 
@@ -77,7 +77,8 @@ fn damaged_lists_of_layered_depth_cubes_are_survived_and_told() {
 fn damaged_conservative_lists_of_layered_depth_cubes_are_survived_and_told() {
     if in_child("damage::ldc::damaged_conservative_lists_of_layered_depth_cubes_are_survived_and_told") {
         for addressing in [Addressing::Descriptor, Addressing::Address] {
-            check(Config { addressing, ..Config::robust(32) }, &OF_CONSERVATIVE_LISTS);
+            let accept = Accept::Plane;
+            check(Config { accept, addressing, ..Config::robust(32) }, &OF_CONSERVATIVE_LISTS);
         }
     }
 }
