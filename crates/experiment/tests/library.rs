@@ -136,6 +136,8 @@ fn what_lists_hold_is_counted_where_it_is_asked_for() {
         let fragments = OptionValues::default().with("coverage", Value::Word("exact"));
         config.options = fragments.with("resolution", 32);
     }
+    let of_pages = job.systems[1].options.clone().with("storage", Value::Word("paged"));
+    job.systems[1].options = of_pages;
     let mut runs = |job: &CompareJob<'_>| {
         let compared =
             backend.compare(job, &mut |_| ControlFlow::Continue(()), &mut |_| ControlFlow::Continue(()));

@@ -1,6 +1,6 @@
 //! Selective reflections: voxels first, then each fragment in one of the axis A-buffers, with the paper's presets.
 
-use rasray_voxel::{Config, Payload, Storage, Voxels};
+use rasray_voxel::{Config, Payload, Voxels};
 
 use crate::{PaperFrame, Preset, Spec, System, SystemsError, voxel};
 
@@ -40,8 +40,8 @@ pub(crate) const SYSTEM: System = System {
 /// The configuration that a spec stands for.
 pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let preset = match spec.preset() {
-        // Pages are not sorted: where cells keep all that reaches into them, rays would read all of that.
-        Preset::Robust => Config { storage: Storage::Paged, ..Config::at_centres(voxel::RESOLUTION) },
+        // Lists are sorted, which pages are not: rays read what is at their own depths alone.
+        Preset::Robust => Config::robust(voxel::RESOLUTION),
         Preset::Published => voxel::of_the_paper(spec, Config::published_selective(PUBLISHED_RESOLUTION)),
     };
     voxel::config(spec, preset, Payload::Mirror)

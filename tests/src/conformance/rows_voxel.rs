@@ -58,11 +58,12 @@ pub(super) const ROWS: &[Row] = &[
     // What reaches into a cell is kept there: hits are those of triangles.
     Row::exact("hu-robust-16", "hu", &[("resolution", "16")], Tier::Quick, Cases::Shallow),
     Row::exact("hu-robust-64", "hu", &[("resolution", "64")], Tier::Full, Cases::Shallow),
+    Row::exact("selective-robust-32", "selective", &[("resolution", "32")], Tier::Full, Cases::Shallow),
     Row::exact(
-        "selective-conservative-16",
+        "selective-paged-16",
         "selective",
-        &[("resolution", "16"), ("coverage", "conservative")],
-        Tier::Full,
+        &[("resolution", "16"), ("storage", "paged")],
+        Tier::Quick,
         Cases::Shallow,
     ),
     voxel(
@@ -82,9 +83,9 @@ pub(super) const ROWS: &[Row] = &[
         deviations_voxel::HU_128,
     ),
     voxel(
-        "selective-robust-16",
+        "selective-centres-16",
         ("selective", Preset::Robust),
-        &[("resolution", "16")],
+        &[("resolution", "16"), ("coverage", "exact"), ("storage", "paged")],
         Cases::Deep,
         voxel_law(16),
         deviations_voxel::CENTRES_16,
@@ -93,9 +94,9 @@ pub(super) const ROWS: &[Row] = &[
     Row {
         tier: Tier::Full,
         ..voxel(
-            "selective-robust-128",
+            "selective-centres-128",
             ("selective", Preset::Robust),
-            &[("resolution", "128")],
+            &[("resolution", "128"), ("coverage", "exact"), ("storage", "paged")],
             Cases::Shallow,
             voxel_law(128),
             deviations_voxel::CENTRES_128,

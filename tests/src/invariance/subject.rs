@@ -15,7 +15,7 @@ const CELLS: &str = "24";
 const BESIDE: &[Row] = &[
     ("mmrt", "robust", &[("capacity", "40000")]),
     ("mmrt", "published", &[("capacity", "40000")]),
-    ("selective", "robust", &[("grid", "12")]),
+    ("selective", "robust", &[("grid", "12"), ("storage", "paged")]),
 ];
 
 /// Presets with options that make another structure, or one in which other options decide.

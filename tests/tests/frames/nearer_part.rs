@@ -155,7 +155,11 @@ fn payloads() -> Vec<Spec> {
         spec("ldc", "published", &[("resolution", "96"), ("ids", "on")]),
         spec("hu", "robust", &[("resolution", "96"), ("coverage", "exact")]),
         spec("mmrt", "robust", &[("resolution", "64"), ("coverage", "exact")]),
-        spec("selective", "robust", &[("resolution", "96"), ("grid", "24")]),
+        spec(
+            "selective",
+            "robust",
+            &[("resolution", "96"), ("grid", "24"), ("coverage", "exact"), ("storage", "paged")],
+        ),
         spec("ldc", "robust", &[("resolution", "96"), ("accept", "plane")]),
         spec("hu", "robust", &[("leaves", "voxels"), ("resolution", "48")]),
     ]
@@ -287,7 +291,7 @@ fn compare(bench: &Bench, name: &str, scene: &Scene) {
     let of_fragments: [(&str, &[(&str, &str)]); 4] = [
         ("mmrt", &[("coverage", "exact"), ("march", "exact"), ("storage", "dllb")]),
         ("hu", &[("coverage", "exact")]),
-        ("selective", &[]),
+        ("selective", &[("coverage", "exact"), ("storage", "paged")]),
         ("ldc", &[("accept", "plane")]),
     ];
     for (system, options) in of_fragments {

@@ -307,7 +307,7 @@ const FRAGMENTS: &[Row] = &[
     ("hu", "robust", &[("resolution", "192"), ("coverage", "exact")]),
     ("hu", "published", &[("resolution", "192"), ("payload", "index")]),
     ("hu", "published", &[("resolution", "192"), ("payload", "attributes")]),
-    ("selective", "robust", &[("resolution", "192")]),
+    ("selective", "robust", &[("resolution", "192"), ("coverage", "exact"), ("storage", "paged")]),
     ("selective", "published", &[("resolution", "192"), ("payload", "index")]),
     ("selective", "published", &[("resolution", "192"), ("payload", "attributes")]),
 ];

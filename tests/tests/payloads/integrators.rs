@@ -21,7 +21,6 @@ const ALLOWED: &[(&str, Preset, [[f32; 2]; 2])] = &[
     ("mmrt", Preset::Published, [[0.2, 0.8], [0.03, 0.2]]),
     ("dirt", Preset::Published, [[0.0, 0.12], [0.0, 0.03]]),
     ("hu", Preset::Published, [[0.0, 0.1], [0.0, 0.03]]),
-    ("selective", Preset::Robust, [[0.0, 0.03], [0.0, 0.01]]),
     ("selective", Preset::Published, [[0.03, 0.2], [0.0, 0.1]]),
     ("ldc", Preset::Published, [[0.0, 0.02], [0.0, 0.01]]),
 ];
