@@ -231,7 +231,6 @@ pub(super) const SELECTIVE_128: &[Deviation] = &[
     deviation("T2", SMALL, 0.99, 1.0),
     deviation("T3", EVEN, 0.99, 1.0),
     deviation("T4", EDGE, 0.151, 0.237),
-    deviation("P5", LEAVING, 0.216, 0.338),
     deviation("P1", SEVERAL, 0.54, 0.844),
     deviation("P2", EVEN, 0.99, 1.0),
     deviation("P6", EDGE, 0.045, 0.072),
