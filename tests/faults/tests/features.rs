@@ -75,8 +75,9 @@ fn every_feature_can_be_missing_or_is_missed_by_name() {
     }
     println!("{compared} comparisons, {refused} refusals");
     assert!(compared > 0 && refused > 3);
-    // A list of hits of another resolution is not the same: the comparison can fail.
-    let coarse = spec("selective", "robust").and_then(|spec| Ok(spec.with_option("resolution", "16")?));
+    // Hits of coarse fragments are not the same: the comparison can fail.
+    let coarse = spec("selective", "robust")
+        .and_then(|spec| Ok(spec.with_option("coverage", "exact")?.with_option("resolution", "16")?));
     let position = subjects.iter().position(|spec| name(spec) == "selective robust").expect("registered");
     assert_ne!(bits(&device, &coarse.expect("an option")).expect("hits"), expected[position]);
     assert_eq!(finish(device), Vec::<String>::new());

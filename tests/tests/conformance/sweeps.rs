@@ -239,5 +239,5 @@ fn views_of_odd_sizes_keep_their_outermost_pixels() {
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
-    assert!(exact >= 16 && sampled >= 16, "{exact} structures of triangles, {sampled} of fragments");
+    assert!(exact >= 20 && sampled >= 12, "{exact} structures of triangles, {sampled} of fragments");
 }

@@ -36,15 +36,17 @@ fn same_hits(name: &str, large: bool, [drawn, computed]: [(Vec<[u32; 4]>, u64); 
 
 #[test]
 fn both_builders_of_layered_depth_cubes_store_the_same_fragments() {
-    use rasray_ldc::{Config, Coverage, Depth, Payload};
+    use rasray_ldc::{Accept, Config, Coverage, Depth, Payload};
     let bench = Bench::new();
     let geometry = bench.geometry(&all_sizes());
     let robust = Config::robust;
-    let exact = |resolution| Config { coverage: Coverage::Exact, ..robust(resolution) };
+    let planes = |resolution| Config { accept: Accept::Plane, ..robust(resolution) };
+    let exact = |resolution| Config { coverage: Coverage::Exact, ..planes(resolution) };
     let tolerance = Config { payload: Payload::Index, coverage: Coverage::Exact, ..Config::published(40) };
     for (config, large) in [
         (robust(37), true),
         (robust(1), false),
+        (planes(37), true),
         (exact(64), true),
         (Config { depth: Depth::Bits16, ..tolerance }, true),
         (Config { addressing: rasray_ldc::Addressing::Address, ..robust(40) }, true),
