@@ -285,7 +285,7 @@ impl<'a> Campaign<'a> {
             .map_err(|error| AppError::input(folder, error, "name a folder that can be made"))?;
         let bytes = encode_png_bytes(&tone_map(pixels, 0.0), size, None)
             .map_err(|error| AppError::refused(format!("a picture could not be encoded: {error}"), ""))?;
-        Destination::check(&place)?.write(&bytes, interrupt)
+        Destination::check(&place)?.put(&bytes, interrupt)
     }
 
     /// Says which cells would be made, and how long they would take.
