@@ -13,5 +13,5 @@ pub use claim::{Claim, Finding};
 pub use estimate::{Estimate, estimate};
 pub use paper::{Item, PAPERS, Paper, paper_page, word};
 pub use plan::{ComparisonPlan, Exclusion, ExperimentPlan, Plan, PlanError};
-pub use sheet::{SHEET_COLUMNS, Sheet, sheets};
+pub use sheet::{SHEET_COLUMNS, Sheet};
 pub use table::csv_table;

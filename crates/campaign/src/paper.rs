@@ -86,8 +86,10 @@ impl Item {
 }
 
 /// The page of a paper: of each item that was made, what differs from the paper, the paper's numbers beside ours, and all
-/// that was measured. Experiments of `campaign` are those of [`Plan::joined`] with [`word`].
-pub fn paper_page(paper: &Paper, items: &[(&Item, Plan)], campaign: &Campaign) -> String {
+/// that was measured; and the sheets of pictures that it shows. Experiments of `campaign` are those of [`Plan::joined`]
+/// with [`word`].
+pub fn paper_page(paper: &Paper, items: &[(&Item, Plan)], campaign: &Campaign) -> (String, Vec<Sheet>) {
+    let mut sheets = Vec::new();
     let device = &campaign.device;
     let software = if device.software { ", a software driver" } else { "" };
     let mut text = format!("# Replication of {}\n\n{}.\n\n", paper.name, paper.cited);
@@ -121,11 +123,12 @@ pub fn paper_page(paper: &Paper, items: &[(&Item, Plan)], campaign: &Campaign) -
             };
             if let Some(sheet) = Sheet::of(paper, item, number, made) {
                 text += &sheet.markdown();
+                sheets.push(sheet);
             }
             text += &section(&experiment.claims, made);
         }
     }
-    text
+    (text, sheets)
 }
 
 /// What stands before the names of an item's experiments.

@@ -1,8 +1,7 @@
 //! Pictures of an experiment on one sheet, and what stands under each.
 
-use crate::paper::{Item, Paper, word};
-use crate::plan::Plan;
-use rasray_report::{Campaign, Experiment, Row, in_line};
+use crate::paper::{Item, Paper};
+use rasray_report::{Experiment, Row, in_line};
 use std::fmt::Write;
 
 /// Pictures in a row of a sheet.
@@ -58,17 +57,4 @@ impl Sheet {
         }
         text + "\n"
     }
-}
-
-/// All sheets of a paper's page, in its order. Experiments of `campaign` are those of [`Plan::joined`] with [`word`].
-pub fn sheets(paper: &Paper, items: &[(&Item, Plan)], campaign: &Campaign) -> Vec<Sheet> {
-    let mut all = Vec::new();
-    for (item, plan) in items {
-        for (number, experiment) in plan.experiments.iter().enumerate() {
-            let name = format!("{}: {}", word(paper, item), experiment.name);
-            let made = campaign.experiments.iter().find(|made| made.name == name);
-            all.extend(made.and_then(|made| Sheet::of(paper, item, number, made)));
-        }
-    }
-    all
 }

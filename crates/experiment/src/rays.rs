@@ -114,6 +114,7 @@ impl RaySource<'_> {
     fn pixels(&self, count: u32) -> Vec<Ray> {
         let eye = self.view.camera.world_from_camera.translation - self.frame_origin;
         let to_centre = Vec3::from(self.center).as_dvec3() - eye;
+        let walls = self.box_sides();
         let ray = |index| {
             let stream = self.stream(index);
             let [x, y] = [(20, self.view.width), (21, self.view.height)]
@@ -125,7 +126,7 @@ impl RaySource<'_> {
             let corner = |[u, v]: [f32; 2]| through(Vec2::new(x.floor() + u, y.floor() + v));
             let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(corner);
             let middle = through(Vec2::new(x, y));
-            let [near, far] = middle.inside(&self.box_sides(), [0.0, f64::INFINITY])?;
+            let [near, far] = middle.inside(&walls, [0.0, f64::INFINITY])?;
             let point = middle.at(near + (far - near) * f64::from(stream.float(22)));
             let line = Line { origin: point, direction: Vec3::from(direction(stream)).as_dvec3() };
             let sides: Vec<_> = (0..4)
@@ -139,7 +140,7 @@ impl RaySource<'_> {
                     };
                     Side { normal: outwards, reach: outwards.dot(one.origin) }
                 })
-                .chain(self.box_sides())
+                .chain(walls)
                 .collect();
             let [first, last] = line.inside(&sides, [f64::NEG_INFINITY, f64::INFINITY])?;
             let ray = Ray::new(line.at(first).as_vec3().to_array(), line.direction.as_vec3().to_array());

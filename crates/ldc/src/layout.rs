@@ -4,7 +4,7 @@ use rasray_ads::{AdsError, Scan, Scratch, Sizes};
 
 use rasray_shaders_glsl::constants::ldc::LDC_LEVEL_BLOCKS;
 
-use crate::{Accept, Builder, Config, Coverage, Depth, Header, Making, Occupancy, Payload, Pool};
+use crate::{Builder, Config, Depth, Header, Making, Occupancy, Payload, Pool};
 
 /// Cells of all three views.
 pub fn cell_count(resolution: u32) -> u64 {
@@ -125,7 +125,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let upper = if config.levels == 2 { across.div_ceil(8) * along.div_ceil(8) } else { 0 };
     let block_bytes = if config.occupancy == Occupancy::Slices { 16 } else { 8 };
     let cells = side * side * 3;
-    let kept = config.coverage == Coverage::Conservative && config.accept != Accept::Triangle;
+    let kept = config.has_conservative_lists();
     // Depths of 16 bits fill whole words.
     let depths = if config.depth == Depth::Bits16 { 4 * fragments.div_ceil(2) } else { 4 * fragments };
     let payload = if config.payload == Payload::Attributes { 8 } else { 4 };
@@ -148,6 +148,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Accept, Coverage};
 
     #[test]
     fn plan_equals_formula() {

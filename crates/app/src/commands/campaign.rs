@@ -8,7 +8,7 @@ use super::targets::Form;
 use crate::arguments::{CampaignArguments, CompareArguments, comparison};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::output::{Cells, Destination, encode_png_bytes};
+use crate::output::{Cells, Destination, encode_picture};
 use crate::terminal;
 use crate::version::origin;
 use rasray_campaign::{ComparisonPlan, Exclusion, Plan, estimate};
@@ -283,8 +283,7 @@ impl<'a> Campaign<'a> {
         let folder = place.parent().unwrap_or(&place);
         std::fs::create_dir_all(folder)
             .map_err(|error| AppError::input(folder, error, "name a folder that can be made"))?;
-        let bytes = encode_png_bytes(&tone_map(pixels, 0.0), size, None)
-            .map_err(|error| AppError::refused(format!("a picture could not be encoded: {error}"), ""))?;
+        let bytes = encode_picture(&tone_map(pixels, 0.0), size)?;
         Destination::check(&place)?.put(&bytes, interrupt)
     }
 

@@ -7,7 +7,7 @@ use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::Destination;
 use crate::terminal;
-use rasray_campaign::{Item, PAPERS, Paper, Plan, paper_page, sheets, word};
+use rasray_campaign::{Item, PAPERS, Paper, Plan, paper_page, word};
 use rasray_experiment::OpenBackend;
 use rasray_report::{columns, json_shown};
 
@@ -41,11 +41,10 @@ pub(crate) fn replicate(
         Campaign { plan: &plan, about: "tools/plans", given: campaign, line }.make(open, interrupt)?;
     let Some(made) = rasray_report::Campaign::of(&lines) else { return Ok(()) };
     for (paper, items) in &chosen {
-        for sheet in sheets(paper, items, &made) {
-            write_sheet(&sheet, campaign.folder(), interrupt)?;
-        }
+        let (page, sheets) = paper_page(paper, items, &made);
+        sheets.iter().try_for_each(|sheet| write_sheet(sheet, campaign.folder(), interrupt))?;
         let place = Destination::check(&campaign.folder().join(format!("{}.md", paper.name)))?;
-        place.write(json_shown(&paper_page(paper, items, &made)).as_bytes(), interrupt)?;
+        place.write(json_shown(&page).as_bytes(), interrupt)?;
     }
     Ok(())
 }

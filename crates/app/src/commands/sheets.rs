@@ -3,7 +3,7 @@
 use super::campaign::picture_place;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::output::{Destination, encode_png_bytes};
+use crate::output::{Destination, encode_picture};
 use crate::terminal;
 use image::{RgbImage, imageops};
 use rasray_campaign::{SHEET_COLUMNS, Sheet};
@@ -46,8 +46,7 @@ pub(super) fn write_sheet(sheet: &Sheet, folder: &Path, interrupt: &Interrupt) -
     let joined = joined(&pictures);
     let place = folder.join(&sheet.file);
     let size = [joined.width(), joined.height()];
-    let bytes = encode_png_bytes(joined.as_raw(), size, None)
-        .map_err(|error| AppError::refused(format!("a picture could not be encoded: {error}"), ""))?;
+    let bytes = encode_picture(joined.as_raw(), size)?;
     Destination::check(&place)?.write(&bytes, interrupt)
 }
 

@@ -134,8 +134,7 @@ mod with_window {
 
     /// Writes a picture and says how to make it again.
     fn save(saved: &SavedPicture<'_>, interrupt: &Interrupt) -> Result<(), AppError> {
-        let png = output::encode_png_bytes(saved.pixels, saved.size, None)
-            .map_err(|error| AppError::refused(format!("the picture could not be encoded: {error}"), ""))?;
+        let png = output::encode_picture(saved.pixels, saved.size)?;
         Destination::check(saved.place)?.write(&png, interrupt)?;
         if let Some(scale) = &saved.scale {
             terminal::note(scale);

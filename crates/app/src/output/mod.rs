@@ -19,7 +19,7 @@ pub use destination::Destination;
 pub(crate) use exr_part::{PartFile, decode as decode_part};
 pub use format::ImageFormat;
 pub use levels::hint;
-pub(crate) use png::encode_bytes as encode_png_bytes;
+pub(crate) use png::encode_picture;
 pub(crate) use rows::{Row, Rows, key_of_report, lines, read_rows};
 pub(crate) use save_rays::{SaveTargets, save};
 pub use stamp::{KEY, Standing, image_key, standing};

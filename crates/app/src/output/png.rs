@@ -2,6 +2,7 @@
 //! nearest step. No further tone mapping and no dithering: other programs can reproduce every value.
 
 use super::stamp::KEY;
+use crate::error::AppError;
 use rasray_experiment::RenderOutput;
 use rasray_metrics::tone_map;
 
@@ -13,15 +14,17 @@ pub fn encode(output: &RenderOutput, exposure: f32, key: Option<&str>) -> Result
     encode_bytes(&tone_map(&output.beauty, exposure), [output.width, output.height], key)
 }
 
-/// The bytes of a PNG file of pixels of three bytes each, rows from the top; the size in pixels; with the key of the image.
+/// The bytes of a PNG file of pixels of three bytes each, rows from the top; the size in pixels.
 ///
 /// # Errors
-/// What the encoder says, in words.
-pub(crate) fn encode_bytes(
-    pixels: &[u8],
-    [width, height]: [u32; 2],
-    key: Option<&str>,
-) -> Result<Vec<u8>, String> {
+/// [`AppError::Refused`] with what the encoder says.
+pub(crate) fn encode_picture(pixels: &[u8], size: [u32; 2]) -> Result<Vec<u8>, AppError> {
+    encode_bytes(pixels, size, None)
+        .map_err(|error| AppError::refused(format!("the picture could not be encoded: {error}"), ""))
+}
+
+/// The same with the key of an image where it has one, and the error in words.
+fn encode_bytes(pixels: &[u8], [width, height]: [u32; 2], key: Option<&str>) -> Result<Vec<u8>, String> {
     let write = |bytes: &mut Vec<u8>| {
         let mut encoder = png::Encoder::new(bytes, width, height);
         encoder.set_color(png::ColorType::Rgb);
