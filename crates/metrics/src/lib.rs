@@ -28,7 +28,7 @@ pub use image_error::ImageError;
 pub use rate::{Rate, confidence_of_each};
 pub use ssim::ssim;
 pub use statistics::{Percentiles, Summary, median, median_of_means, percentile};
-pub use tone::{display_values, tone_map};
+pub use tone::{Tone, ToneCurve, display_values, tone_map};
 
 /// What the readme shows compiles.
 #[cfg(doctest)]

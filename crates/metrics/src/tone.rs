@@ -1,21 +1,109 @@
+//! From linear light to the values of a screen.
+
+mod aces;
+mod agx;
+
 use crate::image::Image;
+
+/// How linear colours are shown: exposed, then brought into the range of a screen by a curve. The default is exposure 0
+/// and no curve beyond that of sRGB.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tone {
+    /// What brings exposed colours into the range of a screen.
+    pub curve: ToneCurve,
+    /// Stops: colours are multiplied by 2 to this power first.
+    pub exposure: f32,
+}
+
+impl From<f32> for Tone {
+    /// Exposure alone, in stops.
+    fn from(exposure: f32) -> Self {
+        Self { exposure, ..Self::default() }
+    }
+}
+
+/// What brings exposed colours into the range of a screen. All end with the sRGB transfer curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToneCurve {
+    /// None: values are clamped to 0 to 1.
+    #[default]
+    Exposure,
+    /// AgX by Troy Sobotka, as Eary Chow made it for Blender 4.
+    Agx,
+    /// ACES 1 for a standard screen (RRT and ODT), as fitted by Stephen Hill.
+    Aces,
+}
+
+impl ToneCurve {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Exposure, Self::Agx, Self::Aces];
+
+    /// Its name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exposure => "exposure",
+            Self::Agx => "agx",
+            Self::Aces => "aces",
+        }
+    }
+
+    /// What it does, in one line of help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Exposure => "None: clamped to 0 to 1, so that other programs reproduce every value",
+            Self::Agx => "AgX, as Blender shows pictures: bright colours fade to white",
+            Self::Aces => "ACES 1 for a standard screen, by the fit of Hill: more contrast and colour",
+        }
+    }
+}
+
+impl Tone {
+    /// Linear light of a screen, 0 to 1, for a linear colour of Rec. 709. NaN becomes 0.
+    pub fn shown(self, linear: [f32; 3]) -> [f32; 3] {
+        let scale = self.exposure.exp2();
+        let exposed = linear.map(|value| value * scale);
+        match self.curve {
+            ToneCurve::Exposure => exposed.map(clamped),
+            ToneCurve::Agx => agx::agx(exposed.map(finite)).map(clamped),
+            ToneCurve::Aces => aces::aces(exposed.map(finite)).map(clamped),
+        }
+    }
+}
 
 /// Linear light to values as shown: exposure 1, clamped to [0, 1], sRGB transfer curve. NaN becomes 0.
 /// Metrics of perception (PSNR, SSIM, FLIP) are defined on these.
 pub fn display_values(image: &Image<'_>) -> Vec<[f32; 3]> {
-    image.pixels().iter().map(|pixel| pixel.map(encode)).collect()
+    image.pixels().iter().map(|pixel| pixel.map(|value| encode(clamped(value)))).collect()
 }
 
-/// Three bytes per pixel: colours times 2^`exposure` stops, clamped to [0, 1], on the sRGB curve, rounded to the nearest
-/// step. NaN becomes 0.
-pub fn tone_map(linear: &[[f32; 3]], exposure: f32) -> Vec<u8> {
-    let scale = exposure.exp2();
-    linear.iter().flatten().map(|value| (encode(value * scale) * 255.0 + 0.5) as u8).collect()
+/// Three bytes of sRGB per pixel, rounded to the nearest step; of a number, which is exposure in stops, or of a [`Tone`].
+pub fn tone_map(linear: &[[f32; 3]], tone: impl Into<Tone>) -> Vec<u8> {
+    let tone = tone.into();
+    linear
+        .iter()
+        .flat_map(|pixel| tone.shown(*pixel))
+        .map(|value| (encode(value) * 255.0 + 0.5) as u8)
+        .collect()
 }
 
+/// NaN becomes 0.
+fn clamped(linear: f32) -> f32 {
+    if linear.is_nan() { 0.0 } else { linear.clamp(0.0, 1.0) }
+}
+
+/// Light that curves can be computed of in single precision. NaN becomes 0.
+fn finite(linear: f32) -> f32 {
+    if linear.is_nan() { 0.0 } else { linear.clamp(0.0, 1.0e15) }
+}
+
+/// The sRGB transfer curve of a value from 0 to 1.
 fn encode(linear: f32) -> f32 {
-    let x = if linear.is_nan() { 0.0 } else { linear.clamp(0.0, 1.0) };
-    if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// Rows times a column.
+fn transform(rows: &[[f32; 3]; 3], column: [f32; 3]) -> [f32; 3] {
+    rows.map(|[x, y, z]| x * column[0] + y * column[1] + z * column[2])
 }
 
 #[cfg(test)]
@@ -24,10 +112,21 @@ mod tests {
 
     use super::*;
 
+    /// Greatest difference from published values, of 255 steps. Rows are linear colours and the values shown.
+    pub(super) fn farthest(curve: ToneCurve, published: &[([f32; 3], [f32; 3])]) -> f32 {
+        let tone = Tone { curve, exposure: 0.0 };
+        let far = |(linear, shown): &([f32; 3], [f32; 3])| {
+            let ours = tone.shown(*linear).map(|value| 255.0 * encode(value));
+            (0..3).map(|channel| (ours[channel] - shown[channel]).abs()).fold(0.0, f32::max)
+        };
+        published.iter().map(far).fold(0.0, f32::max)
+    }
+
     #[test]
     fn ends_knee_and_middle() {
-        assert_eq!([-1.0, 0.0, f32::NAN].map(encode), [0.0; 3]);
-        assert!([1.0, 7.0, f32::INFINITY].iter().all(|x| (encode(*x) - 1.0).abs() < 1e-6));
+        let encoded = |value| encode(clamped(value));
+        assert_eq!([-1.0, 0.0, f32::NAN].map(encoded), [0.0; 3]);
+        assert!([1.0, 7.0, f32::INFINITY].iter().all(|x| (encoded(*x) - 1.0).abs() < 1e-6));
         assert_abs_diff_eq!(encode(0.003_130_8), 0.040_45, epsilon = 1e-5);
         assert_abs_diff_eq!(encode(0.214_041), 0.5, epsilon = 1e-5);
     }
@@ -40,7 +139,36 @@ mod tests {
 
     #[test]
     fn a_stop_doubles() {
-        assert_eq!(tone_map(&[[0.25, 0.1, 0.3]], 1.0), tone_map(&[[0.5, 0.2, 0.6]], 0.0));
-        assert_eq!(tone_map(&[[0.5; 3]], -1.0), tone_map(&[[0.25; 3]], 0.0));
+        for curve in ToneCurve::ALL {
+            let mapped =
+                |value, exposure| tone_map(&[[value, 0.4 * value, 1.2 * value]], Tone { curve, exposure });
+            assert_eq!(mapped(0.25, 1.0), mapped(0.5, 0.0), "{curve:?}");
+            assert_eq!(mapped(0.5, -1.0), mapped(0.25, 0.0), "{curve:?}");
+        }
+    }
+
+    #[test]
+    fn every_curve_keeps_grey_grey_and_its_order_and_takes_any_number() {
+        for curve in ToneCurve::ALL {
+            let tone = Tone { curve, exposure: 0.0 };
+            let mut before = -1.0;
+            for step in -160..160 {
+                let [red, green, blue] = tone.shown([(step as f32 / 10.0).exp2(); 3]);
+                assert!((red - green).abs() < 2.0e-3 && (red - blue).abs() < 2.0e-3, "{curve:?} {step}");
+                assert!(green >= before, "{curve:?} {step}: {green} after {before}");
+                before = green;
+            }
+            assert!(before > 0.999, "{curve:?} {before}");
+            for strange in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, -1.0, 1.0e-40] {
+                for colour in [[strange; 3], [strange, 0.5, 0.0], [0.0, 1.0, strange]] {
+                    let shown = tone.shown(colour);
+                    assert!(
+                        shown.iter().all(|value| (0.0..=1.0).contains(value)),
+                        "{curve:?} {colour:?} {shown:?}"
+                    );
+                }
+            }
+            assert_eq!(tone_map(&[[0.0; 3]], tone), [0; 3], "{curve:?}");
+        }
     }
 }

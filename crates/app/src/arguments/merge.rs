@@ -1,6 +1,6 @@
 //! Options of `rasray merge`.
 
-use super::values;
+use super::tone::ToneArguments;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -30,7 +30,7 @@ pub struct MergeArguments {
     /// Files to put together
     #[arg(value_name = "PART", required = true)]
     pub parts: Vec<PathBuf>,
-    /// Stops of exposure for .png
-    #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true)]
-    pub exposure: Option<f32>,
+    /// How a .png shows colours.
+    #[command(flatten)]
+    pub tone: ToneArguments,
 }

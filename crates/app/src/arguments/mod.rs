@@ -12,6 +12,7 @@ mod ray_files;
 mod render;
 mod shared;
 mod structure;
+mod tone;
 pub mod values;
 mod view;
 
@@ -26,6 +27,7 @@ pub use shared::{
     DeviceArguments, FrameArguments, NeedsName, SceneArguments, TalkArguments, ViewArguments, WorkArguments,
 };
 pub use structure::StructureArguments;
+pub use tone::ToneArguments;
 pub use view::ViewerArguments;
 
 use crate::error::AppError;

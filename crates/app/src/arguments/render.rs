@@ -2,6 +2,7 @@
 
 use super::shared::WorkArguments;
 use super::structure::{preset_parser, refresh_parser, system_request_parser};
+use super::tone::ToneArguments;
 use super::values;
 use crate::error::AppError;
 use crate::output::ImageFormat;
@@ -28,8 +29,8 @@ Examples:
   rasray render 'simulated/cloth.####.ply' --frames 0-99 --fps 30 --output 'cloth.####.png'
   rasray render cloth-ball --time 1.2 --output cloth.png
 
-PNG holds 8-bit sRGB: colours times 2^exposure, clamped to 0 to 1, then the sRGB curve; no other tone
-mapping, so that other programs reproduce it. EXR holds linear 32-bit floats: R, G, B, and with --aov
+PNG holds 8-bit sRGB: colours times 2^exposure, clamped to 0 to 1, then the sRGB curve, so that other programs
+reproduce it; with --tone agx or aces a curve in place of the clamp. EXR holds linear 32-bit floats: R, G, B, and with --aov
 Z (metres along the ray, 0: miss), N.X N.Y N.Z (geometric normal, world), id (triangle, 4294967295:
 miss) and samples (of each pixel). Files are written next to their place and renamed, so a file there is always whole; of a link it is
 the file that the link leads to. The camera that was used is printed as options that put one there.
@@ -46,7 +47,8 @@ const LEAST_SAMPLES: u32 = 16;
 
 /// Options of `rasray render`.
 #[derive(Debug, Args)]
-#[command(after_help = AFTER_HELP)]
+#[command(after_help = AFTER_HELP, mut_arg("exposure", |argument| argument.requires("output")),
+          mut_arg("tone", |argument| argument.requires("output")))]
 pub struct RenderArguments {
     /// A file (.gltf .glb .obj .ply), numbered files ('a.####.ply'), or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
@@ -66,9 +68,9 @@ pub struct RenderArguments {
     /// Images in addition to the colours, kept in the .exr
     #[arg(long, value_enum, value_delimiter = ',', requires = "output")]
     pub aov: Vec<Aov>,
-    /// Stops of exposure for .png
-    #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true, requires = "output")]
-    pub exposure: Option<f32>,
+    /// How a .png shows colours.
+    #[command(flatten)]
+    pub tone: ToneArguments,
     /// JSON with times, bytes and counts; - is standard output
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,

@@ -98,7 +98,7 @@ fn a_negative_number_is_the_value_of_the_option_before_it() {
 fn negative_coordinates_are_values() {
     let given = render("render cornell -o a.png --eye -1,2,-3 --target 0,-1,0 --fov 30 --exposure -1.5");
     assert_eq!(given.work.view.eye, Some([-1.0, 2.0, -3.0]));
-    assert_eq!(given.exposure, Some(-1.5));
+    assert_eq!(given.tone.exposure, Some(-1.5));
 }
 
 #[test]

@@ -5,6 +5,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat, Metadata};
 use crate::terminal;
 use rasray_experiment::RenderOutput;
+use rasray_metrics::Tone;
 
 /// A place in words.
 pub(super) fn named(place: &Destination) -> String {
@@ -16,7 +17,7 @@ pub(super) fn write_image(
     (place, format): (&Destination, ImageFormat),
     output: &RenderOutput,
     metadata: &Metadata,
-    exposure: f32,
+    tone: Tone,
     interrupt: &Interrupt,
 ) -> Result<(), AppError> {
     let non_finite = output.non_finite_pixels();
@@ -26,7 +27,7 @@ pub(super) fn write_image(
         ));
     }
     let encoded = match format {
-        ImageFormat::Png => output::encode_png(output, exposure, metadata.key.as_deref()),
+        ImageFormat::Png => output::encode_png(output, tone, metadata.key.as_deref()),
         ImageFormat::Exr => output::encode_exr(output, metadata),
     };
     let bytes = encoded.map_err(|error| {
@@ -36,6 +37,6 @@ pub(super) fn write_image(
         )
     })?;
     place.write(&bytes, interrupt)?;
-    output::hint(output, format, exposure).iter().for_each(|text| terminal::note(text));
+    output::hint(output, format, tone).iter().for_each(|text| terminal::note(text));
     Ok(())
 }

@@ -25,8 +25,9 @@ pub(crate) fn merge(given: &MergeArguments, interrupt: &Interrupt) -> Result<(),
         return Err(AppError::input(part, "is a part and the result as well", "name another file first"));
     }
     if Rows::are_in(&given.out) || Form::named(&given.out).is_some() {
-        if given.exposure.is_some() {
-            return Err(AppError::usage("--exposure is of pictures, and these are reports", "leave it out"));
+        if let Some(option) = given.tone.given() {
+            let what = format!("{option} is of pictures, and these are reports");
+            return Err(AppError::usage(what, "leave it out"));
         }
         return if Form::named(&given.out).is_some() || cells_are_in(given) {
             merge_cells(given, &place, interrupt)
@@ -35,16 +36,16 @@ pub(crate) fn merge(given: &MergeArguments, interrupt: &Interrupt) -> Result<(),
         };
     }
     let format = ImageFormat::of(&given.out)?;
-    check_format(&given.out, format, false, given.exposure)?;
+    check_format(&given.out, format, false, given.tone)?;
     let parts = in_order(&given.parts)?;
     let (mut output, metadata) = add(&parts)?;
-    let exposure = given.exposure.unwrap_or(0.0);
+    let tone = given.tone.tone();
     let has_aovs = output.depth.is_some() || output.normal.is_some() || output.primitive.is_some();
-    check_format(&given.out, format, has_aovs, given.exposure)?;
+    check_format(&given.out, format, has_aovs, given.tone)?;
     output.samples_done = metadata.spp;
-    let key = metadata.part.as_ref().map(|part| image_key(&part.picture, format, exposure, None));
+    let key = metadata.part.as_ref().map(|part| image_key(&part.picture, format, tone, None));
     let metadata = Metadata { key, part: None, samples: metadata.spp, ..metadata };
-    write_image((&place, format), &output, &metadata, exposure, interrupt)?;
+    write_image((&place, format), &output, &metadata, tone, interrupt)?;
     terminal::note(&format!("{} parts hold {} samples per pixel", parts.len(), metadata.spp));
     Ok(())
 }

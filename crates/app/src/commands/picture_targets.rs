@@ -1,7 +1,7 @@
 //! Where a picture and its report go.
 
 use super::steps::{destination, keep_inputs};
-use crate::arguments::RenderArguments;
+use crate::arguments::{RenderArguments, ToneArguments};
 use crate::error::AppError;
 use crate::output::{Destination, ImageFormat, Rows, Standing, image_key, key_of_report, standing};
 use rasray_experiment::{AovSelection, Shard};
@@ -53,11 +53,7 @@ impl Targets {
             return Ok(Standing::Missing);
         };
         let shard = given.shard.filter(|_| given.frames.is_none());
-        let found = standing(
-            place.named(),
-            *format,
-            &image_key(key, *format, given.exposure.unwrap_or_default(), shard),
-        )?;
+        let found = standing(place.named(), *format, &image_key(key, *format, given.tone.tone(), shard))?;
         let reported = |place: &Destination| key_of_report(place.named()).as_deref() == Some(key);
         Ok(match found {
             Standing::Same if !self.report.as_ref().is_none_or(reported) => Standing::Unreported,
@@ -115,7 +111,7 @@ fn image_target(
             "send standard output to a file or to a program that shows images",
         ));
     }
-    check_format(path, format, aovs != AovSelection::default(), given.exposure)?;
+    check_format(path, format, aovs != AovSelection::default(), given.tone)?;
     if aovs.samples && given.shard.is_some() && given.frames.is_none() {
         return Err(AppError::usage(
             "--aov samples is of a whole image, and a --shard has counts of its own",
@@ -137,18 +133,18 @@ pub(super) fn check_format(
     path: &Path,
     format: ImageFormat,
     has_aovs: bool,
-    exposure: Option<f32>,
+    tone: ToneArguments,
 ) -> Result<(), AppError> {
-    match format {
-        ImageFormat::Png if has_aovs => Err(AppError::input(
+    match (format, tone.given()) {
+        (ImageFormat::Png, _) if has_aovs => Err(AppError::input(
             path,
             "a PNG cannot hold what --aov asks for",
             "write an .exr, or leave --aov out",
         )),
-        ImageFormat::Exr if exposure.is_some() => Err(AppError::input(
+        (ImageFormat::Exr, Some(option)) => Err(AppError::input(
             path,
-            "an EXR holds linear values, which --exposure does not change",
-            "leave --exposure out, or write a .png",
+            format!("an EXR holds linear values, which {option} does not change"),
+            format!("leave {option} out, or write a .png"),
         )),
         _ => Ok(()),
     }

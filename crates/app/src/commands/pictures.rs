@@ -103,7 +103,7 @@ impl Pictures<'_> {
         whole?;
         output.check_images(job.aovs)?;
         if let Some((place, format)) = &targets.image {
-            let exposure = given.exposure.unwrap_or(0.0);
+            let tone = given.tone.tone();
             let metadata = Metadata {
                 scene: self.loaded.scene.name.clone(),
                 system: job.system.system.name.to_owned(),
@@ -113,10 +113,10 @@ impl Pictures<'_> {
                 samples: output.samples_done,
                 seed: frame.seed,
                 version: version_text().to_owned(),
-                key: key.as_ref().map(|key| image_key(key, *format, exposure, shard)),
+                key: key.as_ref().map(|key| image_key(key, *format, tone, shard)),
                 part: shard.zip(key).map(|(shard, picture)| PartOf { picture, shard }),
             };
-            write_image((place, *format), &output, &metadata, exposure, interrupt)?;
+            write_image((place, *format), &output, &metadata, tone, interrupt)?;
         }
         let places = targets.image.iter().map(|(place, _)| place).chain(&targets.report);
         let takes_stdout = places.into_iter().any(Destination::is_stdout);

@@ -2,6 +2,7 @@
 
 use super::format::ImageFormat;
 use rasray_experiment::RenderOutput;
+use rasray_metrics::Tone;
 
 /// The mean of a PNG's linear values, clamped to 0 to 1, below which it is nearly black. Single bright pixels, as noise
 /// makes them, do not hide that.
@@ -13,19 +14,19 @@ const MIDDLE: f64 = 0.18;
 /// Exposures that are worth suggesting, stops.
 const MOST_STOPS: f64 = 20.0;
 
-/// A sentence where an image is black, or as a PNG at this `exposure` (stops) nearly black or white; linear values of
+/// A sentence where an image is black, or as a PNG in this tone nearly black or white; linear values of
 /// an EXR are too dark for nobody unless nothing is there at all, and never too bright.
-pub fn hint(output: &RenderOutput, format: ImageFormat, exposure: f32) -> Option<String> {
-    let scale = exposure.exp2();
+pub fn hint(output: &RenderOutput, format: ImageFormat, tone: Tone) -> Option<String> {
     let count = output.beauty.len().max(1) as f64;
-    let mean = |value: &dyn Fn(f32) -> f32| {
-        output.beauty.iter().flatten().map(|channel| f64::from(value(*channel))).sum::<f64>() / (3.0 * count)
+    let mean = |shown: &dyn Fn([f32; 3]) -> [f32; 3]| {
+        let pixels = output.beauty.iter().flat_map(|pixel| shown(*pixel));
+        pixels.map(f64::from).sum::<f64>() / (3.0 * count)
     };
-    let is_white = |pixel: &&[f32; 3]| pixel.iter().all(|channel| channel * scale >= 1.0);
-    let linear = mean(&|channel| channel);
+    let is_white = |pixel: &&[f32; 3]| tone.shown(**pixel).iter().all(|channel| *channel >= 1.0);
+    let linear = mean(&|pixel| pixel);
     let (dark, white) = match format {
         ImageFormat::Png => (
-            mean(&|channel| (channel * scale).clamp(0.0, 1.0)) < DARK,
+            !linear.is_nan() && mean(&|pixel| tone.shown(pixel)) < DARK,
             output.beauty.iter().filter(is_white).count() as f64 >= NEARLY_ALL * count,
         ),
         ImageFormat::Exr => (linear == 0.0, false),
@@ -61,7 +62,7 @@ mod tests {
 
     #[test]
     fn an_image_that_shows_nothing_gets_a_way_out() {
-        let png = |output: &RenderOutput, exposure| hint(output, ImageFormat::Png, exposure);
+        let png = |output: &RenderOutput, exposure: f32| hint(output, ImageFormat::Png, exposure.into());
         let dim = image(&[([0.01, 0.005, 0.002], 1), ([0.002; 3], 99)]);
         let text = png(&dim, 0.0).expect("nearly black");
         assert!(
@@ -84,7 +85,7 @@ mod tests {
 
     #[test]
     fn linear_values_are_left_alone_unless_there_are_none() {
-        let exr = |value: f32| hint(&image(&[([value; 3], 10)]), ImageFormat::Exr, 0.0);
+        let exr = |value: f32| hint(&image(&[([value; 3], 10)]), ImageFormat::Exr, Tone::default());
         assert_eq!((exr(1.0e-6), exr(50.0)), (None, None));
         let text = exr(0.0).expect("black");
         assert!(!text.contains("--exposure"), "{text}");

@@ -1,17 +1,19 @@
-//! PNG: 8-bit sRGB. Colours times 2^exposure, clamped to [0, 1], then the sRGB curve, rounded to the
-//! nearest step. No further tone mapping and no dithering: other programs can reproduce every value.
+//! PNG: 8-bit sRGB. Colours times 2^exposure, clamped to [0, 1] or through the curve that was asked for, then the sRGB
+//! curve, rounded to the nearest step. No dithering: other programs can reproduce every value.
 
-use super::stamp::KEY;
+use super::stamp::{KEY, TONE, tone_text};
 use crate::error::AppError;
 use rasray_experiment::RenderOutput;
-use rasray_metrics::tone_map;
+use rasray_metrics::{Tone, tone_map};
 
-/// The bytes of a PNG file of the colours, with a key where it has one.
+/// The bytes of a PNG file of the colours, with how they are shown, and a key where it has one.
 ///
 /// # Errors
 /// What the encoder says, in words.
-pub fn encode(output: &RenderOutput, exposure: f32, key: Option<&str>) -> Result<Vec<u8>, String> {
-    encode_bytes(&tone_map(&output.beauty, exposure), [output.width, output.height], key)
+pub fn encode(output: &RenderOutput, tone: Tone, key: Option<&str>) -> Result<Vec<u8>, String> {
+    let shown = tone_text(tone);
+    let texts = [key.map(|key| (KEY, key)), Some((TONE, &shown))];
+    encode_bytes(&tone_map(&output.beauty, tone), [output.width, output.height], texts.into_iter().flatten())
 }
 
 /// The bytes of a PNG file of pixels of three bytes each, rows from the top; the size in pixels.
@@ -19,19 +21,23 @@ pub fn encode(output: &RenderOutput, exposure: f32, key: Option<&str>) -> Result
 /// # Errors
 /// [`AppError::Refused`] with what the encoder says.
 pub(crate) fn encode_picture(pixels: &[u8], size: [u32; 2]) -> Result<Vec<u8>, AppError> {
-    encode_bytes(pixels, size, None)
+    encode_bytes(pixels, size, [])
         .map_err(|error| AppError::refused(format!("the picture could not be encoded: {error}"), ""))
 }
 
-/// The same with the key of an image where it has one, and the error in words.
-fn encode_bytes(pixels: &[u8], [width, height]: [u32; 2], key: Option<&str>) -> Result<Vec<u8>, String> {
+/// The same with texts, each by its name, and the error in words.
+fn encode_bytes<'a>(
+    pixels: &[u8],
+    [width, height]: [u32; 2],
+    texts: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> Result<Vec<u8>, String> {
     let write = |bytes: &mut Vec<u8>| {
         let mut encoder = png::Encoder::new(bytes, width, height);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_compression(png::Compression::Fast);
-        if let Some(key) = key {
-            encoder.add_text_chunk(KEY.to_owned(), key.to_owned())?;
+        for (name, text) in texts {
+            encoder.add_text_chunk(name.to_owned(), text.to_owned())?;
         }
         let mut writer = encoder.write_header()?;
         writer.write_image_data(pixels)?;
@@ -54,7 +60,7 @@ mod tests {
             beauty: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.5; 3]],
             ..Default::default()
         };
-        let bytes = encode(&output, 0.0, None).expect("a small image");
+        let bytes = encode(&output, 0.0.into(), None).expect("a small image");
         let read = image::load_from_memory(&bytes).expect("a valid file").to_rgb8();
         assert_eq!((read.width(), read.height()), (2, 2));
         assert_eq!(read.into_raw(), [255, 0, 0, 0, 255, 0, 0, 0, 255, 188, 188, 188]);

@@ -4,6 +4,7 @@ use super::exr_header;
 use super::format::ImageFormat;
 use crate::error::AppError;
 use rasray_experiment::Shard;
+use rasray_metrics::{Tone, ToneCurve};
 use rasray_scene_source::KeyHash;
 use std::io::{Cursor, ErrorKind};
 use std::path::Path;
@@ -12,15 +13,32 @@ use std::path::Path;
 /// which it shows the picture.
 pub const KEY: &str = "rasrayKey";
 
-/// The key of a file that shows the picture with the key `picture`: as a PNG at an exposure (stops), as an EXR, or as
+/// How a PNG shows its colours, a tEXt chunk: the curve, and the stops of exposure before it.
+pub const TONE: &str = "rasrayTone";
+
+/// How colours are shown, in words: `agx, exposure 1`.
+pub fn tone_text(tone: Tone) -> String {
+    match tone.curve {
+        ToneCurve::Exposure => format!("exposure {}", tone.exposure),
+        curve => format!("{}, exposure {}", curve.name(), tone.exposure),
+    }
+}
+
+/// The key of a file that shows the picture with the key `picture`: as a PNG in a certain tone, as an EXR, or as
 /// an EXR of a share of the samples.
-pub fn image_key(picture: &str, format: ImageFormat, exposure: f32, shard: Option<Shard>) -> String {
+pub fn image_key(picture: &str, format: ImageFormat, tone: Tone, shard: Option<Shard>) -> String {
     let hash = KeyHash::default().with("picture", picture);
     match (format, shard) {
         (_, Some(shard)) => hash.with("part", shard.to_string()),
         (ImageFormat::Exr, None) => hash.with("exr", ""),
         // -0 and 0 are the same exposure.
-        (ImageFormat::Png, None) => hash.with("png", (exposure + 0.0).to_le_bytes()),
+        (ImageFormat::Png, None) => {
+            let exposed = hash.with("png", (tone.exposure + 0.0).to_le_bytes());
+            match tone.curve {
+                ToneCurve::Exposure => exposed,
+                curve => exposed.with("tone", curve.name()),
+            }
+        }
     }
     .finish()
 }
@@ -94,17 +112,23 @@ pub fn standing(path: &Path, format: ImageFormat, key: &str) -> Result<Standing,
 /// The key of a PNG, from what precedes its pixels.
 fn png_key(bytes: &[u8]) -> Result<Option<String>, png::DecodingError> {
     let reader = png::Decoder::new(Cursor::new(bytes)).read_info()?;
-    let mut texts = reader.info().uncompressed_latin1_text.iter();
-    Ok(texts.find(|chunk| chunk.keyword == KEY).map(|chunk| chunk.text.clone()))
+    Ok(png_text(reader.info(), KEY).map(str::to_owned))
+}
+
+/// A text of a PNG. A chunk whose checksum is not the one that it states is none.
+fn png_text<'a>(info: &'a png::Info<'_>, name: &str) -> Option<&'a str> {
+    let mut texts = info.uncompressed_latin1_text.iter();
+    texts.find(|chunk| chunk.keyword == name).map(|chunk| chunk.text.as_str())
 }
 
 /// How every PNG ends: a chunk without content, and its checksum.
 const PNG_END: [u8; 12] = *b"\0\0\0\0IEND\xaeB`\x82";
 
-/// Whether all chunks have the checksums that they state and all pixels are there.
+/// Whether all chunks have the checksums that they state and all pixels are there, and how they are shown.
 fn png_is_whole(bytes: &[u8]) -> bool {
     let read = || {
         let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().ok()?;
+        png_text(reader.info(), TONE)?;
         let mut pixels = vec![0; reader.output_buffer_size()?];
         reader.next_frame(&mut pixels).ok()?;
         reader.finish().ok()
@@ -128,9 +152,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("image");
         for format in [ImageFormat::Png, ImageFormat::Exr] {
-            let key = image_key("picture", format, 0.0, None);
+            let key = image_key("picture", format, Tone::default(), None);
             let encode = |key: Option<&String>| match format {
-                ImageFormat::Png => encode_png(&image(), 0.0, key.map(String::as_str)),
+                ImageFormat::Png => encode_png(&image(), Tone::default(), key.map(String::as_str)),
                 ImageFormat::Exr => {
                     encode_exr(&image(), &Metadata { key: key.cloned(), ..Metadata::default() })
                 }
@@ -160,17 +184,21 @@ mod tests {
 
     #[test]
     fn every_way_to_show_a_picture_has_a_key_of_its_own() {
-        let key = |format, exposure, shard| image_key("picture", format, exposure, shard);
+        let key = |format, exposure: f32, shard| image_key("picture", format, exposure.into(), shard);
+        let curve = |curve| image_key("picture", ImageFormat::Png, Tone { curve, exposure: 1.0 }, None);
         let keys = [
             key(ImageFormat::Png, 0.0, None),
-            key(ImageFormat::Png, 1.0, None),
+            curve(ToneCurve::Exposure),
+            curve(ToneCurve::Agx),
+            curve(ToneCurve::Aces),
             key(ImageFormat::Exr, 0.0, None),
             key(ImageFormat::Exr, 0.0, Shard::new(1, 2)),
             key(ImageFormat::Exr, 0.0, Shard::new(2, 2)),
-            image_key("another", ImageFormat::Exr, 0.0, None),
+            image_key("another", ImageFormat::Exr, Tone::default(), None),
         ];
         let different: std::collections::BTreeSet<_> = keys.iter().collect();
         assert_eq!(different.len(), keys.len());
         assert_eq!(key(ImageFormat::Png, -0.0, None), keys[0]);
+        assert_eq!(key(ImageFormat::Png, 1.0, None), keys[1]);
     }
 }

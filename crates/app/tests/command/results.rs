@@ -1,6 +1,7 @@
 //! What the command leaves behind: images, reports, exit codes.
 
 use crate::scripted::{command, entries, stderr};
+use rasray_metrics::{Tone, ToneCurve};
 use rasray_report::{Report, SCHEMA};
 use std::path::Path;
 use std::process::Output;
@@ -22,6 +23,33 @@ fn a_png_is_tone_mapped_by_exposure_and_srgb_alone() {
     assert_eq!((image.width(), image.height()), (4, 3));
     assert!(image.pixels().all(|pixel| pixel.0 == [255, 188, 255]));
     assert_eq!(entries(folder.path()), ["a.png"]);
+}
+
+#[test]
+fn a_png_has_the_curve_that_was_asked_for_and_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |line: &str| {
+        let output = rasray(folder.path(), &format!("render cornell --size 4x3 -o a.png {line}"));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let file = std::fs::File::open(folder.path().join("a.png")).expect("an image");
+        let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
+        let texts = reader.info().uncompressed_latin1_text.clone();
+        let said = texts.into_iter().find(|chunk| chunk.keyword == "rasrayTone").expect("a tone").text;
+        let mut pixels = vec![0; reader.output_buffer_size().expect("a small image")];
+        reader.next_frame(&mut pixels).expect("pixels");
+        (said, [pixels[0], pixels[1], pixels[2]], stderr(&output))
+    };
+    // What Blender's AgX and the fit of ACES make of 0.5, 0.25, 1.
+    let tone = |curve, exposure| rasray_metrics::tone_map(&[[0.5, 0.25, 1.0]], Tone { curve, exposure });
+    let (said, pixel, _) = run("--tone agx --exposure -1");
+    assert_eq!((said.as_str(), &pixel[..]), ("agx, exposure -1", &tone(ToneCurve::Agx, -1.0)[..]));
+    let (said, pixel, _) = run("--tone aces");
+    assert_eq!((said.as_str(), &pixel[..]), ("aces, exposure 0", &tone(ToneCurve::Aces, 0.0)[..]));
+    let (.., resumed) = run("--tone aces --resume");
+    assert!(resumed.contains("there already"), "{resumed}");
+    let (said, pixel, resumed) = run("--resume");
+    assert!(resumed.contains("something else"), "another tone is another file: {resumed}");
+    assert_eq!((said.as_str(), pixel), ("exposure 0", [188, 137, 255]));
 }
 
 #[test]

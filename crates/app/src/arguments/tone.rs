@@ -1,0 +1,35 @@
+//! How pictures of 8 bits are shown.
+
+use super::options::choice;
+use super::values;
+use clap::Args;
+use clap::builder::TypedValueParser;
+use rasray_metrics::{Tone, ToneCurve};
+
+/// Reads the name of a curve.
+pub fn tone_parser() -> impl TypedValueParser<Value = ToneCurve> {
+    choice(ToneCurve::ALL, |curve| (curve.name(), curve.doc()))
+}
+
+/// How linear colours become those of a PNG.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct ToneArguments {
+    /// Stops of exposure for .png
+    #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true)]
+    pub exposure: Option<f32>,
+    /// Curve for .png, after the exposure [default: exposure]
+    #[arg(long, value_parser = tone_parser())]
+    pub tone: Option<ToneCurve>,
+}
+
+impl ToneArguments {
+    /// What was asked for.
+    pub fn tone(self) -> Tone {
+        Tone { curve: self.tone.unwrap_or_default(), exposure: self.exposure.unwrap_or_default() }
+    }
+
+    /// An option that was given, for messages; absent where none was.
+    pub fn given(self) -> Option<&'static str> {
+        self.tone.map(|_| "--tone").or(self.exposure.map(|_| "--exposure"))
+    }
+}
