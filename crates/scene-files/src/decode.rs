@@ -6,15 +6,18 @@ use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
-use crate::Limits;
 use crate::recognise::recognise;
+use crate::{Limits, basis};
 use rasray_scene::remarks::Remarks;
 use rasray_scene::{Image, SceneError, Warning};
 
 /// Longest side of an image, texels.
 const MAX_SIDE: u32 = 1 << 16;
 
-/// Decodes a PNG or JPEG image, told apart by its first bytes, to RGBA8 with the first
+/// What is wrong with an image beyond that.
+const TOO_LARGE: &str = "is too large to be decoded";
+
+/// Decodes a PNG, JPEG or KTX2 image (ETC1S or UASTC), told apart by its first bytes, to RGBA8 with the first
 /// row at the top. More than 8 bits per channel are rounded, with a warning; an image without alpha
 /// is opaque; grey becomes three equal channels. Values are taken as stored: no colour profile is applied.
 ///
@@ -46,7 +49,8 @@ pub(crate) fn decode(
 ) -> Result<Image, SceneError> {
     let failed = |reason: String| SceneError::Image { path: path.to_owned(), image: name.to_owned(), reason };
     let format = match image::guess_format(bytes) {
-        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => Some(format),
+        _ if basis::is_ktx2(bytes) => None,
         found => {
             let format = found
                 .ok()
@@ -54,14 +58,25 @@ pub(crate) fn decode(
                 .map(|name| format!("a .{name} image"));
             let what = format.or_else(|| recognise(bytes).map(|found| found.what.to_owned()));
             return Err(failed(format!(
-                "is {}; only PNG and JPEG are read",
+                "is {}; only PNG, JPEG and KTX2 are read",
                 what.as_deref().unwrap_or("of an unknown format")
             )));
         }
     };
     // A last net: the decoders promise not to panic, and hostile files are what tests that promise.
-    let decoded = catch_unwind(AssertUnwindSafe(|| decode_as(path, name, bytes, format, limits)))
-        .map_err(|panic| SceneError::Internal { path: path.to_owned(), reason: panic_message(&*panic) })??;
+    let decoded = catch_unwind(AssertUnwindSafe(|| match format {
+        Some(format) => decode_as(path, name, bytes, format, limits),
+        None => {
+            let failed = |reason: &str| failed(reason.to_owned());
+            let (width, height) = basis::size(bytes).map_err(failed)?;
+            if width.max(height) > MAX_SIDE {
+                return Err(failed(TOO_LARGE));
+            }
+            check_size(path, name, width, height, limits)?;
+            basis::decode(bytes).map(DynamicImage::ImageRgba8).map_err(failed)
+        }
+    }))
+    .map_err(|panic| SceneError::Internal { path: path.to_owned(), reason: panic_message(&*panic) })??;
     let deep = !matches!(
         decoded,
         DynamicImage::ImageLuma8(_)
@@ -97,7 +112,7 @@ fn decode_as(
             image::ImageError::Unsupported(_) => {
                 "is of a kind of its format that is not supported".to_owned()
             }
-            image::ImageError::Limits(_) => "is too large to be decoded".to_owned(),
+            image::ImageError::Limits(_) => TOO_LARGE.to_owned(),
             _ => "is damaged or cut short".to_owned(),
         },
     };
@@ -110,15 +125,15 @@ fn decode_as(
     reader.limits(bounds);
     let decoder = reader.into_decoder().map_err(failed)?;
     let (width, height) = decoder.dimensions();
-    let pixels = u64::from(width) * u64::from(height);
-    Limits::check(
-        path,
-        &format!("the size in texels of image {name}"),
-        pixels,
-        limits.image_pixels,
-        "image_pixels",
-    )?;
+    check_size(path, name, width, height, limits)?;
     DynamicImage::from_decoder(decoder).map_err(failed)
+}
+
+/// Refuses an image of more texels than are allowed.
+fn check_size(path: &Path, name: &str, width: u32, height: u32, limits: &Limits) -> Result<(), SceneError> {
+    let pixels = u64::from(width) * u64::from(height);
+    let what = format!("the size in texels of image {name}");
+    Limits::check(path, &what, pixels, limits.image_pixels, "image_pixels")
 }
 
 /// What a caught panic said.

@@ -21,6 +21,8 @@ mod attributes;
 mod buffer_views;
 mod buffers;
 mod cameras;
+#[cfg(feature = "meshopt")]
+mod compression;
 mod conform;
 mod container;
 mod deformation;

@@ -3,6 +3,7 @@
 //! [`load`] makes a [`rasray_scene::Scene`] of a file. What of a file is read, refused and remarked on is in
 //! `docs/scene-files.md` of the repository.
 
+mod basis;
 mod decode;
 mod environment_map;
 mod files;

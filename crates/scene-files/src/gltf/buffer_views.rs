@@ -11,7 +11,7 @@ use rasray_scene::SceneError;
 impl<'a> Document<'a> {
     /// The bytes of a buffer, at most as many as it claims: the binary chunk (a first buffer without
     /// a reference), a `data:` URI or a file.
-    fn buffer(&self, index: usize) -> Result<&[u8], SceneError> {
+    pub(super) fn buffer(&self, index: usize) -> Result<&[u8], SceneError> {
         let claim = self.root.buffers[index].byte_length.0;
         let cell = &self.buffers.read[index];
         let bytes = match cell.get() {
@@ -55,18 +55,17 @@ impl<'a> Document<'a> {
             (None, _) if buffer.byte_length.0 == 0 => return Ok(Cow::default()),
             (None, _) => return Err(self.invalid(place, "has neither a reference nor a binary chunk")),
         };
-        let left = buffers.left.get().checked_sub(bytes.len() as u64).ok_or_else(|| {
-            let read = limits.file_bytes - buffers.left.get() + bytes.len() as u64;
-            let what = "the size of all buffers in bytes";
-            SceneError::too_large(path, what, read, limits.file_bytes, "file_bytes")
-        })?;
-        buffers.left.set(left);
+        self.spend_bytes(bytes.len() as u64)?;
         Ok(bytes.into())
     }
 
-    /// Bytes of a buffer view, as far as its buffer has them.
+    /// Bytes of a buffer view, as far as its buffer has them; those of a compressed one are decoded.
     pub fn view(&self, view: usize) -> Result<&[u8], SceneError> {
         let claim = &self.root.buffer_views[view];
+        #[cfg(feature = "meshopt")]
+        if let Some(decoded) = self.decoded(view)? {
+            return Ok(decoded);
+        }
         let buffer = claim.buffer.value();
         let bytes = self.buffer(buffer)?;
         let start = claim.byte_offset.unwrap_or_default().0;
@@ -79,5 +78,20 @@ impl<'a> Document<'a> {
         }
         // Both ends are at most the length of a slice.
         Ok(&bytes[start.min(available) as usize..end.min(available) as usize])
+    }
+
+    /// The bytes of a compressed view, decoded when they are first needed; `None` if it is stored as it is.
+    #[cfg(feature = "meshopt")]
+    fn decoded(&self, view: usize) -> Result<Option<&[u8]>, SceneError> {
+        let cell = &self.buffers.decoded[view];
+        let decoded = match cell.get() {
+            Some(decoded) => decoded,
+            None => {
+                let decoded = super::compression::decode(self, view)?;
+                cell.get_or_init(|| decoded)
+            }
+        };
+        let length = self.root.buffer_views[view].byte_length.0;
+        Ok(decoded.as_ref().map(|decoded| decoded.bytes(length as usize)))
     }
 }

@@ -42,7 +42,7 @@ impl<'a> Document<'a> {
         let json::Parsed { root, locals, unknown, unread } = json::parse(path, container.json, &mut remarks)?;
         Limits::check(path, "the number of nodes", root.nodes.len() as u64, limits.nodes, "nodes")?;
         indices::check(path, &root)?;
-        let buffers = Buffers::new(root.buffers.len(), container.binary, limits.file_bytes);
+        let buffers = Buffers::new(&root, container.binary);
         let remarks = RefCell::new(remarks);
         Ok(Self { path, limits, root, locals, buffers, remarks, unknown, unread, elements: Cell::new(0) })
     }
@@ -53,6 +53,14 @@ impl<'a> Document<'a> {
         self.elements.set(total);
         let what = "the number of elements of all arrays";
         Limits::check(self.path, what, total, self.limits.elements, "elements")
+    }
+
+    /// Counts bytes that are about to be held beside the file.
+    pub fn spend_bytes(&self, bytes: u64) -> Result<(), SceneError> {
+        let total = self.buffers.held.get().saturating_add(bytes);
+        self.buffers.held.set(total);
+        let what = "the size of all buffers in bytes";
+        Limits::check(self.path, what, total, self.limits.file_bytes, "file_bytes")
     }
 
     /// An error about an element of this file.

@@ -10,7 +10,7 @@ use rasray_scene::remarks::Remarks;
 use rasray_scene::text::shown;
 
 /// Extensions that change the scene as they should.
-const SUPPORTED: [&str; 11] = [
+const SUPPORTED: [&str; 12] = [
     "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
@@ -21,10 +21,15 @@ const SUPPORTED: [&str; 11] = [
     "KHR_materials_unlit",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 ];
 
 fn is_supported(name: &str) -> bool {
+    #[cfg(feature = "meshopt")]
+    if super::compression::EXTENSIONS.contains(&name) {
+        return true;
+    }
     SUPPORTED.contains(&name)
 }
 
@@ -56,7 +61,7 @@ fn fix_for(name: &str) -> &'static str {
         "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
             "decompress the meshes first: npx @gltf-transform/cli copy in.glb out.glb"
         }
-        "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" | "MSFT_texture_dds" => {
+        "EXT_texture_webp" | "EXT_texture_avif" | "MSFT_texture_dds" => {
             "convert the images first: npx @gltf-transform/cli png in.glb out.glb"
         }
         "KHR_materials_pbrSpecularGlossiness" => {

@@ -135,6 +135,17 @@ const ANIMATION: &[Member] = &[
 
 const BUFFER: &[Member] = &[may("byteLength", Size), may("uri", Text), NAME, PLAIN];
 
+/// Of `EXT_meshopt_compression` and `KHR_meshopt_compression`.
+const COMPRESSED: Kind = Object(&[
+    must("buffer", Whole),
+    may("byteOffset", Size),
+    must("byteLength", Size),
+    must("byteStride", Whole),
+    must("count", Size),
+    must("mode", OpenWord(&["ATTRIBUTES", "TRIANGLES", "INDICES"])),
+    may("filter", OpenWord(&["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"])),
+]);
+
 const VIEW: &[Member] = &[
     must("buffer", Whole),
     must("byteLength", Size),
@@ -142,7 +153,10 @@ const VIEW: &[Member] = &[
     may("byteStride", Whole),
     may("target", Whole),
     NAME,
-    PLAIN,
+    may(
+        "extensions",
+        Extensions(&[may("EXT_meshopt_compression", COMPRESSED), may("KHR_meshopt_compression", COMPRESSED)]),
+    ),
 ];
 
 const CAMERA: &[Member] = &[
@@ -304,7 +318,12 @@ const SCENE: &[Member] = &[may("nodes", List(&Whole)), NAME, PLAIN];
 const SKIN: &[Member] =
     &[may("inverseBindMatrices", Whole), may("joints", List(&Whole)), may("skeleton", Whole), NAME, PLAIN];
 
-const TEXTURE: &[Member] = &[may("sampler", Whole), may("source", Whole), NAME, PLAIN];
+const TEXTURE: &[Member] = &[
+    may("sampler", Whole),
+    may("source", Whole),
+    NAME,
+    may("extensions", Extensions(&[may("KHR_texture_basisu", Object(&[may("source", Whole)]))])),
+];
 
 const SAMPLER: &[Member] = &[
     may("magFilter", Code(&[9728, 9729])),

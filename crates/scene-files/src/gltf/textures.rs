@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use ::gltf::json::Index;
+use ::gltf::json::Value;
 use ::gltf::json::deserialize::from_value;
 use ::gltf::json::extensions::texture::TextureTransform;
 use ::gltf::json::texture::{Info, MagFilter, MinFilter, Texture as JsonTexture, WrappingMode};
@@ -45,10 +45,15 @@ impl<'a> Use<'a> {
     }
 }
 
-/// The image of a texture; `None` if only an extension names one.
-pub(super) fn source(texture: &JsonTexture) -> Option<Index<::gltf::json::Image>> {
-    // The typed tree writes the absent index as the largest one.
-    Some(texture.source).filter(|source| source.value() != u32::MAX as usize)
+/// The image of a texture, that of `KHR_texture_basisu` before one that stands in for it; `None` if only another extension
+/// names one.
+pub(super) fn source(texture: &JsonTexture) -> Option<usize> {
+    let basis = texture.extensions.as_ref().and_then(|found| found.others.get("KHR_texture_basisu"));
+    match basis.and_then(|found| found.get("source")).and_then(Value::as_u64) {
+        Some(source) => Some(source as usize),
+        // The typed tree writes the absent index as the largest one.
+        None => Some(texture.source.value()).filter(|&source| source != u32::MAX as usize),
+    }
 }
 
 /// Textures and images read so far.
@@ -100,16 +105,16 @@ impl<'a, 'd> TextureReader<'a, 'd> {
         }
         let texture = &self.document.root.textures[index];
         let read = match source(texture) {
-            Some(image) if image.value() >= self.document.root.images.len() => {
-                let reason = format!("refers to images[{}], which does not exist", image.value());
+            Some(image) if image >= self.document.root.images.len() => {
+                let reason = format!("refers to images[{image}], which does not exist");
                 return Err(self.document.invalid(format!("textures[{index}]"), reason));
             }
-            Some(image) => self.image(image.value())?.map(|image| {
+            Some(image) => self.image(image)?.map(|image| {
                 self.textures.push(sampled(self.document, texture, image));
                 self.textures.len() - 1
             }),
             None => {
-                let text = "has no PNG or JPEG image; it was dropped";
+                let text = "has no PNG, JPEG or KTX2 image; it was dropped";
                 self.document.note("texture-without-image", format!("textures[{index}]"), text);
                 None
             }

@@ -15,10 +15,16 @@ use rasray_scene_files::{Limits, LoadOptions, decode_image, load};
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// A small generator of well-mixed numbers.
-struct Random(u64);
+pub struct Random(u64);
 
 impl Random {
-    fn below(&mut self, bound: usize) -> usize {
+    /// One of the sequences of numbers.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next number, below `bound`.
+    pub fn below(&mut self, bound: usize) -> usize {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mixed = (self.0 ^ self.0 >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
@@ -27,7 +33,7 @@ impl Random {
 }
 
 /// Checks one outcome; true if a scene was made.
-fn survives(what: &str, attempt: impl FnOnce() -> Result<Scene, SceneError>) -> bool {
+pub fn survives(what: &str, attempt: impl FnOnce() -> Result<Scene, SceneError>) -> bool {
     let start = Instant::now();
     let result = attempt();
     assert!(start.elapsed() < PATIENCE, "{what} took {:?}", start.elapsed());
@@ -71,7 +77,7 @@ fn every_truncation_is_refused() {
 #[test]
 fn flipped_bits_of_gltf_do_no_harm() {
     for (what, bytes, flips) in [("GLB", rich_glb(), 10_000), ("text", rich_gltf(), 5_000)] {
-        let mut random = Random(17);
+        let mut random = Random::new(17);
         let mut loaded = 0;
         for flip in 0..flips {
             let mut damaged = bytes.clone();
@@ -123,7 +129,7 @@ fn values_of_another_kind_do_no_harm() {
 #[test]
 fn several_damages_at_once_do_no_harm() {
     let bytes = rich_glb();
-    let mut random = Random(23);
+    let mut random = Random::new(23);
     for round in 0..3_000 {
         let mut damaged = bytes.clone();
         for _ in 0..1 + random.below(8) {
@@ -170,7 +176,7 @@ fn damage(file_name: &str, bytes: &[u8], flips: usize) {
     for length in 0..bytes.len() {
         attempt(&format!("{length} bytes"), &bytes[..length]);
     }
-    let mut random = Random(29);
+    let mut random = Random::new(29);
     let mut loaded = 0;
     for flip in 0..flips {
         let mut damaged = bytes.to_vec();
@@ -214,7 +220,7 @@ fn damaged_images_do_no_harm() {
         };
         attempt(&bytes);
         (0..bytes.len()).for_each(|length| attempt(&bytes[..length]));
-        let mut random = Random(31);
+        let mut random = Random::new(31);
         for _ in 0..2_000 {
             let mut damaged = bytes.clone();
             let bit = random.below(damaged.len() * 8);

@@ -50,7 +50,7 @@ fn images_are_decoded() {
 fn images_that_cannot_be_read_are_left_out() {
     let broken: [(&[u8], &str); 4] = [
         (&png()[..40], "is damaged or cut short"),
-        (b"GIF89a", "is a .gif image; only PNG and JPEG are read"),
+        (b"GIF89a", "is a .gif image; only PNG, JPEG and KTX2 are read"),
         (b"<!DOCTYPE html>", "is an HTML page"),
         (b"version https://git-lfs.github.com/spec/v1\noid 1\n", "is a Git LFS pointer"),
     ];

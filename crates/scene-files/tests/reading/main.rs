@@ -3,6 +3,8 @@
 mod far_coordinates;
 mod foreign_files;
 mod gltf_cameras;
+#[cfg(feature = "meshopt")]
+mod gltf_compressed;
 mod gltf_content;
 mod gltf_corpus;
 mod gltf_damaged;

@@ -1,0 +1,63 @@
+//! KTX2 images with texels of Basis Universal, ETC1S or UASTC, to RGBA8.
+//!
+//! The crate `basisu` decodes. It trusts the places and lengths of a file in sums and allocations, so these are checked here
+//! before.
+
+use basisu::{DecodeFlags, SourceFormat, TargetFormat, Transcoder};
+use image::RgbaImage;
+use ktx2::{Header, LevelIndex, SupercompressionScheme};
+
+/// Whether bytes begin as a KTX2 file does.
+pub(crate) fn is_ktx2(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\xABKTX 20\xBB\r\n\x1A\n")
+}
+
+/// Bytes that 4x4 texels of UASTC take.
+const BLOCK_BYTES: u64 = 16;
+
+/// What is wrong with an image, as a sentence about it goes on.
+const DAMAGED: &str = "is damaged or cut short";
+const OTHER: &str = "is a KTX2 file of another kind than glTF has: one picture of ETC1S or UASTC texels; encode it anew with \
+                     npx @gltf-transform/cli etc1s (or uastc)";
+
+/// Width and height in texels, read from the header.
+pub(crate) fn size(bytes: &[u8]) -> Result<(u32, u32), &'static str> {
+    let header = header(bytes)?;
+    Ok((header.pixel_width, header.pixel_height))
+}
+
+/// Decodes the largest level, whose size was found within limits.
+pub(crate) fn decode(bytes: &[u8]) -> Result<RgbaImage, &'static str> {
+    let header = header(bytes)?;
+    let level = bytes.get(Header::LENGTH..).and_then(|rest| rest.first_chunk()).ok_or(DAMAGED)?;
+    let level = LevelIndex::from_bytes(level);
+    let within =
+        |from: u64, length: u64| from.checked_add(length).is_some_and(|end| end <= bytes.len() as u64);
+    let (width, height) = (header.pixel_width, header.pixel_height);
+    let blocks = u64::from(width.div_ceil(4)) * u64::from(height.div_ceil(4));
+    let inflated = match header.supercompression_scheme {
+        Some(SupercompressionScheme::Zstandard) => level.uncompressed_byte_length,
+        _ => 0,
+    };
+    let index = header.index;
+    if !within(level.byte_offset, level.byte_length)
+        || !within(index.sgd_byte_offset, index.sgd_byte_length)
+        || inflated > blocks * BLOCK_BYTES
+    {
+        return Err(DAMAGED);
+    }
+    let image = Transcoder::new(bytes).map_err(|_| DAMAGED)?;
+    if !matches!(image.source_format(), SourceFormat::Etc1s | SourceFormat::UastcLdr) || image.is_video() {
+        return Err(OTHER);
+    }
+    let texels = image.transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE).map_err(|_| DAMAGED)?;
+    RgbaImage::from_raw(width, height, texels).ok_or(DAMAGED)
+}
+
+/// The header of a file with one picture that may be of Basis Universal.
+fn header(bytes: &[u8]) -> Result<Header, &'static str> {
+    let header = Header::from_bytes(bytes.first_chunk().ok_or(DAMAGED)?).map_err(|_| DAMAGED)?;
+    let single = header.layer_count == 0 && header.face_count == 1 && header.pixel_depth == 0;
+    // A format of Vulkan is named where texels are of another kind.
+    if single && header.pixel_height > 0 && header.format.is_none() { Ok(header) } else { Err(OTHER) }
+}
