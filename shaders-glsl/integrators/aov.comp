@@ -19,5 +19,5 @@ void main() {
         Hit hit = queue_hit(slot);
         met = AovPixel(hit.t * length(queue_ray(slot).direction), surface.geometric_normal, hit.primitive);
     }
-    aov_pixels[wave_pixel(slot)] = met;
+    aov_pixels[band_place(wave_pixel(slot))] = met;
 }

@@ -1,5 +1,6 @@
 // What: data of integrators per slot of a wave and per pixel of the image, and the functions that access it. Slot i of
-// a wave holds pixel first_pixel + i of the image, or of the list of those that a sample is taken of.
+// a wave holds pixel first_pixel + i of the image, or of the list of those that a sample is taken of. Buffers with a record
+// per pixel are those of the band of the image that the wave is in.
 // Reads, writes: the buffers of INTEGRATOR_SET.
 // Source: wavefront path tracing as in pbrt-v4, section 15.
 #ifndef INTEGRATORS_STORAGE_GLSL
@@ -58,7 +59,7 @@ layout(set = INTEGRATOR_SET, binding = 15, scalar) readonly buffer WavePixelBuff
 // A sample is taken of the pixels that a list names, not of all.
 layout(constant_id = 107) const bool WAVE_IS_LISTED = false;
 
-// Which slots a kernel works on, and what it is told. 32 bytes.
+// Which slots a kernel works on, and what it is told. 36 bytes.
 layout(push_constant, scalar) uniform WaveConstants {
     uint first_pixel;     // of the wave: of the image, or its place in the list
     uint pixel_count;     // of the wave
@@ -70,6 +71,7 @@ layout(push_constant, scalar) uniform WaveConstants {
     float number;
     uint domain;          // of the queue that is bound: pixel_count, or DOMAIN_SELECTED
     uint marks;           // WAVE_ROUND_* of the round, and rules of the integrator
+    uint band_first;      // first pixel of the band that the wave is in
 } wave;
 
 // The slot of this invocation; false where there is none.
@@ -80,7 +82,12 @@ bool wave_slot(out uint slot) {
 uint wave_pixel(uint slot) {
     uint place = wave.first_pixel + slot;
     if (!WAVE_IS_LISTED) return place;
-    return wave_pixels[place];
+    return wave_pixels[place - wave.band_first];
+}
+
+// Where the record of a pixel of the wave is in a buffer with one per pixel of the band.
+uint band_place(uint pixel) {
+    return pixel - wave.band_first;
 }
 
 bool is_finite(vec3 v) {
@@ -94,8 +101,9 @@ void film_add(uint pixel, vec3 radiance) {
         atomicAdd(film_faults.non_finite, 1u);
         return;
     }
-    film_pixels[pixel].sum += radiance;
-    film_pixels[pixel].samples += 1u;
+    uint place = band_place(pixel);
+    film_pixels[place].sum += radiance;
+    film_pixels[place].samples += 1u;
 }
 
 // Stores the shadow ray of a slot; an active one is selected for the next trace of the second queue.

@@ -3,7 +3,7 @@
 use rasray_ads::{Ray, Structure};
 use rasray_gpu::Timing;
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
-use rasray_integrators::{Film, Integrator, Traced, waves};
+use rasray_integrators::{Film, Integrator, Traced};
 use rasray_scene::{Scene, builtin::builtin};
 
 use crate::harness::Bench;
@@ -68,7 +68,7 @@ pub fn rendered_through(
 ) -> Vec<[f32; 3]> {
     let device = bench.device();
     device.submit(|recorder| integrator.record_reset(recorder)).expect("the device works");
-    for wave in waves(film.pixel_count(), samples, integrator.wave_capacity()) {
+    for wave in film.bands().waves(0..samples, integrator.wave_capacity()) {
         integrator.render_wave(device, Timing::None, traced, wave).expect("the wave fits");
     }
     for queue in integrator.queues() {

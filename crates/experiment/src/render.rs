@@ -5,7 +5,7 @@ use std::time::Instant;
 use rasray_frame::Adaptive;
 use rasray_gpu::{Device, Stage};
 use rasray_gpu_scene::View;
-use rasray_integrators::FilmPixel;
+use rasray_integrators::{AovPixel, FilmPixel};
 use rasray_scene::needs::Needs;
 
 use crate::backend::{OnProgress, Progress};
@@ -252,7 +252,9 @@ pub(super) fn render(
     };
     if (AovSelection { samples: false, ..job.aovs }) != AovSelection::default() {
         _ = progress(Progress { task: "render", done: 0, total: 0, unit: "additional images" });
-        let found = rendering.image().aovs(&stage.scene, built.structure()).map_err(frame_error)?;
+        let mut found = Vec::new();
+        let take = |pixels: &[AovPixel]| found.extend_from_slice(pixels);
+        rendering.image().aovs(&stage.scene, built.structure(), take).map_err(frame_error)?;
         output.depth = job.aovs.depth.then(|| found.iter().map(|pixel| pixel.distance).collect());
         output.normal = job.aovs.normal.then(|| found.iter().map(|pixel| pixel.normal).collect());
         output.primitive = job.aovs.primitive.then(|| found.iter().map(|pixel| pixel.primitive).collect());

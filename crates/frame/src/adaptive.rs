@@ -63,9 +63,10 @@ impl Pilot {
         Self { width: width as usize, pixels: vec![Moments::default(); pixels as usize] }
     }
 
-    /// Takes in the sample that was added to each pixel of the film since the call before; one that is not finite was not.
-    pub fn add(&mut self, film: &[FilmPixel]) {
-        for (moments, pixel) in self.pixels.iter_mut().zip(film) {
+    /// Takes in the sample that was added to each pixel of a band of the film, from pixel `first` on, since the call before;
+    /// one that is not finite was not.
+    pub fn add(&mut self, first: u32, film: &[FilmPixel]) {
+        for (moments, pixel) in self.pixels.iter_mut().skip(first as usize).zip(film) {
             let summed: f64 =
                 pixel.sum.iter().zip(LUMINANCE).map(|(sum, weight)| f64::from(*sum) * weight).sum();
             if pixel.samples > moments.samples {
@@ -142,7 +143,7 @@ mod tests {
             for (pixel, sum) in (0..).zip(&mut sums) {
                 *sum += value(pixel, sample);
             }
-            pilot.add(&film(&sums, sample + 1));
+            pilot.add(0, &film(&sums, sample + 1));
         }
         pilot
     }
@@ -212,7 +213,7 @@ mod tests {
         assert_eq!(pilot(1, 1, 4, |_, _| 1.0).counts(rule, 64), [64], "without neighbours nothing is known");
         // Samples that are no numbers are on no film.
         let mut unknown = Pilot::new(3, 9);
-        unknown.add(&film(&[0.0; 9], 0));
+        unknown.add(0, &film(&[0.0; 9], 0));
         assert_eq!(unknown.counts(rule, 64), [64; 9]);
     }
 

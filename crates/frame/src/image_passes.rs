@@ -3,7 +3,7 @@
 use rasray_ads::{Occluder, QueueCounters, Structure};
 use rasray_gpu::{Device, Recorder};
 use rasray_gpu_scene::{GpuScene, PosedBuffers};
-use rasray_integrators::{Film, FirstHits, Integrator, Traced, Visibility, Wave, waves_of};
+use rasray_integrators::{Film, FirstHits, Integrator, Traced, Visibility, Wave};
 use rasray_shadow_maps::{Config, Emitters, Lights, ShadowMaps};
 use rasray_tracer::TracerError;
 
@@ -167,7 +167,7 @@ impl ImagePasses {
 
     /// The waves of samples, in their order.
     pub fn waves(&self, samples: Samples) -> impl Iterator<Item = Wave> {
-        waves_of(self.film().pixel_count(), samples, self.integrator.wave_capacity())
+        self.film().bands().waves(samples, self.integrator.wave_capacity())
     }
 
     /// Records samples of all pixels.

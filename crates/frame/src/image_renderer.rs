@@ -1,12 +1,12 @@
 //! An image that is made wave by wave.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::time::Instant;
 
 use rasray_ads::{RayQueue, Structure};
 use rasray_gpu::{Device, PassTiming, Timing};
 use rasray_gpu_scene::GpuScene;
-use rasray_integrators::{AovPass, AovPixel, Film, Wave, wave_capacity, waves};
+use rasray_integrators::{AovPass, AovPixel, Film, Wave, wave_capacity};
 
 use crate::adaptive::{Adaptive, Pilot};
 use crate::image_passes::{ImagePasses, unanswered};
@@ -36,8 +36,8 @@ pub struct ImageRenderer {
     samples: Samples,
     /// The first pixel of the next wave, among those of the sample.
     next_pixel: u32,
-    /// Pixels that the sample is taken of.
-    of_sample: u32,
+    /// What the waves of the sample are ranges of, band by band.
+    of_sample: Vec<Range<u32>>,
     samples_done: u32,
     waves_done: u64,
     unfinished: u64,
@@ -54,9 +54,9 @@ struct Sharing {
 }
 
 impl Sharing {
-    /// Pixels that have a sample at this place.
-    fn pixels_at(&self, sample: u32) -> Vec<u32> {
-        (0..).zip(&self.counts).filter(|(_, count)| **count > sample).map(|(pixel, _)| pixel).collect()
+    /// Pixels of a band that have a sample at this place.
+    fn pixels_at(&self, sample: u32, band: Range<u32>) -> Vec<u32> {
+        band.filter(|pixel| self.counts[*pixel as usize] > sample).collect()
     }
 }
 
@@ -76,7 +76,7 @@ impl ImageRenderer {
             passes,
             samples,
             next_pixel: 0,
-            of_sample: 0,
+            of_sample: Vec::new(),
             samples_done: 0,
             waves_done: 0,
             unfinished: 0,
@@ -108,12 +108,14 @@ impl ImageRenderer {
     pub fn clear(&mut self) -> Result<(), FrameError> {
         self.device.submit(|recorder| self.passes.record_reset(recorder))?;
         (self.next_pixel, self.samples_done, self.waves_done, self.unfinished) = (0, 0, 0, 0);
-        self.of_sample = self.film().pixel_count();
+        self.of_sample = self.film().bands().ranges().collect();
         if let Some(sharing) = &mut self.sharing {
             let film = self.passes.film();
             sharing.pilot = Pilot::new(film.width(), film.pixel_count());
             sharing.counts.clear();
-            film.write_list(&self.device, &(0..film.pixel_count()).collect::<Vec<_>>())?;
+            for (number, band) in film.bands().ranges().enumerate() {
+                film.write_list(&self.device, number, &band.collect::<Vec<_>>())?;
+            }
         }
         Ok(())
     }
@@ -123,7 +125,11 @@ impl ImageRenderer {
         let Some(sharing) = &mut self.sharing else { return Ok(()) };
         let (film, done) = (self.passes.film(), self.samples_done);
         if done <= sharing.rule.least {
-            sharing.pilot.add(&film.read_pixels(&self.device)?);
+            let mut first = 0;
+            film.read_bands(&self.device, |pixels| {
+                sharing.pilot.add(first, pixels);
+                first += pixels.len() as u32;
+            })?;
         }
         if done < sharing.rule.least {
             return Ok(());
@@ -131,14 +137,26 @@ impl ImageRenderer {
         if done == sharing.rule.least {
             sharing.counts = sharing.pilot.counts(sharing.rule, self.samples.count());
         }
-        let pixels = sharing.pixels_at(done);
-        if pixels.is_empty() {
-            self.samples_done = self.samples.count();
-        } else if pixels.len() != self.of_sample as usize {
-            film.write_list(&self.device, &pixels)?;
+        for (number, (band, listed)) in film.bands().ranges().zip(&mut self.of_sample).enumerate() {
+            let pixels = sharing.pixels_at(done, band);
+            if pixels.len() != listed.len() {
+                *listed = film.write_list(&self.device, number, &pixels)?;
+            }
         }
-        self.of_sample = pixels.len() as u32;
+        if self.of_sample.iter().all(Range::is_empty) {
+            self.samples_done = self.samples.count();
+        }
         Ok(())
+    }
+
+    /// What is left of the sample after so many of its pixels, band by band.
+    fn left(&self, pixels: u32) -> impl Iterator<Item = Range<u32>> {
+        let mut skipped = pixels;
+        self.of_sample.iter().filter_map(move |listed| {
+            let start = listed.start + skipped.min(listed.len() as u32);
+            skipped -= start - listed.start;
+            (start < listed.end).then_some(start..listed.end)
+        })
     }
 
     /// Lights or triangles have moved: shadow maps are drawn anew before the next wave. The film stays.
@@ -179,10 +197,11 @@ impl ImageRenderer {
     /// The device fails, or rays met list entries with an invalid index.
     pub fn advance(&mut self, structure: &dyn Structure, timing: Timing) -> Result<Advance, FrameError> {
         let mut timings = self.draw_shadow_maps(timing)?;
-        let (pixels, integrator) = (self.of_sample, self.passes.integrator());
+        let integrator = self.passes.integrator();
+        let next = self.left(self.next_pixel).next().unwrap_or_default();
         let wave = Wave {
-            first_pixel: self.next_pixel,
-            pixel_count: integrator.wave_capacity().min(pixels - self.next_pixel),
+            first_pixel: next.start,
+            pixel_count: integrator.wave_capacity().min(next.len() as u32),
             sample: self.samples.index(self.samples_done),
         };
         let traced = self.passes.traced(structure);
@@ -196,7 +215,7 @@ impl ImageRenderer {
         }
         self.next_pixel += wave.pixel_count;
         self.waves_done += 1;
-        if self.next_pixel == pixels {
+        if self.left(self.next_pixel).next().is_none() {
             self.next_pixel = 0;
             self.samples_done += 1;
             self.choose_pixels()?;
@@ -224,31 +243,39 @@ impl ImageRenderer {
         Ok(())
     }
 
-    /// Traces the rays through the pixels' centres, of the scene as it is shown, and returns what they hit, row by row from
-    /// the top left.
+    /// Traces the rays through the pixels' centres, of the scene as it is shown, and hands out what they hit, row by row from
+    /// the top left, band by band.
     ///
     /// # Errors
     /// The device fails, sizes do not fit, rays met list entries with an invalid index, or did not finish in as many rounds
     /// as there can be ([`FrameError::Unfinished`]).
-    pub fn aovs(&self, scene: &GpuScene, structure: &dyn Structure) -> Result<Vec<AovPixel>, FrameError> {
-        let pixels = self.film().pixel_count();
-        let capacity = wave_capacity(&self.device).min(pixels);
-        let aov = AovPass::new(&self.device, scene, capacity)?;
-        loop {
-            self.device.submit(|recorder| aov.record_reset(recorder))?;
-            for wave in waves(pixels, 1, capacity) {
-                let traced = self.passes.traced(structure);
-                self.device.submit(|recorder| aov.record_wave(recorder, traced, wave))?.value?;
+    pub fn aovs(
+        &self,
+        scene: &GpuScene,
+        structure: &dyn Structure,
+        mut take: impl FnMut(&[AovPixel]),
+    ) -> Result<(), FrameError> {
+        let bands = self.film().bands();
+        let capacity = wave_capacity(&self.device).min(bands.pixel_count());
+        let aov = AovPass::new(&self.device, scene, bands, capacity)?;
+        for band in bands.ranges() {
+            loop {
+                self.device.submit(|recorder| aov.record_reset(recorder))?;
+                for wave in Wave::cut(band.clone(), 0, capacity) {
+                    let traced = self.passes.traced(structure);
+                    self.device.submit(|recorder| aov.record_wave(recorder, traced, wave))?.value?;
+                }
+                let rays = self.count_unfinished(structure, &[aov.queue()])?;
+                if rays == 0 {
+                    break;
+                }
+                if !structure.allow_more_rounds() {
+                    return Err(FrameError::Unfinished { rays });
+                }
             }
-            let rays = self.count_unfinished(structure, &[aov.queue()])?;
-            if rays == 0 {
-                break;
-            }
-            if !structure.allow_more_rounds() {
-                return Err(FrameError::Unfinished { rays });
-            }
+            take(&aov.read(&self.device, band.len() as u32)?);
         }
-        Ok(aov.read(&self.device)?)
+        Ok(())
     }
 
     /// Downloads the counters of queues.
@@ -269,10 +296,11 @@ impl ImageRenderer {
 
     /// Waves of all samples that were asked for; where pixels get as many as they need, at most so many.
     pub fn waves(&self) -> u64 {
-        let of = |pixels: u64| pixels.div_ceil(self.passes.integrator().wave_capacity().into());
+        let capacity = self.passes.integrator().wave_capacity() as usize;
+        let after = |pixels| self.left(pixels).map(|left| left.len().div_ceil(capacity) as u64).sum::<u64>();
         let left = self.samples.count().saturating_sub(self.samples_done + u32::from(self.next_pixel > 0));
-        let in_sample = if self.next_pixel > 0 { of((self.of_sample - self.next_pixel).into()) } else { 0 };
-        self.waves_done + in_sample + u64::from(left) * of(self.of_sample.into())
+        let in_sample = if self.next_pixel > 0 { after(self.next_pixel) } else { 0 };
+        self.waves_done + in_sample + u64::from(left) * after(0)
     }
 
     /// Waves that are on the film.

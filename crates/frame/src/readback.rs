@@ -25,7 +25,8 @@ impl FilmCopy {
 /// Memory of the host that one frame in flight writes: film, faults, and the header of each queue.
 #[derive(Debug)]
 pub(crate) struct Readback {
-    film: Option<Buffer>,
+    /// Of each band; of none where films are not read.
+    film: Vec<Buffer>,
     counters: Buffer,
 }
 
@@ -39,9 +40,10 @@ impl Readback {
             device.create_buffer(&BufferDesc { name, size, usage, location })
         };
         let queues = integrator.queues().len() as u64;
-        let film = integrator.film().pixels().size();
+        let read = if reads_film { integrator.film().pixels() } else { &[] };
+        let film = read.iter().map(|pixels| buffer("film of a frame", pixels.size()));
         Ok(Self {
-            film: if reads_film { Some(buffer("film of a frame", film)?) } else { None },
+            film: film.collect::<Result<_, _>>()?,
             counters: buffer("counters of a frame", FAULTS + queues * HEADER)?,
         })
     }
@@ -49,8 +51,8 @@ impl Readback {
     /// Records the copies, after everything else of the frame.
     pub fn record(&self, recorder: &mut Recorder<'_>, integrator: &dyn Integrator) {
         recorder.barrier(Access::COMPUTE_WRITE | Access::TRANSFER_WRITE, Access::TRANSFER);
-        if let Some(film) = &self.film {
-            recorder.copy(integrator.film().pixels(), 0, film, 0, film.size());
+        for (film, pixels) in self.film.iter().zip(integrator.film().pixels()) {
+            recorder.copy(pixels, 0, film, 0, film.size());
         }
         recorder.copy(integrator.film().faults(), 0, &self.counters, 0, FAULTS);
         for (at, queue) in (0..).zip(integrator.queues()) {
@@ -62,10 +64,10 @@ impl Readback {
     pub fn read(&self) -> Result<(FilmCopy, Vec<QueueCounters>), GpuError> {
         let bytes = self.counters.read(0, self.counters.size())?;
         let (faults, headers) = bytes.split_at(FAULTS as usize);
-        let pixels = match &self.film {
-            Some(film) => bytemuck::pod_collect_to_vec(&film.read(0, film.size())?),
-            None => Vec::new(),
-        };
+        let mut pixels = Vec::new();
+        for film in &self.film {
+            pixels.extend(bytemuck::pod_collect_to_vec::<u8, FilmPixel>(&film.read(0, film.size())?));
+        }
         let counters = headers
             .chunks_exact(HEADER as usize)
             .map(|header| RayQueue::counters(&bytemuck::pod_read_unaligned(header)))

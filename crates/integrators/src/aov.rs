@@ -6,17 +6,16 @@ use rasray_gpu_scene::GpuScene;
 use rasray_shaders_glsl::{INTEGRATORS_AOV, INTEGRATORS_PRIMARY, records::AovPixel};
 
 use crate::{
-    IntegratorError, Traced, Wave,
-    film::pixel_count,
-    integrator::{check_capacity, check_wave},
-    kernels::{Bindings, Kernel, WaveConstants, binding, camera_constants, device_buffer},
+    Bands, IntegratorError, Traced, Wave,
+    integrator::check_capacity,
+    kernels::{Bindings, Kernel, OfPixels, WaveConstants, binding, camera_constants, device_buffer},
 };
 
-/// Traces the rays of pixel centres and keeps what they hit. One trace per wave; `Wave::sample` is
+/// Traces the rays of pixel centres and keeps what they hit, of one band at a time. One trace per wave; `Wave::sample` is
 /// not used.
 #[derive(Debug)]
 pub struct AovPass {
-    pixel_count: u32,
+    /// Of the band that was traced last.
     pixels: Buffer,
     queue: RayQueue,
     bindings: Bindings,
@@ -25,21 +24,30 @@ pub struct AovPass {
 }
 
 impl AovPass {
-    /// Makes queue, image and kernels for the scene's view, with at most `wave_capacity` rays per wave.
+    /// Makes queue, image and kernels for the scene's view in these bands, with at most `wave_capacity` rays per wave.
     ///
     /// # Errors
-    /// Sizes that do not fit, out of memory, or the device refuses a pipeline.
-    pub fn new(device: &Device, scene: &GpuScene, wave_capacity: u32) -> Result<Self, IntegratorError> {
-        let [width, height] = scene.image_size();
-        let pixel_count = pixel_count(width, height)?;
+    /// `SizesDiffer` where bands and view have not as many pixels, sizes that do not fit, out of memory, or the device refuses
+    /// a pipeline.
+    pub fn new(
+        device: &Device,
+        scene: &GpuScene,
+        bands: Bands,
+        wave_capacity: u32,
+    ) -> Result<Self, IntegratorError> {
+        let view = scene.image_size();
+        if Bands::one(view)?.pixel_count() != bands.pixel_count() {
+            return Err(IntegratorError::SizesDiffer { film: [bands.pixel_count(), 1], view });
+        }
         let capacity = check_capacity(wave_capacity)?;
-        let pixels = device_buffer(device, "aov", u64::from(pixel_count) * size_of::<AovPixel>() as u64)?;
+        let bytes = u64::from(bands.most()) * size_of::<AovPixel>() as u64;
+        let pixels = device_buffer(device, "aov", bytes)?;
         let queue = RayQueue::new(device, "pixel centre rays", capacity, true)?;
-        let bindings = Bindings::new(device, scene, &[(binding::AOV, &pixels)])?;
+        let bound = bands.ranges().map(|_| vec![(binding::AOV, &pixels)]).collect();
+        let bindings = Bindings::new(device, scene, &OfPixels { bands, bound }, &[])?;
         Ok(Self {
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(true))?,
             store: bindings.kernel(device, &INTEGRATORS_AOV, &[])?.of_film(),
-            pixel_count,
             pixels,
             queue,
             bindings,
@@ -61,7 +69,7 @@ impl AovPass {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        check_wave(wave, self.queue.capacity(), self.pixel_count)?;
+        self.bindings.check(&self.queue, wave)?;
         let (constants, all) = (WaveConstants::from(wave), Domain::First(wave.pixel_count));
         self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
         traced.record_primary(recorder, &self.queue, wave)?;
@@ -79,11 +87,11 @@ impl AovPass {
         self.pixels.size() + self.queue.bytes()
     }
 
-    /// Downloads all pixels, row by row from the top left: submits and waits.
+    /// Downloads the pixels of the band whose waves were traced last, `count` of them: submits and waits.
     ///
     /// # Errors
-    /// The device is lost or out of memory.
-    pub fn read(&self, device: &Device) -> Result<Vec<AovPixel>, IntegratorError> {
-        Ok(device.download_as(&self.pixels, 0, self.pixel_count as usize)?)
+    /// More pixels than a band has; the device is lost or out of memory.
+    pub fn read(&self, device: &Device, count: u32) -> Result<Vec<AovPixel>, IntegratorError> {
+        Ok(device.download_as(&self.pixels, 0, count as usize)?)
     }
 }

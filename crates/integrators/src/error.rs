@@ -1,5 +1,7 @@
 //! What can go wrong in integrators.
 
+use std::ops::Range;
+
 use rasray_options::ValueError;
 
 use crate::{WAVE_LIMIT, Wave};
@@ -24,6 +26,14 @@ pub enum IntegratorError {
         /// Pixels of the image.
         pixels: u32,
     },
+    /// A wave has pixels whose records are in different buffers.
+    #[error("the wave of {} pixels at pixel {} is of two bands: cut it at multiples of {most} pixels (`Bands::waves`)", wave.pixel_count, wave.first_pixel)]
+    WaveOfTwoBands {
+        /// The wave asked for.
+        wave: Wave,
+        /// Pixels of a band.
+        most: u32,
+    },
     /// An image without pixels, or with more than can be numbered.
     #[error(
         "an image of {width} x {height} pixels cannot be rendered; choose from 1 to {limit} pixels in all"
@@ -44,16 +54,16 @@ pub enum IntegratorError {
         /// Width and height of the scene's view.
         view: [u32; 2],
     },
-    /// A pixel that the image does not have was listed.
-    #[error("pixel {pixel} was listed, of an image of {count} pixels")]
+    /// A pixel was listed that the band does not have.
+    #[error("pixel {pixel} was listed, of a band from pixel {} to {}", band.start, band.end - 1)]
     NoPixel {
         /// Its number.
         pixel: u32,
-        /// Pixels of the image.
-        count: u32,
+        /// Pixels of the band.
+        band: Range<u32>,
     },
-    /// Some pixels of a film were asked for that has no list of pixels.
-    #[error("the film has no list of pixels: make it with `Film::listed`")]
+    /// Some pixels of a film were asked for that has no list of the pixels of such a band.
+    #[error("the film has no list of pixels of this band: make it with `Film::listed`")]
     NotListed,
     /// Waves without rays, or with more than there can be.
     #[error("a wave of up to {capacity} rays cannot be made: from 1 to {WAVE_LIMIT} are possible")]

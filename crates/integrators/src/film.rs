@@ -1,13 +1,12 @@
 //! Radiance summed over samples, pixel by pixel.
 
+use std::ops::Range;
+
 use rasray_gpu::{Access, Buffer, Device, Recorder};
 use rasray_shaders_glsl::records::{FilmFaults, FilmPixel};
 
-use crate::IntegratorError;
 use crate::kernels::device_buffer;
-
-/// Maximum number of pixels of an image: indices of pixels, and of their three channels, fit in 32 bits.
-pub const PIXEL_LIMIT: u32 = 1 << 30;
+use crate::{Bands, IntegratorError};
 
 /// The image that integrators add to. Cheap to clone; clones share the image.
 ///
@@ -17,9 +16,12 @@ pub const PIXEL_LIMIT: u32 = 1 << 30;
 pub struct Film {
     width: u32,
     height: u32,
-    pixels: Buffer,
+    bands: Bands,
+    /// Of each band.
+    pixels: Vec<Buffer>,
     faults: Buffer,
-    list: Option<Buffer>,
+    /// Of each band.
+    list: Option<Vec<Buffer>>,
 }
 
 impl Film {
@@ -29,50 +31,74 @@ impl Film {
     /// # Errors
     /// `ImageSize` for an image without pixels or with too many; out of memory.
     pub fn new(device: &Device, width: u32, height: u32) -> Result<Self, IntegratorError> {
-        let count = pixel_count(width, height)?;
+        Self::in_bands(device, [width, height], Bands::new(device, [width, height])?)
+    }
+
+    /// The same in bands of at most so many pixels.
+    ///
+    /// # Errors
+    /// As [`Film::new`].
+    pub fn with_bands(device: &Device, width: u32, height: u32, most: u32) -> Result<Self, IntegratorError> {
+        let size = [width, height];
+        Self::in_bands(device, size, Bands::new(device, size)?.at_most(most))
+    }
+
+    fn in_bands(device: &Device, [width, height]: [u32; 2], bands: Bands) -> Result<Self, IntegratorError> {
         Ok(Self {
             width,
             height,
-            pixels: device_buffer(device, "film", u64::from(count) * size_of::<FilmPixel>() as u64)?,
+            bands,
+            pixels: band_buffers::<FilmPixel>(device, "film", bands)?,
             faults: device_buffer(device, "film faults", size_of::<FilmFaults>() as u64)?,
             list: None,
         })
     }
 
-    /// Another image that counts its faults with those of this one.
-    pub(crate) fn beside(&self, device: &Device, width: u32, height: u32) -> Result<Self, IntegratorError> {
-        Ok(Self { faults: self.faults.clone(), ..Self::new(device, width, height)? })
+    /// Another image, in one band, that counts its faults with those of this one.
+    pub(crate) fn beside(&self, device: &Device, size: [u32; 2]) -> Result<Self, IntegratorError> {
+        Ok(Self { faults: self.faults.clone(), ..Self::in_bands(device, size, Bands::one(size)?)? })
     }
 
-    /// The same with a list of pixels, which waves of integrators made for this film are ranges of: a sample may be taken of
-    /// some pixels only ([`Film::write_list`]). All are listed, in their order. Submits and waits.
+    /// The same with a list of pixels for each band, which waves of integrators made for this film are ranges of: a sample may
+    /// be taken of some pixels only ([`Film::write_list`]). All are listed, in their order. Submits and waits.
     ///
     /// # Errors
     /// The device is lost or out of memory.
     pub fn listed(self, device: &Device) -> Result<Self, IntegratorError> {
-        let bytes = u64::from(self.pixel_count()) * size_of::<u32>() as u64;
-        let listed = Self { list: Some(device_buffer(device, "listed pixels", bytes)?), ..self };
-        listed.write_list(device, &(0..listed.pixel_count()).collect::<Vec<_>>())?;
+        let list = Some(band_buffers::<u32>(device, "listed pixels", self.bands)?);
+        let listed = Self { list, ..self };
+        for (number, band) in listed.bands.ranges().enumerate() {
+            listed.write_list(device, number, &band.collect::<Vec<_>>())?;
+        }
         Ok(listed)
     }
 
-    /// The list of pixels, where there is one.
-    pub fn list(&self) -> Option<&Buffer> {
-        self.list.as_ref()
+    /// The list of pixels of each band, where there is one.
+    pub fn list(&self) -> Option<&[Buffer]> {
+        self.list.as_deref()
     }
 
-    /// Says which pixels the next waves are ranges of: numbers of pixels, each at most once. Submits and waits.
+    /// Says of which pixels of a band the next samples are taken: their numbers, each at most once. Returns what waves are
+    /// ranges of then, in place of all pixels of the band. Submits and waits.
     ///
     /// # Errors
-    /// [`IntegratorError::NotListed`] without a list, [`IntegratorError::NoPixel`] for a number beyond the image; more pixels
-    /// than the image has; the device is lost or out of memory.
-    pub fn write_list(&self, device: &Device, pixels: &[u32]) -> Result<(), IntegratorError> {
-        let list = self.list.as_ref().ok_or(IntegratorError::NotListed)?;
-        let count = self.pixel_count();
-        if let Some(&pixel) = pixels.iter().find(|pixel| **pixel >= count) {
-            return Err(IntegratorError::NoPixel { pixel, count });
+    /// [`IntegratorError::NotListed`] without a list or such a band, [`IntegratorError::NoPixel`] for a number beyond the band;
+    /// more pixels than it has; the device is lost or out of memory.
+    pub fn write_list(
+        &self,
+        device: &Device,
+        number: usize,
+        pixels: &[u32],
+    ) -> Result<Range<u32>, IntegratorError> {
+        let list = self.list.as_ref().and_then(|lists| lists.get(number));
+        let (Some(list), Some(band)) = (list, self.bands.ranges().nth(number)) else {
+            return Err(IntegratorError::NotListed);
+        };
+        if let Some(&pixel) = pixels.iter().find(|pixel| !band.contains(pixel)) {
+            return Err(IntegratorError::NoPixel { pixel, band });
         }
-        Ok(device.upload_slice(list, 0, pixels)?)
+        device.upload_slice(list, 0, pixels)?;
+        Ok(band.start..band.start + pixels.len() as u32)
     }
 
     /// Records that all sums and faults start at 0.
@@ -85,8 +111,15 @@ impl Film {
     /// The same of sums alone.
     pub(crate) fn record_clear_pixels(&self, recorder: &mut Recorder<'_>) {
         recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::TRANSFER_WRITE);
-        recorder.fill(&self.pixels, 0, self.pixels.size(), 0);
+        for pixels in &self.pixels {
+            recorder.fill(pixels, 0, pixels.size(), 0);
+        }
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
+    }
+
+    /// How its pixels are divided among buffers.
+    pub fn bands(&self) -> Bands {
+        self.bands
     }
 
     /// Pixels per row.
@@ -101,11 +134,11 @@ impl Film {
 
     /// Pixels in all.
     pub fn pixel_count(&self) -> u32 {
-        self.width * self.height
+        self.bands.pixel_count()
     }
 
-    /// [`FilmPixel`] per pixel, row by row from the top left.
-    pub fn pixels(&self) -> &Buffer {
+    /// Of each band [`FilmPixel`] per pixel, row by row from the top left.
+    pub fn pixels(&self) -> &[Buffer] {
         &self.pixels
     }
 
@@ -114,9 +147,15 @@ impl Film {
         &self.faults
     }
 
+    /// Bytes of the records of all pixels.
+    pub(crate) fn pixel_bytes(&self) -> u64 {
+        self.pixels.iter().map(Buffer::size).sum()
+    }
+
     /// Bytes of all buffers.
     pub fn bytes(&self) -> u64 {
-        self.pixels.size() + self.faults.size() + self.list.as_ref().map_or(0, Buffer::size)
+        let list = self.list.iter().flatten().map(Buffer::size).sum::<u64>();
+        self.pixel_bytes() + self.faults.size() + list
     }
 
     /// Downloads the means of all pixels, row by row from the top left: submits and waits.
@@ -124,7 +163,9 @@ impl Film {
     /// # Errors
     /// The device is lost or out of memory.
     pub fn read(&self, device: &Device) -> Result<Vec<[f32; 3]>, IntegratorError> {
-        Ok(self.read_pixels(device)?.iter().map(FilmPixel::mean).collect())
+        let mut means = Vec::with_capacity(self.pixel_count() as usize);
+        self.read_bands(device, |pixels| means.extend(pixels.iter().map(FilmPixel::mean)))?;
+        Ok(means)
     }
 
     /// Downloads sums and counts: submits and waits.
@@ -132,7 +173,24 @@ impl Film {
     /// # Errors
     /// The device is lost or out of memory.
     pub fn read_pixels(&self, device: &Device) -> Result<Vec<FilmPixel>, IntegratorError> {
-        Ok(device.download_as(&self.pixels, 0, self.pixel_count() as usize)?)
+        let mut all = Vec::with_capacity(self.pixel_count() as usize);
+        self.read_bands(device, |pixels| all.extend_from_slice(pixels))?;
+        Ok(all)
+    }
+
+    /// Hands out sums and counts band by band, so that no copy of all is needed: submits and waits.
+    ///
+    /// # Errors
+    /// The device is lost or out of memory.
+    pub fn read_bands(
+        &self,
+        device: &Device,
+        mut take: impl FnMut(&[FilmPixel]),
+    ) -> Result<(), IntegratorError> {
+        for (pixels, band) in self.pixels.iter().zip(self.bands.ranges()) {
+            take(&device.download_as(pixels, 0, band.len())?);
+        }
+        Ok(())
     }
 
     /// Downloads the count of samples that were not added: submits and waits.
@@ -144,12 +202,9 @@ impl Film {
     }
 }
 
-/// Pixels of an image, checked.
-pub(crate) fn pixel_count(width: u32, height: u32) -> Result<u32, IntegratorError> {
-    match width.checked_mul(height) {
-        Some(count) if count > 0 && count <= PIXEL_LIMIT => Ok(count),
-        _ => Err(IntegratorError::ImageSize { width, height, limit: PIXEL_LIMIT }),
-    }
+/// A buffer per band with a record per pixel.
+fn band_buffers<T>(device: &Device, name: &str, bands: Bands) -> Result<Vec<Buffer>, IntegratorError> {
+    bands.ranges().map(|band| device_buffer(device, name, (band.len() * size_of::<T>()) as u64)).collect()
 }
 
 #[cfg(test)]
@@ -160,13 +215,5 @@ mod tests {
     fn the_mean_of_no_samples_is_black() {
         assert_eq!(FilmPixel::default().mean(), [0.0; 3]);
         assert_eq!(FilmPixel { sum: [2.0, 4.0, 6.0], samples: 4 }.mean(), [0.5, 1.0, 1.5]);
-    }
-
-    #[test]
-    fn impossible_images_are_refused() {
-        assert_eq!(pixel_count(640, 360).ok(), Some(230_400));
-        for (width, height) in [(0, 5), (5, 0), (65_536, 65_536), (1 << 20, 1 << 11)] {
-            assert!(matches!(pixel_count(width, height), Err(IntegratorError::ImageSize { .. })));
-        }
     }
 }

@@ -192,33 +192,12 @@ pub fn check_features(made_for: ShadingFeatures, scene: &GpuScene) -> Result<(),
     if missing.is_empty() { Ok(()) } else { Err(IntegratorError::LeftOut { missing: missing.join(", ") }) }
 }
 
-/// An error unless the wave fits.
-pub(crate) fn check_wave(wave: Wave, capacity: u32, pixels: u32) -> Result<(), IntegratorError> {
-    if wave.pixel_count == 0 || wave.pixel_count > capacity {
-        return Err(IntegratorError::WaveSize { wave, capacity });
-    }
-    match wave.first_pixel.checked_add(wave.pixel_count) {
-        Some(end) if end <= pixels => Ok(()),
-        _ => Err(IntegratorError::WaveOutsideImage { wave, pixels }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn waves_that_do_not_fit_are_refused() {
-        let wave = |first_pixel, pixel_count| Wave { first_pixel, pixel_count, sample: 0 };
-        assert!(check_wave(wave(0, 8), 8, 16).is_ok());
-        assert!(check_wave(wave(8, 8), 8, 16).is_ok());
-        assert!(matches!(check_wave(wave(0, 0), 8, 16), Err(IntegratorError::WaveSize { .. })));
-        assert!(matches!(check_wave(wave(0, 9), 8, 16), Err(IntegratorError::WaveSize { .. })));
-        assert!(matches!(check_wave(wave(9, 8), 8, 16), Err(IntegratorError::WaveOutsideImage { .. })));
-        assert!(matches!(
-            check_wave(wave(u32::MAX, 8), 8, 16),
-            Err(IntegratorError::WaveOutsideImage { .. })
-        ));
+    fn queues_that_cannot_be_are_refused() {
         assert!(check_capacity(1).is_ok() && check_capacity(WAVE_LIMIT).is_ok());
         assert!(check_capacity(0).is_err() && check_capacity(WAVE_LIMIT + 1).is_err());
     }

@@ -13,7 +13,7 @@ use rasray_shaders_glsl::{
     constant_ids::integrators::{PIXEL_CENTRES, WAVE_IS_LISTED},
 };
 
-use crate::{Film, IntegratorError, Wave, integrator::check_wave};
+use crate::{Bands, Film, IntegratorError, Wave};
 
 /// Bindings of the integrators' set that several have, as `integrators/storage.glsl` declares them. Those of one alone, from
 /// 9 to 14, are in its own files.
@@ -33,10 +33,20 @@ pub(crate) mod binding {
 /// A binding of the integrators' set with its buffer.
 pub(crate) type Bound<'a> = (u32, &'a Buffer);
 
+/// What kernels bind of each band of an image.
+pub(crate) struct OfPixels<'a> {
+    pub bands: Bands,
+    pub bound: Vec<Vec<Bound<'a>>>,
+}
+
 /// The film, as kernels bind it.
-pub(crate) fn film(film: &Film) -> Vec<Bound<'_>> {
-    let all = [(binding::FILM, film.pixels()), (binding::FILM_FAULTS, film.faults())];
-    all.into_iter().chain(film.list().map(|list| (binding::WAVE_PIXELS, list))).collect()
+pub(crate) fn film(film: &Film) -> OfPixels<'_> {
+    let of_band = |(number, pixels)| {
+        let list = film.list().and_then(|lists| lists.get(number));
+        let all = [(binding::FILM, pixels), (binding::FILM_FAULTS, film.faults())];
+        all.into_iter().chain(list.map(|list| (binding::WAVE_PIXELS, list))).collect()
+    };
+    OfPixels { bands: film.bands(), bound: film.pixels().iter().enumerate().map(of_band).collect() }
 }
 
 /// A second queue, as the passes that fill it bind it.
@@ -79,25 +89,36 @@ impl Kernel {
 #[derive(Debug)]
 pub(crate) struct Bindings {
     layouts: [SetLayout; 4],
-    /// Geometry, storage, scene.
-    sets: [BindingSet; 3],
+    geometry: BindingSet,
+    scene: BindingSet,
+    bands: Bands,
+    /// Of each band.
+    storage: Vec<BindingSet>,
     /// Whether waves are of the pixels in a list.
     is_listed: bool,
 }
 
 impl Bindings {
     /// Sets 0 to 3: geometry, storage, queue, scene. The queue is given when a pass is recorded. Kernels use no bindings of
-    /// the storage but those that are `bound`.
+    /// the storage but those that are bound: of the pixels of the band, and the integrator's own.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
-    pub fn new(device: &Device, scene: &GpuScene, bound: &[Bound<'_>]) -> Result<Self, IntegratorError> {
+    pub fn new(
+        device: &Device,
+        scene: &GpuScene,
+        pixels: &OfPixels<'_>,
+        own: &[Bound<'_>],
+    ) -> Result<Self, IntegratorError> {
         let placeholder = device_buffer(device, "unused binding", 16)?;
         let count = binding::WAVE_PIXELS + 1;
-        let buffer = |binding| bound.iter().find(|(known, _)| *known == binding).map(|(_, buffer)| *buffer);
-        let buffers: Vec<_> = (0..count).map(|binding| buffer(binding).unwrap_or(&placeholder)).collect();
         let layout = device.create_set_layout("integrator", count)?;
-        let set = device.create_binding_set(&layout, "integrator", &buffers)?;
+        let of_band = |of_pixels: &Vec<Bound<'_>>| {
+            let find = |binding| of_pixels.iter().chain(own).find(|(known, _)| *known == binding);
+            let buffer = |binding| find(binding).map_or(&placeholder, |(_, buffer)| *buffer);
+            device.create_binding_set(&layout, "integrator", &(0..count).map(buffer).collect::<Vec<_>>())
+        };
+        let storage = pixels.bound.iter().map(of_band).collect::<Result<_, _>>()?;
         Ok(Self {
             layouts: [
                 scene.geometry().layout().clone(),
@@ -105,15 +126,18 @@ impl Bindings {
                 RayQueue::layout(device)?,
                 scene.binding().layout.clone(),
             ],
-            sets: [scene.geometry().set().clone(), set, scene.binding().set.clone()],
-            is_listed: buffer(binding::WAVE_PIXELS).is_some(),
+            geometry: scene.geometry().set().clone(),
+            scene: scene.binding().set.clone(),
+            bands: pixels.bands,
+            storage,
+            is_listed: pixels.bound.iter().flatten().any(|(known, _)| *known == binding::WAVE_PIXELS),
         })
     }
 
     /// Binds another scene from the next recording on.
     pub fn set_scene(&mut self, scene: &GpuScene) {
-        self.sets[0] = scene.geometry().set().clone();
-        self.sets[2] = scene.binding().set.clone();
+        self.geometry = scene.geometry().set().clone();
+        self.scene = scene.binding().set.clone();
     }
 
     /// Makes a pipeline over these sets.
@@ -137,6 +161,11 @@ impl Bindings {
         Ok(Kernel { stage: Stage::Shade, label: shader.name, pipeline })
     }
 
+    /// Refuses a wave that does not fit the queue or the image.
+    pub fn check(&self, queue: &RayQueue, wave: Wave) -> Result<(), IntegratorError> {
+        self.bands.check(wave, queue.capacity())
+    }
+
     /// Records the camera rays of a wave, by the kernel that makes them.
     ///
     /// # Errors
@@ -146,9 +175,9 @@ impl Bindings {
         recorder: &mut Recorder<'_>,
         primary: &Kernel,
         queue: &RayQueue,
-        (film, wave): (&Film, Wave),
+        wave: Wave,
     ) -> Result<(), IntegratorError> {
-        check_wave(wave, queue.capacity(), film.pixel_count())?;
+        self.check(queue, wave)?;
         self.record(recorder, primary, queue, Domain::First(wave.pixel_count), &wave.into());
         Ok(())
     }
@@ -163,11 +192,12 @@ impl Bindings {
         domain: Domain,
         constants: &WaveConstants,
     ) {
-        let [geometry, storage, scene] = &self.sets;
-        let constants = WaveConstants { domain: domain.word(), ..*constants };
+        let band = self.bands.of(constants.first_pixel);
+        let band_first = band as u32 * self.bands.most();
+        let constants = WaveConstants { domain: domain.word(), band_first, ..*constants };
         recorder.begin_pass(kernel.stage, kernel.label);
         recorder.bind_compute(&kernel.pipeline);
-        recorder.bind_sets(0, &[geometry, storage, queue.set(), scene]);
+        recorder.bind_sets(0, &[&self.geometry, &self.storage[band], queue.set(), &self.scene]);
         recorder.push_constants(bytes_of(&constants));
         queue.record_dispatch(recorder, domain);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);

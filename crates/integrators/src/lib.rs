@@ -17,7 +17,7 @@
 //! use rasray_ads::BruteForce;
 //! use rasray_gpu::{Device, DeviceDesc, Timing};
 //! use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
-//! use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, waves};
+//! use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let scene = rasray_scene::builtin::cornell();
@@ -30,7 +30,7 @@
 //! let film = Film::new(&device, view.width, view.height)?;
 //! let occlusion = AmbientOcclusion::new(&IntegratorDesc::new(&device, &gpu_scene, &film), 0.5)?;
 //! device.submit(|recorder| occlusion.record_reset(recorder))?;
-//! for wave in waves(film.pixel_count(), 16, occlusion.wave_capacity()) {
+//! for wave in film.bands().waves(0..16, occlusion.wave_capacity()) {
 //!     occlusion.render_wave(&device, Timing::None, (&structure).into(), wave)?;
 //! }
 //! let image = film.read(&device)?;
@@ -38,6 +38,7 @@
 //! ```
 
 mod aov;
+mod bands;
 mod error;
 mod fetch;
 mod film;
@@ -50,16 +51,17 @@ mod visibility;
 mod wave;
 
 pub use aov::AovPass;
+pub use bands::{Bands, PIXEL_LIMIT};
 pub use error::IntegratorError;
 pub use fetch::{Fetch, FetchCounts};
-pub use film::{Film, PIXEL_LIMIT};
+pub use film::Film;
 pub use integrator::{Integrator, IntegratorDesc, check_features};
 pub use rasray_shaders_glsl::constants::scene::PATH_LAYER_LIMIT;
 pub use rasray_shaders_glsl::records::{AovPixel, FilmFaults, FilmPixel, PathState, VisibilityCounts};
 pub use registry::*;
 pub use traced::{FirstHits, Traced};
 pub use visibility::Visibility;
-pub use wave::{WAVE_LIMIT, Wave, wave_capacity, waves, waves_of};
+pub use wave::{WAVE_LIMIT, Wave, wave_capacity};
 
 /// What the readme shows compiles.
 #[cfg(doctest)]

@@ -1,4 +1,6 @@
-//! Waves: how the pixels of an image are cut into dispatches.
+//! Waves: what of an image one dispatch works on.
+
+use std::ops::Range;
 
 use rasray_ads::Surface;
 use rasray_gpu::Device;
@@ -32,55 +34,32 @@ fn suitable(software: bool, memory: u64, binding: u64) -> u32 {
 /// ([`Film::listed`](crate::Film::listed)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wave {
-    /// Number of the first pixel in the whole image, or its place in the list.
+    /// Number of the first pixel in the whole image; of listed ones its place in the list of the band, which counts from the
+    /// first pixel of the band ([`Film::write_list`](crate::Film::write_list)).
     pub first_pixel: u32,
-    /// Pixels in the wave, at least 1, at most the capacity of the queues.
+    /// Pixels in the wave, at least 1, at most the capacity of the queues; all in one band
+    /// ([`Bands`](crate::Bands)).
     pub pixel_count: u32,
     /// Index of the sample. Random numbers depend on it and on the pixel, never on the wave, so
     /// that the picture is the same however the image is cut.
     pub sample: u32,
 }
 
-/// Cuts every sample of `pixels` pixels into waves of at most `capacity`: all pixels of a sample
-/// before the next sample starts, so that a picture stopped early has the same number of samples everywhere.
-pub fn waves(pixels: u32, samples: u32, capacity: u32) -> impl Iterator<Item = Wave> {
-    waves_of(pixels, 0..samples, capacity)
-}
-
-/// The same for samples with these indices, in their order.
-pub fn waves_of(
-    pixels: u32,
-    samples: impl IntoIterator<Item = u32>,
-    capacity: u32,
-) -> impl Iterator<Item = Wave> {
-    let capacity = capacity.clamp(1, WAVE_LIMIT);
-    samples.into_iter().flat_map(move |sample| {
-        (0..pixels.div_ceil(capacity)).map(move |number| {
-            let first_pixel = number * capacity;
-            Wave { first_pixel, pixel_count: capacity.min(pixels - first_pixel), sample }
+impl Wave {
+    /// Cuts one sample of these pixels, which lie in one band, into waves of at most `capacity`.
+    pub fn cut(pixels: Range<u32>, sample: u32, capacity: u32) -> impl Iterator<Item = Self> {
+        let capacity = capacity.clamp(1, WAVE_LIMIT);
+        pixels.clone().step_by(capacity as usize).map(move |first_pixel| Self {
+            first_pixel,
+            pixel_count: capacity.min(pixels.end - first_pixel),
+            sample,
         })
-    })
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn every_pixel_of_every_sample_is_in_exactly_one_wave() {
-        for (pixels, samples, capacity) in
-            [(1, 1, 1), (10, 2, 3), (WAVE_LIMIT + 1, 2, u32::MAX), (7, 0, 3), (0, 4, 8)]
-        {
-            let mut seen = vec![0u32; pixels as usize * samples as usize];
-            for wave in waves(pixels, samples, capacity) {
-                assert!(wave.pixel_count >= 1 && wave.pixel_count <= capacity.min(WAVE_LIMIT));
-                for pixel in wave.first_pixel..wave.first_pixel + wave.pixel_count {
-                    seen[(wave.sample * pixels + pixel) as usize] += 1;
-                }
-            }
-            assert!(seen.iter().all(|&count| count == 1));
-        }
-    }
 
     #[test]
     fn waves_follow_the_device() {
@@ -90,13 +69,5 @@ mod tests {
         assert_eq!(suitable(false, 4 * gibibyte, 4 * gibibyte), 1 << 19);
         assert_eq!(suitable(false, 80 * gibibyte, 1 << 26), 1 << 19);
         assert_eq!(suitable(false, gibibyte / 4, 1 << 27), SMALL_WAVE);
-    }
-
-    #[test]
-    fn samples_are_taken_one_after_the_other() {
-        let samples: Vec<u32> = waves(10, 3, 4).map(|wave| wave.sample).collect();
-        assert_eq!(samples, [0, 0, 0, 1, 1, 1, 2, 2, 2]);
-        let samples: Vec<u32> = waves_of(5, [1, 3], 4).map(|wave| wave.sample).collect();
-        assert_eq!(samples, [1, 1, 3, 3]);
     }
 }

@@ -2,7 +2,7 @@
 
 use rasray_gpu::Device;
 use rasray_gpu_scene::GpuScene;
-use rasray_integrators::{Film, Integrator, IntegratorDesc, Path, waves};
+use rasray_integrators::{Film, Integrator, IntegratorDesc, Path};
 use rasray_systems::Spec;
 use rasray_tracer::build_until_complete;
 
@@ -29,7 +29,7 @@ pub fn picture_of(device: &Device, spec: &Spec, scene: &GpuScene) -> Result<Vec<
     let film = Film::new(device, width, height)?;
     let integrator = Path::new(&IntegratorDesc::new(device, scene, &film), 1)?;
     device.submit(|recorder| integrator.record_reset(recorder))?;
-    for wave in waves(film.pixel_count(), 1, integrator.wave_capacity()) {
+    for wave in film.bands().waves(0..1, integrator.wave_capacity()) {
         let submitted = device.submit_passes(timing, |recorder| {
             integrator.record_wave(recorder, structure.as_ref().into(), wave)
         })?;

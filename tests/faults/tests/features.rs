@@ -5,11 +5,13 @@ use rasray_faults::{
     textured_room,
 };
 use rasray_gpu::faults::{with_limits, without};
-use rasray_gpu::{Device, Feature, GpuError, Limits, Requirements};
-use rasray_gpu_scene::{GpuSceneError, Parts, TexelDemand, TexelRuns};
-use rasray_scene::Scene;
+use rasray_gpu::{Device, Feature, GpuError, Limits, Requirements, Timing};
+use rasray_gpu_scene::{GpuSceneError, Parts, TexelDemand, TexelRuns, View};
+use rasray_integrators::{Film, Integrator, IntegratorDesc, Raycast};
+use rasray_scene::{Scene, builtin};
 use rasray_systems::{Preset, Spec};
 use rasray_tests::tier::is_full;
+use rasray_tracer::build_until_complete;
 
 /// Rays of each comparison.
 const RAYS: u32 = 1000;
@@ -199,6 +201,35 @@ fn texels_beyond_one_binding_lie_in_several_or_are_fewer() {
     let (_, of_whole) = picture(&whole, &scene).expect("a picture");
     assert!(is_split && found == of_whole && found != expected);
     assert_eq!(finish(too_small), Vec::<String>::new());
+    assert_eq!(finish(whole), Vec::<String>::new());
+}
+
+/// Pixels beyond one binding lie in several buffers: the same picture.
+#[test]
+fn films_beyond_one_binding_lie_in_several() {
+    let picture = |device: &Device| {
+        let (scene, [width, height]) = (builtin::cornell(), [256, 128]);
+        let mut gpu = stage_of(device, &scene)?;
+        gpu.update_camera(&View { camera: scene.cameras[0].clone(), width, height, seed: 1 })?;
+        let mut structure = spec("bvh", "robust")?.create(device, gpu.geometry(), Some(gpu.binding()))?;
+        build_until_complete(device, structure.as_mut(), gpu.eye(), device.best_timing())?;
+        let film = Film::new(device, width, height)?;
+        let desc = IntegratorDesc { wave_capacity: 1024, ..IntegratorDesc::new(device, &gpu, &film) };
+        let raycast = Raycast::new(&desc)?;
+        device.submit(|recorder| raycast.record_reset(recorder))?;
+        for wave in film.bands().waves([0], raycast.wave_capacity()) {
+            raycast.render_wave(device, Timing::None, structure.as_ref().into(), wave)?;
+        }
+        let pixels = film.read(device)?.into_iter().map(|pixel| pixel.map(f32::to_bits));
+        Ok::<_, Failure>((film.pixels().len(), pixels.collect::<Vec<_>>()))
+    };
+    let whole = device().expect("a device");
+    let (one, expected) = picture(&whole).expect("a picture");
+    let small = with_limits(|limits| limits.max_storage_buffer_range = 1 << 18, device).expect("a device");
+    let (several, found) = picture(&small).expect("a picture");
+    assert_eq!((one, several), (1, 3));
+    assert!(found == expected && found.iter().any(|pixel| *pixel != [0; 3]));
+    assert_eq!(finish(small), Vec::<String>::new());
     assert_eq!(finish(whole), Vec::<String>::new());
 }
 

@@ -43,7 +43,9 @@ impl<'a> Stage<'a> {
         let passes = ImagePasses::from(Box::new(raycast));
         let passes = if stored { passes.with_stored_hits() } else { passes };
         let image = ImageRenderer::new(device, passes, 0..1).expect("the device works");
-        image.aovs(&self.shown.scene, built.structure())
+        let mut found = Vec::new();
+        image.aovs(&self.shown.scene, built.structure(), |pixels| found.extend_from_slice(pixels))?;
+        Ok(found)
     }
 
     /// The same through an A-buffer with a cell a pixel.

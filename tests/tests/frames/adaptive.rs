@@ -16,7 +16,7 @@ use rasray_tests::harness::Bench;
 
 use super::pictures::spec;
 
-const SIZE: [u32; 2] = [24, 16];
+pub const SIZE: [u32; 2] = [24, 16];
 
 /// Fewer slots than there are pixels: the waves of a sample end within a row.
 const SLOTS: u32 = 100;
@@ -26,42 +26,53 @@ const MOST: u32 = 12;
 /// Every pixel gets so many samples.
 const LEAST: u32 = 4;
 
-fn rule(threshold: f64) -> Adaptive {
+pub fn rule(threshold: f64) -> Adaptive {
     Adaptive { threshold, least: LEAST }
 }
 
-fn cornell() -> Scene {
+pub fn cornell() -> Scene {
     builtin::builtin("cornell").expect("it is built in").expect("it needs no parameter")
 }
 
+/// The same with a block that light goes straight through: other kernels add to the film.
+pub fn glazed() -> Scene {
+    let mut glazed = cornell();
+    let block = glazed.meshes[glazed.instances.last().expect("a block").mesh].material;
+    glazed.materials[block] =
+        Material { transmission: 1.0, roughness: 0.0, metallic: 0.0, ..Material::default() };
+    glazed
+}
+
 /// A scene on the device with what rays are traced through.
-struct Stage<'a> {
-    device: &'a Device,
-    shown: DeviceScene,
-    built: Built,
+pub struct Stage<'a> {
+    pub device: &'a Device,
+    pub shown: DeviceScene,
+    pub built: Built,
     view: View,
+    /// Most pixels of a band of its films.
+    pub band: u32,
 }
 
 impl<'a> Stage<'a> {
-    fn new(device: &'a Device, scene: &Scene) -> Self {
+    pub fn new(device: &'a Device, scene: &Scene) -> Self {
         let view = View { camera: scene.cameras[0].clone(), width: SIZE[0], height: SIZE[1], seed: 7 };
         let shown = DeviceScene::new(device, scene, &view.camera, SIZE, view.seed, &Needs::all());
         let shown = shown.expect("the scene is whole and fits");
         let built = Built::new(device, &spec("bvh", &[]), &shown.scene, shown.scene.eye());
-        Self { device, shown, built: built.expect("the build completes"), view }
+        Self { device, shown, built: built.expect("the build completes"), view, band: u32::MAX }
     }
 
-    fn film(&self) -> Film {
-        Film::new(self.device, SIZE[0], SIZE[1]).expect("a small film fits")
+    pub fn film(&self) -> Film {
+        Film::with_bands(self.device, SIZE[0], SIZE[1], self.band).expect("a small film fits")
     }
 
-    fn integrator(&self, spec: &IntegratorSpec, film: &Film) -> Box<dyn Integrator> {
+    pub fn integrator(&self, spec: &IntegratorSpec, film: &Film) -> Box<dyn Integrator> {
         let desc = IntegratorDesc::new(self.device, &self.shown.scene, film);
         spec.make(&IntegratorDesc { wave_capacity: SLOTS, ..desc }).expect("the integrator is made")
     }
 
     /// An image in the making, of which some pixels get more samples than others.
-    fn adaptive(&self, spec: &IntegratorSpec, threshold: f64) -> ImageRenderer {
+    pub fn adaptive(&self, spec: &IntegratorSpec, threshold: f64) -> ImageRenderer {
         let film = self.film().listed(self.device).expect("the device works");
         let image = ImageRenderer::new(self.device, self.integrator(spec, &film), 0..MOST);
         image.and_then(|image| image.adapting(rule(threshold))).expect("the device works")
@@ -73,7 +84,7 @@ impl<'a> Stage<'a> {
     }
 
     /// Renders until `ends` says so of the samples that are done; all if it never does.
-    fn render(&self, image: &mut ImageRenderer, ends: impl Fn(u32) -> bool) -> Vec<FilmPixel> {
+    pub fn render(&self, image: &mut ImageRenderer, ends: impl Fn(u32) -> bool) -> Vec<FilmPixel> {
         let after = |image: &ImageRenderer, _| match ends(image.samples_done()) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
@@ -137,12 +148,7 @@ fn pixels_are_those_of_images_with_as_many_samples() {
     for row in INTEGRATORS {
         check_pixels(&stage, &row.into());
     }
-    // Light goes straight through: other kernels add to the film.
-    let mut glazed = cornell();
-    let block = glazed.meshes[glazed.instances.last().expect("a block").mesh].material;
-    glazed.materials[block] =
-        Material { transmission: 1.0, roughness: 0.0, metallic: 0.0, ..Material::default() };
-    let stage = Stage::new(bench.device(), &glazed);
+    let stage = Stage::new(bench.device(), &glazed());
     for row in &INTEGRATORS[..2] {
         check_pixels(&stage, &row.into());
     }
@@ -197,7 +203,10 @@ fn what_cannot_be_shared_is_refused() {
     let passes = ImagePasses::from(stage.integrator(&spec, &film)).with_visibility(Some(drawn));
     let drawn = refused(passes);
     assert!(matches!(drawn, FrameError::DrawnAdaptively), "{drawn}");
-    let beyond = film.write_list(device, &[3, SIZE[0] * SIZE[1]]).expect_err("there is no such pixel");
-    assert!(matches!(beyond, IntegratorError::NoPixel { pixel: 384, count: 384 }), "{beyond}");
-    assert!(film.write_list(device, &[0; 385]).is_err(), "more than the image has");
+    let beyond = film.write_list(device, 0, &[3, SIZE[0] * SIZE[1]]).expect_err("there is no such pixel");
+    assert!(
+        matches!(beyond, IntegratorError::NoPixel { pixel: 384, ref band } if *band == (0..384)),
+        "{beyond}"
+    );
+    assert!(film.write_list(device, 0, &[0; 385]).is_err(), "more than the image has");
 }

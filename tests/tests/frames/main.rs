@@ -1,6 +1,7 @@
 //! Frames in flight: nothing is shown that is not right, nothing is built that is not stale, and nothing is left behind.
 
 mod adaptive;
+mod bands;
 mod changing;
 mod crowd;
 mod kept;

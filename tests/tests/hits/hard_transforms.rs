@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use rasray_ads::{BruteForce, PRIMITIVE_NONE};
 use rasray_gpu::Timing;
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
-use rasray_integrators::{AovPass, AovPixel, Wave};
+use rasray_integrators::{AovPass, AovPixel, Bands, Wave};
 use rasray_scene::{Camera, Projection};
 use rasray_shaders_glsl::constants::contract::DRAW_MIRRORED;
 use rasray_tests::hard_cases::{self, Scale, Transformed};
@@ -92,14 +92,15 @@ fn image(bench: &Bench, transformed: &Transformed, eye: DVec3) -> Vec<AovPixel> 
     let mut structure =
         BruteForce::new(device, scene.geometry(), Some(scene.binding()), false).expect("pipelines are made");
     build_until_complete(device, &mut structure, scene.eye(), Timing::None).expect("the build completes");
-    let aov = AovPass::new(device, &scene, SIZE * SIZE).expect("a small image fits");
+    let bands = Bands::new(device, [SIZE, SIZE]).expect("a small image");
+    let aov = AovPass::new(device, &scene, bands, SIZE * SIZE).expect("a small image fits");
     device.submit(|recorder| aov.record_reset(recorder)).expect("the device works");
     let wave = Wave { first_pixel: 0, pixel_count: SIZE * SIZE, sample: 0 };
     let submitted = device
         .submit(|recorder| aov.record_wave(recorder, (&structure).into(), wave))
         .expect("the device works");
     submitted.value.expect("the wave fits");
-    aov.read(device).expect("the image is readable")
+    aov.read(device, SIZE * SIZE).expect("the image is readable")
 }
 
 /// Largest angle of a pixel's normal from that of the face as it is placed in double precision, and how many

@@ -62,8 +62,8 @@ impl AmbientOcclusion {
         let device = desc.device;
         let queue = RayQueue::new(device, "camera rays", capacity, true)?;
         let shadow_queue = RayQueue::new(device, "occlusion rays", capacity, false)?;
-        let bound = [&film(desc.film)[..], &kernels::shadow_queue(&shadow_queue)].concat();
-        let bindings = Bindings::new(device, desc.scene, &bound)?;
+        let own = kernels::shadow_queue(&shadow_queue);
+        let bindings = Bindings::new(device, desc.scene, &film(desc.film), &own)?;
         Ok(Self {
             range,
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
@@ -88,7 +88,7 @@ impl Integrator for AmbientOcclusion {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, (&self.film, wave))?;
+        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, wave)?;
         let all = Domain::First(wave.pixel_count);
         let constants = WaveConstants { number: self.range, ..WaveConstants::from(wave) };
         traced.record_primary(recorder, &self.queue, wave)?;

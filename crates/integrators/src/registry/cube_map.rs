@@ -19,7 +19,7 @@ use crate::{
     Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, IntegratorSpec, RayKind, Shadows,
     Traced, Wave, Whitted, WhittedOptions,
     kernels::{Kernel, WaveConstants, device_buffer},
-    wave::{wave_capacity, waves_of},
+    wave_capacity,
 };
 
 use super::whitted::{MIRROR_ROUGHNESS, SHADOWS, TreeKernels};
@@ -131,7 +131,7 @@ impl CubeMap {
         let direct = WhittedOptions { ray_depth: 0, shadows, mirror_roughness, ..WhittedOptions::default() };
 
         let side = resolution + 2;
-        let texels = desc.film.beside(device, side, 6 * side)?;
+        let texels = desc.film.beside(device, [side, 6 * side])?;
         let of_texels = IntegratorDesc {
             film: &texels,
             wave_capacity: wave_capacity(device).min(texels.pixel_count()),
@@ -151,7 +151,7 @@ impl CubeMap {
             first_rays: &INTEGRATORS_PRIMARY,
             shade: &INTEGRATORS_CUBE_MAP_SHADE,
             shade_passing: &INTEGRATORS_CUBE_MAP_SHADE_PASSING,
-            bound: &[(CUBE_MAP_TEXELS, texels.pixels()), (CUBE_MAP_HEADER, &header_buffer)],
+            bound: &[(CUBE_MAP_TEXELS, &texels.pixels()[0]), (CUBE_MAP_HEADER, &header_buffer)],
             passes_backs: false,
         };
         let seen = Whitted::of_trees(desc, direct, &kernels)?;
@@ -175,7 +175,7 @@ impl CubeMap {
 
     /// Waves of the map for a sample.
     fn map_waves(&self, sample: u32) -> impl Iterator<Item = Wave> {
-        waves_of(self.drawn.film().pixel_count(), [sample], self.drawn.wave_capacity())
+        self.drawn.film().bands().waves([sample], self.drawn.wave_capacity())
     }
 
     /// Records that the map is empty, and where it is drawn from.
@@ -300,7 +300,7 @@ impl Integrator for CubeMap {
     fn state_bytes(&self) -> u64 {
         self.seen.state_bytes()
             + self.drawn.state_bytes()
-            + self.drawn.film().pixels().size()
+            + self.drawn.film().pixel_bytes()
             + self.header_buffer.size()
     }
 }

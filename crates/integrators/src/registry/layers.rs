@@ -11,7 +11,6 @@ use rasray_shaders_glsl::{
 
 use crate::{
     Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
-    integrator::check_wave,
     kernels::{Bindings, Kernel, WaveConstants, camera_constants, device_buffer, film},
     rounds::Rounds,
 };
@@ -89,8 +88,8 @@ impl Layers {
         let queue = RayQueue::new(device, "camera rays", capacity, true)?;
         let bytes = u64::from(capacity) * size_of::<LayersState>() as u64;
         let states = device_buffer(device, "layers", bytes)?;
-        let bound = [&film(desc.film)[..], &[(LAYERS_STATES, &states)]].concat();
-        let bindings = Bindings::new(device, desc.scene, &bound)?;
+        let own = [(LAYERS_STATES, &states)];
+        let bindings = Bindings::new(device, desc.scene, &film(desc.film), &own)?;
         // One more than there are surfaces: what the last one leaves sees the background.
         let most = limit.unwrap_or(PATH_LAYER_LIMIT + 1);
         Ok(Self {
@@ -131,7 +130,7 @@ impl Integrator for Layers {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, (&self.film, wave))?;
+        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, wave)?;
         self.queue.record_select_none(recorder);
         self.record_rounds(recorder, (traced, wave), false)
     }
@@ -142,7 +141,7 @@ impl Integrator for Layers {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        self.bindings.check(&self.queue, wave)?;
         self.record_rounds(recorder, (traced, wave), true)
     }
 

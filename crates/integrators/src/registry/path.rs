@@ -17,7 +17,7 @@ use rasray_shaders_glsl::{
 
 use crate::{
     Fetch, Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
-    integrator::{check_features, check_wave},
+    integrator::check_features,
     kernels::{
         Bindings, Bound, Kernel, WaveConstants, binding, camera_constants, device_buffer, film, shadow_queue,
     },
@@ -103,8 +103,10 @@ impl Path {
         let slots = u64::from(capacity);
         let buffer = |name, bytes: usize| device_buffer(device, name, slots * bytes as u64);
         let states = buffer("path states", size_of::<PathState>())?;
-        let own = [&film(desc.film)[..], &[(binding::PATH_STATES, &states)]].concat();
-        let bind = |more: &[Bound<'_>]| Bindings::new(device, desc.scene, &[&own, more].concat());
+        let bind = |more: &[Bound<'_>]| {
+            let own = [&[(binding::PATH_STATES, &states)], more].concat();
+            Bindings::new(device, desc.scene, &film(desc.film), &own)
+        };
         let (shadows, bindings) = if passing {
             let waiting = buffer("waiting paths", size_of::<PathWaiting>())?;
             let bindings = bind(&[(binding::WAITING, &waiting)])?;
@@ -214,7 +216,7 @@ impl Integrator for Path {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, (&self.film, wave))?;
+        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, wave)?;
         self.queue.record_select_none(recorder);
         let traced = traced.with_fetch(self.fetch.as_ref());
         match &self.shadows {
@@ -231,7 +233,7 @@ impl Integrator for Path {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        self.bindings.check(&self.queue, wave)?;
         match &self.shadows {
             Shadows::Occluded { .. } => Ok(()),
             Shadows::Passing { .. } => {

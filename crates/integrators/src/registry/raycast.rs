@@ -46,7 +46,7 @@ impl Raycast {
         let capacity = desc.check()?;
         let device = desc.device;
         let queue = RayQueue::new(device, "camera rays", capacity, true)?;
-        let bindings = Bindings::new(device, desc.scene, &film(desc.film))?;
+        let bindings = Bindings::new(device, desc.scene, &film(desc.film), &[])?;
         Ok(Self {
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
             shade: bindings.kernel(device, &INTEGRATORS_RAYCAST_SHADE, &[])?,
@@ -68,7 +68,7 @@ impl Integrator for Raycast {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, (&self.film, wave))?;
+        self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, wave)?;
         traced.record_primary(recorder, &self.queue, wave)?;
         let all = Domain::First(wave.pixel_count);
         self.bindings.record(recorder, &self.shade, &self.queue, all, &wave.into());

@@ -15,7 +15,7 @@ use rasray_shaders_glsl::{
 
 use crate::{
     Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, RayKind, Traced, Wave,
-    integrator::{check_capacity, check_features, check_wave},
+    integrator::{check_capacity, check_features},
     kernels::{Bindings, Bound, Kernel, WaveConstants, camera_constants, device_buffer, film, shadow_queue},
     rounds::Rounds,
 };
@@ -172,16 +172,16 @@ impl Whitted {
         let states = device_buffer(device, "whitted states", slots * size_of::<WhittedState>() as u64)?;
         let waiting = device_buffer(device, "waiting rays", (slots * slot_bytes).max(4))?;
         let states_bound = [(WHITTED_STATES, &states), (WHITTED_RAYS, &waiting)];
-        let own = [&film(desc.film)[..], &states_bound, kernels.bound].concat();
+        let own = [&states_bound, kernels.bound].concat();
         let mut constants = Vec::from(features.constants());
         constants.push((WHITTED_MIRROR_ROUGHNESS, options.mirror_roughness.to_bits()));
         let (shader, shadows, bindings) = if let Trees::Passing { .. } = trees {
             constants.push((WHITTED_PASSES_PANES, panes.into()));
-            (kernels.shade_passing, None, Bindings::new(device, desc.scene, &own)?)
+            (kernels.shade_passing, None, Bindings::new(device, desc.scene, &film(desc.film), &own)?)
         } else {
             let queue = RayQueue::new(device, "shadow rays", capacity, false)?;
             let bound = [&own[..], &shadow_queue(&queue)].concat();
-            let bindings = Bindings::new(device, desc.scene, &bound)?;
+            let bindings = Bindings::new(device, desc.scene, &film(desc.film), &bound)?;
             let resolve = bindings.kernel(device, &INTEGRATORS_WHITTED_RESOLVE, &[])?;
             (kernels.shade, Some((queue, resolve)), bindings)
         };
@@ -252,7 +252,7 @@ impl Integrator for Whitted {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        self.bindings.record_camera_rays(recorder, &self.first_rays, &self.queue, (&self.film, wave))?;
+        self.bindings.record_camera_rays(recorder, &self.first_rays, &self.queue, wave)?;
         for queue in self.queues() {
             queue.record_select_none(recorder);
         }
@@ -265,7 +265,7 @@ impl Integrator for Whitted {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        self.bindings.check(&self.queue, wave)?;
         self.record_rounds(recorder, traced, wave, true)
     }
 

@@ -12,7 +12,6 @@ use rasray_gpu::Device;
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_integrators::{
     FetchCounts, Fetching, Film, Integrator, IntegratorDesc, IntegratorError, Path, PathOptions, Traced,
-    waves,
 };
 use rasray_scene::{Camera, Projection, Scene, builtin};
 use rasray_shaders_glsl::constants::integrators::FETCH_PART;
@@ -55,7 +54,7 @@ impl Stage {
         self.device.submit(|recorder| path.record_reset(recorder)).expect("the reset runs");
         let queue = path.queues()[0];
         let mut seen = Vec::new();
-        for wave in waves(width * height, 1, capacity) {
+        for wave in film.bands().waves([0], capacity) {
             let traced = Traced::from(&self.structure);
             path.render_wave(&self.device, rasray_gpu::Timing::None, traced, wave).expect("the wave runs");
             let count = wave.pixel_count as usize;

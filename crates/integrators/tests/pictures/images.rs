@@ -6,7 +6,7 @@ use rasray_ads::Ray;
 use rasray_gpu_scene::ShadingFeatures;
 use rasray_gpu_scene::layout::EmissiveTriangle;
 use rasray_integrators::{
-    AmbientOcclusion, AovPass, Film, Integrator, IntegratorError, Path, Raycast, Wave, waves,
+    AmbientOcclusion, AovPass, Bands, Film, Integrator, IntegratorError, Path, Raycast, Wave,
 };
 use rasray_scene::{Light, Material, Projection, Scene};
 
@@ -169,16 +169,17 @@ fn pixel_centres_know_distance_normal_and_primitive() {
     }
     let (width, height) = (6, 4);
     let stage = Setup::new(&device, &scene, forward_camera(place), width, height, 9);
-    let aov = AovPass::new(&device, &stage.scene, 10).expect("valid");
+    let bands = Bands::new(&device, [width, height]).expect("a small image");
+    let aov = AovPass::new(&device, &stage.scene, bands, 10).expect("valid");
     device.submit(|recorder| aov.record_reset(recorder)).expect("the reset runs");
-    for wave in waves(width * height, 1, 10) {
+    for wave in bands.waves([0], 10) {
         let submitted = device
             .submit(|recorder| aov.record_wave(recorder, (&stage.structure).into(), wave))
             .expect("the wave runs");
         submitted.value.expect("the wave can be recorded");
     }
     let half_height = 0.5f64.tan();
-    for (index, pixel) in aov.read(&device).expect("readable").iter().enumerate() {
+    for (index, pixel) in aov.read(&device, width * height).expect("readable").iter().enumerate() {
         let (column, row) = (index as u32 % width, index as u32 / width);
         if column >= width / 2 {
             assert_eq!((pixel.distance, pixel.normal, pixel.primitive), (0.0, [0.0; 3], u32::MAX));

@@ -11,8 +11,8 @@ use rasray_ads::{BruteForce, Counters, Hit, Surface};
 use rasray_gpu::{Device, DeviceDesc};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_integrators::{
-    AmbientOcclusion, AovPass, Film, Integrator, IntegratorDesc, IntegratorError, Path, Raycast, Traced,
-    Visibility, Wave, Whitted, WhittedOptions, waves,
+    AmbientOcclusion, AovPass, Bands, Film, Integrator, IntegratorDesc, IntegratorError, Path, Raycast,
+    Traced, Visibility, Wave, Whitted, WhittedOptions,
 };
 use rasray_scene::{AlphaMode, Camera, Mesh, Projection, Scene, builtin};
 
@@ -94,7 +94,7 @@ impl Both {
             })
             .expect("the reset runs");
         let mut agreed = Agreed::default();
-        for wave in waves(width * height, samples, capacity) {
+        for wave in film.bands().waves(0..samples, capacity) {
             let (expected, expected_surfaces) = self.seen(&raycast, wave, false);
             let (found, surfaces) = self.seen(&raycast, wave, true);
             for slot in 0..found.len() {
@@ -299,12 +299,13 @@ fn holes_of_masks_are_seen_through() {
     let primitives = |scene: &Scene| {
         let both = Both::new(&device, scene, forward_camera(DVec3::ZERO), [48, 40]);
         both.compare("masks", 2, 1920);
-        let aov = AovPass::new(&device, &both.scene, 1920).expect("valid");
+        let bands = Bands::new(&device, [48, 40]).expect("a small image");
+        let aov = AovPass::new(&device, &both.scene, bands, 1920).expect("valid");
         let wave = Wave { first_pixel: 0, pixel_count: 1920, sample: 0 };
         device.submit(|recorder| aov.record_reset(recorder)).expect("the reset runs");
         let submitted = device.submit(|recorder| aov.record_wave(recorder, both.traced(true), wave));
         submitted.expect("the wave runs").value.expect("the wave can be recorded");
-        let pixels = aov.read(&device).expect("readable");
+        let pixels = aov.read(&device, 1920).expect("readable");
         pixels.iter().map(|pixel| pixel.primitive).collect::<Vec<u32>>()
     };
     let (seen, without) = (primitives(&masked), primitives(&opaque));
@@ -380,7 +381,7 @@ fn pictures_are_the_same_as_with_traced_camera_rays() {
     for integrator in [&path as &dyn Integrator, &whitted, &occlusion] {
         let image = |draws: bool| {
             device.submit(|recorder| integrator.record_reset(recorder)).expect("the reset runs");
-            for wave in waves(film.pixel_count(), 3, integrator.wave_capacity()) {
+            for wave in film.bands().waves(0..3, integrator.wave_capacity()) {
                 let traced = both.traced(draws);
                 let submitted = device.submit(|recorder| integrator.record_wave(recorder, traced, wave));
                 submitted.expect("the wave runs").value.expect("the wave can be recorded");

@@ -8,7 +8,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use rasray_ads::BruteForce;
 use rasray_gpu::{Device, DeviceDesc, Timing};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, ShadingFeatures, View};
-use rasray_integrators::{Fetch, Film, Integrator, IntegratorDesc, waves};
+use rasray_integrators::{Fetch, Film, Integrator, IntegratorDesc};
 use rasray_scene::{Camera, Environment, Instance, Material, Mesh, Projection, Scene};
 
 /// A device with validation on.
@@ -128,7 +128,7 @@ impl Setup {
     /// Renders all samples and returns the image; every ray must have been finished.
     pub fn render(&self, integrator: &dyn Integrator, samples: u32) -> Vec<[f32; 3]> {
         self.device.submit(|recorder| integrator.record_reset(recorder)).expect("the reset runs");
-        for wave in waves(self.film.pixel_count(), samples, integrator.wave_capacity()) {
+        for wave in self.film.bands().waves(0..samples, integrator.wave_capacity()) {
             let traced = (&self.structure).into();
             integrator.render_wave(&self.device, Timing::None, traced, wave).expect("the wave runs");
         }
