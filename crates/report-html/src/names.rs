@@ -80,8 +80,9 @@ fn position<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> usize {
     seen.len()
 }
 
-/// Milliseconds in words: long times need no fractions.
+/// Milliseconds in words: long times need no fractions. A sum of none is -0 in Rust, and is 0 here.
 pub(super) fn milliseconds(value: f64) -> String {
+    let value = value + 0.0;
     if value >= 1000.0 {
         grouped(value.round() as u64)
     } else if value >= 100.0 {

@@ -32,7 +32,7 @@ pub use markdown::markdown;
 pub use run_text::list_rows;
 pub use table::{table, table_within};
 pub use text::{in_line, json_shown, one_line, shown, shown_but};
-pub use words::{bytes, columns, columns_within, grouped, wrapped};
+pub use words::{bytes, columns, columns_within, duration, grouped, wrapped};
 
 use rasray_metrics::confidence_of_each;
 use serde_json::Value;

@@ -3,8 +3,9 @@
 use crate::{Bound, HardRecord, ListRecord, RateRecord, Run, StageTime, bytes, columns, grouped};
 use std::fmt::Write;
 
+/// A sum of none is -0 in Rust, and is 0 here.
 fn milliseconds(value: f64) -> String {
-    format!("{value:.3} ms")
+    format!("{:.3} ms", value + 0.0)
 }
 
 /// Least and greatest of repeated times, with the quartiles between them.

@@ -1,7 +1,9 @@
 //! The report as text for people.
 
 use crate::run_text::{heading, run_text, verdict};
-use crate::{HardRecord, Report, Run, Statistics, bytes, columns, columns_within, grouped, in_line, wrapped};
+use crate::{
+    HardRecord, Report, Run, Statistics, bytes, columns, columns_within, duration, grouped, in_line, wrapped,
+};
 use std::fmt::Write;
 
 /// One row per run: speed next to error.
@@ -169,15 +171,6 @@ fn in_short(run: &Run) -> String {
     ];
     let parts: Vec<_> = parts.into_iter().flatten().collect();
     format!("image  {}\n       {}\n", heading(run), parts.join(", "))
-}
-
-/// Milliseconds as people say them.
-fn duration(milliseconds: f64) -> String {
-    if milliseconds < 1000.0 {
-        format!("{milliseconds:.1} ms")
-    } else {
-        format!("{:.2} s", milliseconds / 1000.0)
-    }
 }
 
 /// A line for each verdict on a hard case.

@@ -3,6 +3,16 @@
 use crate::in_line;
 use std::fmt::Write;
 
+/// Milliseconds as people say them. A sum of none is -0 in Rust, and is 0 here.
+pub fn duration(milliseconds: f64) -> String {
+    let milliseconds = milliseconds + 0.0;
+    if milliseconds < 1000.0 {
+        format!("{milliseconds:.1} ms")
+    } else {
+        format!("{:.2} s", milliseconds / 1000.0)
+    }
+}
+
 /// Aligned columns: the first `left` to the left, the others to the right.
 pub fn columns(rows: &[Vec<String>], left: usize) -> String {
     let rows: Vec<Vec<_>> = rows.iter().map(|row| row.iter().map(|cell| in_line(cell)).collect()).collect();
@@ -124,6 +134,12 @@ pub fn grouped(value: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_time_has_no_sign() {
+        let none: f64 = [0.0; 0].iter().sum();
+        assert_eq!([none, 0.04, 12.34, 1234.0].map(duration), ["0.0 ms", "0.0 ms", "12.3 ms", "1.23 s"]);
+    }
 
     #[test]
     fn columns_that_do_not_fit_come_below_with_the_names() {

@@ -1,13 +1,13 @@
 //! Times of passes and bytes of parts.
 
-use rasray_report::{bytes, grouped};
+use rasray_report::{bytes, duration, grouped};
 
 use crate::picture::Picture;
 
 /// Shows what a picture took.
 pub(super) fn show_tables(ui: &mut egui::Ui, picture: &Picture) {
     let total: f64 = picture.passes.iter().map(|pass| pass.ms_median).sum();
-    let title = format!("Times of passes ({total:.1} ms)");
+    let title = format!("Times of passes ({})", duration(total));
     egui::CollapsingHeader::new(title).id_salt("times").show(ui, |ui| {
         ui.weak(
             "All dispatches of a pass together, of the build and of all samples so far; those of the first build with what \
