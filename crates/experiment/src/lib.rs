@@ -91,4 +91,4 @@ pub use shard::Shard;
 pub use system_config::SystemConfig;
 pub use traced_set::{TracedSet, trace_in_turns};
 pub use whole::check_run;
-pub use work_maps::work_per_pixel;
+pub use work_maps::{hit_at, work_per_pixel};

@@ -1,8 +1,9 @@
-//! What the ray through each pixel's centre costs.
+//! What the ray through each pixel's centre costs, and what one through any place of a picture hits.
 
-use glam::{DVec3, Vec2};
+use glam::Vec2;
 use rasray_ads::{Counters, Ray, RayWork, TraceMode};
-use rasray_gpu::Device;
+use rasray_gpu::{Device, Timing};
+use rasray_metrics::DeviceHit;
 use rasray_reference::shading::{Sampler, View, camera_ray};
 use rasray_scene::Camera;
 use rasray_systems::Spec;
@@ -12,6 +13,7 @@ use crate::built::Built;
 use crate::contestant::Contestant;
 use crate::device_scene::{DeviceScene, tracer_error};
 use crate::error::ExperimentError;
+use crate::evaluate::device_hits;
 use crate::rays::{RayFlags, RaySource, from_shading};
 use rasray_report::Run;
 use rasray_report::figures::WorkMap;
@@ -54,9 +56,7 @@ pub fn work_per_pixel(
     camera: &Camera,
     [width, height]: [u32; 2],
 ) -> Result<Option<WorkMap>, ExperimentError> {
-    let view =
-        View { camera: camera.clone(), width, height, samples: 1, seed: 0, sampler: Sampler::default() };
-    let rays = centres(&view, stage.scene.frame_origin(), RayFlags::of(&stage.scene));
+    let rays = centres(&view_of(camera, [width, height]), stage);
     let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
     let built = Built::new(device, &spec.clone().with_counters(Counters::PerRay), &stage.scene, eye)?;
     let outcome = tracer
@@ -73,11 +73,43 @@ pub fn work_per_pixel(
     }))
 }
 
+/// What the ray through a place of a picture (pixels from its left top corner; through the centre of a lens) hits in a
+/// structure that is built: metres along the ray, and the triangle unless a fragment does not keep it. Absent where
+/// it leaves the scene. The size is in pixels.
+///
+/// # Errors
+/// The device fails, or the ray does not become complete.
+pub fn hit_at(
+    device: &Device,
+    stage: &DeviceScene,
+    built: &Built,
+    camera: &Camera,
+    size: [u32; 2],
+    place: [f32; 2],
+) -> Result<Option<DeviceHit>, ExperimentError> {
+    let ray = through(&view_of(camera, size), stage, Vec2::from(place));
+    let tracer = BatchTracer::new(device, 1).map_err(|e| tracer_error(&e))?;
+    let outcome = tracer
+        .trace(built.structure(), &[ray], TraceMode::Closest, Timing::None)
+        .map_err(|e| tracer_error(&e))?;
+    Ok(device_hits(outcome.hits).into_iter().next().flatten())
+}
+
+/// A view of one sample, of a size in pixels.
+fn view_of(camera: &Camera, [width, height]: [u32; 2]) -> View {
+    View { camera: camera.clone(), width, height, samples: 1, seed: 0, sampler: Sampler::default() }
+}
+
+/// The ray of a picture through a place, pixels.
+fn through(view: &View, stage: &DeviceScene, place: Vec2) -> Ray {
+    let flags = RayFlags::of(&stage.scene).camera;
+    Ray { flags, ..from_shading(&camera_ray(view, stage.scene.frame_origin(), place)) }
+}
+
 /// Rays through the centres of all pixels, rows from the top.
-fn centres(view: &View, frame_origin: DVec3, flags: RayFlags) -> Vec<Ray> {
+fn centres(view: &View, stage: &DeviceScene) -> Vec<Ray> {
     let pixels = (0..view.height).flat_map(|y| (0..view.width).map(move |x| (x, y)));
-    let through = |place| Ray { flags: flags.camera, ..from_shading(&camera_ray(view, frame_origin, place)) };
-    pixels.map(|(x, y)| through(Vec2::new(x as f32 + 0.5, y as f32 + 0.5))).collect()
+    pixels.map(|(x, y)| through(view, stage, Vec2::new(x as f32 + 0.5, y as f32 + 0.5))).collect()
 }
 
 fn run_of(contestant: &Contestant<'_>, runs: &[Run]) -> Option<usize> {

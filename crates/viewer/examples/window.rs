@@ -6,16 +6,46 @@ use rasray_experiment::{
     SystemConfig, open_device,
 };
 use rasray_scene::default_view as view;
-use rasray_scene_source::{LoadedScene, load};
+use rasray_scene_source::{LoadError, LoadedScene, load};
 use rasray_systems::{Preset, SYSTEMS};
 use rasray_viewer::{
-    Engine, Opening, SavedPicture, SceneSource, Session, Settings, Shown, Standpoint, Viewing, run,
+    Engine, Failure, Opened, Opening, SavedPicture, SceneSource, Session, Settings, Shown, Standpoint,
+    Viewing, camera_names, run,
 };
+use std::ffi::OsStr;
+use std::sync::Arc;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let name = std::env::args_os().nth(1).unwrap_or("cornell".into());
     let validation = std::env::args_os().any(|word| word == "--validation");
-    let mut loaded = load(&name)?;
+    let Opened { opening, source } = opened(&name)?;
+    let device = open_device(&DeviceChoice { device: None, validation })?;
+    let settings = opening.settings.clone();
+    let end = run(Viewing {
+        device: device.name().to_owned(),
+        engine: Box::new(move || Engine::new(device, validation, source, settings)),
+        session: Session::new(opening),
+        open: Arc::new(|name: &OsStr| {
+            opened(name)
+                .map_err(|error| Failure { message: error.to_string(), help: error.help().to_owned() })
+        }),
+        validation,
+        stop: &|| false,
+        save: &mut |saved: &SavedPicture<'_>| {
+            let [width, height] = saved.size;
+            let bytes = [format!("P6\n{width} {height}\n255\n").as_bytes(), saved.pixels].concat();
+            std::fs::write(saved.place, bytes).map_err(|error| error.to_string())?;
+            println!("{}: {}", saved.place.display(), saved.command_line.unwrap_or("a map"));
+            Ok(())
+        },
+    })?;
+    println!("{end:?}");
+    Ok(())
+}
+
+/// The scene of a name, and what a session of it begins with.
+fn opened(name: &OsStr) -> Result<Opened, LoadError> {
+    let mut loaded = load(name)?;
     loaded.light(None);
     let frame = Frame {
         integrator: IntegratorSpec::from(&INTEGRATORS[0]),
@@ -29,40 +59,25 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         occluder: OccluderKind::Structure,
         back_faces: rasray_scene::BackFaces::Camera,
     };
-    let options = OptionValues::default();
-    let system = SystemConfig::new(&SYSTEMS[0], Preset::Robust, options);
+    let system = SystemConfig::new(&SYSTEMS[0], Preset::Robust, OptionValues::default());
     let standpoint = Standpoint::AsGiven;
     let settings =
-        Settings { standpoint, seconds: None, system, frame, shown: Shown::Picture, moving: false };
-    let session = Session::new(Opening {
-        scene: name,
+        Settings { scene: 0, standpoint, seconds: None, system, frame, shown: Shown::Picture, moving: false };
+    let opening = Opening {
+        scene: name.to_owned(),
         camera_words: Vec::new(),
         camera_is_default: loaded.scene.cameras.is_empty(),
+        cameras: camera_names(&loaded),
+        default_camera: view::default_camera(&loaded.scene),
         time_words: Vec::new(),
         other_words: Vec::new(),
-        settings: settings.clone(),
+        settings,
         exposure: 0.0,
         duration: loaded.scene.animation.duration.into(),
         bounds: view::bounds(&loaded.scene).unwrap_or_default(),
         output: "window.###.ppm".into(),
-    });
-    let device = open_device(&DeviceChoice { device: None, validation })?;
+    };
     let source =
         SceneSource { loaded, clip: None, needs_all: false, camera: Box::new(LoadedScene::default_view) };
-    let end = run(Viewing {
-        device: device.name().to_owned(),
-        engine: Box::new(move || Engine::new(device, validation, source, settings)),
-        session,
-        validation,
-        stop: &|| false,
-        save: &mut |saved: &SavedPicture<'_>| {
-            let [width, height] = saved.size;
-            let bytes = [format!("P6\n{width} {height}\n255\n").as_bytes(), saved.pixels].concat();
-            std::fs::write(saved.place, bytes).map_err(|error| error.to_string())?;
-            println!("{}: {}", saved.place.display(), saved.command_line.unwrap_or("a map"));
-            Ok(())
-        },
-    })?;
-    println!("{end:?}");
-    Ok(())
+    Ok(Opened { opening, source })
 }

@@ -39,6 +39,52 @@ impl Rounded {
     }
 }
 
+/// From which side a scene is seen: y is up, and its front is towards +z, as glTF has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// From +z.
+    Front,
+    /// From -z.
+    Back,
+    /// From +x.
+    Right,
+    /// From -x.
+    Left,
+    /// From +y, with -z upwards in the picture.
+    Top,
+    /// From -y, with +z upwards in the picture.
+    Bottom,
+}
+
+impl Side {
+    /// All of them, each with its opposite.
+    pub const ALL: [Self; 6] = [Self::Front, Self::Back, Self::Right, Self::Left, Self::Top, Self::Bottom];
+
+    /// A label.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Front => "front",
+            Self::Back => "back",
+            Self::Right => "right",
+            Self::Left => "left",
+            Self::Top => "top",
+            Self::Bottom => "bottom",
+        }
+    }
+
+    /// From the scene to the camera.
+    fn direction(self) -> DVec3 {
+        match self {
+            Self::Front => DVec3::Z,
+            Self::Back => DVec3::NEG_Z,
+            Self::Right => DVec3::X,
+            Self::Left => DVec3::NEG_X,
+            Self::Top => DVec3::Y,
+            Self::Bottom => DVec3::NEG_Y,
+        }
+    }
+}
+
 /// Where a camera stands and what it turns around, world, metres. It stays upright: y is up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraControl {
@@ -84,6 +130,35 @@ impl CameraControl {
             return;
         }
         self.lens = (lens.aperture > 0.0).then_some(lens);
+    }
+
+    /// Turns towards a point, around which it turns from then on.
+    pub fn look_at(&mut self, point: DVec3) {
+        if point.is_finite() && (point - self.eye).length() > 1.0e-9 * (1.0 + self.eye.length()) {
+            self.target = point;
+            // Not straight up or down.
+            self.orbit(0.0, 0.0);
+        }
+    }
+
+    /// Goes back or forward, and aside, so that a box (its least and greatest corner, world, metres) is in the middle and a ball
+    /// around it fits into a picture of that many pixels a row and rows. It looks in the same direction.
+    pub fn frame_all(&mut self, (low, high): (DVec3, DVec3), [width, height]: [u32; 2]) {
+        let radius =
+            (0.5 * (high - low).length()).max(1.0e-6 * (1.0 + high.abs().max(low.abs()).max_element()));
+        let half_height = (0.5 * self.fov.to_radians()).tan();
+        let narrowest = half_height * (f64::from(width) / f64::from(height.max(1))).min(1.0);
+        let distance = radius / narrowest.atan().sin();
+        if distance.is_finite() {
+            let back = self.axes().z_axis;
+            self.target = 0.5 * (low + high);
+            self.eye = self.target + back * distance;
+        }
+    }
+
+    /// Looks at the target along an axis, as far away as it was.
+    pub fn view_along(&mut self, side: Side) {
+        self.eye = self.target + side.direction() * self.distance();
     }
 
     fn distance(&self) -> f64 {
@@ -218,6 +293,67 @@ mod tests {
         assert!(close(zoomed.target, control().target) && (zoomed.distance() - 4.5).abs() < 1.0e-9);
         zoomed.zoom(1.0e6);
         assert!(zoomed.distance() > 0.0 && zoomed.rounded().camera().is_ok());
+    }
+
+    #[test]
+    fn everything_is_in_the_middle_and_within_the_picture() {
+        let bounds = (DVec3::new(-3.0, -1.0, -2.0), DVec3::new(1.0, 1.0, 0.0));
+        for size in [[640, 360], [360, 640]] {
+            let mut control = control();
+            control.orbit(0.7, 0.3);
+            let before = control.axes();
+            control.frame_all(bounds, size);
+            assert!(control.axes().abs_diff_eq(before, 1.0e-9), "it looks in the same direction");
+            let camera = control.rounded().camera().expect("a camera");
+            let half = camera.half_extents(size[0], size[1]);
+            let camera_from_world = camera.world_from_camera.inverse();
+            let mut farthest = 0.0_f64;
+            for corner in 0..8 {
+                let pick =
+                    |axis: usize| if corner >> axis & 1 == 0 { bounds.0[axis] } else { bounds.1[axis] };
+                let seen = camera_from_world.transform_point3(DVec3::new(pick(0), pick(1), pick(2)));
+                farthest =
+                    farthest.max((seen.x / seen.z / half[0]).abs()).max((seen.y / seen.z / half[1]).abs());
+            }
+            assert!((0.5..=1.0).contains(&farthest), "{size:?}: {farthest}");
+        }
+        let mut point = control();
+        point.frame_all((DVec3::ONE, DVec3::ONE), [16, 9]);
+        assert!(point.rounded().camera().is_ok(), "a scene of one point");
+    }
+
+    #[test]
+    fn sides_are_exact_keep_the_distance_and_can_be_turned_from() {
+        for side in Side::ALL {
+            let mut control = control();
+            control.orbit(0.3, 0.4);
+            control.view_along(side);
+            let camera = control.rounded().camera().expect("a camera");
+            let back = camera.world_from_camera.matrix3.z_axis;
+            assert!(close(back, side.direction()), "{}: {back}", side.name());
+            assert!((control.distance() - 5.0).abs() < 1.0e-9);
+            control.orbit(0.1, 0.0);
+            control.pan(0.1, 0.1);
+            assert!(control.rounded().camera().is_ok() && control.eye.is_finite());
+        }
+        let mut top = control();
+        top.view_along(Side::Top);
+        let camera = top.rounded().camera().expect("a camera");
+        assert!(close(camera.world_from_camera.matrix3.y_axis, DVec3::NEG_Z), "north is up");
+    }
+
+    #[test]
+    fn a_point_that_is_looked_at_is_what_is_turned_around() {
+        let mut control = control();
+        let point = DVec3::new(1.0, 0.5, 2.0);
+        control.look_at(point);
+        assert!(close(control.target, point) && close(control.eye, DVec3::new(0.0, 1.0, 5.0)));
+        control.orbit(1.0, 0.2);
+        assert!(close(control.target, point));
+        let before = control.clone();
+        control.look_at(control.eye);
+        control.look_at(DVec3::NAN);
+        assert_eq!(control, before, "what cannot be looked at changes nothing");
     }
 
     #[test]

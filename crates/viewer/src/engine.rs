@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use rasray_experiment::{
-    Built, DeviceScene, ExperimentError, Frame, Rendering, SystemConfig, TexelCapacity, texels,
+    Built, DeviceScene, ExperimentError, Frame, Rendering, SystemConfig, TexelCapacity, hit_at, texels,
     work_per_pixel,
 };
 use rasray_gpu::{Device, Timing};
@@ -13,8 +13,10 @@ use rasray_scene::Camera;
 use rasray_scene::needs::Needs;
 use rasray_scene_source::LoadedScene;
 
+use crate::picked::{Answer, Pick, PickedHit, PickedTriangle};
 use crate::picture::{Picture, Pixels};
-use crate::preview_size::PreviewSize;
+use crate::preview::Preview;
+use crate::preview_size::{PreviewSize, TARGET_MS};
 use crate::scene_at_time::{ChooseCamera, SceneAtTime};
 use crate::settings::{Redo, Settings, Shown, Standpoint};
 use crate::traced::{Traced, exact_config, follow};
@@ -60,9 +62,11 @@ pub struct Engine {
     /// Of the whole picture.
     film: Option<Rendering>,
     exact_film: Option<Rendering>,
-    /// Of pictures while something moves, and its size.
-    preview: Option<([u32; 2], Rendering)>,
+    /// Of pictures while something moves.
+    preview: Option<Preview>,
     preview_size: PreviewSize,
+    /// Milliseconds since the last of these.
+    preview_ms: f64,
     /// Whether films hold samples of other settings.
     stale: bool,
     /// Whether the picture of these settings is complete.
@@ -90,10 +94,19 @@ impl Engine {
             exact_film: None,
             preview: None,
             preview_size: PreviewSize::default(),
+            preview_ms: 0.0,
             stale: true,
             done: false,
             sample_ms: 0.0,
         }
+    }
+
+    /// Looks at another scene from now on. Settings of that scene must follow.
+    pub fn show(&mut self, source: SceneSource) {
+        let SceneSource { loaded, clip, needs_all, camera } = source;
+        self.drop_for(Redo::ALL);
+        self.scene = SceneAtTime::new(loaded, clip);
+        (self.needs_all, self.choose, self.posed) = (needs_all, camera, None);
     }
 
     /// Changes the settings, and drops what must be made anew for them.
@@ -148,12 +161,10 @@ impl Engine {
         let config = self.config(&camera);
         follow(&self.device, self.stage.as_ref(), self.posed, &mut self.traced, &config, say)?;
         if self.stale {
-            for film in [&mut self.film, &mut self.exact_film].into_iter().flatten() {
+            for film in self.films() {
                 film.clear()?;
             }
-            if let Some((_, film)) = &mut self.preview {
-                film.clear()?;
-            }
+            self.preview_ms = 0.0;
             self.stale = false;
         }
         match self.settings.shown {
@@ -164,12 +175,21 @@ impl Engine {
         }
     }
 
+    /// All that there are.
+    fn films(&mut self) -> impl Iterator<Item = &mut Rendering> {
+        let preview = self.preview.iter_mut().flat_map(Preview::films);
+        self.film.iter_mut().chain(&mut self.exact_film).chain(preview)
+    }
+
     /// The scene on the device at its time, and the camera there.
     fn prepare_scene(&mut self, say: &mut dyn FnMut(&str)) -> Result<Camera, ExperimentError> {
         let seconds = self.settings.seconds;
         self.scene.show(seconds)?;
         let camera = match &self.settings.standpoint {
             Standpoint::AsGiven => self.scene.camera(&*self.choose)?,
+            Standpoint::Camera(index) => self.scene.loaded().camera(*index).ok_or_else(|| {
+                ExperimentError::usage(format!("the scene has no camera {index}"), "choose another camera")
+            })?,
             Standpoint::Placed(rounded) => rounded.camera()?,
         };
         let is_posed = self.scene.loaded().moment.is_some();
@@ -205,8 +225,7 @@ impl Engine {
             && let (Some((stage, _)), Some(moment)) = (&mut self.stage, &self.scene.loaded().moment)
         {
             stage.pose(&self.device, &self.scene.loaded().scene, moment, Timing::None)?;
-            let preview = self.preview.as_mut().map(|(_, film)| film);
-            for film in [self.film.as_mut(), self.exact_film.as_mut(), preview].into_iter().flatten() {
+            for film in self.films() {
                 film.scene_moved();
             }
             self.posed = seconds;
@@ -252,7 +271,7 @@ impl Engine {
         Ok(step)
     }
 
-    /// One wave with as few pixels as it takes to follow.
+    /// One wave of the picture while something moves; as many samples as there is time for.
     fn preview(
         &mut self,
         camera: Camera,
@@ -261,22 +280,33 @@ impl Engine {
     ) -> Result<Step, ExperimentError> {
         let Self { device, stage, traced, preview, settings, .. } = self;
         let (Some((stage, needs)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
-        let [width, height] = size;
-        let frame = Frame { width, height, ..settings.frame.clone() };
-        let mut film = match preview.take() {
-            Some((own, film)) if own == size => Some(film),
-            _ => None,
-        };
-        opened(device, stage, &mut film, &frame, needs, &traced.built, say)?;
-        let (_, film) = preview.insert((size, film.expect("it was opened just now")));
-        if !advance(device, film, traced, &mut self.sample_ms)? {
+        let kept = preview.take().filter(|preview| preview.size == size);
+        let films = preview.insert(match kept {
+            Some(films) => films,
+            None => {
+                say("first use of the shaders");
+                self.preview_ms = 0.0;
+                Preview::new(device, stage, &settings.frame, size, needs, &traced.built)?
+            }
+        });
+        let started = Instant::now();
+        let is_sample = advance(device, films.next(), traced, &mut self.sample_ms)?;
+        self.preview_ms += started.elapsed().as_secs_f64() * 1.0e3;
+        if !is_sample || !films.is_whole() {
             return Ok(Step::Working);
         }
-        self.done = film.image().samples_done() >= frame.spp;
-        let pixels = Pixels::Radiance(film.read(device)?);
-        let (samples, passes) = (film.image().samples_done(), film.pass_times());
+        let samples = films.light().image().samples_done();
+        self.done = samples >= settings.frame.spp;
+        let of_a_sample = self.preview_ms / f64::from(samples);
         let full = [settings.frame.width, settings.frame.height];
-        self.preview_size.took(self.sample_ms, full, width * height);
+        // Where all samples so far were quick, there is time for one more.
+        if !self.done && size == full && self.preview_ms + of_a_sample < TARGET_MS {
+            return Ok(Step::Working);
+        }
+        let pixels = Pixels::Radiance(films.read(device)?);
+        let passes = films.light().pass_times();
+        self.sample_ms = of_a_sample;
+        self.preview_size.took(of_a_sample, full, size[0] * size[1]);
         self.picture(camera, pixels, samples, passes)
     }
 
@@ -327,6 +357,53 @@ impl Engine {
         let pixels = Pixels::of_counts(&counts, &format!("{} per ray", settings.shown.name()));
         let samples = settings.frame.spp;
         self.picture(camera, pixels, samples, Vec::new())
+    }
+
+    /// Traces the ray of a pick through one of its systems. The structure that is there is used where it is of that system;
+    /// one that is built for this is dropped.
+    pub fn answer(&mut self, pick: &Pick, config: &SystemConfig) -> Answer {
+        let system = format!("{} {}", config.system.name, config.preset.name());
+        let hit = self.picked_hit(pick, config).map_err(|error| error.to_string());
+        Answer { system, hit }
+    }
+
+    fn picked_hit(
+        &mut self,
+        pick: &Pick,
+        config: &SystemConfig,
+    ) -> Result<Option<PickedHit>, ExperimentError> {
+        let stage =
+            self.stage.as_ref().filter(|_| pick.scene == self.settings.scene && pick.seconds == self.posed);
+        let Some((stage, _)) = stage else {
+            return Err(ExperimentError::usage("the scene has moved since it was picked", "pick again"));
+        };
+        let [width, height] = pick.size;
+        let frame = Frame { width, height, ..self.settings.frame.clone() };
+        let config = config.clone().serving(frame.workload()).seen_by(&pick.camera, &frame);
+        let eye = pick.camera.world_from_camera.translation;
+        let own = self.traced.as_ref().filter(|traced| traced.config == config).map(|traced| &traced.built);
+        let made = match own {
+            Some(_) => None,
+            None => {
+                let relative = (eye - stage.scene.frame_origin()).as_vec3().to_array();
+                Some(Built::new(&self.device, &config.spec()?, &stage.scene, relative)?)
+            }
+        };
+        let Some(built) = own.or(made.as_ref()) else { return Ok(None) };
+        let Some(hit) = hit_at(&self.device, stage, built, &pick.camera, pick.size, pick.place)? else {
+            return Ok(None);
+        };
+        let (origin, direction) = pick.ray();
+        let distance = f64::from(hit.t);
+        let point = origin + direction * distance;
+        let forward = -pick.camera.world_from_camera.matrix3.z_axis.normalize_or_zero();
+        let scene = &self.scene.loaded().scene;
+        Ok(Some(PickedHit {
+            point,
+            depth: (point - eye).dot(forward),
+            distance,
+            triangle: hit.primitive.and_then(|id| PickedTriangle::of(scene, id)),
+        }))
     }
 
     fn picture(

@@ -1,12 +1,17 @@
 //! How many pixels a picture has while something moves.
 
 /// Milliseconds that a picture may take while something moves.
-const TARGET_MS: f64 = 80.0;
+pub(crate) const TARGET_MS: f64 = 80.0;
 
 /// Greatest number that sides are divided by.
 const MOST: u32 = 8;
 
-/// The size of pictures while something moves, by how long the last ones took.
+/// Pixels that a picture has at least where its sides are divided by more than 2: fewer cannot be read. These are a quarter
+/// of 640x360.
+const LEAST_PIXELS: u32 = 320 * 180;
+
+/// The size of pictures while something moves, by how long the last ones took: half of the sides or all, and less where
+/// that is still [`LEAST_PIXELS`].
 #[derive(Clone, Copy, Debug)]
 pub struct PreviewSize {
     /// Milliseconds per pixel; absent before the first picture.
@@ -16,7 +21,7 @@ pub struct PreviewSize {
 
 impl Default for PreviewSize {
     fn default() -> Self {
-        Self { ms_per_pixel: None, divisor: 4 }
+        Self { ms_per_pixel: None, divisor: 2 }
     }
 }
 
@@ -28,12 +33,9 @@ impl PreviewSize {
         // One slow picture, as after a build, counts by half.
         let ms_per_pixel = self.ms_per_pixel.map_or(now, |before| 0.5 * (before + now));
         self.ms_per_pixel = Some(ms_per_pixel);
-        let expected = |divisor: u32| {
-            let [width, height] = sides(full, divisor);
-            ms_per_pixel * f64::from(width) * f64::from(height)
-        };
+        let expected = |divisor: u32| ms_per_pixel * pixels_of(full, divisor);
         // A step back to more pixels is taken only where it is worth it, so that sizes do not alternate.
-        while self.divisor < MOST && expected(self.divisor) > TARGET_MS {
+        while self.divisor < most(full) && expected(self.divisor) > TARGET_MS {
             self.divisor *= 2;
         }
         while self.divisor > 1 && expected(self.divisor / 2) < 0.7 * TARGET_MS {
@@ -43,8 +45,18 @@ impl PreviewSize {
 
     /// Pixels a row and rows.
     pub fn size(&self, full: [u32; 2]) -> [u32; 2] {
-        sides(full, self.divisor)
+        sides(full, self.divisor.min(most(full)))
     }
+}
+
+/// What the sides of a picture are divided by at most.
+fn most(full: [u32; 2]) -> u32 {
+    let is_enough = |divisor: &u32| pixels_of(full, *divisor) >= f64::from(LEAST_PIXELS);
+    [MOST, 4].into_iter().find(is_enough).unwrap_or(2)
+}
+
+fn pixels_of(full: [u32; 2], divisor: u32) -> f64 {
+    sides(full, divisor).into_iter().map(f64::from).product()
 }
 
 fn sides(full: [u32; 2], divisor: u32) -> [u32; 2] {
@@ -58,14 +70,11 @@ mod tests {
     const FULL: [u32; 2] = [640, 360];
 
     #[test]
-    fn slow_devices_get_fewer_pixels_and_fast_ones_all() {
+    fn slow_devices_get_half_the_sides_and_fast_ones_all() {
         let mut size = PreviewSize::default();
-        assert_eq!(size.size(FULL), [160, 90]);
-        size.took(1000.0, FULL, 160 * 90);
-        assert_eq!(size.size(FULL), [80, 45]);
-        // The least size is kept, however slow it is.
-        size.took(10_000.0, FULL, 80 * 45);
-        assert_eq!(size.size(FULL), [80, 45]);
+        assert_eq!(size.size(FULL), [320, 180]);
+        size.took(10_000.0, FULL, 320 * 180);
+        assert_eq!(size.size(FULL), [320, 180], "fewer cannot be read, however slow it is");
         for _ in 0..40 {
             let [width, height] = size.size(FULL);
             size.took(1.0, FULL, width * height);
@@ -74,11 +83,23 @@ mod tests {
     }
 
     #[test]
+    fn large_pictures_of_slow_devices_get_as_few_pixels_as_can_be_read() {
+        let large = [1920, 1080];
+        let mut size = PreviewSize::default();
+        assert_eq!(size.size(large), [960, 540]);
+        size.took(900.0, large, 960 * 540);
+        assert_eq!(size.size(large), [480, 270]);
+        size.took(10_000.0, large, 480 * 270);
+        assert_eq!(size.size(large), [480, 270]);
+        assert_eq!(size.size(FULL), [320, 180], "what was chosen for another size");
+    }
+
+    #[test]
     fn a_size_that_fits_stays() {
         let mut size = PreviewSize::default();
         for _ in 0..9 {
-            size.took(60.0, FULL, 160 * 90);
-            assert_eq!(size.size(FULL), [160, 90]);
+            size.took(60.0, FULL, 320 * 180);
+            assert_eq!(size.size(FULL), [320, 180]);
         }
     }
 
@@ -86,6 +107,6 @@ mod tests {
     fn no_side_is_empty() {
         let mut size = PreviewSize::default();
         size.took(1.0e9, [3, 1], 1);
-        assert_eq!(size.size([3, 1]), [1, 1]);
+        assert_eq!(size.size([3, 1]), [2, 1]);
     }
 }

@@ -58,6 +58,8 @@ impl Shown {
 pub enum Standpoint {
     /// As the command line said; a camera of the scene moves with it.
     AsGiven,
+    /// From a camera of the scene, by its position, and with it.
+    Camera(usize),
     /// From where these numbers say.
     Placed(Rounded),
 }
@@ -65,6 +67,8 @@ pub enum Standpoint {
 /// Everything that a picture depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
+    /// Which of the scenes that were opened one after the other, from 0.
+    pub scene: u32,
     /// From where.
     pub standpoint: Standpoint,
     /// Time of the animation, seconds; absent at rest.
@@ -100,6 +104,9 @@ impl Redo {
     pub fn between(old: &Settings, new: &Settings) -> Self {
         if old == new {
             return Self::default();
+        }
+        if old.scene != new.scene {
+            return Self::ALL;
         }
         // The scene on the device holds what its pictures can show, and no more.
         let scene = old.frame.workload() != new.frame.workload();
@@ -138,7 +145,7 @@ pub(crate) mod tests {
         };
         let system = SystemConfig::new(&SYSTEMS[0], Preset::Robust, OptionValues::default());
         let standpoint = Standpoint::AsGiven;
-        Settings { standpoint, seconds: None, system, frame, shown: Shown::Picture, moving: false }
+        Settings { scene: 0, standpoint, seconds: None, system, frame, shown: Shown::Picture, moving: false }
     }
 
     fn redo(change: impl FnOnce(&mut Settings)) -> Redo {
@@ -166,6 +173,7 @@ pub(crate) mod tests {
         };
         assert_eq!(redo(|new| new.standpoint = from("1,0,0")), samples);
         assert_eq!(redo(|new| new.moving = true), samples);
+        assert_eq!(redo(|new| new.standpoint = Standpoint::Camera(0)), samples);
         assert_eq!(redo(|new| new.seconds = Some(0.5)), samples);
         assert_eq!(redo(|new| new.frame.seed = 2), samples);
         assert_eq!(redo(|new| new.frame.spp = 8), samples);
@@ -193,7 +201,8 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn another_light_costs_everything() {
+    fn another_light_and_another_scene_cost_everything() {
+        assert_eq!(redo(|new| new.scene = 1), Redo::ALL);
         assert_eq!(redo(|new| new.frame.integrator = integrator("raycast")), Redo::ALL);
     }
 }

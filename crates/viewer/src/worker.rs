@@ -1,11 +1,16 @@
 //! An engine in a thread of its own: the newest settings win, and whoever shows pictures never waits.
 
+use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use crate::engine::{Engine, Step};
+use rasray_experiment::SystemConfig;
+
+use crate::engine::{Engine, SceneSource, Step};
+use crate::picked::{Answer, Pick};
 use crate::picture::Picture;
+use crate::session::{Failure, Opening};
 use crate::settings::Settings;
 
 /// Least time between two pictures of the same settings that are handed on.
@@ -18,17 +23,26 @@ pub enum Update {
     /// A picture.
     Picture(Box<Picture>),
     /// The settings failed. The picture before stays the last complete one.
-    Failed {
-        /// What is wrong.
-        message: String,
-        /// What to do; may be empty.
-        help: String,
-    },
+    Failed(Failure),
+    /// What a system answered to the pick of that number.
+    Answered(u64, Answer),
+    /// What came of reading a scene, by the number of the request.
+    Read(u64, Result<Box<Opened>, Failure>),
+}
+
+/// A scene that was read.
+pub struct Opened {
+    /// What a session of it begins with.
+    pub opening: Opening,
+    /// What an engine shows of it.
+    pub source: SceneSource,
 }
 
 #[derive(Default)]
 struct Wanted {
+    source: Option<SceneSource>,
     settings: Option<Settings>,
+    pick: Option<Pick>,
     quit: bool,
 }
 
@@ -74,6 +88,20 @@ impl Worker {
         self.post.wanted().settings = Some(settings);
         self.post.changed.notify_one();
     }
+
+    /// Asks for pictures of another scene from now on, which settings say how to see.
+    pub fn show(&self, source: SceneSource, settings: Settings) {
+        let mut wanted = self.post.wanted();
+        (wanted.source, wanted.settings) = (Some(source), Some(settings));
+        drop(wanted);
+        self.post.changed.notify_one();
+    }
+
+    /// Asks what is hit; answers to an earlier pick that did not come so far no longer do.
+    pub fn pick(&self, pick: Pick) {
+        self.post.wanted().pick = Some(pick);
+        self.post.changed.notify_one();
+    }
 }
 
 impl Drop for Worker {
@@ -90,19 +118,39 @@ impl Drop for Worker {
 fn work(mut engine: Engine, post: &Post, tell: &dyn Fn(Update)) {
     let mut handed_on = None::<Instant>;
     let mut idle = false;
+    let mut asked = None::<(Pick, VecDeque<SystemConfig>)>;
     loop {
         {
             let mut wanted = post.wanted();
-            while idle && wanted.settings.is_none() && !wanted.quit {
+            let is_news = |wanted: &Wanted| wanted.settings.is_some() || wanted.pick.is_some() || wanted.quit;
+            while idle && asked.is_none() && !is_news(&wanted) {
                 wanted = post.changed.wait(wanted).unwrap_or_else(PoisonError::into_inner);
             }
             if wanted.quit {
                 return;
             }
+            if let Some(source) = wanted.source.take() {
+                engine.show(source);
+                asked = None;
+            }
             if let Some(settings) = wanted.settings.take() {
                 engine.apply(settings);
                 (idle, handed_on) = (false, None);
             }
+            if let Some(pick) = wanted.pick.take() {
+                let systems = pick.systems.iter().cloned().collect();
+                asked = Some((pick, systems));
+            }
+        }
+        // One system at a time: a build may take long, and newer settings go before the next.
+        if let Some((pick, systems)) = &mut asked {
+            match systems.pop_front() {
+                Some(config) => tell(Update::Answered(pick.number, engine.answer(pick, &config))),
+                None => asked = None,
+            }
+        }
+        if idle {
+            continue;
         }
         match engine.step(&mut |text| tell(Update::Status(text.to_owned()))) {
             Ok(Step::Working) => (),
@@ -115,7 +163,7 @@ fn work(mut engine: Engine, post: &Post, tell: &dyn Fn(Update)) {
                 }
             }
             Err(error) => {
-                tell(Update::Failed { message: error.to_string(), help: error.help().to_owned() });
+                tell(Update::Failed(Failure::of(&error)));
                 idle = true;
             }
         }

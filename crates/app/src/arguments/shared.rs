@@ -167,7 +167,7 @@ pub enum NeedsName {
 }
 
 /// How the scene is read.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Scene")]
 pub struct SceneArguments {
     /// Radiance from outside: a latitude-longitude map (.hdr), or one colour, black too [default: the scene's; where

@@ -16,9 +16,11 @@ Examples:
   rasray view walk.glb --system mmrt --preset published --time 0.5
 
 Left drag turns around the scene, right drag looks around, the middle button and Shift with a left drag move
-sideways, the wheel goes nearer; W A S D and E Q fly. Space plays, P saves the picture, C copies the command
-line that makes it again, R puts the camera back, H hides the panel, Ctrl+Q closes. Everything else is on
-the panel. The picture refines while nothing moves, up to --spp samples.
+sideways, the wheel goes nearer; W A S D and E Q fly. R puts the camera back, F shows everything, 1 3 7 show
+the front, the right side and the top. Ctrl with the wheel or a drag zooms and moves the picture, Ctrl with a
+click picks a point. Space plays, P saves the picture, C copies the command line that makes it again, H hides
+the panel, Ctrl+Q closes. Everything else is on the panel, with all keys. A file that is dropped on the window
+is opened. The picture refines while nothing moves, up to --spp samples.
 
 The window needs the cargo feature viewer, which takes some minutes more to build:
   cargo run --release --package rasray-app --features viewer -- view cornell

@@ -3,15 +3,18 @@
 use crate::window::{Display, Window, made_by, pixels};
 
 /// The left and right end of the way of the slider of the time, and how far down it is.
-pub const TIME_SLIDER: [i32; 3] = [335, 453, 247];
+pub const TIME_SLIDER: [i32; 3] = [335, 453, 337];
 
 /// The list of what is shown, of a scene with or without clips.
-const SHOWN: [i32; 2] = [438, 75];
+const SHOWN: [i32; 2] = [438, 119];
 
 /// The list of systems, what opens the options of `bvh`, and its list of builders, of a scene that does not move.
-const SYSTEM: [i32; 2] = [430, 224];
-const OPTIONS: [i32; 2] = [390, 270];
-const BUILDER: [i32; 2] = [470, 293];
+const SYSTEM: [i32; 2] = [430, 314];
+const OPTIONS: [i32; 2] = [390, 360];
+const BUILDER: [i32; 2] = [470, 383];
+
+/// The preset `published` of `mmrt`, of such a scene.
+const PUBLISHED: [i32; 2] = [461, 337];
 
 /// An entry of an open list, from 0.
 fn entry([x, y]: [i32; 2], position: i32) -> [i32; 2] {
@@ -41,7 +44,9 @@ fn systems_options_and_maps_are_chosen_with_the_mouse() {
     assert!(made_by(folder.path(), &line) == built && built == first, "a tree is exact: {line}");
 
     choose(&window, SYSTEM, 1);
-    let (coarse, line) = window.save_when(|line| line.contains(" --system mmrt "));
+    window.save_when(|line| line.contains(" --system mmrt "));
+    window.click(PUBLISHED);
+    let (coarse, line) = window.save_when(|line| line.contains(" --preset published "));
     let coarse = pixels(&coarse);
     assert!(made_by(folder.path(), &line) == coarse && coarse != first, "fragments are not: {line}");
 
@@ -57,6 +62,40 @@ fn systems_options_and_maps_are_chosen_with_the_mouse() {
     let cells = pixels(&cells);
     assert!(cells != difference && cells.chunks_exact(3).any(|colour| colour != &cells[..3]));
 
+    display.xdotool("key ctrl+q");
+    assert_eq!(window.end().code(), Some(0), "a message of the validation layers is an error");
+}
+
+/// Typed at the top of the panel. What cannot be read changes nothing, and the new scene is the one of its command line.
+#[test]
+fn another_scene_is_opened_by_its_name() {
+    let Some(display) = Display::start("another_scene_is_opened_by_its_name") else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let line = "view cornell --size 60x40 --spp 1 --integrator raycast --system bvh --validation";
+    let mut window = Window::open(&display, folder.path(), line);
+    let (first, _) = window.save();
+    let first = pixels(&first);
+    let open = |name: &str| {
+        display.xdotool("key ctrl+o");
+        std::thread::sleep(std::time::Duration::from_secs(1));
+        display.xdotool(&format!("type {name}"));
+        display.xdotool("key Return");
+        std::thread::sleep(std::time::Duration::from_secs(3));
+    };
+    open("missing.glb");
+    let (same, line) = window.save();
+    assert!(pixels(&same) == first && line.contains(" render cornell "), "{line}");
+    open("walker:8k");
+    let (other, line) = window.save_when(|line| line.contains(" render walker:8k "));
+    let other = pixels(&other);
+    assert!(made_by(folder.path(), &line) == other && other != first, "{line}");
+
+    // From above, and with everything in the picture.
+    display.xdotool("key 7");
+    display.xdotool("key f");
+    let (above, line) = window.save_when(|line| line.contains(" --eye "));
+    let above = pixels(&above);
+    assert!(made_by(folder.path(), &line) == above && above != other, "{line}");
     display.xdotool("key ctrl+q");
     assert_eq!(window.end().code(), Some(0), "a message of the validation layers is an error");
 }

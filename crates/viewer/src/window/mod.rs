@@ -4,12 +4,14 @@ mod device;
 mod options_panel;
 mod painter;
 mod panel;
+mod picked_panel;
 mod picture_area;
 mod saving;
 mod swapchain;
 mod tables;
+mod view_panel;
 
-use std::sync::mpsc;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use rasray_experiment::ExperimentError;
@@ -20,8 +22,9 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::window::{Window, WindowId};
 
 use crate::engine::Engine;
+use crate::rate::Rate;
 use crate::session::Session;
-use crate::worker::{Update, Worker};
+use crate::viewer::{OpenScene, Viewer};
 use painter::Painter;
 use panel::Panel;
 pub use saving::{SavePicture, SavedPicture};
@@ -44,6 +47,8 @@ pub struct Viewing<'a> {
     pub engine: Box<dyn FnOnce() -> Engine + Send>,
     /// What is chosen.
     pub session: Session,
+    /// Reads scenes that are dropped on the window or named in it.
+    pub open: Arc<OpenScene>,
     /// Name of the engine's device: the window is drawn by the same where that can present.
     pub device: String,
     /// Whether messages of the validation layer are errors.
@@ -100,20 +105,17 @@ pub fn run(viewing: Viewing<'_>) -> Result<End, ExperimentError> {
         Ok(Err(error)) => return Err(no_display(error)),
         Err(_) => return Err(no_display("a library of the window system is missing")),
     };
-    let Viewing { engine, session, device, validation, stop, save } = viewing;
-    let (sender, updates) = mpsc::channel();
+    let Viewing { engine, session, open, device, validation, stop, save } = viewing;
     let wake = events.create_proxy();
-    let worker = Worker::start(engine, move |update| {
-        // Whoever has gone wants no more pictures.
-        _ = sender.send(update);
+    let viewer = Viewer::start(session, engine, open, move || {
+        // A window that has gone needs no waking.
         _ = wake.send_event(());
     })
     .map_err(|error| device::window_error("a thread", error))?;
     let now = Instant::now();
-    let mut viewer = Viewer {
-        session,
-        worker,
-        updates,
+    let mut shown = Shown {
+        title: viewer.session.scene_name(),
+        viewer,
         device,
         validation,
         stop,
@@ -122,15 +124,16 @@ pub fn run(viewing: Viewing<'_>) -> Result<End, ExperimentError> {
         live: None,
         began: now,
         frame_began: now,
+        frames: Rate::default(),
         wake_at: now,
         end: End::Closed,
         failed: None,
     };
-    let ran = events.run_app(&mut viewer);
-    let log = viewer.live.as_ref().map(|live| live.painter.validation_log());
-    viewer.live = None;
-    let Viewer { end, failed, worker, .. } = viewer;
-    drop(worker);
+    let ran = events.run_app(&mut shown);
+    let log = shown.live.as_ref().map(|live| live.painter.validation_log());
+    shown.live = None;
+    let Shown { end, failed, viewer, .. } = shown;
+    drop(viewer);
     if let Some(error) = failed {
         return Err(error);
     }
@@ -144,6 +147,11 @@ pub fn run(viewing: Viewing<'_>) -> Result<End, ExperimentError> {
     }
 }
 
+/// What a window of a scene is called.
+fn title(scene: &str) -> String {
+    format!("{scene} - rasray")
+}
+
 /// A window that is open. The painter goes before the window.
 struct Live {
     painter: Painter,
@@ -151,10 +159,11 @@ struct Live {
     window: Window,
 }
 
-struct Viewer<'a> {
-    session: Session,
-    worker: Worker,
-    updates: mpsc::Receiver<Update>,
+/// A viewer with its window.
+struct Shown<'a> {
+    viewer: Viewer,
+    /// The scene that the window's title names.
+    title: String,
     device: String,
     validation: bool,
     stop: &'a dyn Fn() -> bool,
@@ -163,17 +172,20 @@ struct Viewer<'a> {
     live: Option<Live>,
     began: Instant,
     frame_began: Instant,
+    /// Of the window.
+    frames: Rate,
     /// When the next frame is due.
     wake_at: Instant,
     end: End,
     failed: Option<ExperimentError>,
 }
 
-impl Viewer<'_> {
+impl Shown<'_> {
     fn open(&self, events: &ActiveEventLoop) -> Result<Live, ExperimentError> {
-        let [width, height] = panel::window_size([self.session.frame.width, self.session.frame.height]);
+        let frame = &self.viewer.session.frame;
+        let [width, height] = panel::window_size([frame.width, frame.height]);
         let attributes = Window::default_attributes()
-            .with_title(format!("{} - rasray", self.session.scene_name()))
+            .with_title(title(&self.title))
             .with_min_inner_size(LEAST)
             .with_inner_size(winit::dpi::LogicalSize::new(width, height));
         let window = events.create_window(attributes).map_err(no_display)?;
@@ -185,17 +197,20 @@ impl Viewer<'_> {
         Ok(Live { painter, input, window })
     }
 
-    /// Takes what the worker says, lets the frame's interface run, and draws it.
+    /// Lets the frame's interface run, and draws it.
     fn frame(&mut self) -> Result<(), ExperimentError> {
         let Some(live) = &mut self.live else { return Ok(()) };
         let elapsed = self.frame_began.elapsed().as_secs_f64();
         self.frame_began = Instant::now();
-        self.session.playback.advance(elapsed);
         let now = self.began.elapsed().as_secs_f64();
+        self.frames.count(now);
+        let session = &mut self.viewer.session;
+        session.playback.advance(elapsed);
         let input = live.input.take_egui_input(&live.window);
         let context = live.input.egui_ctx().clone();
-        let (session, panel, save) = (&mut self.session, &mut self.panel, &mut *self.save);
-        let mut output = context.run_ui(input, |ui| panel.show(ui, session, now, elapsed, save));
+        let moment = panel::Moment { now, elapsed, frames: self.frames.per_second(now) };
+        let (panel, save) = (&mut self.panel, &mut *self.save);
+        let mut output = context.run_ui(input, |ui| panel.show(ui, session, moment, save));
         live.input.handle_platform_output(&live.window, std::mem::take(&mut output.platform_output));
         let scale = output.pixels_per_point;
         let primitives = context.tessellate(std::mem::take(&mut output.shapes), scale);
@@ -205,17 +220,16 @@ impl Viewer<'_> {
         // What an error left there is dropped on purpose.
         output.textures_delta.clear();
         painted?;
-        if let Some(settings) = self.session.changed_settings(now) {
-            self.worker.want(settings);
-        }
+        self.viewer.ask(now).map_err(|error| device::window_error("a thread", error))?;
+        let session = &self.viewer.session;
         let mut pause = output
             .viewport_output
             .get(&egui::ViewportId::ROOT)
             .map_or(Duration::MAX, |viewport| viewport.repaint_delay);
-        if self.session.playback.playing {
+        if session.playback.playing {
             pause = pause.min(PLAYING);
         }
-        if let Some(at) = self.session.wakes_at() {
+        if let Some(at) = session.wakes_at() {
             pause = pause.min(Duration::from_secs_f64((at - now).clamp(0.001, 10.0)));
         }
         self.wake_at = Instant::now() + pause.min(Duration::from_secs(3600));
@@ -242,7 +256,7 @@ impl Viewer<'_> {
     }
 }
 
-impl ApplicationHandler<()> for Viewer<'_> {
+impl ApplicationHandler<()> for Shown<'_> {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         if self.live.is_none() {
             match self.open(events) {
@@ -266,8 +280,13 @@ impl ApplicationHandler<()> for Viewer<'_> {
     }
 
     fn user_event(&mut self, _events: &ActiveEventLoop, (): ()) {
-        while let Ok(update) = self.updates.try_recv() {
-            self.session.take(update);
+        self.viewer.take_updates(self.began.elapsed().as_secs_f64());
+        let scene = self.viewer.session.scene_name();
+        if scene != self.title
+            && let Some(live) = &self.live
+        {
+            live.window.set_title(&title(&scene));
+            self.title = scene;
         }
         self.request_frame();
     }
@@ -284,6 +303,8 @@ impl ApplicationHandler<()> for Viewer<'_> {
                 }
                 return;
             }
+            // Of several files the last one is shown.
+            WindowEvent::DroppedFile(path) => self.viewer.session.drop_file(path.clone()),
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => live.painter.resized(),
             _ => (),
         }

@@ -2,20 +2,23 @@
 
 use std::path::PathBuf;
 
-use egui::{Color32, DragValue, Key, Modifiers, RichText, Slider};
-use rasray_experiment::INTEGRATORS;
-use rasray_report::colour_scale::{Scale, colour};
+use egui::{Color32, Key, Modifiers, RichText};
 
 use super::options_panel::{show_integrator_options, show_system};
+use super::picked_panel::show_picked;
 use super::picture_area::PictureArea;
 use super::saving::{SavePicture, SavedPicture};
 use super::tables::show_tables;
-use crate::picture::{Legend, Pixels};
-use crate::session::Session;
-use crate::settings::Shown;
+use super::view_panel::{show_time, show_view};
+use crate::camera_control::Side;
+use crate::picture::Pixels;
+use crate::session::{Failure, Session};
 
 /// Width of the panel, points.
 const WIDTH: f32 = 330.0;
+
+/// Seconds that it is said what a key has done.
+const NOTICE: f64 = 5.0;
 
 /// Keys and what they do.
 const KEYS: &[(&str, &str)] = &[
@@ -25,12 +28,46 @@ const KEYS: &[(&str, &str)] = &[
     ("wheel", "nearer, farther"),
     ("W A S D, E Q", "fly, up and down; with Shift faster"),
     ("R", "camera as at first"),
+    ("F, Home", "see everything"),
+    ("1 3 7", "see the front, the right side, the top; with Ctrl the opposite"),
+    ("Ctrl+wheel, + -", "picture larger, smaller"),
+    ("Ctrl+drag", "move the picture"),
+    ("Z", "picture fitted, one to one"),
+    ("Ctrl+click, I", "pick what the pointer is on"),
+    ("T", "turn around what was picked"),
     ("Space", "play, pause"),
     ("P", "save the picture"),
     ("C", "copy the command line"),
+    ("Ctrl+O", "open a scene"),
     ("H", "hide or show this panel"),
     ("Ctrl+Q", "close"),
 ];
+
+/// Keys of sides, the opposite with the command key. Digits of both keyboards, by their places.
+const SIDES: [(Key, [Side; 2]); 3] = [
+    (Key::Num1, [Side::Front, Side::Back]),
+    (Key::Num3, [Side::Right, Side::Left]),
+    (Key::Num7, [Side::Top, Side::Bottom]),
+];
+
+/// When a frame of the window is.
+#[derive(Clone, Copy)]
+pub(super) struct Moment {
+    /// Seconds since the window was opened.
+    pub(super) now: f64,
+    /// Seconds since the frame before.
+    pub(super) elapsed: f64,
+    /// Frames of the window a second, once that is known.
+    pub(super) frames: Option<f64>,
+}
+
+/// What is said of what a key or a button has done.
+struct Notice {
+    text: String,
+    is_error: bool,
+    /// Until when, seconds.
+    until: f64,
+}
 
 /// The inner size of a window for a picture of this size, points.
 pub(super) fn window_size([width, height]: [u32; 2]) -> [f32; 2] {
@@ -52,43 +89,93 @@ pub(super) fn set_style(context: &egui::Context) {
 pub(super) struct Panel {
     area: PictureArea,
     is_open: bool,
-    /// What was said of the last picture that was saved, and whether it is an error.
-    said: Option<(String, bool)>,
+    notice: Option<Notice>,
+    /// The name of a scene to be opened, as it is typed.
+    typed: String,
+    /// Whether a key asked for what is typed there.
+    wants_name: bool,
     /// Whether a key asked for the end.
     pub(super) wants_to_close: bool,
 }
 
 impl Default for Panel {
     fn default() -> Self {
-        Self { area: PictureArea::default(), is_open: true, said: None, wants_to_close: false }
+        Self {
+            area: PictureArea::default(),
+            is_open: true,
+            notice: None,
+            typed: String::new(),
+            wants_name: false,
+            wants_to_close: false,
+        }
     }
 }
 
 impl Panel {
-    /// Shows panel and picture of a frame. `now` and `elapsed` in seconds.
+    /// Shows panel and picture of a frame.
     pub(super) fn show(
         &mut self,
         ui: &mut egui::Ui,
         session: &mut Session,
-        now: f64,
-        elapsed: f64,
+        moment: Moment,
         save: &mut SavePicture<'_>,
     ) {
-        self.take_keys(ui.ctx(), session, save);
+        self.take_keys(ui.ctx(), session, moment.now, save);
         if self.is_open {
             egui::Panel::right("panel").resizable(true).default_size(WIDTH).show(ui, |ui| {
                 egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                    self.contents(ui, session, now, save);
+                    self.contents(ui, session, moment, save);
                 });
             });
         }
-        self.area.show(ui, session, now, elapsed);
+        let place = ui.available_rect_before_wrap();
+        self.area.show(ui, session, moment);
+        self.show_notice(ui.ctx(), place, moment.now);
+        show_not_opened(ui.ctx(), session, place);
     }
 
-    fn take_keys(&mut self, context: &egui::Context, session: &mut Session, save: &mut SavePicture<'_>) {
+    /// Says on the picture what was done, whether the panel is there or not.
+    fn show_notice(&mut self, context: &egui::Context, place: egui::Rect, now: f64) {
+        let Some(Notice { text, is_error, until }) = &self.notice else { return };
+        if now >= *until {
+            self.notice = None;
+            return;
+        }
+        context.request_repaint_after(std::time::Duration::from_secs_f64(until - now));
+        let colour = if *is_error { Color32::from_rgb(255, 120, 110) } else { Color32::LIGHT_GREEN };
+        over_picture(context, place, egui::Align2::LEFT_BOTTOM, |ui| {
+            ui.colored_label(colour, text);
+        });
+    }
+
+    fn say(&mut self, text: impl Into<String>, is_error: bool, now: f64) {
+        self.notice = Some(Notice { text: text.into(), is_error, until: now + NOTICE });
+    }
+
+    fn copy(&mut self, context: &egui::Context, session: &Session, now: f64) {
+        match command_line(session) {
+            Some(line) => {
+                context.copy_text(line);
+                self.say("The command line is on the clipboard.", false, now);
+            }
+            None => self.say("There is no picture yet, and of maps there is no command line.", true, now),
+        }
+    }
+
+    fn take_keys(
+        &mut self,
+        context: &egui::Context,
+        session: &mut Session,
+        now: f64,
+        save: &mut SavePicture<'_>,
+    ) {
         let pressed = |key| context.input_mut(|input| input.consume_key(Modifiers::NONE, key));
-        if context.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Q)) {
+        let commanded = |key| context.input_mut(|input| input.consume_key(Modifiers::COMMAND, key));
+        if commanded(Key::Q) {
             self.wants_to_close = true;
+        }
+        if commanded(Key::O) {
+            (self.is_open, self.wants_name) = (true, true);
         }
         if context.egui_wants_keyboard_input() {
             return;
@@ -102,32 +189,51 @@ impl Panel {
         if pressed(Key::R) {
             session.reset_camera();
         }
-        if pressed(Key::P) {
-            self.save(session, save);
+        if pressed(Key::F) || pressed(Key::Home) {
+            session.frame_all(now);
         }
-        if pressed(Key::C)
-            && let Some(line) = command_line(session)
-        {
-            context.copy_text(line);
-            self.said = Some(("the command line is on the clipboard".to_owned(), false));
+        for (key, [side, opposite]) in SIDES {
+            match take_digit(context, key) {
+                Some(false) => session.view_along(side, now),
+                Some(true) => session.view_along(opposite, now),
+                None => (),
+            }
+        }
+        if pressed(Key::T) {
+            session.turn_to_picked(now);
+        }
+        if pressed(Key::P) {
+            self.save(session, now, save);
+        }
+        if pressed(Key::C) {
+            self.copy(context, session, now);
         }
     }
 
-    fn contents(&mut self, ui: &mut egui::Ui, session: &mut Session, now: f64, save: &mut SavePicture<'_>) {
+    fn contents(
+        &mut self,
+        ui: &mut egui::Ui,
+        session: &mut Session,
+        moment: Moment,
+        save: &mut SavePicture<'_>,
+    ) {
         ui.add_space(4.0);
         ui.label(RichText::new(session.scene_name()).heading().strong());
+        self.show_opening(ui, session);
         show_state(ui, session);
+        show_rates(ui, session, moment);
         ui.separator();
-        show_view(ui, session, now);
+        show_view(ui, session, &mut self.area, moment.now);
+        show_picked(ui, session, moment.now);
         if session.playback.can_play() {
             ui.separator();
-            show_time(ui, session, now);
+            show_time(ui, session, moment.now);
         }
         ui.separator();
         show_system(ui, session);
         show_integrator_options(ui, session);
         ui.separator();
-        self.show_saving(ui, session, save);
+        self.show_saving(ui, session, moment.now, save);
         ui.separator();
         if let Some(picture) = &session.picture {
             show_tables(ui, picture);
@@ -143,22 +249,45 @@ impl Panel {
         });
     }
 
-    fn show_saving(&mut self, ui: &mut egui::Ui, session: &mut Session, save: &mut SavePicture<'_>) {
+    /// What opens another scene, and what came of it.
+    fn show_opening(&mut self, ui: &mut egui::Ui, session: &mut Session) {
         ui.horizontal(|ui| {
-            if ui.button("Save picture").on_hover_text("Key P").clicked() {
-                self.save(session, save);
+            let typed = egui::TextEdit::singleline(&mut self.typed)
+                .desired_width(WIDTH - 90.0)
+                .hint_text("file, or built-in scene");
+            let response = ui.add(typed).on_hover_text("Ctrl+O; a file can also be dropped on the window");
+            if std::mem::take(&mut self.wants_name) {
+                response.request_focus();
+                response.scroll_to_me(Some(egui::Align::TOP));
             }
-            if ui.button("Copy command line").on_hover_text("Key C").clicked()
-                && let Some(line) = command_line(session)
-            {
-                ui.ctx().copy_text(line);
-                self.said = Some(("the command line is on the clipboard".to_owned(), false));
+            let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            if (ui.button("Open").clicked() || entered) && !self.typed.is_empty() {
+                session.open(std::mem::take(&mut self.typed).into());
             }
         });
-        if let Some((text, is_error)) = &self.said {
-            let colour = if *is_error { ui.visuals().error_fg_color } else { Color32::LIGHT_GREEN };
-            ui.colored_label(colour, text);
+        if let Some(name) = session.reading() {
+            ui.horizontal(|ui| {
+                ui.spinner();
+                ui.label(format!("reading {name}"));
+            });
         }
+    }
+
+    fn show_saving(
+        &mut self,
+        ui: &mut egui::Ui,
+        session: &mut Session,
+        now: f64,
+        save: &mut SavePicture<'_>,
+    ) {
+        ui.horizontal(|ui| {
+            if ui.button("Save picture").on_hover_text("Key P").clicked() {
+                self.save(session, now, save);
+            }
+            if ui.button("Copy command line").on_hover_text("Key C").clicked() {
+                self.copy(ui.ctx(), session, now);
+            }
+        });
         if let Some(line) = command_line(session) {
             ui.collapsing("Command line of this picture", |ui| {
                 ui.add(egui::Label::new(RichText::new(line).monospace().small()).wrap().selectable(true));
@@ -166,10 +295,9 @@ impl Panel {
         }
     }
 
-    fn save(&mut self, session: &Session, save: &mut SavePicture<'_>) {
+    fn save(&mut self, session: &Session, now: f64, save: &mut SavePicture<'_>) {
         let Some(picture) = session.picture.as_ref().filter(|picture| !picture.settings.moving) else {
-            self.said = Some(("there is no whole picture yet".to_owned(), true));
-            return;
+            return self.say("There is no whole picture yet.", true, now);
         };
         let place = next_place(session);
         let line = command_line(session);
@@ -184,7 +312,7 @@ impl Panel {
             },
             is_finished: picture.is_finished(),
         };
-        self.said = Some(match save(&saved) {
+        let (text, is_error) = match save(&saved) {
             Ok(()) if picture.is_finished() => (format!("saved {}", place.display()), false),
             Ok(()) => {
                 let wanted = picture.settings.frame.spp;
@@ -194,7 +322,8 @@ impl Panel {
                 (format!("saved {place} with {samples} of {wanted} samples{finished}"), false)
             }
             Err(error) => (error, true),
-        });
+        };
+        self.say(text, is_error, now);
     }
 }
 
@@ -208,12 +337,69 @@ fn command_line(session: &Session) -> Option<String> {
     Some(session.command_line(&picture.settings, &next_place(session)))
 }
 
+/// Shows something over a corner of the picture.
+fn over_picture(
+    context: &egui::Context,
+    place: egui::Rect,
+    corner: egui::Align2,
+    contents: impl FnOnce(&mut egui::Ui),
+) {
+    let inside = place.shrink(12.0);
+    egui::Area::new(egui::Id::new(("over", corner)))
+        .fixed_pos(corner.pos_in_rect(&inside))
+        .pivot(corner)
+        .show(context, |ui| {
+            egui::Frame::popup(ui.style()).show(ui, |ui| {
+                ui.set_max_width((inside.width() - 16.0).max(120.0));
+                contents(ui);
+            });
+        });
+}
+
+/// Says why a scene is not shown that was to be opened, until that was read.
+fn show_not_opened(context: &egui::Context, session: &mut Session, place: egui::Rect) {
+    let Some(failure) = session.not_opened().cloned() else { return };
+    over_picture(context, place, egui::Align2::LEFT_TOP, |ui| {
+        show_failure(ui, &failure);
+        ui.horizontal(|ui| {
+            ui.weak("The scene before is shown.");
+            if ui.small_button("OK").clicked() {
+                session.dismiss();
+            }
+        });
+    });
+}
+
+/// Whether the digit of a key, by its place on either keyboard, was pressed; and if so, whether with the command key.
+fn take_digit(context: &egui::Context, digit: Key) -> Option<bool> {
+    context.input(|input| {
+        input.events.iter().find_map(|event| match event {
+            egui::Event::Key { key, physical_key, pressed: true, repeat: false, modifiers } => {
+                (physical_key.unwrap_or(*key) == digit).then_some(modifiers.command)
+            }
+            _ => None,
+        })
+    })
+}
+
+fn show_failure(ui: &mut egui::Ui, failure: &Failure) {
+    ui.colored_label(ui.visuals().error_fg_color, &failure.message);
+    if !failure.help.is_empty() {
+        ui.colored_label(ui.visuals().warn_fg_color, &failure.help);
+    }
+}
+
+/// How often the window is drawn, and pictures come.
+fn show_rates(ui: &mut egui::Ui, session: &Session, moment: Moment) {
+    let (window, pictures) = (moment.frames, session.picture_rate.per_second(moment.now));
+    let [window, pictures] = [window, pictures].map(|rate| rate.unwrap_or(0.0));
+    ui.weak(format!("window {window:.1}/s, pictures {pictures:.1}/s"))
+        .on_hover_text("How often each was drawn in the last two seconds; what does not change is not drawn");
+}
+
 fn show_state(ui: &mut egui::Ui, session: &Session) {
     if let Some(failure) = session.failure() {
-        ui.colored_label(ui.visuals().error_fg_color, &failure.message);
-        if !failure.help.is_empty() {
-            ui.colored_label(ui.visuals().warn_fg_color, &failure.help);
-        }
+        show_failure(ui, failure);
         if session.picture.is_some() {
             ui.weak("The last complete picture is shown.");
         }
@@ -228,7 +414,7 @@ fn show_state(ui: &mut egui::Ui, session: &Session) {
             let ms = picture.sample_ms;
             let size = format!("{}x{}", picture.width, picture.height);
             match picture.settings.shown {
-                _ if picture.settings.moving => ui.label(format!("moving: {size}, {ms:.0} ms per sample")),
+                _ if picture.settings.moving => ui.label(format!("moving: {size}, direct light, {ms:.0} ms")),
                 shown if shown.is_work() => ui.label(format!("{size}, one ray per pixel")),
                 _ => ui.label(format!("{size}, {done} of {wanted} samples, {ms:.0} ms each")),
             };
@@ -238,131 +424,5 @@ fn show_state(ui: &mut egui::Ui, session: &Session) {
         let text =
             format!("{} rays passed too many transparent surfaces: light is missing", picture.cut_rays);
         ui.colored_label(ui.visuals().warn_fg_color, text);
-    }
-}
-
-fn show_view(ui: &mut egui::Ui, session: &mut Session, now: f64) {
-    egui::Grid::new("view").num_columns(2).show(ui, |ui| {
-        ui.label("Show");
-        egui::ComboBox::from_id_salt("shown").selected_text(session.shown.name()).show_ui(ui, |ui| {
-            for shown in Shown::ALL {
-                ui.selectable_value(&mut session.shown, shown, shown.name()).on_hover_text(shown.doc());
-            }
-        });
-        ui.end_row();
-        show_legend(ui, session);
-        ui.label("Exposure");
-        ui.add(Slider::new(&mut session.exposure, -8.0..=8.0).step_by(0.25).suffix(" stops"));
-        ui.end_row();
-        ui.label("Light");
-        show_integrator(ui, session);
-        ui.end_row();
-        ui.label("Samples");
-        ui.add(DragValue::new(&mut session.frame.spp).range(1..=1_048_576).speed(1.0));
-        ui.end_row();
-        ui.label("Size");
-        ui.horizontal(|ui| {
-            ui.add(DragValue::new(&mut session.frame.width).range(1..=8192).speed(2.0));
-            ui.label("x");
-            ui.add(DragValue::new(&mut session.frame.height).range(1..=8192).speed(2.0));
-        });
-        ui.end_row();
-        ui.label("Camera");
-        if session.is_camera_moved() {
-            if ui.button("As at first").on_hover_text("Key R").clicked() {
-                session.reset_camera();
-            }
-        } else {
-            ui.weak("as the command line says");
-        }
-        ui.end_row();
-        show_lens(ui, session, now);
-    });
-}
-
-fn show_lens(ui: &mut egui::Ui, session: &mut Session, now: f64) {
-    let Some(mut lens) = session.lens() else { return };
-    let before = lens;
-    ui.label("Aperture").on_hover_text("Diameter of the lens's opening; 0 is a pinhole");
-    let speed = 0.0005 * session.radius();
-    ui.add(
-        DragValue::new(&mut lens.aperture).range(0.0..=f32::MAX).speed(speed).max_decimals(5).suffix(" m"),
-    );
-    ui.end_row();
-    if lens.aperture > 0.0 {
-        ui.label("Focus").on_hover_text("Distance of the plane in focus, along the view");
-        let speed = 0.01 * f64::from(lens.focus);
-        ui.add(
-            DragValue::new(&mut lens.focus)
-                .range(f32::MIN_POSITIVE..=f32::MAX)
-                .speed(speed)
-                .max_decimals(4)
-                .suffix(" m"),
-        );
-        ui.end_row();
-    }
-    if lens != before {
-        session.set_lens(lens, now);
-    }
-}
-
-fn show_legend(ui: &mut egui::Ui, session: &Session) {
-    let Some(picture) = &session.picture else { return };
-    if let Pixels::Map(_, legend) = &picture.pixels {
-        ui.weak("Scale");
-        ui.vertical(|ui| {
-            ui.horizontal(|ui| {
-                ui.label("0");
-                show_colours(ui, legend.colours);
-                ui.label(Legend::shown(legend.bright));
-            });
-            ui.weak(format!("{}\n{}", legend.extent(), legend.unit));
-        });
-        ui.end_row();
-    }
-}
-
-/// A bar of the colours of a scale, the darkest left.
-fn show_colours(ui: &mut egui::Ui, scale: &Scale) {
-    let (bar, _) = ui.allocate_exact_size(egui::vec2(120.0, 12.0), egui::Sense::hover());
-    let count = (bar.width() as usize).max(1);
-    for column in 0..count {
-        let [red, green, blue] = colour(scale, column as f64 / (count - 1).max(1) as f64);
-        let left = bar.left_top() + egui::vec2(column as f32, 0.0);
-        let column = egui::Rect::from_min_size(left, egui::vec2(1.0, bar.height()));
-        ui.painter().rect_filled(column, 0.0, Color32::from_rgb(red, green, blue));
-    }
-}
-
-fn show_integrator(ui: &mut egui::Ui, session: &mut Session) {
-    let integrator = &mut session.frame.integrator;
-    egui::ComboBox::from_id_salt("integrator").width(70.0).selected_text(integrator.name()).show_ui(
-        ui,
-        |ui| {
-            for row in INTEGRATORS {
-                let is_chosen = row == integrator.row();
-                if ui.selectable_label(is_chosen, row.name).on_hover_text(row.doc).clicked() && !is_chosen {
-                    *integrator = row.into();
-                }
-            }
-        },
-    );
-}
-
-fn show_time(ui: &mut egui::Ui, session: &mut Session, now: f64) {
-    ui.horizontal(|ui| {
-        let word = if session.playback.playing { "Pause" } else { "Play" };
-        if ui.button(word).on_hover_text("Space").clicked() {
-            session.playback.toggle();
-        }
-        ui.add(DragValue::new(&mut session.playback.speed).range(-8.0..=8.0).speed(0.02).prefix("speed "));
-        if ui.button("At rest").on_hover_text("As the file places everything").clicked() {
-            session.playback.rest();
-        }
-    });
-    let mut seconds = session.playback.shown().unwrap_or(0.0);
-    let slider = Slider::new(&mut seconds, 0.0..=session.playback.duration()).step_by(0.001).suffix(" s");
-    if ui.add(slider).changed() {
-        session.seek(seconds, now);
     }
 }

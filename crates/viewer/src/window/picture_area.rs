@@ -1,8 +1,12 @@
-//! The picture in the window, and the camera moved on it.
+//! The picture in the window: how large and where, the camera moved on it, and points picked in it.
 
-use egui::{Color32, ColorImage, Key, PointerButton, Pos2, Rect, Sense, TextureHandle, TextureOptions, Vec2};
+use egui::{
+    Color32, ColorImage, Key, PointerButton, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Vec2,
+};
 
+use super::panel::Moment;
 use crate::picture::Picture;
+use crate::picture_view::{Area, PictureView};
 use crate::session::Session;
 
 /// Radians of a drag over a point.
@@ -11,33 +15,75 @@ const TURN: f64 = 0.006;
 /// Half diagonals of the scene that are flown in a second.
 const SPEED: f64 = 0.5;
 
-/// The picture as a texture.
+/// What a key makes the picture larger by.
+const STEP: f32 = 1.25;
+
+/// The picture as a texture, and where it lies.
 #[derive(Default)]
 pub(super) struct PictureArea {
     texture: Option<TextureHandle>,
     /// Of which picture, by its number, and with which exposure the texture is.
     of: Option<(u64, u32)>,
+    /// The scene that the picture is laid for.
+    scene: u32,
+    pub(super) view: PictureView,
+    /// Pixels of the area in the last frame.
+    pub(super) pixels: [u32; 2],
+    /// Where the pointer is on the picture, shares of width and height.
+    pointed: Option<[f32; 2]>,
 }
 
 impl PictureArea {
-    /// Shows the session's picture in what is left of `ui`, as large as it fits: several pixels of the window per pixel of
-    /// the picture where that is a whole number.
-    pub(super) fn show(&mut self, ui: &mut egui::Ui, session: &mut Session, now: f64, elapsed: f64) {
+    /// Shows the session's picture in what is left of `ui`.
+    pub(super) fn show(&mut self, ui: &mut egui::Ui, session: &mut Session, moment: Moment) {
         let area = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(area, Sense::click_and_drag());
         ui.painter().rect_filled(area, 0.0, Color32::from_gray(24));
-        if let Some(picture) = &session.picture {
+        let points = ui.ctx().pixels_per_point();
+        let within = pixels_of(area, points);
+        self.pixels = within.size.map(|side| side.max(1.0) as u32);
+        let frame = &session.frame;
+        let picture = session.picture.as_ref();
+        let full = picture.map_or([frame.width, frame.height], |picture| {
+            [picture.settings.frame.width, picture.settings.frame.height]
+        });
+        if let Some(picture) = picture {
+            if self.scene != picture.settings.scene {
+                self.scene = picture.settings.scene;
+                self.view.fit();
+            }
             self.update(ui.ctx(), picture, session.pictures, session.exposure);
-            let full = [picture.settings.frame.width, picture.settings.frame.height];
             if let Some(texture) = &self.texture {
-                let place = place(area, full, ui.ctx().pixels_per_point());
+                let place = points_of(self.view.place(within, full), points);
                 let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
-                ui.painter().image(texture.id(), place, whole, Color32::WHITE);
+                let painter = ui.painter().with_clip_rect(area);
+                painter.image(texture.id(), place, whole, Color32::WHITE);
+                show_picked(&painter, session, picture, place);
             }
         }
-        self.control(ui, &response, area, session, now, elapsed);
+        let pointer = response.hover_pos().map(|at| [at.x * points, at.y * points]);
+        let place = self.view.place(within, full);
+        self.pointed = pointer.and_then(|pointer| place.share(pointer)).filter(|_| session.picture.is_some());
+        let command = ui.input(|input| input.modifiers.command);
+        let is_asked = ui.input(|input| !command && input.key_pressed(Key::I));
+        if (command && response.clicked()) || (is_asked && !ui.ctx().egui_wants_keyboard_input()) {
+            self.pick(session);
+        }
+        self.lay(ui, &response, pointer, within, full);
+        if !command {
+            move_camera(ui, &response, area, session, moment);
+        }
     }
 
+    /// Picks what the pointer is on.
+    fn pick(&self, session: &mut Session) {
+        if let Some(place) = self.pointed {
+            session.pick(place);
+        }
+    }
+
+    /// Takes the picture over where it is another. The window's renderer interpolates between pixels; where a pixel of the
+    /// picture is one of the window, that changes none.
     fn update(&mut self, context: &egui::Context, picture: &Picture, number: u64, exposure: f32) {
         let of = Some((number, exposure.to_bits()));
         if self.of == of {
@@ -48,92 +94,118 @@ impl PictureArea {
         let image = ColorImage::from_rgb(size, &picture.pixels.bytes(exposure));
         match &mut self.texture {
             Some(texture) if texture.size() == size => {
-                texture.set_partial([0, 0], image, TextureOptions::NEAREST)
+                texture.set_partial([0, 0], image, TextureOptions::LINEAR)
             }
-            texture => *texture = Some(context.load_texture("picture", image, TextureOptions::NEAREST)),
+            texture => *texture = Some(context.load_texture("picture", image, TextureOptions::LINEAR)),
         }
     }
 
-    fn control(
-        &self,
+    /// Zooms and moves the picture.
+    fn lay(
+        &mut self,
         ui: &egui::Ui,
         response: &egui::Response,
-        area: Rect,
-        session: &mut Session,
-        now: f64,
-        elapsed: f64,
+        pointer: Option<[f32; 2]>,
+        area: Area,
+        full: [u32; 2],
     ) {
-        let drag = response.drag_delta();
-        let (x, y) = (f64::from(drag.x), f64::from(drag.y));
-        if drag != Vec2::ZERO
-            && let Some(camera) = session.move_camera(now)
-        {
-            let shift = ui.input(|input| input.modifiers.shift);
-            if response.dragged_by(PointerButton::Middle)
-                || (shift && response.dragged_by(PointerButton::Primary))
-            {
-                let height = f64::from(area.height().max(1.0));
-                camera.pan(-x / height, y / height);
-            } else if response.dragged_by(PointerButton::Primary) {
-                camera.orbit(-TURN * x, TURN * y);
-            } else if response.dragged_by(PointerButton::Secondary) {
-                camera.look(TURN * x, -TURN * y);
-            }
+        let points = ui.ctx().pixels_per_point();
+        let centre = area.at([0.5; 2]);
+        // The wheel with the command key, or a pinch.
+        let pinched = ui.input(|input| input.zoom_delta());
+        if response.hovered() && pinched != 1.0 {
+            self.view.zoom(pinched, pointer.unwrap_or(centre), area, full);
         }
-        let wheel = ui.input(|input| input.smooth_scroll_delta.y);
-        if response.hovered()
-            && wheel != 0.0
-            && let Some(camera) = session.move_camera(now)
-        {
-            camera.zoom(f64::from(wheel) / 40.0);
+        let drag = response.drag_delta();
+        if ui.input(|input| input.modifiers.command) && drag != Vec2::ZERO {
+            self.view.shift([drag.x * points, drag.y * points], area, full);
         }
         if ui.ctx().egui_wants_keyboard_input() {
             return;
         }
-        let flown = |plus, minus| {
-            let held =
-                |key| f64::from(u8::from(ui.input(|input| input.key_down(key) && !input.modifiers.command)));
-            held(plus) - held(minus)
+        let pressed = |keys: &[Key]| {
+            ui.input(|input| !input.modifiers.command && keys.iter().any(|key| input.key_pressed(*key)))
         };
-        let [forward, right, up] = [flown(Key::W, Key::S), flown(Key::D, Key::A), flown(Key::E, Key::Q)];
-        if [forward, right, up] != [0.0; 3] {
-            let fast = if ui.input(|input| input.modifiers.shift) { 4.0 } else { 1.0 };
-            // After a pause the first step is as one of a slow picture.
-            let step = fast * SPEED * session.radius() * elapsed.min(0.1);
-            if let Some(camera) = session.move_camera(now) {
-                camera.fly(forward * step, right * step, up * step);
-            }
-            ui.ctx().request_repaint();
+        let around = pointer.unwrap_or(centre);
+        if pressed(&[Key::Plus, Key::Equals]) {
+            self.view.zoom(STEP, around, area, full);
+        }
+        if pressed(&[Key::Minus]) {
+            self.view.zoom(1.0 / STEP, around, area, full);
+        }
+        if pressed(&[Key::Z]) {
+            self.view.toggle();
         }
     }
 }
 
-/// Where a picture of this size is shown in an area, on whole pixels of the window.
-fn place(area: Rect, [width, height]: [u32; 2], scale: f32) -> Rect {
-    let (width, height) = (width as f32, height as f32);
-    let fit = (area.width() * scale / width).min(area.height() * scale / height);
-    let fit = if fit >= 1.0 { fit.floor() } else { fit };
-    let size = Vec2::new(width * fit, height * fit) / scale;
-    let corner = area.center() - 0.5 * size;
-    let whole = |value: f32| (value * scale).round() / scale;
-    Rect::from_min_size(Pos2::new(whole(corner.x), whole(corner.y)), size)
+fn pixels_of(area: Rect, points: f32) -> Area {
+    Area {
+        corner: [area.min.x * points, area.min.y * points],
+        size: [area.width() * points, area.height() * points],
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+fn points_of(Area { corner, size }: Area, points: f32) -> Rect {
+    Rect::from_min_size(Pos2::new(corner[0], corner[1]) / points, Vec2::new(size[0], size[1]) / points)
+}
 
-    #[test]
-    fn pictures_are_shown_on_whole_pixels_and_never_beyond_the_window() {
-        let area = Rect::from_min_size(Pos2::new(10.0, 0.0), Vec2::new(101.0, 95.0));
-        for scale in [1.0, 1.5, 2.0] {
-            for size in [[40, 30], [100, 95], [640, 360]] {
-                let place = place(area, size, scale);
-                assert!(area.expand(0.51).contains_rect(place), "{size:?} at {scale}: {place:?}");
-                let corner = place.min * scale;
-                assert!((corner.x - corner.x.round()).abs() < 1.0e-3, "{corner:?}");
-            }
+/// A mark on what was picked, while it is seen from where it was picked.
+fn show_picked(painter: &egui::Painter, session: &Session, picture: &Picture, place: Rect) {
+    let Some(pick) = session.picked().map(|picked| &picked.pick) else { return };
+    let is_from_there = pick.camera.world_from_camera == picture.camera.world_from_camera;
+    if !is_from_there || pick.seconds != picture.settings.seconds {
+        return;
+    }
+    let share = [0, 1].map(|axis| pick.place[axis] / pick.size[axis] as f32);
+    let at = place.min + Vec2::new(share[0] * place.width(), share[1] * place.height());
+    for (radius, colour) in [(6.0, Color32::BLACK), (5.0, Color32::from_rgb(255, 200, 60))] {
+        painter.circle_stroke(at, radius, Stroke::new(1.5, colour));
+    }
+}
+
+/// Turns, moves and flies the camera.
+fn move_camera(ui: &egui::Ui, response: &egui::Response, area: Rect, session: &mut Session, moment: Moment) {
+    let Moment { now, elapsed, .. } = moment;
+    let drag = response.drag_delta();
+    let (x, y) = (f64::from(drag.x), f64::from(drag.y));
+    if drag != Vec2::ZERO
+        && let Some(camera) = session.move_camera(now)
+    {
+        let shift = ui.input(|input| input.modifiers.shift);
+        if response.dragged_by(PointerButton::Middle)
+            || (shift && response.dragged_by(PointerButton::Primary))
+        {
+            let height = f64::from(area.height().max(1.0));
+            camera.pan(-x / height, y / height);
+        } else if response.dragged_by(PointerButton::Primary) {
+            camera.orbit(-TURN * x, TURN * y);
+        } else if response.dragged_by(PointerButton::Secondary) {
+            camera.look(TURN * x, -TURN * y);
         }
-        assert_eq!(place(area, [40, 30], 1.0).size(), Vec2::new(80.0, 60.0));
+    }
+    let wheel = ui.input(|input| input.smooth_scroll_delta.y);
+    if response.hovered()
+        && wheel != 0.0
+        && let Some(camera) = session.move_camera(now)
+    {
+        camera.zoom(f64::from(wheel) / 40.0);
+    }
+    if ui.ctx().egui_wants_keyboard_input() {
+        return;
+    }
+    let flown = |plus, minus| {
+        let held = |key| f64::from(u8::from(ui.input(|input| input.key_down(key))));
+        held(plus) - held(minus)
+    };
+    let [forward, right, up] = [flown(Key::W, Key::S), flown(Key::D, Key::A), flown(Key::E, Key::Q)];
+    if [forward, right, up] != [0.0; 3] {
+        let fast = if ui.input(|input| input.modifiers.shift) { 4.0 } else { 1.0 };
+        // After a pause the first step is as one of a slow picture.
+        let step = fast * SPEED * session.radius() * elapsed.min(0.1);
+        if let Some(camera) = session.move_camera(now) {
+            camera.fly(forward * step, right * step, up * step);
+        }
+        ui.ctx().request_repaint();
     }
 }

@@ -1,5 +1,7 @@
 //! Pictures of an engine on a device, without a window: those of a render, bit by bit, after every kind of change.
 
+mod viewing;
+
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 use std::sync::mpsc::channel;
@@ -18,7 +20,7 @@ use rasray_scene::needs::Needs;
 use rasray_scene_source::{LoadedScene, load};
 use rasray_systems::{Preset, System};
 use rasray_viewer::{
-    Engine, Picture, Pixels, Rounded, SceneSource, Settings, Shown, Standpoint, Step, Update, Worker,
+    Engine, Failure, Picture, Pixels, Rounded, SceneSource, Settings, Shown, Standpoint, Step, Update, Worker,
 };
 
 const VALIDATED: DeviceChoice = DeviceChoice { device: None, validation: true };
@@ -47,6 +49,7 @@ fn settings() -> Settings {
     };
     let system = system("bricks");
     Settings {
+        scene: 0,
         standpoint: Standpoint::AsGiven,
         seconds: None,
         system,
@@ -64,10 +67,16 @@ fn engine_of(scene: &OsStr, settings: &Settings) -> Engine {
     engine_with(load(scene).expect("a scene"), settings)
 }
 
-fn engine_with(mut loaded: LoadedScene, settings: &Settings) -> Engine {
+fn engine_with(loaded: LoadedScene, settings: &Settings) -> Engine {
+    engine_for(source_of(loaded), settings)
+}
+
+fn source_of(mut loaded: LoadedScene) -> SceneSource {
     loaded.light(None);
-    let source =
-        SceneSource { loaded, clip: None, needs_all: false, camera: Box::new(LoadedScene::default_view) };
+    SceneSource { loaded, clip: None, needs_all: false, camera: Box::new(LoadedScene::default_view) }
+}
+
+fn engine_for(source: SceneSource, settings: &Settings) -> Engine {
     let device = open_device(&VALIDATED).expect("a device");
     Engine::new(device, true, source, settings.clone())
 }
@@ -124,6 +133,7 @@ fn rendered_with(mut loaded: LoadedScene, backend: &mut dyn Backend, settings: &
     loaded.light(None);
     let camera = match &settings.standpoint {
         Standpoint::AsGiven => loaded.default_view().expect("a view").camera,
+        Standpoint::Camera(index) => loaded.camera(*index).expect("a camera"),
         Standpoint::Placed(rounded) => rounded.camera().expect("a camera"),
     };
     let job = RenderJob {
@@ -355,9 +365,9 @@ fn a_failure_is_told_and_the_next_settings_go_on() {
     let next = || updates.recv_timeout(Duration::from_secs(300)).expect("an update");
     loop {
         match next() {
-            Update::Failed { message, .. } => break assert!(message.contains("grid"), "{message}"),
+            Update::Failed(Failure { message, .. }) => break assert!(message.contains("grid"), "{message}"),
             Update::Status(_) => (),
-            Update::Picture(_) => panic!("a picture of what cannot be"),
+            Update::Picture(_) | Update::Answered(..) | Update::Read(..) => panic!("nobody asked for it"),
         }
     }
     worker.want(good);
@@ -365,7 +375,8 @@ fn a_failure_is_told_and_the_next_settings_go_on() {
         match next() {
             Update::Picture(picture) if picture.is_finished() => break,
             Update::Picture(_) | Update::Status(_) => (),
-            Update::Failed { message, .. } => panic!("{message}"),
+            Update::Failed(Failure { message, .. }) => panic!("{message}"),
+            Update::Answered(..) | Update::Read(..) => panic!("nobody asked for it"),
         }
     }
 }

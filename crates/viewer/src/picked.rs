@@ -1,0 +1,139 @@
+//! A point of the scene that was picked in a picture, and what each system hits there.
+
+use glam::DVec3;
+use rasray_experiment::SystemConfig;
+use rasray_scene::{Camera, Projection, Scene};
+
+/// A ray through a picture, and the systems that it is to be traced through.
+#[derive(Clone, Debug)]
+pub struct Pick {
+    /// Its own number: of two picks the answers of the earlier one no longer count.
+    pub number: u64,
+    /// From where the picture is seen.
+    pub camera: Camera,
+    /// Pixels a row and rows of the picture.
+    pub size: [u32; 2],
+    /// From the left top corner, pixels.
+    pub place: [f32; 2],
+    /// The scene and its time, as of the settings.
+    pub scene: u32,
+    /// Seconds; absent at rest.
+    pub seconds: Option<f64>,
+    /// One after the other.
+    pub systems: Vec<SystemConfig>,
+}
+
+impl Pick {
+    /// Its ray: from where, world, metres, and in which direction, a unit vector.
+    pub(crate) fn ray(&self) -> (DVec3, DVec3) {
+        let [width, height] = self.size;
+        let half = self.camera.half_extents(width, height);
+        let [x, y] = [
+            (2.0 * f64::from(self.place[0]) / f64::from(width) - 1.0) * half[0],
+            (1.0 - 2.0 * f64::from(self.place[1]) / f64::from(height)) * half[1],
+        ];
+        let frame = &self.camera.world_from_camera;
+        let axis = |axis: DVec3| axis.normalize_or_zero();
+        let (right, up, back) =
+            (axis(frame.matrix3.x_axis), axis(frame.matrix3.y_axis), axis(frame.matrix3.z_axis));
+        let across = right * x + up * y;
+        match self.camera.projection {
+            Projection::Perspective { .. } => (frame.translation, (across - back).normalize_or_zero()),
+            Projection::Orthographic { .. } => (frame.translation + across, -back),
+        }
+    }
+}
+
+/// A triangle in words of the scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PickedTriangle {
+    /// Its number over all instances.
+    pub id: u32,
+    /// Name of the instance, and the triangle's number there.
+    pub instance: (String, u32),
+    /// Name of its material.
+    pub material: String,
+}
+
+impl PickedTriangle {
+    /// The triangle of an id: ids count the triangles of all instances in the order of the scene.
+    pub(crate) fn of(scene: &Scene, id: u32) -> Option<Self> {
+        let mut left = id as usize;
+        for instance in &scene.instances {
+            let mesh = scene.meshes.get(instance.mesh)?;
+            let Some(beyond) = left.checked_sub(mesh.triangle_count()) else {
+                let material = scene.materials.get(mesh.material)?;
+                return Some(Self {
+                    id,
+                    instance: (instance.name.clone(), left as u32),
+                    material: material.name.clone(),
+                });
+            };
+            left = beyond;
+        }
+        None
+    }
+}
+
+/// Where a ray hits something.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PickedHit {
+    /// World, metres.
+    pub point: DVec3,
+    /// Along the view, metres.
+    pub depth: f64,
+    /// From where the ray starts, metres.
+    pub distance: f64,
+    /// Absent where fragments do not keep it.
+    pub triangle: Option<PickedTriangle>,
+}
+
+/// What one system answered to a pick.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// Name and preset of the system.
+    pub system: String,
+    /// What is hit, if anything; or why there is no answer.
+    pub hit: Result<Option<PickedHit>, String>,
+}
+
+/// A pick with the answers so far, that of the system that is shown first.
+#[derive(Clone, Debug)]
+pub struct Picked {
+    /// What was asked.
+    pub pick: Pick,
+    /// In the order of the systems.
+    pub answers: Vec<Answer>,
+    /// How many are still to come.
+    pub awaited: usize,
+}
+
+impl Picked {
+    /// What the system that is shown hits.
+    pub fn hit(&self) -> Option<&PickedHit> {
+        self.answers.first()?.hit.as_ref().ok()?.as_ref()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasray_scene_source::load;
+
+    #[test]
+    fn ids_count_the_triangles_of_all_instances() {
+        let loaded = load("cornell".as_ref()).expect("a scene");
+        let scene = &loaded.scene;
+        let mut id = 0;
+        for instance in &scene.instances {
+            let mesh = &scene.meshes[instance.mesh];
+            for number in 0..mesh.triangle_count() as u32 {
+                let triangle = PickedTriangle::of(scene, id).expect("a triangle");
+                assert_eq!(triangle.instance, (instance.name.clone(), number));
+                assert_eq!(triangle.material, scene.materials[mesh.material].name);
+                id += 1;
+            }
+        }
+        assert_eq!(PickedTriangle::of(scene, id), None);
+    }
+}
