@@ -18,7 +18,7 @@ struct BvhRef {
 #ifdef ADDRESSING_ADDRESS
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhHeaderAddress { BvhHeader header; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhNodeAddress { BvhNode nodes[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer BvhWideNodeAddress { BvhWideNode nodes[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhWideNodeAddress { BvhWideNode nodes[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhNodeVectorAddress { uvec4 vectors[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhRecordAddress { BvhRecord records[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhRecordVectorAddress { uvec2 vectors[]; };
@@ -33,7 +33,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhScratchAd
 #else
 layout(set = STRUCTURE_SET, binding = 0, scalar) buffer BvhHeaderBuffer { BvhHeader bvh_header; };
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer BvhNodeBuffer { BvhNode bvh_nodes[]; };
-layout(set = STRUCTURE_SET, binding = 1, scalar) readonly buffer BvhWideNodeBuffer { BvhWideNode bvh_wide_nodes[]; };
+layout(set = STRUCTURE_SET, binding = 1, scalar) buffer BvhWideNodeBuffer { BvhWideNode bvh_wide_nodes[]; };
 layout(set = STRUCTURE_SET, binding = 1, scalar) readonly buffer BvhNodeVectorBuffer { uvec4 bvh_node_vectors[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer BvhRecordBuffer { BvhRecord bvh_records[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) readonly buffer BvhRecordVectorBuffer { uvec2 bvh_record_vectors[]; };
@@ -138,52 +138,79 @@ void bvh_set_record(BvhRef s, uint record, BvhRecord value) {
     }
 }
 
+// Place in the pool of a node of two children, in such nodes: behind the nodes of four that are made of them, where there are.
+uint bvh_pair_place(BvhRef s, uint node) {
+    return BVH_WIDTH == BVH_WIDE ? 2u * BVH_HEADER(s).node_capacity + node : node;
+}
+
 // A node of two children, read member by member, as an invocation reads what it wrote itself. An index past the end gives one
 // over the first record.
 BvhNode bvh_node(BvhRef s, uint node) {
-    if (node >= BVH_HEADER(s).node_capacity) {
+    if (node >= BVH_HEADER(s).pair_capacity) {
         return BvhNode(vec3(0.0), BVH_LEAF, vec3(0.0), BVH_LEAF, vec3(0.0), BVH_NONE, vec3(0.0), 0u);
     }
-    return BVH_NODES(s)[node];
+    return BVH_NODES(s)[bvh_pair_place(s, node)];
 }
 
-// Sets both children of a node. Boxes are left as they are.
+// Sets both children of a node of two. Boxes are left as they are.
 void bvh_set_children(BvhRef s, uint node, uint child_0, uint child_1) {
-    if (node < BVH_HEADER(s).node_capacity) {
-        BVH_NODES(s)[node].child_0 = child_0;
-        BVH_NODES(s)[node].child_1 = child_1;
+    if (node < BVH_HEADER(s).pair_capacity) {
+        uint place = bvh_pair_place(s, node);
+        BVH_NODES(s)[place].child_0 = child_0;
+        BVH_NODES(s)[place].child_1 = child_1;
     }
 }
 
-// The other end of the run of records below a node.
-uint bvh_other_end(BvhRef s, uint node) {
-    return node < BVH_HEADER(s).node_capacity ? BVH_NODES(s)[node].other_end : node;
-}
-
+// Sets the other end of the run of records below a node of two.
 void bvh_set_other_end(BvhRef s, uint node, uint other_end) {
-    if (node < BVH_HEADER(s).node_capacity) {
-        BVH_NODES(s)[node].other_end = other_end;
+    if (node < BVH_HEADER(s).pair_capacity) {
+        BVH_NODES(s)[bvh_pair_place(s, node)].other_end = other_end;
     }
 }
 
+// Sets the link by which a node of two is reached.
 void bvh_set_parent(BvhRef s, uint node, uint link) {
-    if (node < BVH_HEADER(s).node_capacity) {
-        BVH_NODES(s)[node].parent = link;
+    if (node < BVH_HEADER(s).pair_capacity) {
+        BVH_NODES(s)[bvh_pair_place(s, node)].parent = link;
     }
 }
 
-// Sets the box of the child that a link refers to.
+// Sets the box of the child of a node of two that a link refers to.
 void bvh_set_box(BvhRef s, uint link, vec3 lower, vec3 upper) {
     uint node = link >> 1u;
+    if (node >= BVH_HEADER(s).pair_capacity) {
+        return;
+    }
+    uint place = bvh_pair_place(s, node);
+    if ((link & 1u) == 0u) {
+        BVH_NODES(s)[place].lower_0 = lower;
+        BVH_NODES(s)[place].upper_0 = upper;
+    } else {
+        BVH_NODES(s)[place].lower_1 = lower;
+        BVH_NODES(s)[place].upper_1 = upper;
+    }
+}
+
+// Sets the child of a node of four that a link refers to: its reference, BVH_NONE where there is none, and its box.
+void bvh_set_wide_child(BvhRef s, uint link, uint reference, vec3 lower, vec3 upper) {
+    uint node = link / BVH_WIDE;
+    uint slot = link % BVH_WIDE;
     if (node >= BVH_HEADER(s).node_capacity) {
         return;
     }
-    if ((link & 1u) == 0u) {
-        BVH_NODES(s)[node].lower_0 = lower;
-        BVH_NODES(s)[node].upper_0 = upper;
-    } else {
-        BVH_NODES(s)[node].lower_1 = lower;
-        BVH_NODES(s)[node].upper_1 = upper;
+    BVH_WIDE_NODES(s)[node].lower_x[slot] = lower.x;
+    BVH_WIDE_NODES(s)[node].upper_x[slot] = upper.x;
+    BVH_WIDE_NODES(s)[node].lower_y[slot] = lower.y;
+    BVH_WIDE_NODES(s)[node].upper_y[slot] = upper.y;
+    BVH_WIDE_NODES(s)[node].lower_z[slot] = lower.z;
+    BVH_WIDE_NODES(s)[node].upper_z[slot] = upper.z;
+    BVH_WIDE_NODES(s)[node].children[slot] = reference;
+}
+
+// Sets the link by which a node of four is reached.
+void bvh_set_wide_parent(BvhRef s, uint node, uint link) {
+    if (node < BVH_HEADER(s).node_capacity) {
+        BVH_WIDE_NODES(s)[node].parent = link;
     }
 }
 

@@ -14,7 +14,7 @@ void main() {
     if (node + 1u >= BVH_HEADER(build.structure).triangle_count) {
         return;
     }
-    uint other_end = bvh_other_end(build.structure, node);
+    uint other_end = bvh_node(build.structure, node).other_end;
     uint size = max(node, other_end) - min(node, other_end) + 1u;
     bvh_set_scratch(build.structure, size_word(node), size);
 }

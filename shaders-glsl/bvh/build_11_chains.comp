@@ -16,10 +16,9 @@ void main() {
     if (size_class == NO_CLASS || size_class < build.step) {
         return;
     }
-    for (uint slot = 0u; slot < 2u; slot++) {
-        if (class_of(size_of(bvh_child(build.structure, 2u * node + slot))) == size_class) {
-            return;
-        }
+    BvhNode of_two = bvh_node(build.structure, node);
+    if (class_of(size_of(of_two.child_0)) == size_class || class_of(size_of(of_two.child_1)) == size_class) {
+        return;
     }
     uint count_word = chain_count_word(BVH_TREELET_CLASSES * build.step + size_class);
     uint place = bvh_add_scratch(build.structure, count_word, 1u);

@@ -5,7 +5,7 @@
 // pairs instead of all trees over them).
 #version 460
 #include "contract/extensions.glsl"
-#include "ads/placement.glsl"
+#include "bvh/area.glsl"
 #include "bvh/treelets.glsl"
 
 layout(local_size_x = BVH_GROUP_SIZE) in;
@@ -14,12 +14,6 @@ layout(local_size_x = BVH_GROUP_SIZE) in;
 vec3 lowers[2u * BVH_TREELET - 1u];
 vec3 uppers[2u * BVH_TREELET - 1u];
 uint references[2u * BVH_TREELET - 1u];
-
-// Half the area of a box in squares of the scene's length, so that it does not overflow.
-float area(vec3 lower, vec3 upper, float per_metre) {
-    vec3 side = (upper - lower) * per_metre;
-    return side.x * side.y + side.y * side.z + side.z * side.x;
-}
 
 // Puts both children of a node at two places.
 void open(uint node, uint place_0, uint place_1) {
@@ -121,13 +115,12 @@ void main() {
         return;
     }
     uint size_class = build.step % BVH_TREELET_CLASSES;
-    float extent = largest_axis(BVH_HEADER(build.structure).upper - BVH_HEADER(build.structure).lower);
-    float per_metre = 1.0 / max(extent, 1.1754944e-38);
+    float per_metre = scene_lengths_per_metre();
     // Nothing below a chain belongs to another one, so this invocation reads what no other one writes. Numbers of records
     // grow upwards, so it ends.
     uint node = bvh_scratch(build.structure, chains_word(size_class) + place);
     do {
         restructure(node, per_metre);
-        node = bvh_parent(build.structure, node) >> 1u;
+        node = bvh_node(build.structure, node).parent >> 1u;
     } while (class_of(size_of(node)) == size_class);
 }

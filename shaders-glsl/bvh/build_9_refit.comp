@@ -12,7 +12,8 @@ void main() {
     if (node + 1u >= BVH_HEADER(build.structure).triangle_count) {
         return;
     }
+    BvhNode of_two = bvh_node(build.structure, node);
     // The number of the first child, whether node or record, is the last place of its run.
-    uint last_of_first = bvh_child(build.structure, 2u * node) & ~BVH_LEAF;
-    union_boxes(node, node, bvh_other_end(build.structure, node), last_of_first);
+    uint last_of_first = of_two.child_0 & ~BVH_LEAF;
+    union_boxes(node, node, of_two.other_end, last_of_first);
 }

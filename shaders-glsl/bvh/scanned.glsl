@@ -1,20 +1,25 @@
-// What: the numbers that the scan of the radix sort runs over: counts by digit and chunk.
-// Reads, writes: scratch (counts, sums).
+// What: the numbers that scans run over: in the steps of the radix sort counts by digit and chunk; after these, which nodes of
+// two become nodes of four.
+// Reads, writes: scratch (counts, sums, numbers of nodes).
 #ifndef BVH_SCANNED_GLSL
 #define BVH_SCANNED_GLSL
 
 #include "bvh/scratch.glsl"
 
+uint scan_word(BvhRef s, uint step) {
+    return step < BVH_DIGITS ? bvh_counts(s) : bvh_keys(s, 1u);
+}
+
 uint scan_count(BvhRef s, uint step) {
-    return BVH_DIGIT_VALUES * bvh_chunks(s);
+    return step < BVH_DIGITS ? BVH_DIGIT_VALUES * bvh_chunks(s) : max(BVH_HEADER(s).triangle_count, 1u) - 1u;
 }
 
 uint scan_number(BvhRef s, uint step, uint i) {
-    return bvh_scratch(s, bvh_counts(s) + i);
+    return bvh_scratch(s, scan_word(s, step) + i);
 }
 
 void scan_set_number(BvhRef s, uint step, uint i, uint number) {
-    bvh_set_scratch(s, bvh_counts(s) + i, number);
+    bvh_set_scratch(s, scan_word(s, step) + i, number);
 }
 
 uint scan_sum(BvhRef s, uint step, uint block) {
@@ -25,7 +30,11 @@ void scan_set_sum(BvhRef s, uint step, uint block, uint sum) {
     bvh_set_scratch(s, bvh_sums(s) + block, sum);
 }
 
-// The sum of all counts is the number of triangles, which is known.
-void scan_set_total(BvhRef s, uint step, uint total) {}
+// The sum of all counts is the number of triangles, which is known; that of nodes stands behind their numbers.
+void scan_set_total(BvhRef s, uint step, uint total) {
+    if (step == BVH_DIGITS) {
+        bvh_set_scratch(s, scan_word(s, step) + scan_count(s, step), total);
+    }
+}
 
 #endif

@@ -14,7 +14,7 @@ struct BvhHeader {
     uint status;            // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint root;              // child reference of the whole tree; BVH_NONE without triangles
     uint triangle_count;    // triangles in the tree
-    uint node_capacity;     // nodes the pool holds
+    uint node_capacity;     // nodes of the tree that the pool holds
     uint record_capacity;   // triangle records the pool holds
     uint scratch_capacity;  // words the pool holds
     uint order_offset;      // word of the scratch pool with the primitive of the first record
@@ -26,7 +26,8 @@ struct BvhHeader {
     uvec2 nodes_address;    // device address of the nodes; zero with descriptors, as all that follow
     uvec2 records_address;  // device address of the triangle records
     uvec2 scratch_address;  // device address of the scratch pool
-    uvec2 spare_address;    // zero
+    uint node_count;        // inner nodes of the tree
+    uint pair_capacity;     // nodes of two children that the pool holds: the tree's, or those that nodes of four are made of
 };
 
 // An inner node of a tree with two children per node: the boxes of both, so that one read decides about both. 64 bytes.

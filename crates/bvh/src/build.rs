@@ -7,8 +7,8 @@ use rasray_shaders_glsl::constants::bvh::{
     BVH_TREELET_ROUNDS,
 };
 
-use crate::layout::union_levels;
-use crate::{Builder, Config, Pool};
+use crate::layout::{most_nodes, union_levels};
+use crate::{Builder, Config, Pool, Width};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -36,6 +36,8 @@ struct LbvhPipelines {
     refit: Option<ComputePipeline>,
     /// Where treelets of the tree by Morton codes are restructured.
     treelets: Option<TreeletPipelines>,
+    /// Where nodes of four are made of those of two.
+    fours: Option<FourPipelines>,
 }
 
 #[derive(Debug)]
@@ -45,16 +47,24 @@ struct TreeletPipelines {
     treelets: ComputePipeline,
 }
 
+#[derive(Debug)]
+struct FourPipelines {
+    openings: ComputePipeline,
+    tops: ComputePipeline,
+    list: ComputePipeline,
+    fours: ComputePipeline,
+}
+
 impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
         let of_builder = match config.builder {
             Builder::Sah => OfBuilder::Sah { boxes: pipelines.compute("build_1_boxes")? },
             Builder::Lbvh | Builder::Trbvh | Builder::Refit => {
-                OfBuilder::Lbvh(Box::new(LbvhPipelines::new(pipelines, config.builder)?))
+                OfBuilder::Lbvh(Box::new(LbvhPipelines::new(pipelines, config)?))
             }
         };
         let records = pipelines.compute("build_6_records")?;
-        Ok(Self { of_builder, records, status: pipelines.compute("build_13_status")? })
+        Ok(Self { of_builder, records, status: pipelines.compute("build_17_status")? })
     }
 
     /// Records what the host needs to know of the triangles. The host has written the header.
@@ -89,15 +99,23 @@ impl Build {
             if let Some(treelets) = &pipelines.treelets {
                 treelets.record(recorder, target);
             }
+            if let Some(fours) = &pipelines.fours {
+                if refit.is_none() {
+                    fours.record_choice(recorder, target, &pipelines.scan);
+                }
+                let most = most_nodes(Width::Four, triangles.into()) as u32;
+                pass(recorder, target, "bvh/build_16_fours", &fours.fours, 0, most);
+            }
         }
-        target.status_pass(recorder, "bvh/build_13_status", &self.status);
+        target.status_pass(recorder, "bvh/build_17_status", &self.status);
     }
 }
 
 impl LbvhPipelines {
-    fn new(pipelines: &BuildPipelines<'_>, builder: Builder) -> Result<Self, AdsError> {
+    fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
         let compute = |name| pipelines.compute(name);
-        let treelets = (builder == Builder::Trbvh).then(|| TreeletPipelines::new(pipelines));
+        let treelets = (config.builder == Builder::Trbvh).then(|| TreeletPipelines::new(pipelines));
+        let fours = (config.made_width() == Width::Four).then(|| FourPipelines::new(pipelines));
         Ok(Self {
             codes: compute("build_2_codes")?,
             counts: compute("build_3_counts")?,
@@ -105,8 +123,9 @@ impl LbvhPipelines {
             scatter: compute("build_5_scatter")?,
             unions: compute("build_7_unions")?,
             topology: compute("build_8_topology")?,
-            refit: (builder == Builder::Refit).then(|| compute("build_9_refit")).transpose()?,
+            refit: (config.builder == Builder::Refit).then(|| compute("build_9_refit")).transpose()?,
             treelets: treelets.transpose()?,
+            fours: fours.transpose()?,
         })
     }
 
@@ -159,6 +178,26 @@ impl TreeletPipelines {
                 pass(recorder, target, "bvh/build_12_treelets", &self.treelets, step, chains(class));
             }
         }
+    }
+}
+
+impl FourPipelines {
+    fn new(pipelines: &BuildPipelines<'_>) -> Result<Self, AdsError> {
+        Ok(Self {
+            openings: pipelines.compute("build_13_openings")?,
+            tops: pipelines.compute("build_14_tops")?,
+            list: pipelines.compute("build_15_list")?,
+            fours: pipelines.compute("build_16_fours")?,
+        })
+    }
+
+    /// Which nodes of two become nodes of four, and their numbers.
+    fn record_choice(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, scan: &Scan) {
+        let nodes = target.geometry.triangle_count().saturating_sub(1);
+        pass(recorder, target, "bvh/build_13_openings", &self.openings, 0, nodes);
+        pass(recorder, target, "bvh/build_14_tops", &self.tops, 0, nodes);
+        scan.record(recorder, target, "bvh/build_4_scan", nodes.into(), BVH_DIGITS, Access::COMPUTE);
+        pass(recorder, target, "bvh/build_15_list", &self.list, 0, nodes);
     }
 }
 

@@ -63,8 +63,8 @@ impl Width {
 pub struct Config {
     /// What builds the tree.
     pub builder: Builder,
-    /// Children per node; by default what the builder makes: four by [`Builder::Sah`], two by the others, which make no
-    /// other trees.
+    /// Children per node; by default four by [`Builder::Sah`] and [`Builder::Trbvh`], and two by the others, whose builds
+    /// are to be quick.
     pub width: Option<Width>,
     /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`], whose heuristic may use fewer, and
     /// 1 by the others, whose leaves hold one.
@@ -96,8 +96,8 @@ impl Config {
     /// Children of a node of the trees that are made.
     pub fn made_width(&self) -> Width {
         self.width.unwrap_or(match self.builder {
-            Builder::Sah => Width::Four,
-            Builder::Lbvh | Builder::Trbvh | Builder::Refit => Width::Two,
+            Builder::Sah | Builder::Trbvh => Width::Four,
+            Builder::Lbvh | Builder::Refit => Width::Two,
         })
     }
 
@@ -114,16 +114,10 @@ impl Config {
     /// # Errors
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let (children, leaf) = (self.made_width().children(), self.made_leaf());
+        let leaf = self.made_leaf();
         if self.builder == Builder::Sah {
             check_range("leaf", leaf, 1..=BVH_LEAF_LIMIT, "1 to 16 triangles per leaf")?;
         } else {
-            check_range(
-                "children",
-                children,
-                2..=2,
-                "2 per node of a tree that the device builds, or builder `sah`",
-            )?;
             check_range(
                 "leaf",
                 leaf,

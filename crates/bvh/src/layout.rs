@@ -15,8 +15,9 @@ pub(crate) const NAME: &str = "bvh";
 pub(crate) const BOX_WORDS: u64 = 6;
 
 // Numbers of chains stand where the counts of a chunk's digits stood; sizes and chains of all classes, fewer than two words
-// per triangle, where the keys did (four).
+// per triangle, where the keys did (four). The list of nodes of four stands where all counts did.
 const _: () = assert!(BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES <= BVH_DIGIT_VALUES && BVH_TREELET > 1);
+const _: () = assert!(BVH_SORT_CHUNK <= BVH_DIGIT_VALUES);
 
 /// Words of the scratch pool.
 fn scratch_words(builder: Builder, triangles: u64) -> u64 {
@@ -50,6 +51,20 @@ pub(crate) fn most_nodes(width: Width, triangles: u64) -> u64 {
     }
 }
 
+/// Elements of the pool of nodes behind those of the tree: nodes of two children, of which the device makes nodes of four.
+pub(crate) fn pair_elements(config: &Config, triangles: u64) -> u64 {
+    let bytes = Width::Two.node_bytes() as u64 * pairs(config, triangles);
+    bytes.div_ceil(Width::Four.node_bytes() as u64)
+}
+
+/// Nodes of two children, of which the device makes nodes of four.
+fn pairs(config: &Config, triangles: u64) -> u64 {
+    match (config.made_width(), config.builder) {
+        (Width::Two, _) | (_, Builder::Sah) => 0,
+        (Width::Four, Builder::Lbvh | Builder::Trbvh | Builder::Refit) => most_nodes(Width::Two, triangles),
+    }
+}
+
 /// What a tree over `triangles` triangles allocates.
 ///
 /// # Errors
@@ -59,12 +74,13 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
     if triangles >= 1 << BVH_LEAF_SHIFT {
         return Err(AdsError::PoolTooLarge { structure: NAME, pool: "records", elements: triangles });
     }
+    let nodes = most_nodes(config.made_width(), triangles) + pair_elements(config, triangles);
     let pool = |pool, elements, bytes: usize| (pool, elements, bytes as u64);
     Sizes::of(
         NAME,
         [
             pool(Pool::Header, 1, size_of::<Header>()),
-            pool(Pool::Nodes, most_nodes(config.made_width(), triangles), config.made_width().node_bytes()),
+            pool(Pool::Nodes, nodes, config.made_width().node_bytes()),
             pool(Pool::Records, triangles, size_of::<Record>()),
             pool(Pool::Scratch, scratch_words(config.builder, triangles), size_of::<u32>()),
         ],
@@ -78,7 +94,7 @@ pub struct FormulaBytes {
     pub traced: u64,
     /// What only the build uses: 28 per triangle by [`Builder::Sah`]; by the others 16 per triangle, 1024
     /// for every 256 of them, 4 for every 1024 of them, and 24 per union of four boxes, unions of unions
-    /// included, each rounded up.
+    /// included, each rounded up, and for nodes of four 128 per two triangles after the first.
     pub scratch: u64,
 }
 
@@ -104,7 +120,8 @@ pub fn formula_bytes(config: &Config, nodes: u64, triangles: u64) -> FormulaByte
                 boxes += level;
             }
             let chunks = triangles.div_ceil(256);
-            16 * triangles + 1024 * chunks + 4 * chunks.div_ceil(4) + 24 * boxes
+            let pairs = if node == 128 { 128 * (triangles.max(1) - 1).div_ceil(2) } else { 0 };
+            pairs + 16 * triangles + 1024 * chunks + 4 * chunks.div_ceil(4) + 24 * boxes
         }
     };
     FormulaBytes { traced: 96 + node * nodes + 40 * triangles, scratch }
@@ -116,9 +133,9 @@ mod tests {
 
     #[test]
     fn plan_equals_formula() {
-        let two = Config { width: Some(Width::Two), ..Config::new(Builder::Sah) };
         let kinds = [Builder::Sah, Builder::Lbvh, Builder::Trbvh, Builder::Refit].map(Config::new);
-        for config in kinds.into_iter().chain([two]) {
+        let widths = |config| [Width::Two, Width::Four].map(|width| Config { width: Some(width), ..config });
+        for config in kinds.into_iter().flat_map(widths) {
             for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
                 let sizes = plan(&config, triangles).expect("options are in range");
                 let nodes = most_nodes(config.made_width(), triangles);
@@ -145,8 +162,6 @@ mod tests {
             let config = Config::new(builder);
             // What such a tree has may be said.
             assert!(plan(&Config { width: Some(Width::Two), leaf: Some(1), ..config }, 1).is_ok());
-            let four = refused(Config { width: Some(Width::Four), ..config });
-            assert!(four.contains("children is 4") && four.contains("builder `sah`"), "{four}");
             let leaf = refused(Config { leaf: Some(4), ..config });
             assert!(leaf.contains("leaf is 4") && leaf.contains("builder `sah`"), "{leaf}");
         }

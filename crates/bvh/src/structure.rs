@@ -13,7 +13,7 @@ use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
 
 use crate::build::Build;
 use crate::host::{self, Box3};
-use crate::layout::{BOX_WORDS, NAME, formula_bytes, most_nodes, plan};
+use crate::layout::{BOX_WORDS, NAME, formula_bytes, most_nodes, pair_elements, plan};
 use crate::order::Order;
 use crate::wide::widened;
 use crate::{Builder, Config, Contents, Header, Node, Pool, Record, WideNode, Width, well_formed};
@@ -31,8 +31,6 @@ pub struct Tree {
     build: Build,
     /// What the host made for the next build.
     prepared: Option<Prepared>,
-    /// Inner nodes of the last build recorded.
-    nodes: u64,
     /// The order of the triangles that later builds may keep.
     order: Order,
     /// Whether the next build recorded keeps it.
@@ -42,7 +40,7 @@ pub struct Tree {
 /// What a tree takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Inner nodes.
+    /// Inner nodes of the tree, and as many more as take the room of the nodes of two that nodes of four are made of.
     pub nodes: u64,
     /// Triangles in leaves.
     pub records: u64,
@@ -56,14 +54,14 @@ pub struct Demand {
 #[derive(Clone, Copy, Debug)]
 struct Prepared {
     root: u32,
-    nodes: u64,
+    nodes: u32,
     triangles: u32,
 }
 
 /// The tree that the device builds over at most this many triangles, as far as the host knows it: the device sets the
-/// final root and number of triangles.
+/// final root and number of triangles, and that of nodes of four.
 fn on_device(triangles: u32) -> Prepared {
-    Prepared { root: BVH_NONE, nodes: triangles.saturating_sub(1).into(), triangles }
+    Prepared { root: BVH_NONE, nodes: triangles.saturating_sub(1), triangles }
 }
 
 /// The same tree where its order is kept: the number of triangles is the one that it was made for.
@@ -85,10 +83,16 @@ fn has_capacity(parts: &Parts<Config>) -> bool {
 }
 
 /// The header that the next build starts from.
-fn first_header(parts: &Parts<Config>, Prepared { root, triangles, .. }: Prepared) -> Header {
+fn first_header(parts: &Parts<Config>, Prepared { root, nodes, triangles }: Prepared) -> Header {
     let Parts { config, pools, .. } = parts;
     let has_capacity = has_capacity(parts);
     let capacity = |pool| if has_capacity { parts.elements(pool) as u32 } else { 0 };
+    let pair_elements = if has_capacity { pair_elements(config, triangles.into()) as u32 } else { 0 };
+    let node_capacity = capacity(Pool::Nodes) - pair_elements;
+    let pair_capacity = match config.made_width() {
+        Width::Two => node_capacity,
+        Width::Four => 2 * pair_elements,
+    };
     // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
     let (order_offset, order_stride) = match config.builder {
         Builder::Sah => (BOX_WORDS as u32 * triangles, 1),
@@ -97,7 +101,7 @@ fn first_header(parts: &Parts<Config>, Prepared { root, triangles, .. }: Prepare
     Header {
         root,
         triangle_count: triangles,
-        node_capacity: capacity(Pool::Nodes),
+        node_capacity,
         record_capacity: capacity(Pool::Records),
         scratch_capacity: capacity(Pool::Scratch),
         order_offset,
@@ -105,6 +109,8 @@ fn first_header(parts: &Parts<Config>, Prepared { root, triangles, .. }: Prepare
         nodes_address: pools.address_of(Pool::Nodes),
         records_address: pools.address_of(Pool::Records),
         scratch_address: pools.address_of(Pool::Scratch),
+        node_count: nodes,
+        pair_capacity,
         ..Header::default()
     }
 }
@@ -180,7 +186,6 @@ impl Design for Tree {
         Ok(Self {
             build: Build::new(pipelines, config)?,
             prepared: None,
-            nodes: 0,
             order: Order::default(),
             keeps_order: false,
         })
@@ -219,7 +224,7 @@ impl Design for Tree {
         };
         let order_at = size_of::<Box3>() as u64 * u64::from(triangles);
         device.upload_slice(parts.pools.pool(Pool::Scratch), order_at, &tree.order)?;
-        self.prepared = Some(Prepared { root: tree.root, nodes: nodes as u64, triangles });
+        self.prepared = Some(Prepared { root: tree.root, nodes: nodes as u32, triangles });
         Ok(())
     }
 
@@ -247,7 +252,6 @@ impl Design for Tree {
             Builder::Refit if self.keeps_order => refitted(triangles),
             Builder::Lbvh | Builder::Trbvh | Builder::Refit => on_device(triangles),
         };
-        self.nodes = prepared.nodes;
         Ok(Header { order: self.order.number(), ..first_header(parts, prepared) })
     }
 
@@ -255,12 +259,17 @@ impl Design for Tree {
         self.build.record(recorder, parts.target(scene), self.keeps_order);
     }
 
-    fn asked(&self, parts: &Parts<Config>, _header: &Header) -> Demand {
-        // The nodes of the tree; all other demand follows from the triangles.
+    fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {
         let triangles = u64::from(parts.geometry.triangle_count());
         let wanted = plan(&parts.config, triangles).unwrap_or_default();
+        // The nodes of a tree are counted; all other demand follows from the triangles.
+        let nodes = if has_capacity(parts) {
+            u64::from(header.node_count) + pair_elements(&parts.config, triangles)
+        } else {
+            wanted.elements_of(Pool::Nodes)
+        };
         Demand {
-            nodes: self.nodes,
+            nodes,
             records: wanted.elements_of(Pool::Records),
             scratch: wanted.elements_of(Pool::Scratch),
             triangles,
@@ -294,11 +303,10 @@ impl Design for Tree {
     }
 
     fn report(parts: &Parts<Config>, header: &Header, asked: &Demand) -> StructureReport {
-        let Demand { nodes, triangles, .. } = *asked;
         StructureReport {
             options: parts.config.options(),
             paths: parts.config.paths(),
-            formula_bytes: formula_bytes(&parts.config, nodes, triangles).total(),
+            formula_bytes: formula_bytes(&parts.config, header.node_count.into(), asked.triangles).total(),
             stored: Some(header.triangle_count.into()),
             ..StructureReport::default()
         }
@@ -307,7 +315,7 @@ impl Design for Tree {
     fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
         let triangles = header.triangle_count as usize;
         let width = parts.config.made_width();
-        let nodes = most_nodes(width, triangles as u64).min(self.nodes) as usize;
+        let nodes = most_nodes(width, triangles as u64).min(header.node_count.into()) as usize;
         let [two, four] = match width {
             Width::Two => [nodes, 0],
             Width::Four => [0, nodes],

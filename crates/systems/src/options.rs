@@ -391,7 +391,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Speed,
         Same,
         &[("2", "Two"), ("4", "Four, tested together")],
-        "Children per node of the tree: 4 with --builder sah unless given, 2 with the others",
+        "Children per node of the tree: 4 with --builder sah and trbvh unless given, 2 with the others",
     ),
     row(
         "leaf",

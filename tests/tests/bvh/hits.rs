@@ -13,12 +13,14 @@ use rasray_tracer::{BatchTracer, build_until_complete};
 
 const RAYS: usize = 3000;
 
-/// Every builder of trees of its own, with every number of children that it makes.
-const KINDS: [(Builder, Width); 4] = [
+/// Every builder of trees of its own, with every number of children.
+const KINDS: [(Builder, Width); 6] = [
     (Builder::Sah, Width::Two),
     (Builder::Sah, Width::Four),
     (Builder::Lbvh, Width::Two),
+    (Builder::Lbvh, Width::Four),
     (Builder::Trbvh, Width::Two),
+    (Builder::Trbvh, Width::Four),
 ];
 
 /// Scattered layers, a sphere, a room, and triangles that coincide.
@@ -133,10 +135,16 @@ fn configurations(builder: Builder) -> Vec<(String, Config, Option<u32>)> {
                 None,
             ));
         }
-        let two = Config { width: Some(Width::Two), ..base };
-        configurations.push(("two children per node".to_owned(), two, None));
-        let paused = Config { work_budget: Some(3), addressing: Addressing::Address, ..two };
-        configurations.push(("two children per node, 3 units per dispatch".to_owned(), paused, Some(500)));
+    }
+    for width in [Width::Two, Width::Four] {
+        let of_width = Config { width: Some(width), ..base };
+        configurations.push((format!("{width:?} children per node"), of_width, None));
+        let paused = Config { work_budget: Some(3), addressing: Addressing::Address, ..of_width };
+        configurations.push((
+            format!("{width:?} children per node, 3 units per dispatch"),
+            paused,
+            Some(500),
+        ));
     }
     configurations
 }

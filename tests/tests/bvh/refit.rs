@@ -1,7 +1,7 @@
 //! Trees that keep the order of their first build: which builds may, and that only the boxes are others.
 
 use rasray_ads::{BoundsPass, BufferOffset, Geometry, GeometryDesc, Ray, Structure, TraceMode, Viewpoint};
-use rasray_bvh::{Addressing, Builder, Bvh, Config, well_formed};
+use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Width, well_formed};
 use rasray_gpu::{BufferUsage, Timing};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
@@ -118,6 +118,16 @@ impl Setup {
     }
 }
 
+/// Children and parent of every node.
+fn links(contents: &Contents) -> Vec<[u32; 5]> {
+    let two = contents.nodes.iter().map(|node| [node.child_0, node.child_1, node.parent, 0, 0]);
+    let four = contents.wide_nodes.iter().map(|node| {
+        let [a, b, c, d] = node.children;
+        [a, b, c, d, node.parent]
+    });
+    two.chain(four).collect()
+}
+
 fn keeps_order(labels: &[String]) -> bool {
     let has = |wanted: &str| labels.iter().any(|label| label == wanted);
     assert_ne!(has(SORT), has(REFIT), "{labels:?}");
@@ -128,9 +138,9 @@ fn keeps_order(labels: &[String]) -> bool {
 fn later_builds_find_only_the_boxes_anew() {
     let triangles = scene();
     let base = Config::new(Builder::Refit);
-    for config in
-        [base, Config { addressing: Addressing::Address, ..base }, Config { work_budget: Some(3), ..base }]
-    {
+    let four = Config { width: Some(Width::Four), ..base };
+    let address = |config| Config { addressing: Addressing::Address, ..config };
+    for config in [base, four, address(base), address(four), Config { work_budget: Some(3), ..four }] {
         let stage = Setup::new(&triangles);
         let mut tree = stage.tree(config);
         assert!(!stage.build(&mut tree), "the first build has no order to keep");
@@ -145,11 +155,8 @@ fn later_builds_find_only_the_boxes_anew() {
                 assert_eq!(record.primitive, before.primitive);
                 assert_eq!(record.corners(), now[record.primitive as usize]);
             }
-            for (node, before) in contents.nodes.iter().zip(&first.nodes) {
-                let known = |node: &rasray_bvh::Node| (node.child_0, node.child_1, node.parent);
-                assert_eq!(known(node), known(before));
-            }
-            assert_ne!(contents.nodes[0].children(), first.nodes[0].children());
+            assert_eq!(links(&contents), links(&first));
+            assert!(contents.nodes != first.nodes || contents.wide_nodes != first.wide_nodes);
             stage.same_hits(&tree, &now, &format!("{config:?}, build {step}"));
         }
     }
@@ -157,10 +164,11 @@ fn later_builds_find_only_the_boxes_anew() {
 
 #[test]
 fn small_trees_are_refitted() {
-    for count in [0_usize, 1, 2, 3, 4, 5, 17] {
+    let counts = [0_usize, 1, 2, 3, 4, 5, 17];
+    for (count, width) in counts.into_iter().flat_map(|count| [(count, Width::Two), (count, Width::Four)]) {
         let triangles: Vec<Triangle> = scene().into_iter().take(count).collect();
         let stage = Setup::new(&triangles);
-        let mut tree = stage.tree(Config::new(Builder::Refit));
+        let mut tree = stage.tree(Config { width: Some(width), ..Config::new(Builder::Refit) });
         stage.record(&mut tree, 0, true);
         assert!(tree.status(0).expect("readable").complete);
         let now = moved(&triangles, 2);

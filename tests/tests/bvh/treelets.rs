@@ -1,12 +1,12 @@
 //! Trees whose treelets are restructured cost less by surface area than the trees by Morton codes that they are made of.
 
-use rasray_bvh::{Builder, Config, Width};
+use rasray_bvh::{Builder, Config};
 use rasray_tests::harness::Bench;
 use rasray_tests::shapes::Triangle;
 use rasray_tests::tier::first;
 
 use super::scenes::built_in;
-use super::trees::{build, checked};
+use super::trees::{build, checked, of_two};
 
 /// Built-in scenes, the large ones last.
 const SCENES: [&str; 8] = [
@@ -28,8 +28,8 @@ fn restructured_trees_of_built_in_scenes_cost_less() {
         let triangles = built_in(name);
         let cost = |config: Config| checked(&build(&bench, config, &triangles), &triangles, name).cost;
         let lbvh = cost(Config::new(Builder::Lbvh));
-        let trbvh = cost(Config::new(Builder::Trbvh));
-        let sah = cost(Config { width: Some(Width::Two), leaf: Some(1), ..Config::new(Builder::Sah) });
+        let trbvh = cost(of_two(Config::new(Builder::Trbvh)));
+        let sah = cost(of_two(Config { leaf: Some(1), ..Config::new(Builder::Sah) }));
         println!("{name}: lbvh {lbvh:.2}, trbvh {trbvh:.2}, sah, leaf=1, children=2 {sah:.2}");
         assert!(trbvh < 0.95 * lbvh, "{name}: {trbvh} and {lbvh}");
     }
@@ -44,7 +44,7 @@ fn a_treelet_becomes_the_tree_of_smaller_boxes() {
     const SMALL: f32 = 1.0 / 128.0;
     let triangles: Vec<Triangle> = (0..7).map(|i| cube(if i % 2 == 0 { SMALL } else { 1.0 })).collect();
     let cost = |builder| {
-        checked(&build(&bench, Config::new(builder), &triangles), &triangles, "seven triangles").cost
+        checked(&build(&bench, of_two(Config::new(builder)), &triangles), &triangles, "seven triangles").cost
     };
     let small = f64::from(SMALL).powi(2);
     // Root and five nodes, then leaves: four small, three large.

@@ -72,12 +72,28 @@ pub(crate) fn checked(contents: &Contents, triangles: &[Triangle], what: &str) -
     shape
 }
 
-/// Every builder with every width that it makes.
-fn kinds() -> [Config; 5] {
-    let two = Config { width: Some(Width::Two), ..Config::new(Builder::Sah) };
-    let [sah, lbvh, trbvh, refit] =
-        [Builder::Sah, Builder::Lbvh, Builder::Trbvh, Builder::Refit].map(Config::new);
-    [sah, two, lbvh, trbvh, refit]
+/// Every builder with every number of children.
+fn kinds() -> impl Iterator<Item = Config> {
+    let builders = [Builder::Sah, Builder::Lbvh, Builder::Trbvh, Builder::Refit].map(Config::new);
+    builders.into_iter().flat_map(|config| [of_two(config), of_four(config)])
+}
+
+/// The same with two children per node.
+pub(crate) fn of_two(config: Config) -> Config {
+    Config { width: Some(Width::Two), ..config }
+}
+
+/// The same with four.
+fn of_four(config: Config) -> Config {
+    Config { width: Some(Width::Four), ..config }
+}
+
+/// Only a node over leaves has fewer children than four.
+fn are_full(contents: &Contents) -> bool {
+    contents.wide_nodes.iter().all(|node| {
+        let children: Vec<_> = node.children().collect();
+        children.len() == 4 || children.iter().all(|(_, child, _)| child & BVH_LEAF != 0)
+    })
 }
 
 fn all_trees_of(config: Config) {
@@ -105,8 +121,13 @@ fn all_trees_of(config: Config) {
     }
     let mut by_descriptor = tree(&bench, config);
     let mut by_address = tree(&bench, Config { addressing: Addressing::Address, ..config });
-    // What treelets are restructured in.
-    let mut by_codes = (config.builder == Builder::Trbvh).then(|| tree(&bench, Config::new(Builder::Lbvh)));
+    // The tree that it is made of: that of two children per node, or that by codes, whose treelets are restructured.
+    let made_of = match (config.made_width(), config.builder) {
+        (Width::Four, _) => Some(of_two(config)),
+        (Width::Two, Builder::Trbvh) => Some(of_two(Config::new(Builder::Lbvh))),
+        (Width::Two, _) => None,
+    };
+    let mut made_of = made_of.map(|config| tree(&bench, config));
     for (index, (name, triangles)) in scenes.iter().enumerate() {
         let mut trees = vec![&mut by_descriptor];
         // Every scene in the full tier, every third otherwise: modules differ only in how pools are reached.
@@ -114,17 +135,21 @@ fn all_trees_of(config: Config) {
             trees.push(&mut by_address);
         }
         for bvh in trees {
-            let shape = checked(&rebuild(&bench, bvh, triangles), triangles, name);
-            if config.builder == Builder::Lbvh {
+            let contents = rebuild(&bench, bvh, triangles);
+            let shape = checked(&contents, triangles, name);
+            assert!(are_full(&contents), "{name}");
+            if config.builder != Builder::Sah {
                 assert_eq!(shape.leaves, triangles.len(), "{name}");
+            }
+            if config.builder == Builder::Lbvh {
                 assert!(shape.levels <= LBVH_LEVELS, "{name}: {} levels", shape.levels);
             }
-            if let Some(by_codes) = &mut by_codes {
-                assert_eq!(shape.leaves, triangles.len(), "{name}");
-                let before = checked(&rebuild(&bench, by_codes, triangles), triangles, name).cost;
+            if let Some(made_of) = &mut made_of {
+                let before = checked(&rebuild(&bench, made_of, triangles), triangles, name);
+                assert_eq!(shape.leaves, before.leaves, "{name}");
                 // Boxes that are not finite have no area.
-                let is_lower = shape.cost.is_nan() || shape.cost <= before * (1.0 + ROUNDING);
-                assert!(is_lower, "{name}: {} and {before}", shape.cost);
+                let is_lower = shape.cost.is_nan() || shape.cost <= before.cost * (1.0 + ROUNDING);
+                assert!(is_lower, "{name}: {} and {}", shape.cost, before.cost);
             }
         }
     }
@@ -137,7 +162,7 @@ fn trees_by_surface_area_are_sound() {
 
 #[test]
 fn trees_by_surface_area_of_two_children_per_node_are_sound() {
-    all_trees_of(Config { width: Some(Width::Two), ..Config::new(Builder::Sah) });
+    all_trees_of(of_two(Config::new(Builder::Sah)));
 }
 
 #[test]
@@ -146,8 +171,18 @@ fn trees_by_morton_codes_are_sound() {
 }
 
 #[test]
-fn trees_of_treelets_are_sound_and_cost_no_more_than_those_they_are_made_of() {
+fn trees_by_morton_codes_of_four_children_per_node_are_sound() {
+    all_trees_of(of_four(Config::new(Builder::Lbvh)));
+}
+
+#[test]
+fn trees_of_treelets_are_sound() {
     all_trees_of(Config::new(Builder::Trbvh));
+}
+
+#[test]
+fn trees_of_treelets_of_two_children_per_node_are_sound_and_cost_no_more_than_those_by_codes() {
+    all_trees_of(of_two(Config::new(Builder::Trbvh)));
 }
 
 #[test]
@@ -185,7 +220,7 @@ fn surface_area_gives_cheaper_trees_and_leaves_of_the_size_asked_for() {
 fn damaged_trees_are_noticed() {
     let bench = Bench::new();
     let triangles = scattered(300, 10, 0.2);
-    for config in kinds().into_iter().filter(|config| config.made_width() == Width::Two) {
+    for config in kinds().filter(|config| config.made_width() == Width::Two) {
         let sound = build(&bench, config, &triangles);
         let damaged = |damage: fn(&mut Contents)| {
             let mut contents = sound.clone();

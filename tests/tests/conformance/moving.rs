@@ -148,7 +148,7 @@ fn rows(moving: &'static Moving) -> impl Iterator<Item = Row> {
             true => row.tier == Tier::Quick && row.name != FINER,
             false => FRAGMENTS.contains(&row.name),
         };
-        let tried = is_full() || is_quick || row.name == "bvh-refit";
+        let tried = is_full() || is_quick || row.name.starts_with("bvh-refit");
         tried && !row.only_camera() && row.cases != Cases::Deep && (is_law || row.is_exact())
     };
     ROWS.iter().filter(is_held).map(|row| match row.demand {

@@ -74,10 +74,9 @@ fn check(config: Config) {
 #[test]
 fn damaged_trees_are_survived_and_told() {
     if in_child("damage::bvh::damaged_trees_are_survived_and_told") {
-        let two = Config { width: Some(Width::Two), ..Config::new(Builder::Sah) };
-        for config in
-            [two, Config::new(Builder::Sah), Config::new(Builder::Lbvh), Config::new(Builder::Refit)]
-        {
+        let builders = [Builder::Sah, Builder::Trbvh, Builder::Refit];
+        for (builder, width) in builders.into_iter().flat_map(|b| [(b, Width::Two), (b, Width::Four)]) {
+            let config = Config { width: Some(width), ..Config::new(builder) };
             for addressing in [Addressing::Descriptor, Addressing::Address] {
                 check(Config { addressing, ..config });
             }

@@ -1,0 +1,45 @@
+// What: which of its children and grandchildren each node would open if it became a node of four: always the one with the
+// largest box, until there are four.
+// Reads: header, nodes. Writes: scratch (openings).
+// Source: Wald, Benthin and Boulos 2008 (nodes of more children by opening the largest).
+#version 460
+#include "contract/extensions.glsl"
+#include "bvh/area.glsl"
+#include "bvh/fours.glsl"
+
+layout(local_size_x = BVH_GROUP_SIZE) in;
+
+// Takes a node in place of what was chosen so far (0: nothing) where its box is larger. One is always chosen, so that only a
+// node over leaves has fewer children than four, also where areas are no numbers.
+void choose(uint reference, float of_box, uint bit, inout uint chosen, inout float largest) {
+    if ((reference & BVH_LEAF) == 0u && (chosen == 0u || of_box > largest)) {
+        chosen = bit;
+        largest = of_box;
+    }
+}
+
+void main() {
+    uint node = bvh_invocation();
+    if (node + 1u >= BVH_HEADER(build.structure).triangle_count) {
+        return;
+    }
+    float per_metre = scene_lengths_per_metre();
+    BvhNode top = bvh_node(build.structure, node);
+    float area_0 = area(top.lower_0, top.upper_0, per_metre);
+    float area_1 = area(top.lower_1, top.upper_1, per_metre);
+    uint openings = 0u;
+    float largest = 0.0;
+    choose(top.child_0, area_0, 1u, openings, largest);
+    choose(top.child_1, area_1, 2u, openings, largest);
+    if (openings != 0u) {
+        bool is_second = openings == 2u;
+        BvhNode below = bvh_node(build.structure, is_second ? top.child_1 : top.child_0);
+        uint bit = is_second ? 16u : 4u;
+        uint next = 0u;
+        choose(is_second ? top.child_0 : top.child_1, is_second ? area_0 : area_1, 3u - openings, next, largest);
+        choose(below.child_0, area(below.lower_0, below.upper_0, per_metre), bit, next, largest);
+        choose(below.child_1, area(below.lower_1, below.upper_1, per_metre), 2u * bit, next, largest);
+        openings |= next;
+    }
+    bvh_set_scratch(build.structure, openings_word(node), openings);
+}

@@ -1,0 +1,19 @@
+// What: lists the nodes of two that become nodes of four, by their numbers.
+// Reads: header, scratch (numbers). Writes: scratch (list).
+// Source: none; docs/systems/bvh.md, "Opening".
+#version 460
+#include "contract/extensions.glsl"
+#include "bvh/fours.glsl"
+
+layout(local_size_x = BVH_GROUP_SIZE) in;
+
+void main() {
+    uint node = bvh_invocation();
+    if (node + 1u >= BVH_HEADER(build.structure).triangle_count) {
+        return;
+    }
+    uint number = bvh_scratch(build.structure, number_word(node));
+    if (bvh_scratch(build.structure, number_word(node + 1u)) != number) {
+        bvh_set_scratch(build.structure, list_word(number), node);
+    }
+}

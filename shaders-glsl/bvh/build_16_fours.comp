@@ -1,0 +1,68 @@
+// What: the nodes of four: children and boxes of each, from those nodes of two that are opened for it.
+// Reads: nodes of two, scratch (openings, numbers, list). Writes: nodes of four, header.node_count.
+// Source: none; docs/systems/bvh.md, "Opening".
+#version 460
+#include "contract/extensions.glsl"
+#include "bvh/fours.glsl"
+
+layout(local_size_x = BVH_GROUP_SIZE) in;
+
+// The node of four, its children so far, and the box of the first.
+uint number;
+uint count = 0u;
+vec3 first_lower;
+vec3 first_upper;
+
+// Adds a child of a node of two.
+void add(uint reference, vec3 lower, vec3 upper) {
+    uint link = BVH_WIDE * number + count;
+    if ((reference & BVH_LEAF) == 0u) {
+        reference = bvh_scratch(build.structure, number_word(reference));
+        bvh_set_wide_parent(build.structure, reference, link);
+    }
+    if (count == 0u) {
+        first_lower = lower;
+        first_upper = upper;
+    }
+    bvh_set_wide_child(build.structure, link, reference, lower, upper);
+    count++;
+}
+
+void main() {
+    number = bvh_invocation();
+    uint triangles = BVH_HEADER(build.structure).triangle_count;
+    uint nodes = bvh_scratch(build.structure, number_word(triangles - 1u));
+    if (number == 0u) {
+        BVH_HEADER(build.structure).node_count = nodes;
+        bvh_set_wide_parent(build.structure, 0u, BVH_NONE);
+    }
+    if (number >= nodes) {
+        return;
+    }
+    uint node = bvh_scratch(build.structure, list_word(number));
+    uint openings = bvh_scratch(build.structure, openings_word(node));
+    BvhNode top = bvh_node(build.structure, node);
+    for (uint slot = 0u; slot < 2u; slot++) {
+        uint child = slot == 0u ? top.child_0 : top.child_1;
+        if (!opens_child(openings, slot)) {
+            add(child, slot == 0u ? top.lower_0 : top.lower_1, slot == 0u ? top.upper_0 : top.upper_1);
+            continue;
+        }
+        BvhNode middle = bvh_node(build.structure, child);
+        for (uint below = 0u; below < 2u; below++) {
+            uint grandchild = below == 0u ? middle.child_0 : middle.child_1;
+            if (!opens_grandchild(openings, slot, below)) {
+                add(grandchild, below == 0u ? middle.lower_0 : middle.lower_1,
+                    below == 0u ? middle.upper_0 : middle.upper_1);
+                continue;
+            }
+            BvhNode lowest = bvh_node(build.structure, grandchild);
+            add(lowest.child_0, lowest.lower_0, lowest.upper_0);
+            add(lowest.child_1, lowest.lower_1, lowest.upper_1);
+        }
+    }
+    // The box of an absent child changes no union.
+    for (; count < BVH_WIDE; count++) {
+        bvh_set_wide_child(build.structure, BVH_WIDE * number + count, BVH_NONE, first_lower, first_upper);
+    }
+}

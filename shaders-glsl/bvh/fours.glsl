@@ -1,0 +1,35 @@
+// What: where it is kept which nodes of the tree of two become nodes of four, and which are opened for them.
+// Reads: scratch. Writes: nothing.
+// Source: none; docs/systems/bvh.md, "Opening".
+#ifndef BVH_FOURS_GLSL
+#define BVH_FOURS_GLSL
+
+#include "bvh/build.glsl"
+
+// Word of the scratch pool with the number that a node of two has as a node of four: that of the next node is larger by one
+// where it is one, else the same. One more word than nodes: the last has the number of nodes of four. They take the place of
+// the second buffer of keys; the first keeps the order of the triangles.
+uint number_word(uint node) {
+    return bvh_keys(build.structure, 1u) + node;
+}
+
+// Word with what a node of two opens where it becomes a node of four: bit 0 and 1 its first and second child, bits 2 and 3
+// the children of the first, bits 4 and 5 those of the second. Two at most, and only below what is opened.
+uint openings_word(uint node) {
+    return number_word(BVH_HEADER(build.structure).triangle_count + node);
+}
+
+// Word with the node of two that becomes the node of four of that number. The list takes the place of the counts of digits.
+uint list_word(uint number) {
+    return bvh_counts(build.structure) + number;
+}
+
+bool opens_child(uint openings, uint slot) {
+    return bitfieldExtract(openings, int(slot), 1) != 0u;
+}
+
+bool opens_grandchild(uint openings, uint slot, uint slot_below) {
+    return bitfieldExtract(openings, int(2u + 2u * slot + slot_below), 1) != 0u;
+}
+
+#endif
