@@ -28,10 +28,4 @@ uint bvh_code(uint place) {
     return bvh_scratch(build.structure, bvh_keys(build.structure, 0u) + 2u * place);
 }
 
-// Digit of the key at a place of one of the two buffers.
-uint bvh_digit_at(uint buffer_index, uint place) {
-    uint code = bvh_scratch(build.structure, bvh_keys(build.structure, buffer_index) + 2u * place);
-    return (code >> (BVH_DIGIT_BITS * build.step)) & (BVH_DIGIT_VALUES - 1u);
-}
-
 #endif

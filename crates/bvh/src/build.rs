@@ -134,12 +134,15 @@ impl LbvhPipelines {
         let triangles = target.geometry.triangle_count();
         let chunks = triangles.div_ceil(BVH_SORT_CHUNK);
         let counts = u64::from(chunks) * u64::from(BVH_DIGIT_VALUES);
+        let chunk_pass = |recorder: &mut Recorder<'_>, label, pipeline, digit| {
+            target.compute_pass(recorder, label, pipeline, chunks.into(), digit, Access::COMPUTE);
+        };
         pass(recorder, target, "bvh/build_2_codes", &self.codes, 0, triangles);
         // Four digits take the keys from the first buffer to the second and back twice.
         for digit in 0..BVH_DIGITS {
-            pass(recorder, target, "bvh/build_3_counts", &self.counts, digit, chunks);
+            chunk_pass(recorder, "bvh/build_3_counts", &self.counts, digit);
             self.scan.record(recorder, target, "bvh/build_4_scan", counts, digit, Access::COMPUTE);
-            pass(recorder, target, "bvh/build_5_scatter", &self.scatter, digit, chunks);
+            chunk_pass(recorder, "bvh/build_5_scatter", &self.scatter, digit);
         }
     }
 

@@ -4,5 +4,6 @@ mod hits;
 mod oracle;
 mod refit;
 mod scenes;
+mod sort;
 mod treelets;
 mod trees;

@@ -1,0 +1,24 @@
+// What: chunks, digits and counts of the radix sort.
+// Reads: scratch (keys). Writes: nothing.
+#ifndef BVH_SORT_GLSL
+#define BVH_SORT_GLSL
+
+#include "bvh/build.glsl"
+
+// The chunk of this workgroup. Workgroups fill two dimensions.
+uint sort_chunk() {
+    return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+}
+
+// Digit of the key at a place of the buffer that this step moves keys from.
+uint sort_digit(uint place) {
+    uint code = bvh_scratch(build.structure, bvh_keys(build.structure, build.step & 1u) + 2u * place);
+    return (code >> (BVH_DIGIT_BITS * build.step)) & (BVH_DIGIT_VALUES - 1u);
+}
+
+// Word with the number of a chunk's keys with that digit.
+uint sort_count_word(uint digit, uint chunk) {
+    return bvh_counts(build.structure) + digit * bvh_chunks(build.structure) + chunk;
+}
+
+#endif
