@@ -11,11 +11,13 @@
 // then no status is that of a build of these triangles.
 #define GEOMETRY_NOT_GATHERED 1u
 
-// What a structure is traced for: all triangles; the part that is traced first; the next one, which goes on from the hits
-// that the queue has of the first.
+// What a structure is traced for: all triangles; the part that is traced first; a next one, which goes on from the hits
+// that the queue has of those before.
 #define PART_WHOLE 0u
 #define PART_FIRST 1u
 #define PART_NEXT 2u
+// Where surfaces are found, this is added for each part that was traced after it.
+#define PART_AFTER 4u
 
 // Whether fragments count that are as close to an end of the ray as those of the surface there.
 #define ENDS_TOUCHING 0u

@@ -1,20 +1,20 @@
-// What: the nearer of the hits that a ray has in two parts of a geometry, of structures that store fragments.
+// What: the nearer of the hits that a ray has in parts of a geometry, of structures that store fragments.
 // Reads, writes: nothing.
 // What of a part is hit may depend on the cells that the ray is followed through, so each part is searched as if there were no
 // other. Where both hits are as near, that of a triangle comes first, on the triangle before beyond it on its plane, with the
-// lower id; of two stored fragments that of the part that was traced before.
+// lower id; of two stored fragments that of the part that was traced first.
 #ifndef ADS_NEARER_PART_GLSL
 #define ADS_NEARER_PART_GLSL
 
 #include "contract/stored_hit.glsl"
 #include "ads/evaluate_plane.glsl"
 
-// Of a hit in the part that was traced before and one in the part that is bound, both by ids; the first is marked as what it
-// is where it is stored.
+// Of a hit in the parts that were traced before and one in the part that is bound, both by ids; the first is marked as what
+// it is where it is stored.
 Hit nearer_part(Hit before, Hit hit) {
     bool was_stored = stored_hit_is(before);
     if (was_stored) {
-        before.b = uintBitsToFloat(HIT_EARLIER);
+        stored_hit_ages(before);
     }
     bool is_nearer = before.primitive == PRIMITIVE_NONE || hit.t < before.t;
     if (hit.t == before.t && !stored_hit_is(hit)) {

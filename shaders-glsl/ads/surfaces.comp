@@ -24,11 +24,12 @@ void main() {
         return;
     }
     bool stored = stored_hit_is(hit);
-    if (stored && trace.part != PART_WHOLE && stored_hit_is_earlier(hit) != (trace.part == PART_FIRST)) {
+    uint part = trace.part % PART_AFTER;
+    if (stored && part != PART_WHOLE && stored_hit_age(hit) != trace.part / PART_AFTER) {
         return;
     }
     Surface surface = surface_at(trace.structure, queue_ray(slot), hit);
-    if (!stored && trace.part == PART_NEXT) {
+    if (!stored && part == PART_NEXT) {
         surface.position_error = max(surface.position_error, queue_surfaces[slot].position_error);
     }
     queue_set_surface(slot, surface);

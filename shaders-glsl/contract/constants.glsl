@@ -21,8 +21,11 @@
 // No barycentric is as large.
 #define HIT_STORED 0x7F7FFFFFu
 
-// In Hit.b, as bits: the same, of a fragment in the part of the geometry that was traced before.
+// In Hit.b, as bits: the same, of a fragment in the part of the geometry that was traced just before; one less for each
+// part that was traced since.
 #define HIT_EARLIER 0x7F7FFFFDu
+// Parts of a geometry.
+#define PARTS_MOST 65536u
 
 // In Hit.b of a miss, as bits: the structure was not complete, so there is no answer.
 #define HIT_NOT_READY 0x7F7FFFFEu

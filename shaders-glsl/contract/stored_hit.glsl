@@ -1,8 +1,8 @@
 // What: hits of stored fragments: of those that keep their triangle only for diagnostics, and of those in another part of
 // the geometry.
 // Reads: the hit. Writes: the hit.
-// Where a hit has a triangle's id, HIT_STORED in b marks that a and the surface are still the fragment's; HIT_EARLIER that
-// they are those of a fragment in the part that was traced before, whether or not the hit has an id.
+// Where a hit has a triangle's id, HIT_STORED in b marks that a and the surface are still the fragment's; HIT_EARLIER, or a
+// little less, that they are those of a fragment in a part that was traced before, whether or not the hit has an id.
 #ifndef CONTRACT_STORED_HIT_GLSL
 #define CONTRACT_STORED_HIT_GLSL
 
@@ -15,15 +15,22 @@ void stored_hit_name(inout Hit hit, uint id) {
     hit.b = uintBitsToFloat(HIT_STORED);
 }
 
-// Whether a hit is on a fragment of the part that was traced before: a is no place in the pools of this one.
-bool stored_hit_is_earlier(Hit hit) {
-    return floatBitsToUint(hit.b) == HIT_EARLIER;
+// How many parts were traced after the one whose fragment is hit: where there are any, a is no place in the pools of the
+// last one.
+uint stored_hit_age(Hit hit) {
+    uint less = HIT_EARLIER - floatBitsToUint(hit.b);
+    return less < PARTS_MOST ? less + 1u : 0u;
+}
+
+// Marks that one more part is traced.
+void stored_hit_ages(inout Hit hit) {
+    hit.b = uintBitsToFloat(HIT_EARLIER - stored_hit_age(hit));
 }
 
 // Whether the surface at a hit is that of the fragment with link hit.a. Where fragments carry surfaces, hits on
 // triangles of the near-region list and of conservative lists still have none.
 bool stored_hit_is(Hit hit) {
-    return hit.primitive == PRIMITIVE_UNKNOWN || floatBitsToUint(hit.b) == HIT_STORED || stored_hit_is_earlier(hit);
+    return hit.primitive == PRIMITIVE_UNKNOWN || floatBitsToUint(hit.b) == HIT_STORED || stored_hit_age(hit) > 0u;
 }
 
 #endif

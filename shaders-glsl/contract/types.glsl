@@ -25,7 +25,7 @@ struct Hit {
     uint primitive;           // global triangle id; PRIMITIVE_UNKNOWN for a fragment that does not keep it
     float a;                  // the structure's; weight of vertex 1 where hits are primitives
     // the structure's; weight of vertex 2 where hits are primitives, and the bits HIT_STORED where a stored fragment has its
-    // triangle's id, HIT_EARLIER where it lies in the part that was traced before
+    // triangle's id, HIT_EARLIER or a little less where it lies in a part that was traced before
     float b;
 };
 

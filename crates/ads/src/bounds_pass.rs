@@ -43,15 +43,15 @@ impl BoundsPass {
         })
     }
 
-    /// Records the bounds of a geometry of which only a part moved: those of that part, by reading its triangles alone,
-    /// and from these and the bounds that the header of the static part states, those of the whole. Otherwise as
+    /// Records the bounds of a geometry of which only parts moved: those of each part that moves, by reading its triangles
+    /// alone, and from these and the bounds that the header of the static part states, those of the whole. Otherwise as
     /// [`BoundsPass::record`].
     pub fn record_parts(&self, recorder: &mut Recorder<'_>, parts: &GeometryParts) {
-        self.record(recorder, parts.moving_part());
+        for part in &parts.parts()[1..] {
+            self.record(recorder, part);
+        }
         recorder.begin_pass(Stage::Pose, "ads/geometry_bounds_unite");
-        let whole = parts.moving_part().whole();
-        whole.record(recorder, &self.unite, Some(parts.headers()), &[], [1; 3]);
-        recorder.barrier(Access::COMPUTE_WRITE, Access::ALL);
+        parts.record_unite(recorder, &self.unite);
         recorder.end_pass();
     }
 

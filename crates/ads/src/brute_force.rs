@@ -177,7 +177,17 @@ impl Structure for BruteForce {
         rounds: u32,
     ) {
         let geometry = &self.geometry;
-        self.kernels.record_trace(recorder, geometry, None, 0, queue, domain, mode, rounds, TracedPart::Next);
+        self.kernels.record_trace(
+            recorder,
+            geometry,
+            None,
+            0,
+            queue,
+            domain,
+            mode,
+            rounds,
+            TracedPart::Next { after: 0 },
+        );
     }
 
     fn record_surfaces(

@@ -1,4 +1,4 @@
-//! A structure in two parts, combined when rays are traced.
+//! A structure in parts, combined when rays are traced.
 
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
@@ -8,38 +8,35 @@ use crate::{
     Viewpoint,
 };
 
-/// Number of parts.
-const PARTS: usize = 2;
-
-/// Two structures of a kind over the two parts of a geometry. A ray is traced through the static part and then through the
-/// moving one: the nearer of the hits that either alone gives wins, and at the same t the lower id, as within one
-/// structure; of stored fragments the static one. So hits are those of one structure over all triangles, bit for bit, where
-/// it finds every triangle ([`StructureKind::Primitive`]). Others have the errors of two structures, each with views and
-/// cells around its own part.
+/// Structures of a kind over the parts of a geometry. A ray is traced through the static part and then through those that
+/// move, one after the other: the nearest of the hits that each alone gives wins, and at the same t the lower id, as within
+/// one structure; of stored fragments that of the part before. So hits are those of one structure over all triangles, bit
+/// for bit, where it finds every triangle ([`StructureKind::Primitive`]). Others have the errors of several structures, each
+/// with views and cells around its own part.
 ///
-/// As a [`Structure`] it builds both parts. What builds only the part that moved is a loop over frames that keeps each
+/// As a [`Structure`] it builds all parts. What builds only the parts that moved is a loop over frames that keeps each
 /// part by itself (`rasray_tracer::FrameStructure`), through [`Combined::change_part`].
 pub struct Combined {
     geometry: GeometryParts,
     /// The static part first.
-    parts: [Box<dyn Structure>; PARTS],
-    /// The pools of both.
+    parts: Vec<Box<dyn Structure>>,
+    /// The pools of all.
     sizes: Sizes,
 }
 
 impl Combined {
-    /// Makes both structures, the static one first.
+    /// Makes the structures, the static one first.
     ///
     /// # Errors
     /// What `make` returns, or [`AdsError::InParts`] for structures that are not of a kind.
     pub fn new<E: From<AdsError>>(
         geometry: &GeometryParts,
-        mut make: impl FnMut(&Geometry) -> Result<Box<dyn Structure>, E>,
+        make: impl FnMut(&Geometry) -> Result<Box<dyn Structure>, E>,
     ) -> Result<Self, E> {
-        let parts = [make(geometry.static_part())?, make(geometry.moving_part())?];
+        let parts = geometry.parts().iter().map(make).collect::<Result<Vec<_>, E>>()?;
         let structure = parts[0].name();
-        if parts[1].name() != structure || parts[0].counters() != parts[1].counters() {
-            let reason = "both are the same structure, with the same counters";
+        if parts.iter().any(|part| part.name() != structure || part.counters() != parts[0].counters()) {
+            let reason = "all are the same structure, with the same counters";
             return Err(AdsError::InParts { structure, reason }.into());
         }
         let sizes = joined(&parts);
@@ -51,31 +48,46 @@ impl Combined {
         &self.geometry
     }
 
-    /// Both structures, the static one first.
-    pub fn parts(&self) -> [&dyn Structure; PARTS] {
-        self.parts.each_ref().map(AsRef::as_ref)
+    /// Number of parts, with the static one.
+    pub fn count(&self) -> usize {
+        self.parts.len()
     }
 
-    /// Changes one of the structures, the static one or the moving one.
+    /// The structure of a part: 0 is the static one, then those that move in the order of [`GeometryParts::moving`].
+    ///
+    /// # Panics
+    /// There is no such part.
+    pub fn part(&self, part: usize) -> &dyn Structure {
+        self.parts[part].as_ref()
+    }
+
+    /// Changes the structure of a part, which is numbered as for [`Combined::part`].
     ///
     /// # Errors
     /// What `change` returns.
+    ///
+    /// # Panics
+    /// There is no such part.
     pub fn change_part<T>(
         &mut self,
-        moving: bool,
+        part: usize,
         change: impl FnOnce(&mut dyn Structure) -> Result<T, AdsError>,
     ) -> Result<T, AdsError> {
-        let changed = change(self.parts[usize::from(moving)].as_mut());
+        let changed = change(self.parts[part].as_mut());
         self.sizes = joined(&self.parts);
         changed
     }
 
-    /// Takes other triangles, of which others may move; the next build of each part reads them.
+    /// Takes other triangles, of which others may move, in as many parts; the next build of each part reads them.
     ///
     /// # Errors
-    /// Out of memory.
+    /// [`AdsError::InParts`] where there are more or fewer parts; out of memory.
     pub fn set_parts(&mut self, device: &Device, geometry: &GeometryParts) -> Result<(), AdsError> {
-        for (part, geometry) in self.parts.iter_mut().zip([geometry.static_part(), geometry.moving_part()]) {
+        if geometry.parts().len() != self.parts.len() {
+            let reason = "other triangles are in as many parts as there are structures";
+            return Err(AdsError::InParts { structure: self.name(), reason });
+        }
+        for (part, geometry) in self.parts.iter_mut().zip(geometry.parts()) {
             part.set_geometry(device, geometry)?;
         }
         self.geometry = geometry.clone();
@@ -91,17 +103,19 @@ impl Combined {
         domain: Domain,
         mode: TraceMode,
         rounds: u32,
-        mut continues: bool,
+        continues: bool,
     ) {
         let all = rounds == self.rounds();
-        for part in &self.parts {
+        for (number, part) in self.parts.iter().enumerate() {
             let rounds = if all { part.rounds() } else { rounds };
-            if continues {
+            if number > 0 {
+                self.geometry.record_note(recorder, queue, number);
+            }
+            if continues || number > 0 {
                 part.record_continued_trace(recorder, queue, domain, mode, rounds);
             } else {
                 part.record_trace(recorder, queue, domain, mode, rounds);
             }
-            continues = true;
         }
     }
 }
@@ -128,22 +142,24 @@ impl Structure for Combined {
     }
 
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
-        let (first, second) = sizes.pools.split_at(self.parts[0].sizes().pools.len().min(sizes.pools.len()));
-        for (part, pools) in self.parts.iter_mut().zip([first, second]) {
+        let mut rest = &sizes.pools[..];
+        for part in &mut self.parts {
+            let (pools, others) = rest.split_at(part.sizes().pools.len().min(rest.len()));
+            rest = others;
             part.resize(device, &Sizes { pools: pools.to_vec() })?;
         }
         self.sizes = joined(&self.parts);
         Ok(())
     }
 
-    /// As many triangles as before, of which the same move, within the bounds that are stated for all of them; for others
+    /// As many triangles as before, in the same parts, within the bounds that are stated for all of them; for others
     /// [`Combined::set_parts`].
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
-        if geometry.triangle_count() != self.geometry.moving_part().whole().triangle_count() {
+        if geometry.triangle_count() != self.geometry.whole().triangle_count() {
             let reason = "for another number of triangles `set_parts` says which of them move";
             return Err(AdsError::InParts { structure: self.name(), reason });
         }
-        let parts = geometry.parts(device, self.geometry.moving(), [geometry.bounds(); PARTS])?;
+        let parts = self.geometry.of(device, geometry)?;
         self.set_parts(device, &parts)
     }
 
@@ -219,7 +235,7 @@ impl Structure for Combined {
 
     fn allow_more_rounds(&self) -> bool {
         // Each of them allows more.
-        self.parts.each_ref().map(|part| part.allow_more_rounds()).contains(&true)
+        self.parts.iter().filter(|part| part.allow_more_rounds()).count() > 0
     }
 
     fn record_trace(
@@ -251,11 +267,16 @@ impl Structure for Combined {
         domain: Domain,
     ) -> Result<(), AdsError> {
         if self.kind().finds_triangles() {
-            // The queue has noted faults of the first.
-            return self.parts[1].record_surfaces(recorder, queue, domain);
+            // The queue has noted faults of the others.
+            return self.parts[self.parts.len() - 1].record_surfaces(recorder, queue, domain);
         }
-        for (structure, part) in self.parts.iter().zip([TracedPart::First, TracedPart::Next]) {
-            structure.record_surfaces_of_part(recorder, queue, domain, part)?;
+        for (number, part) in self.parts.iter().enumerate() {
+            let after = (self.parts.len() - 1 - number) as u32;
+            if number > 0 {
+                self.geometry.record_note(recorder, queue, number);
+            }
+            let which = if number == 0 { TracedPart::First { after } } else { TracedPart::Next { after } };
+            part.record_surfaces_of_part(recorder, queue, domain, which)?;
         }
         Ok(())
     }
@@ -279,17 +300,20 @@ impl Structure for Combined {
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {
-        let [mut sum, moving] = [self.parts[0].report()?, self.parts[1].report()?];
-        for (name, bytes) in moving.bytes_by_part {
-            match sum.bytes_by_part.iter_mut().find(|(known, _)| *known == name) {
-                Some((_, known)) => *known += bytes,
-                None => sum.bytes_by_part.push((name, bytes)),
+        let mut sum = self.parts[0].report()?;
+        for part in &self.parts[1..] {
+            let moving = part.report()?;
+            for (name, bytes) in moving.bytes_by_part {
+                match sum.bytes_by_part.iter_mut().find(|(known, _)| *known == name) {
+                    Some((_, known)) => *known += bytes,
+                    None => sum.bytes_by_part.push((name, bytes)),
+                }
             }
+            sum.formula_bytes += moving.formula_bytes;
+            sum.diagnostic_bytes += moving.diagnostic_bytes;
+            sum.stored = sum.stored.zip(moving.stored).map(|(one, other)| one + other);
+            sum.lost = sum.lost.zip(moving.lost).map(|(one, other)| one + other);
         }
-        sum.formula_bytes += moving.formula_bytes;
-        sum.diagnostic_bytes += moving.diagnostic_bytes;
-        sum.stored = sum.stored.zip(moving.stored).map(|(one, other)| one + other);
-        sum.lost = sum.lost.zip(moving.lost).map(|(one, other)| one + other);
         Ok(sum)
     }
 }
@@ -299,12 +323,12 @@ impl std::fmt::Debug for Combined {
         formatter
             .debug_struct("Combined")
             .field("structure", &self.name())
-            .field("moving", &self.geometry.moving())
+            .field("parts", &self.count())
             .finish_non_exhaustive()
     }
 }
 
-/// The pools of both parts, one after the other.
-fn joined(parts: &[Box<dyn Structure>; PARTS]) -> Sizes {
+/// The pools of all parts, one after the other.
+fn joined(parts: &[Box<dyn Structure>]) -> Sizes {
     Sizes { pools: parts.iter().flat_map(|part| part.sizes().pools.clone()).collect() }
 }

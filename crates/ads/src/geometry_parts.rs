@@ -1,64 +1,145 @@
-//! A geometry in two parts: triangles that stay, and those that move.
+//! A geometry in parts: triangles that stay, and those that move together.
 
+use std::mem::offset_of;
 use std::ops::Range;
 
-use rasray_gpu::{BindingSet, Device, GpuError, SetLayout};
+use rasray_gpu::{
+    Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, Device, GpuError, MemoryLocation,
+    Recorder, SetLayout,
+};
+use rasray_shaders_glsl::ADS_QUEUE_NOTE;
+use rasray_shaders_glsl::constants::contract::PARTS_MOST;
 
 use crate::geometry::Run;
-use crate::{AdsError, Geometry};
+use crate::geometry_gather::pipeline;
+use crate::{AdsError, Geometry, GeometryHeader, QueueHeader, RayQueue};
 
-/// Two geometries that share the buffers of a third, of which each triangle is in one of them: those that move, and the
-/// static ones. Hits on either have the ids of the whole.
+/// Triangles that move together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MovingPart {
+    /// Their ids, in any order. Of what [`GeometryParts::moving`] answers: in order, no range empty, none that touch.
+    pub ids: Vec<Range<u32>>,
+    /// Lower and upper corner of all their positions, metres relative to the frame origin.
+    pub bounds: [[f32; 3]; 2],
+}
+
+/// Geometries that share the buffers of another one, of which each triangle is in one of them: the static ones, and those
+/// that move, in one part or several. Hits on any have the ids of the whole.
 #[derive(Clone, Debug)]
 pub struct GeometryParts {
-    moving: Vec<Range<u32>>,
-    static_part: Geometry,
-    moving_part: Geometry,
-    /// The headers of both, for [`BoundsPass::record_parts`](crate::BoundsPass::record_parts).
-    headers: BindingSet,
+    moving: Vec<MovingPart>,
+    /// The static part first.
+    parts: Vec<Geometry>,
+    /// Copies of the headers of all parts, which the bounds of the whole come from.
+    headers: Buffer,
+    set: BindingSet,
+    note: ComputePipeline,
 }
 
 impl GeometryParts {
     pub(crate) fn layout(device: &Device) -> Result<SetLayout, GpuError> {
-        device.create_set_layout("geometry parts", 2)
+        device.create_set_layout("geometry parts", 1)
+    }
+
+    /// All parts: the static one first, then those that move, as many as were asked for.
+    pub fn parts(&self) -> &[Geometry] {
+        &self.parts
     }
 
     /// The triangles that stay.
     pub fn static_part(&self) -> &Geometry {
-        &self.static_part
+        &self.parts[0]
     }
 
-    /// The triangles that move.
-    pub fn moving_part(&self) -> &Geometry {
-        &self.moving_part
-    }
-
-    /// Ids of the triangles that move: in order, no range empty, none that touch.
-    pub fn moving(&self) -> &[Range<u32>] {
+    /// Which triangles move, in each part that moves.
+    pub fn moving(&self) -> &[MovingPart] {
         &self.moving
     }
 
-    pub(crate) fn headers(&self) -> &BindingSet {
-        &self.headers
+    /// The geometry that these are parts of.
+    pub fn whole(&self) -> &Geometry {
+        self.parts[0].whole()
+    }
+
+    /// The same parts of another geometry with as many triangles, within the bounds that it states.
+    ///
+    /// # Errors
+    /// As [`Geometry::in_parts`].
+    pub(crate) fn of(&self, device: &Device, geometry: &Geometry) -> Result<Self, AdsError> {
+        let bounds = geometry.bounds();
+        let moving: Vec<MovingPart> =
+            self.moving.iter().map(|part| MovingPart { ids: part.ids.clone(), bounds }).collect();
+        geometry.in_parts(device, &moving, bounds)
+    }
+
+    /// Records that the bounds of the whole are those of all parts, and that rays may start anywhere in them, with `unite`.
+    pub(crate) fn record_unite(&self, recorder: &mut Recorder<'_>, unite: &ComputePipeline) {
+        let whole = self.whole();
+        let header = size_of::<GeometryHeader>() as u64;
+        recorder.barrier(Access::COMPUTE, Access::TRANSFER);
+        for (place, part) in (0..).zip(&self.parts) {
+            recorder.copy(part.header(), 0, &self.headers, place * header, header);
+        }
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
+        whole.record(recorder, unite, Some(&self.set), &[], [1; 3]);
+        recorder.barrier(Access::COMPUTE, Access::TRANSFER);
+        let [from, to] =
+            [offset_of!(GeometryHeader, lower), offset_of!(GeometryHeader, around_lower)].map(|at| at as u64);
+        for part in &self.parts {
+            recorder.copy(whole.header(), from, part.header(), to, size_of::<[[f32; 3]; 2]>() as u64);
+        }
+        recorder.barrier(Access::TRANSFER_WRITE, Access::ALL);
+    }
+
+    /// Records that a queue adds the faults that part `part - 1` found to those of the parts before it, from 1 on.
+    pub(crate) fn record_note(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, part: usize) {
+        let [noted, before] = [offset_of!(QueueHeader, corrupted), offset_of!(QueueHeader, corrupted_before)]
+            .map(|at| at as u64);
+        if part == 1 {
+            recorder.barrier(Access::COMPUTE | Access::TRANSFER_WRITE, Access::TRANSFER);
+            recorder.copy(queue.header(), noted, queue.header(), before, 4);
+            recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER);
+        } else {
+            recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
+            recorder.bind_compute(&self.note);
+            recorder.bind_sets(0, &[queue.set()]);
+            recorder.dispatch([1; 3]);
+            recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
+        }
     }
 }
 
 impl Geometry {
     /// The geometry in two parts: the triangles with ids in `moving`, in any order, and all others. `static_bounds` hold
-    /// all positions of the others, `moving_bounds` those that move; a pass of the host or
-    /// [`BoundsPass::record_parts`](crate::BoundsPass::record_parts) may write others for the moving part, as for any geometry.
-    ///
-    /// A part whose triangles follow one another reads the indices of the whole. Any other one takes 12 bytes per triangle
-    /// and 8 per run, and gathers its indices in each build.
+    /// all positions of the others, `moving_bounds` those that move. As [`Geometry::in_parts`].
     ///
     /// # Errors
-    /// Ids beyond the triangles, or in two ranges; a number of triangles that only the device knows; a geometry that is a
-    /// part itself; bounds that are not finite or the wrong way round; out of memory.
+    /// As [`Geometry::in_parts`].
     pub fn parts(
         &self,
         device: &Device,
         moving: &[Range<u32>],
         [static_bounds, moving_bounds]: [[[f32; 3]; 2]; 2],
+    ) -> Result<GeometryParts, AdsError> {
+        let moving = MovingPart { ids: moving.to_vec(), bounds: moving_bounds };
+        self.in_parts(device, &[moving], static_bounds)
+    }
+
+    /// The geometry in parts: one for each of `moving`, which may have no triangle, and the static part, all other triangles,
+    /// within `static_bounds`. A pass of the host or [`BoundsPass::record_parts`](crate::BoundsPass::record_parts) may
+    /// write other bounds for what moves, as for any geometry.
+    ///
+    /// A part whose triangles follow one another reads the indices of the whole. Any other one takes 12 bytes per triangle
+    /// and 8 per run, and gathers its indices in each build.
+    ///
+    /// # Errors
+    /// Ids beyond the triangles, or in two ranges; no part that moves, or 65,536; a number of triangles that only the device
+    /// knows; a geometry that is a part itself; bounds that are not finite or the wrong way round; out of memory.
+    pub fn in_parts(
+        &self,
+        device: &Device,
+        moving: &[MovingPart],
+        static_bounds: [[f32; 3]; 2],
     ) -> Result<GeometryParts, AdsError> {
         let wrong = |reason: String| Err(AdsError::Geometry { reason });
         if self.is_part() {
@@ -67,23 +148,31 @@ impl Geometry {
         if self.desc().count.is_some() {
             return wrong("triangles that only the device counts cannot be in parts".to_owned());
         }
+        if moving.is_empty() || moving.len() >= PARTS_MOST as usize {
+            return wrong(format!("{} parts are to move: 1 to {}", moving.len(), PARTS_MOST - 1));
+        }
         let count = self.triangle_count();
-        let mut sorted: Vec<_> = moving.iter().filter(|ids| !ids.is_empty()).cloned().collect();
-        sorted.sort_by_key(|ids| ids.start);
-        let mut joined: Vec<Range<u32>> = Vec::new();
-        for ids in sorted {
+        let mut all: Vec<(Range<u32>, usize)> = Vec::new();
+        for (part, MovingPart { ids, .. }) in moving.iter().enumerate() {
+            all.extend(ids.iter().filter(|ids| !ids.is_empty()).map(|ids| (ids.clone(), part)));
+        }
+        all.sort_by_key(|(ids, _)| ids.start);
+        let mut joined = vec![Vec::<Range<u32>>::new(); moving.len() + 1];
+        let mut end = 0;
+        for (ids, part) in all {
             if ids.end > count {
                 return wrong(format!("triangles {ids:?} are to move, of {count}"));
             }
-            match joined.last_mut() {
-                Some(last) if ids.start < last.end => {
-                    return wrong(format!("triangles {last:?} and {ids:?} are to move, which overlap"));
-                }
-                Some(last) if ids.start == last.end => last.end = ids.end,
-                _ => joined.push(ids),
+            if ids.start < end {
+                return wrong(format!("triangles {ids:?} are to move, which overlap others that do"));
             }
+            append(&mut joined[0], end..ids.start);
+            end = ids.end;
+            append(&mut joined[part + 1], ids);
         }
-        let part = |ids: &[Range<u32>], bounds| {
+        append(&mut joined[0], end..count);
+        let bounds = std::iter::once(static_bounds).chain(moving.iter().map(|part| part.bounds));
+        let part = |(ids, bounds): (&Vec<Range<u32>>, _)| {
             let (mut runs, mut first) = (Vec::with_capacity(ids.len()), 0);
             for ids in ids {
                 runs.push(Run { first, id: ids.start });
@@ -91,32 +180,41 @@ impl Geometry {
             }
             Self::part_of(device, self, (&runs, first), bounds)
         };
-        let static_part = part(&between(&joined, count), static_bounds)?;
-        let moving_part = part(&joined, moving_bounds)?;
-        let layout = GeometryParts::layout(device)?;
-        let headers = [static_part.header(), moving_part.header()];
-        let headers = device.create_binding_set(&layout, "geometry parts", &headers)?;
-        Ok(GeometryParts { moving: joined, static_part, moving_part, headers })
+        let parts = joined.iter().zip(bounds).map(part).collect::<Result<Vec<_>, _>>()?;
+        let headers = device.create_buffer(&BufferDesc {
+            name: "geometry parts",
+            size: (parts.len() * size_of::<GeometryHeader>()) as u64,
+            usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_DST,
+            location: MemoryLocation::Device,
+        })?;
+        let set =
+            device.create_binding_set(&GeometryParts::layout(device)?, "geometry parts", &[&headers])?;
+        let note = pipeline(device, &ADS_QUEUE_NOTE, &[&RayQueue::layout(device)?], 0)?;
+        let moving = joined.drain(1..).zip(moving);
+        let moving = moving.map(|(ids, part)| MovingPart { ids, bounds: part.bounds }).collect();
+        Ok(GeometryParts { moving, parts, headers, set, note })
     }
 }
 
-/// What ranges below `count` leave out; they are in order and do not overlap.
-fn between(ranges: &[Range<u32>], count: u32) -> Vec<Range<u32>> {
-    let starts = std::iter::once(0).chain(ranges.iter().map(|ids| ids.end));
-    let ends = ranges.iter().map(|ids| ids.start).chain([count]);
-    starts.zip(ends).map(|(start, end)| start..end).filter(|ids| !ids.is_empty()).collect()
+/// Appends ids that follow the others, as one range with the last where they touch.
+fn append(ranges: &mut Vec<Range<u32>>, ids: Range<u32>) {
+    match ranges.last_mut() {
+        _ if ids.is_empty() => {}
+        Some(last) if last.end == ids.start => last.end = ids.end,
+        _ => ranges.push(ids),
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::between;
+    use super::append;
 
     #[test]
-    fn what_does_not_move_is_static() {
-        let all = std::slice::from_ref(&(0..5));
-        assert_eq!(between(&[], 5), all);
-        assert!(between(all, 5).is_empty());
-        assert_eq!(between(&[1..2, 3..5], 7), [0..1, 2..3, 5..7]);
-        assert_eq!(between(&[], 0), []);
+    fn ids_that_touch_are_one_range() {
+        let mut ranges = Vec::new();
+        for ids in [0..0, 1..2, 2..2, 2..5, 7..9] {
+            append(&mut ranges, ids);
+        }
+        assert_eq!(ranges, [1..5, 7..9]);
     }
 }

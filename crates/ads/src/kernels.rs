@@ -4,7 +4,7 @@ use bytemuck::bytes_of;
 use rasray_gpu::{
     Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout, Stage,
 };
-use rasray_shaders_glsl::constants::ads::{PART_FIRST, PART_NEXT, PART_WHOLE};
+use rasray_shaders_glsl::constants::ads::{PART_AFTER, PART_FIRST, PART_NEXT, PART_WHOLE};
 use rasray_shaders_glsl::records::{NextRoundConstants, TraceConstants};
 use rasray_shaders_glsl::{Shader, constant_ids::contract::COUNTERS};
 
@@ -19,17 +19,23 @@ pub enum TracedPart {
     /// All triangles.
     Whole,
     /// The part of a geometry that is traced first.
-    First,
-    /// The part that is traced next, which goes on from the hits that a queue has of the first.
-    Next,
+    First {
+        /// Parts traced after it: surfaces alone ask.
+        after: u32,
+    },
+    /// A part that is traced next, which goes on from the hits that a queue has of those before.
+    Next {
+        /// Parts traced after it: surfaces alone ask.
+        after: u32,
+    },
 }
 
 impl TracedPart {
     fn constant(self) -> u32 {
         match self {
             Self::Whole => PART_WHOLE,
-            Self::First => PART_FIRST,
-            Self::Next => PART_NEXT,
+            Self::First { after } => PART_FIRST + after * PART_AFTER,
+            Self::Next { after } => PART_NEXT + after * PART_AFTER,
         }
     }
 }
@@ -235,11 +241,6 @@ pub struct Lookup<'a> {
 }
 
 impl Lookup<'_> {
-    /// Which part's hits it is of.
-    pub fn part(&self) -> TracedPart {
-        self.part
-    }
-
     /// Records it for the slots of `domain`. What it wrote is visible to what follows.
     pub fn record(
         &self,

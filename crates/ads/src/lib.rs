@@ -67,7 +67,7 @@ pub use ends::Ends;
 pub use error::AdsError;
 pub use geometry::Geometry;
 pub use geometry_desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
-pub use geometry_parts::GeometryParts;
+pub use geometry_parts::{GeometryParts, MovingPart};
 pub use groups::folded;
 pub use kernels::{Lookup, TraceKernels, TraceKernelsDesc, TracedPart};
 pub use lengths::Lengths;

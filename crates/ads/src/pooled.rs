@@ -326,7 +326,7 @@ impl<D: Design> Structure for Pooled<D> {
         mode: TraceMode,
         rounds: u32,
     ) {
-        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Next);
+        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Next { after: 0 });
     }
 
     fn record_surfaces(

@@ -16,10 +16,8 @@ use crate::{
     Sizes, TraceKernels, TraceMode, TracedPart,
 };
 
-/// Where the header of a queue notes how many list entries with an invalid index a structure met: that of the last part, and
-/// that of the part before it.
+/// Where the header of a queue notes how many list entries with an invalid index a structure met.
 const NOTED: u64 = offset_of!(QueueHeader, corrupted) as u64;
-const NOTED_BEFORE: u64 = offset_of!(QueueHeader, corrupted_before) as u64;
 
 /// The header's name among the pools; it is the first.
 const HEADER: &str = "header";
@@ -291,8 +289,8 @@ impl Pools {
     }
 
     /// Records a trace of the slots of `domain`. Traces count list entries with an invalid index in the word of the
-    /// header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]). For the next part
-    /// the queue has hits and counts of the first.
+    /// header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]). For a next part
+    /// the queue has hits of those before.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -307,24 +305,14 @@ impl Pools {
         corrupted: usize,
     ) {
         self.keep(recorder);
-        if part == TracedPart::Next {
-            recorder.barrier(Access::COMPUTE | Access::TRANSFER_WRITE, Access::TRANSFER);
-            recorder.copy(queue.header(), NOTED, queue.header(), NOTED_BEFORE, 4);
-            recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER);
-        }
         let (set, address) = (self.set(), self.address());
         kernels.record_trace(recorder, geometry, set, address, queue, domain, mode, rounds, part);
-        self.record_corrupted(recorder, queue, (corrupted, NOTED));
+        self.record_corrupted(recorder, queue, corrupted);
     }
 
-    fn record_corrupted(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        (corrupted, noted): (usize, u64),
-    ) {
+    fn record_corrupted(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, corrupted: usize) {
         recorder.barrier(Access::COMPUTE, Access::TRANSFER);
-        recorder.copy(&self.pools[0], corrupted as u64, queue.header(), noted, 4);
+        recorder.copy(&self.pools[0], corrupted as u64, queue.header(), NOTED, 4);
         recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::INDIRECT_READ);
     }
 
@@ -340,9 +328,7 @@ impl Pools {
     ) {
         self.keep(recorder);
         lookup.record(recorder, geometry, self.set(), self.address(), queue, domain);
-        // Traced before the next part, whose count the queue has by now.
-        let noted = if lookup.part() == TracedPart::First { NOTED_BEFORE } else { NOTED };
-        self.record_corrupted(recorder, queue, (corrupted, noted));
+        self.record_corrupted(recorder, queue, corrupted);
     }
 }
 

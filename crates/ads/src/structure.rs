@@ -241,8 +241,8 @@ pub trait Structure {
         domain: Domain,
     ) -> Result<(), AdsError>;
 
-    /// Records the lookup of surfaces after a trace through two parts of a geometry, of which this one is `part`: the structure of
-    /// the first part, then that of the next. Where hits are triangles either knows all of them, so that one lookup by
+    /// Records the lookup of surfaces after a trace through parts of a geometry, of which this one is `part`, in the same
+    /// order. Where hits are triangles either knows all of them, so that one lookup by
     /// [`Structure::record_surfaces`] does.
     ///
     /// # Errors

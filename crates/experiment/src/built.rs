@@ -117,6 +117,8 @@ pub struct Built {
     pub(super) outcome: BuildOutcome,
     pub(super) passes: Passes,
     viewpoint: Viewpoint,
+    /// Of the parts that move those that did in this frame; empty: all.
+    moved: Vec<bool>,
     /// From nothing to complete, milliseconds; absent where something was there.
     first_ms: Option<f64>,
     /// Of each repeated build, or of the one that a frame took, as the host saw it, milliseconds.
@@ -143,7 +145,7 @@ impl Built {
         Self::over(device, spec, (scene, None), eye)
     }
 
-    /// The same for a scene that may move, in two parts where [`Refresh::Moving`] asks for them. [`DeviceScene::parts`] was called then
+    /// The same for a scene that may move, in the parts that `refresh` asks for. [`DeviceScene::parts`] was called then
     /// before the scene was posed.
     ///
     /// # Errors
@@ -154,10 +156,7 @@ impl Built {
         stage: &mut DeviceScene,
         refresh: Refresh,
     ) -> Result<Self, ExperimentError> {
-        let parts = match refresh {
-            Refresh::All => None,
-            Refresh::Moving => Some(stage.parts(device)?),
-        };
+        let parts = stage.parts(device, refresh)?;
         Self::over(device, spec, (&stage.scene, parts.as_ref()), stage.scene.eye())
     }
 
@@ -194,6 +193,7 @@ impl Built {
             outcome,
             passes,
             viewpoint,
+            moved: Vec::new(),
             first_ms: Some(started.elapsed().as_secs_f64() * 1.0e3),
             whole: Vec::new(),
             prepare: Vec::new(),
@@ -206,17 +206,21 @@ impl Built {
         self.frames.structure()
     }
 
-    /// Builds what is stale for the scene as it is now: where it has `moved` what moves, and what depends on where its camera
-    /// looks from. Times and passes are those of this frame from here on.
+    /// Builds what is stale for the scene as it is now: of the parts that move those that have `moved`, all where that is empty,
+    /// and what depends on where its camera looks from. Times and passes are those of this frame from here on.
     ///
     /// # Errors
     /// As [`Built::build_again`].
-    pub fn follow(&mut self, device: &Device, scene: &GpuScene, moved: bool) -> Result<(), ExperimentError> {
+    pub fn follow(
+        &mut self,
+        device: &Device,
+        scene: &GpuScene,
+        moved: &[bool],
+    ) -> Result<(), ExperimentError> {
         let started = Instant::now();
         self.viewpoint = scene.viewpoint().at(scene.eye());
-        if moved {
-            self.frames.geometry_moved();
-        }
+        self.frames.parts_moved(moved);
+        self.moved = moved.to_vec();
         self.outcome = self.refresh(device)?;
         self.passes = Passes::default();
         self.first_ms = None;
@@ -242,13 +246,13 @@ impl Built {
         if self.whole.is_empty() { Vec::new() } else { self.passes.stages() }
     }
 
-    /// Builds what moves once more, which is everything but in parts, and keeps the times.
+    /// Builds what moved once more, which is everything but in parts, and keeps the times.
     ///
     /// # Errors
     /// The device fails, or the build does not become complete.
     pub fn build_again(&mut self, device: &Device) -> Result<(), ExperimentError> {
         let regrows = self.outcome.regrows;
-        self.frames.geometry_moved();
+        self.frames.parts_moved(&self.moved);
         self.outcome = self.refresh(device)?;
         self.outcome.regrows += regrows;
         if !std::mem::replace(&mut self.is_repeated, true) {

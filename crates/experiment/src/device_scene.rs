@@ -4,7 +4,7 @@ use glam::DVec3;
 use rasray_ads::AdsError;
 use rasray_frame::FrameError;
 use rasray_gpu::{Device, GpuError};
-use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, PosePass, Sampling, SceneTables, View};
+use rasray_gpu_scene::{FramePose, GpuScene, GpuSceneError, Parts, PosePass, Sampling, SceneTables, View};
 use rasray_integrators::IntegratorError;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
@@ -88,6 +88,10 @@ pub struct DeviceScene {
     pub dropped_triangles: u64,
     /// What moves, where it is posed on the device.
     pub(super) pose: Option<PosePass>,
+    /// Where everything is that moves, once it was posed.
+    pub(super) posed: Option<FramePose>,
+    /// Which of the parts that move are elsewhere than before the last pose; empty: all.
+    pub(super) moved: Vec<bool>,
 }
 
 impl DeviceScene {
@@ -144,7 +148,7 @@ impl DeviceScene {
                 "{dropped_triangles} triangles have coordinates that are not finite or beyond 1.8e18 m and are left out"
             );
         }
-        Ok((Self { scene: gpu_scene, dropped_triangles, pose: None }, tables))
+        Ok((Self { scene: gpu_scene, dropped_triangles, pose: None, posed: None, moved: Vec::new() }, tables))
     }
 
     /// Positions (metres, relative to the frame origin) and indices as the device has them.

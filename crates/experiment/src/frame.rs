@@ -155,17 +155,20 @@ pub enum Refresh {
     All,
     /// The part that moves; what stands still is a part of its own, built once.
     Moving,
+    /// The same with a part for each object that its node alone moves, built in frames in which it moves.
+    Objects,
 }
 
 impl Refresh {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::All, Self::Moving];
+    pub const ALL: [Self; 3] = [Self::All, Self::Moving, Self::Objects];
 
     /// Its name on the command line and in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::All => "all",
             Self::Moving => "moving",
+            Self::Objects => "objects",
         }
     }
 
@@ -176,6 +179,10 @@ impl Refresh {
             Self::Moving => {
                 "What moves; what stands still has a part of its own, built once. The same hits of systems that find every \
                  triangle, the nearer of both parts' hits of others"
+            }
+            Self::Objects => {
+                "The same with a part for each object that its node alone moves, for at most 32, the largest: each is built in \
+                 frames in which it moves"
             }
         }
     }

@@ -14,6 +14,9 @@ use crate::error::ExperimentError;
 use crate::jobs::{Frame, Refresh, RenderJob};
 use crate::passes::Passes;
 
+/// Objects that have parts of their own.
+const OBJECTS_MOST: usize = 32;
+
 impl DeviceScene {
     /// As [`DeviceScene::new`], of a scene at rest that [`DeviceScene::pose`] shows at any moment.
     ///
@@ -44,10 +47,8 @@ impl DeviceScene {
             return Ok((stage, PoseTimes::default()));
         };
         let mut stage = Self::moving(device, job.scene, &job.camera, [width, height], seed, &job.needs)?;
-        if job.refresh == Refresh::Moving {
-            // The pose measures the bounds of the parts that there are.
-            stage.parts(device)?;
-        }
+        // The pose measures the bounds of the parts that there are.
+        stage.parts(device, job.refresh)?;
         let shown = stage.pose(device, job.scene, moment, device.best_timing())?;
         Ok((stage, shown))
     }
@@ -57,18 +58,34 @@ impl DeviceScene {
         self.pose.is_some()
     }
 
-    /// The geometry in two parts, what moves and all else ([`PosePass::parts`]).
+    /// The geometry in the parts that are built apart; absent where it is built as a whole. They stay once there are any.
     ///
     /// # Errors
     /// Nothing here moves, out of memory, or a lost device.
-    pub fn parts(&mut self, device: &Device) -> Result<GeometryParts, ExperimentError> {
+    pub fn parts(
+        &mut self,
+        device: &Device,
+        refresh: Refresh,
+    ) -> Result<Option<GeometryParts>, ExperimentError> {
+        if refresh == Refresh::All {
+            return Ok(None);
+        }
         let Some(pass) = self.pose.as_mut() else {
             return Err(ExperimentError::usage(
                 "a scene whose triangles are others in each frame has no part that stands still",
                 "leave out --refresh",
             ));
         };
-        pass.parts(device).map_err(scene_error)
+        let parts = match refresh {
+            Refresh::Objects => pass.objects(device, OBJECTS_MOST),
+            _ => pass.parts(device),
+        };
+        parts.map(Some).map_err(scene_error)
+    }
+
+    /// Which of the parts that move are elsewhere than before the last [`DeviceScene::pose`]; empty: all.
+    pub fn moved(&self) -> &[bool] {
+        &self.moved
     }
 
     /// Shows the scene, which is the one that this was made from ([`DeviceScene::moving`]), at a moment: what moves is posed on the
@@ -92,6 +109,8 @@ impl DeviceScene {
         let host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
         let submitted =
             device.submit_passes(timing, |recorder| pass.record(recorder, 0, &pose)).map_err(device_error)?;
+        self.moved = self.posed.take().map_or_else(Vec::new, |before| pass.moved_parts(&before, &pose));
+        self.posed = Some(pose);
         Ok(PoseTimes { host_milliseconds, passes: submitted.passes })
     }
 }

@@ -171,7 +171,7 @@ fn on_device(
         says("build", "of the frame");
         // A pool that it cannot have may be reached by device address.
         let failed = |error: &_| tracing::info!("the structure is made anew: {error}");
-        built.follow(device, &stage.scene, true).inspect_err(failed).ok().map(|()| built)
+        built.follow(device, &stage.scene, stage.moved()).inspect_err(failed).ok().map(|()| built)
     });
     let is_warm = followed.is_some() && rendering.is_some();
     let built = match followed {

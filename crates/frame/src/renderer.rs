@@ -97,7 +97,8 @@ pub struct FrameRenderer {
 impl FrameRenderer {
     /// Frames of `scene`, moved by `pose`, seen through `structure`, which was made for both and not built: a
     /// structure over all triangles, all of which each frame builds in which anything moved, or a
-    /// [`Combined`](rasray_ads::Combined) one over the parts of [`PosePass::parts`], of which only what moved is built. With
+    /// [`Combined`](rasray_ads::Combined) one over the parts of [`PosePass::parts`] or [`PosePass::objects`], of which only
+    /// those that moved are built. With
     /// `reads_films` each picture has its image on the host; without, it is on the device in the integrator's film.
     ///
     /// # Errors
@@ -227,8 +228,10 @@ impl FrameRenderer {
         let Self { scene, image, frames, readbacks, .. } = self;
         let moved = input.pose.as_ref().filter(|&wanted| self.posed.as_ref() != Some(wanted));
         let pass = scene.pose().filter(|pass| pass.moves());
-        if moved.is_some() && pass.is_some_and(|pass| !pass.moving_triangles().is_empty()) {
-            frames.geometry_moved();
+        match (pass.filter(|pass| pass.moves_triangles()), moved, &self.posed) {
+            (Some(pass), Some(moved), Some(before)) => frames.parts_moved(&pass.moved_parts(before, moved)),
+            (Some(_), Some(_), None) => frames.geometry_moved(),
+            _ => {}
         }
         if moved.is_some() && pass.is_some() {
             image.scene_moved();

@@ -10,7 +10,6 @@ mod shapes;
 mod sources;
 
 use std::mem::offset_of;
-use std::ops::Range;
 
 use bytemuck::{NoUninit, bytes_of, cast_slice};
 use glam::DVec3;
@@ -29,7 +28,7 @@ use self::emitters::Emitters;
 use self::far_lights::FarLights;
 use self::frame_pose::Placer;
 use self::moving::Moving;
-use self::moving_triangles::MovingTriangles;
+use self::moving_triangles::{DrawTriangles, MovingTriangles};
 use self::shapes::Shapes;
 use self::sources::{DrawPlace, SkinPlace, Sources};
 use crate::layout::{EmissiveTriangle, Frame};
@@ -50,7 +49,7 @@ const UPDATE_BYTES: usize = 65_536;
 pub struct PosePass {
     /// One per draw of the geometry.
     moving_draws: Vec<bool>,
-    moving_triangles: MovingTriangles,
+    draws: Vec<DrawTriangles>,
     places: Vec<DrawPlace>,
     skins: Vec<SkinPlace>,
     shapes: Shapes,
@@ -72,7 +71,7 @@ pub struct PosePass {
     geometry: Geometry,
     bounds: BoundsPass,
     /// Where only what moves is measured.
-    parts: Option<GeometryParts>,
+    parts: Option<Division>,
     far_lights: Option<FarLights>,
     posed: PosedBuffers,
     bytes_by_part: Vec<(&'static str, u64)>,
@@ -104,7 +103,7 @@ impl PosePass {
         let sources = Sources::new(scene, tables, if is_placed { &moving } else { &nothing })?;
         let mut moving_draws = vec![false; tables.posed.draws.len()];
         sources.places.iter().for_each(|place| moving_draws[place.draw] = true);
-        let moving_triangles = MovingTriangles::of(&tables.posed, &moving_draws);
+        let draws = DrawTriangles::all(&tables.posed);
         let posed = gpu.posed_buffers().clone();
         let geometry = gpu.geometry().clone();
         let emitters = Emitters::new(tables, &sources.places);
@@ -154,7 +153,7 @@ impl PosePass {
         bytes_by_part.extend(far_lights.iter().map(FarLights::bytes));
         Ok(Self {
             moving_draws,
-            moving_triangles,
+            draws,
             places: sources.places,
             skins: sources.skins,
             shapes,
@@ -260,7 +259,7 @@ impl PosePass {
         recorder.end_pass();
         if self.group_count > 0 {
             match &self.parts {
-                Some(parts) => self.bounds.record_parts(recorder, parts),
+                Some(division) => self.bounds.record_parts(recorder, &division.parts),
                 None => self.bounds.record(recorder, &self.geometry),
             }
         }
@@ -292,28 +291,63 @@ impl PosePass {
         self.lights_move || !self.places.is_empty()
     }
 
-    /// Ids of the triangles that any clip can move or a deformer changes: in order, no range empty, none that touch.
-    pub fn moving_triangles(&self) -> &[Range<u32>] {
-        &self.moving_triangles.ids
+    /// Whether any clip can move triangles or a deformer changes them.
+    pub fn moves_triangles(&self) -> bool {
+        !self.places.is_empty()
     }
 
     /// The geometry of the scene in two parts, what moves and all else, each with bounds of its own. From then on
     /// each frame measures the bounds of what moves, and with them those of the whole, without reading the static triangles.
+    /// Where the geometry is in parts already these stay.
     ///
     /// # Errors
     /// Out of memory, or a lost device.
     pub fn parts(&mut self, device: &Device) -> Result<GeometryParts, GpuSceneError> {
-        if let Some(parts) = &self.parts {
-            return Ok(parts.clone());
-        }
-        let MovingTriangles { ids, bounds } = &self.moving_triangles;
-        let parts = self.geometry.parts(device, ids, *bounds)?;
-        Ok(self.parts.insert(parts).clone())
+        self.divide(device, MovingTriangles::together)
     }
 
-    /// What [`PosePass::parts`] made.
+    /// The same in a part for each object that its node alone moves, for at most `most` of them, the largest; one for what else
+    /// moves, where anything does; and all that stands still. An object is all that hangs on the same node that a clip
+    /// changes, and no other below it: without joints, morph targets and deformer.
+    ///
+    /// # Errors
+    /// Out of memory, or a lost device.
+    pub fn objects(&mut self, device: &Device, most: usize) -> Result<GeometryParts, GpuSceneError> {
+        self.divide(device, |draws, places| MovingTriangles::objects(draws, places, most))
+    }
+
+    fn divide(
+        &mut self,
+        device: &Device,
+        divided: impl FnOnce(&[DrawTriangles], &[DrawPlace]) -> MovingTriangles,
+    ) -> Result<GeometryParts, GpuSceneError> {
+        if let Some(division) = &self.parts {
+            return Ok(division.parts.clone());
+        }
+        let MovingTriangles { parts, static_bounds, part_of } = divided(&self.draws, &self.places);
+        let parts = self.geometry.in_parts(device, &parts, static_bounds)?;
+        Ok(self.parts.insert(Division { parts, part_of }).parts.clone())
+    }
+
+    /// What [`PosePass::parts`] or [`PosePass::objects`] made.
     pub fn divided(&self) -> Option<&GeometryParts> {
-        self.parts.as_ref()
+        self.parts.as_ref().map(|division| &division.parts)
+    }
+
+    /// Of each part that moves whether one pose has it elsewhere than another, or in another shape; in one part where the geometry
+    /// is not in parts. Both were made by [`PosePass::frame`].
+    pub fn moved_parts(&self, before: &FramePose, after: &FramePose) -> Vec<bool> {
+        let count = self.divided().map_or(1, |parts| parts.moving().len());
+        let deformed =
+            before.joints != after.joints || before.targets != after.targets || before.shapes != after.shapes;
+        let mut moved = vec![false; count];
+        for (number, place) in self.places.iter().enumerate() {
+            let is_moved = before.placements.get(number) != after.placements.get(number)
+                || (deformed && place.carrier.is_none());
+            let part = self.parts.as_ref().and_then(|division| division.part_of.get(number).copied());
+            moved[part.unwrap_or(0)] |= is_moved;
+        }
+        moved
     }
 
     /// For each draw of the geometry whether any clip can move it or a deformer changes it. All others stay where the tables
@@ -327,6 +361,14 @@ impl PosePass {
         let shapes = Some(self.shapes.bytes()).filter(|(_, bytes)| *bytes > 0);
         self.bytes_by_part.iter().copied().chain(shapes).collect()
     }
+}
+
+/// The geometry in parts.
+#[derive(Debug)]
+struct Division {
+    parts: GeometryParts,
+    /// The part of each moving draw, among those that move.
+    part_of: Vec<usize>,
 }
 
 /// Bytes into a buffer, in as many commands as it takes.

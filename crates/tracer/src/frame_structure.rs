@@ -42,6 +42,8 @@ pub struct StructureCounts {
     pub builds: u64,
     /// Of these, frames that built the static part, too; all of them where there are no parts.
     pub static_builds: u64,
+    /// Builds of parts in all frames; as many as `builds` where there are no parts.
+    pub part_builds: u64,
     /// Frames whose build was not complete.
     pub incomplete: u64,
     /// Times that pools grew.
@@ -88,7 +90,7 @@ pub struct FrameStructure {
     structure: Refresh,
     headroom: u32,
     slots: u32,
-    /// As the structure has them; the last one moves.
+    /// As the structure has them; all but the first move.
     parts: Vec<Part>,
     /// Slots of frames that were recorded and not finished, the oldest first.
     pending: VecDeque<u32>,
@@ -120,11 +122,27 @@ impl FrameStructure {
         self.counts
     }
 
-    /// The vertices have moved, or will have by the time that the next frame builds.
+    /// The vertices have moved, or will have by the time that the next frame builds: in parts those of all parts that move.
     pub fn geometry_moved(&mut self) {
-        if let Some(moving) = self.parts.last_mut() {
-            moving.built = None;
+        let first = usize::from(self.is_in_parts());
+        self.parts[first..].iter_mut().for_each(|part| part.built = None);
+    }
+
+    /// The same of parts that move, for each of them whether it moved; one that is not stated did. Without parts, all of the
+    /// vertices have moved where any have.
+    pub fn parts_moved(&mut self, moved: &[bool]) {
+        if !self.is_in_parts() {
+            if moved.is_empty() || moved.contains(&true) {
+                self.geometry_moved();
+            }
+            return;
         }
+        let moved = moved.iter().copied().chain(std::iter::repeat(true));
+        self.parts[1..]
+            .iter_mut()
+            .zip(moved)
+            .filter(|(_, moved)| *moved)
+            .for_each(|(part, _)| part.built = None);
     }
 
     /// Takes other triangles; all of them are built. Frames in flight keep those that they were recorded with.
@@ -215,7 +233,7 @@ impl FrameStructure {
         if slot >= self.slots || self.pending.contains(&slot) {
             return Err(self.wrong_slot(slot));
         }
-        let (mut any_made, mut static_made) = (false, false);
+        let (mut parts_made, mut static_made) = (0, false);
         for index in 0..self.parts.len() {
             let made = self.is_part_stale(index, viewpoint);
             if made {
@@ -234,13 +252,14 @@ impl FrameStructure {
             let build = part.built.map_or(part.builds, |built| built.number);
             part.used[slot as usize] = Some(Used { build, made });
             static_made |= made && index == 0;
-            any_made |= made;
+            parts_made += u64::from(made);
         }
         self.pending.push_back(slot);
         self.counts.frames += 1;
-        self.counts.builds += u64::from(any_made);
+        self.counts.builds += u64::from(parts_made > 0);
+        self.counts.part_builds += parts_made;
         self.counts.static_builds += u64::from(static_made);
-        Ok(any_made)
+        Ok(parts_made > 0)
     }
 
     /// Says what became of the build that a slot's frame was traced through; the caller has waited for the frame. Grows

@@ -78,6 +78,11 @@ impl Frames {
         self.structure.geometry_moved();
     }
 
+    /// As [`FrameStructure::parts_moved`].
+    pub fn parts_moved(&mut self, moved: &[bool]) {
+        self.structure.parts_moved(moved);
+    }
+
     /// As [`FrameStructure::set_geometry`].
     ///
     /// # Errors

@@ -7,9 +7,9 @@ use rasray_gpu::Device;
 pub enum Refresh {
     /// All triangles.
     All(Box<dyn Structure>),
-    /// The part that moves. The static part is built where it is stale itself: the first time, where its pools grew, for
-    /// other triangles, and from another view where the structure depends on it.
-    Moving(Box<Combined>),
+    /// The parts that moved. The static part, and those that did not move, are built where they are stale themselves: the first
+    /// time, where their pools grew, for other triangles, and from another view where the structure depends on it.
+    Parts(Box<Combined>),
 }
 
 impl Refresh {
@@ -17,7 +17,7 @@ impl Refresh {
     pub fn structure(&self) -> &dyn Structure {
         match self {
             Self::All(structure) => structure.as_ref(),
-            Self::Moving(combined) => combined.as_ref(),
+            Self::Parts(combined) => combined.as_ref(),
         }
     }
 
@@ -25,22 +25,22 @@ impl Refresh {
     pub(crate) fn structure_mut(&mut self) -> &mut dyn Structure {
         match self {
             Self::All(structure) => structure.as_mut(),
-            Self::Moving(combined) => combined.as_mut(),
+            Self::Parts(combined) => combined.as_mut(),
         }
     }
 
-    /// Parts that are built apart; the last one moves.
+    /// Parts that are built apart; all but the first move.
     pub(crate) fn count(&self) -> usize {
         match self {
             Self::All(_) => 1,
-            Self::Moving(_) => 2,
+            Self::Parts(combined) => combined.count(),
         }
     }
 
     pub(crate) fn part(&self, part: usize) -> &dyn Structure {
         match self {
             Self::All(structure) => structure.as_ref(),
-            Self::Moving(combined) => combined.parts()[part],
+            Self::Parts(combined) => combined.part(part),
         }
     }
 
@@ -51,14 +51,14 @@ impl Refresh {
     ) -> Result<T, AdsError> {
         match self {
             Self::All(structure) => change(structure.as_mut()),
-            Self::Moving(combined) => combined.change_part(part == 1, change),
+            Self::Parts(combined) => combined.change_part(part, change),
         }
     }
 
     pub(crate) fn set_parts(&mut self, device: &Device, parts: &GeometryParts) -> Result<(), AdsError> {
         match self {
-            Self::All(structure) => structure.set_geometry(device, parts.moving_part().whole()),
-            Self::Moving(combined) => combined.set_parts(device, parts),
+            Self::All(structure) => structure.set_geometry(device, parts.whole()),
+            Self::Parts(combined) => combined.set_parts(device, parts),
         }
     }
 
@@ -85,6 +85,6 @@ impl<S: Structure + 'static> From<Box<S>> for Refresh {
 
 impl From<Combined> for Refresh {
     fn from(combined: Combined) -> Self {
-        Self::Moving(Box::new(combined))
+        Self::Parts(Box::new(combined))
     }
 }

@@ -40,7 +40,7 @@ pub(crate) fn follow(
     let Some((stage, _)) = stage else { return Ok(()) };
     match traced.take() {
         Some(mut kept) if kept.config == *config => {
-            kept.built.follow(device, &stage.scene, kept.seconds != seconds)?;
+            kept.built.follow(device, &stage.scene, &[kept.seconds != seconds])?;
             kept.seconds = seconds;
             *traced = Some(kept);
         }

@@ -77,7 +77,7 @@ impl<'a> Studio<'a> {
     pub fn look(&mut self, camera: Camera) {
         self.view.camera = camera;
         self.stage.scene.update_camera(&self.view).expect("the frame can be written");
-        self.built.follow(self.bench.device(), &self.stage.scene, false).expect("the build completes");
+        self.built.follow(self.bench.device(), &self.stage.scene, &[false]).expect("the build completes");
     }
 
     /// Draws other random numbers from now on.

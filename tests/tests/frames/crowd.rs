@@ -128,7 +128,7 @@ impl Crowd {
 
     /// The same where only one part moves.
     pub fn record_move_parts(&self, recorder: &mut Recorder<'_>, slot: u32, parts: &GeometryParts) {
-        let triangles = parts.moving_part().whole().triangle_count();
+        let triangles = parts.whole().triangle_count();
         let size = u64::from(triangles) * size_of::<Triangle>() as u64;
         recorder.copy(&self.slots[slot as usize].positions, 0, &self.positions, 0, size);
         recorder.barrier(Access::TRANSFER_WRITE, Access::ALL);

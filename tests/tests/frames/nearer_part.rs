@@ -5,8 +5,8 @@ use std::ops::{ControlFlow, Range};
 
 use glam::DVec3;
 use rasray_ads::{
-    Combined, Counters, Geometry, Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Ray, Structure, StructureKind,
-    Surface, Viewpoint,
+    Combined, Counters, Geometry, Hit, MovingPart, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Ray, Structure,
+    StructureKind, Surface, Viewpoint,
 };
 use rasray_frame::{FrameInput, FrameRenderer, render_in_order};
 use rasray_gpu::Timing;
@@ -23,7 +23,7 @@ use rasray_tests::tier::{first, is_full};
 use rasray_tracer::{Keeping, build_until_complete};
 
 use crate::frames::kept::{Kept, Recorded};
-use crate::frames::parts::{bounds, divisions, doubled, rays};
+use crate::frames::parts::{bounds, divisions, doubled, many, rays};
 use crate::frames::refresh::{header, rays as rays_towards};
 use crate::frames::scenes::{among, made, swinging_hall, third, view};
 
@@ -141,6 +141,47 @@ fn hits_are_the_nearer_of_both_parts() {
     }
 }
 
+/// The nearest of what each of many parts alone has.
+#[test]
+fn hits_are_the_nearest_of_many_parts() {
+    let bench = Bench::new();
+    let mut random = Random::new(71);
+    let triangles = doubled(&mut random);
+    let rays = rays(&mut random, &triangles);
+    let whole = bench.geometry(&triangles);
+    let eye = [0.5; 3];
+    let moving = many(triangles.len() as u32);
+    let all = moving.concat();
+    let of = |ids: &Vec<Range<u32>>| MovingPart { ids: ids.clone(), bounds: bounds(&triangles, ids, true) };
+    let moving_parts: Vec<MovingPart> = moving.iter().map(of).collect();
+    let parts = whole.in_parts(bench.device(), &moving_parts, bounds(&triangles, &all, false));
+    let parts = parts.expect("they are parts");
+    for subject in first(&that_may_differ(), 3) {
+        let name = subject.name();
+        let alone = std::iter::once((&all, false)).chain(moving.iter().map(|ids| (ids, true)));
+        let alone: Vec<(Vec<Hit>, Vec<bool>)> = alone
+            .map(|(ids, inside)| {
+                Alone::new(&bench, &triangles, ids, inside).hits(&bench, subject, eye, &rays)
+            })
+            .collect();
+        let make = |part: &Geometry| subject.spec.create(bench.device(), part, None);
+        let mut structure = Combined::new(&parts, make).expect("any structure can be in parts");
+        let found = bench.build_and_trace(&mut structure, eye, &rays);
+        let occluded = bench.occluded(&structure, &rays);
+        let mut of_parts = vec![0; alone.len()];
+        for (at, hit) in found.iter().enumerate() {
+            let expected = alone.iter().map(|part| &part.0[at]).reduce(nearer).expect("there are parts");
+            assert_eq!(bits_of_any_build(hit), bits_of_any_build(expected), "{name}: {:?}", rays[at]);
+            assert_eq!(occluded[at], alone.iter().any(|part| part.1[at]), "{name}: {:?}", rays[at]);
+            let own = alone.iter().position(|part| std::ptr::eq(&part.0[at], expected));
+            of_parts[own.expect("it is of one")] += usize::from(hit.is_hit());
+        }
+        println!("{name}: {of_parts:?} hits in the parts");
+        let hit = |part: usize| of_parts[part] > 5;
+        assert!([0, 1, 2, 4, 5].into_iter().all(hit) && of_parts[3] == 0, "{name}: {of_parts:?}");
+    }
+}
+
 /// Payloads of the papers, with and without the ids of triangles, and what finds planes.
 fn payloads() -> Vec<Spec> {
     let spec = |system: &str, preset: &str, options: &[(&str, &str)]| {
@@ -213,9 +254,9 @@ fn hold(bench: &Bench, name: &str, scene: &Scene, times: &[f64], specs: &[Spec])
                 static_builds = counts.static_builds;
             }
             assert_eq!(counts.static_builds, static_builds, "{system}: the static part is built once");
-            let alone = [parts.static_part(), parts.moving_part()]
+            let alone = [parts.static_part(), &parts.parts()[1]]
                 .map(|part| built(bench, spec, part, &gpu, viewpoint));
-            let [all, of_moving] = [gpu.geometry(), parts.moving_part()].map(|part| {
+            let [all, of_moving] = [gpu.geometry(), &parts.parts()[1]].map(|part| {
                 let header = header(bench, part.header());
                 [header.lower, header.upper]
             });
@@ -276,7 +317,7 @@ fn compare(bench: &Bench, name: &str, scene: &Scene) {
     let gpu = GpuScene::upload(device, &tables, &view(scene, [16, 16], 0.0)).expect("it fits");
     let mut pass = PosePass::new(device, scene, &tables, &gpu).expect("it fits");
     let parts = pass.parts(device).expect("it fits");
-    let counts = [parts.moving_part(), gpu.geometry()].map(Geometry::triangle_count);
+    let counts = [&parts.parts()[1], gpu.geometry()].map(Geometry::triangle_count);
     println!("{name}: {} of {} triangles move", counts[0], counts[1]);
     let pose = |seconds: f64| {
         let posed = pass.frame(scene, &Moment { seconds, clips: vec![0] }).expect("it is the same scene");
@@ -309,7 +350,7 @@ fn compare(bench: &Bench, name: &str, scene: &Scene) {
                 *recorded = kept.build(bench, viewpoint);
             }
         }
-        let [all, of_moving] = [gpu.geometry(), parts.moving_part()].map(|part| {
+        let [all, of_moving] = [gpu.geometry(), &parts.parts()[1]].map(|part| {
             let header = header(bench, part.header());
             [header.lower, header.upper]
         });

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use rasray_ads::{
-    AdsError, Combined, Domain, Geometry, GeometryParts, Hit, Ray, RayQueue, Structure, StructureKind,
-    TraceMode,
+    AdsError, Combined, Domain, Geometry, GeometryParts, Hit, MovingPart, Ray, RayQueue, Structure,
+    StructureKind, TraceMode,
 };
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::invariance::{Subject, first_difference};
@@ -123,8 +123,8 @@ fn hits_in_parts_are_those_of_all_triangles() {
                 let found = subject.answers_of(&bench, [0.5; 3], &mut structure, &rays);
                 let different = first_difference(&found, &expected);
                 assert_eq!(different, None, "{name}, {which} move: {:?}", different.map(|ray| rays[ray]));
-                let (known, sizes) = (structure.parts(), structure.sizes().bytes());
-                assert_eq!(known.map(|part| part.sizes().bytes()).iter().sum::<u64>(), sizes);
+                let known = (0..structure.count()).map(|part| structure.part(part).sizes().bytes());
+                assert_eq!(known.sum::<u64>(), structure.sizes().bytes());
             }
         }
         // Nothing of this could go wrong unless rays hit what is there twice, with the lower id in either part.
@@ -145,6 +145,47 @@ fn hits_in_parts_are_those_of_all_triangles() {
     }
 }
 
+/// Five parts that move, of which one has a run in the middle, three have scattered triangles and one has none; the others stay.
+pub fn many(count: u32) -> Vec<Vec<Range<u32>>> {
+    let scattered =
+        |part| (0..count).filter(move |id| id % 5 == part && !(40..60).contains(id)).map(|id| id..id + 1);
+    vec![scattered(0).collect(), run(40..60), Vec::new(), scattered(1).collect(), scattered(3).collect()]
+}
+
+#[test]
+fn hits_in_many_parts_are_those_of_all_triangles() {
+    let bench = Bench::new();
+    let mut random = Random::new(61);
+    let triangles = doubled(&mut random);
+    let rays = rays(&mut random, &triangles);
+    let whole = bench.geometry(&triangles);
+    let moving = many(triangles.len() as u32);
+    let all: Vec<Range<u32>> = moving.concat();
+    let own = |ids: &Vec<Range<u32>>| MovingPart { ids: ids.clone(), bounds: bounds(&triangles, ids, true) };
+    let moving: Vec<MovingPart> = moving.iter().map(own).collect();
+    let parts = whole.in_parts(bench.device(), &moving, bounds(&triangles, &all, false));
+    let parts = parts.expect("they are parts");
+    for subject in &that_find_all() {
+        let name = subject.name();
+        let expected = subject.answers(&bench, [0.5; 3], &triangles, &rays);
+        let paused = Subject { spec: subject.spec.clone().with_work_budget(7), kind: subject.kind };
+        for subject in [subject, &paused] {
+            let make = |part: &Geometry| subject.spec.create(bench.device(), part, None);
+            let mut structure = Combined::new(&parts, make).expect("it finds every triangle");
+            let found = subject.answers_of(&bench, [0.5; 3], &mut structure, &rays);
+            let different = first_difference(&found, &expected);
+            assert_eq!(different, None, "{name}: {:?}", different.map(|ray| rays[ray]));
+        }
+        let mut of_parts = vec![0; parts.parts().len()];
+        for hit in &expected.closest {
+            let part = moving.iter().position(|part| part.ids.iter().any(|ids| ids.contains(&hit[1])));
+            of_parts[part.map_or(0, |part| part + 1)] += 1;
+        }
+        let hit = |part: usize| of_parts[part] > 10;
+        assert!([0, 1, 2, 4, 5].into_iter().all(hit) && of_parts[3] == 0, "{name}: {of_parts:?}");
+    }
+}
+
 /// Nothing is answered unless both parts are built.
 #[test]
 fn one_part_alone_gives_no_answer() {
@@ -161,7 +202,7 @@ fn one_part_alone_gives_no_answer() {
         Combined::new(&parts, |part| subject.spec.create(device, part, None))
             .expect("it finds every triangle")
     };
-    for moving in [false, true] {
+    for moving in [0, 1] {
         let mut structure = made();
         // Pools as large as they have to be, and one part not built.
         let sizes = {
@@ -210,8 +251,8 @@ fn what_cannot_be_in_parts_is_refused() {
     assert!(refused(&[0..4, 3..5]).contains("overlap"));
     assert!(refused(&run(7..count + 1)).contains(&count.to_string()));
     let parts = whole.parts(device, &[7..count, 2..2, 5..7], everywhere).expect("they are parts");
-    assert_eq!(parts.moving(), run(5..count));
-    assert!(parts.moving_part().parts(device, &[], everywhere).is_err(), "a part has no parts");
+    assert_eq!(parts.moving()[0].ids, run(5..count));
+    assert!(parts.parts()[1].parts(device, &[], everywhere).is_err(), "a part has no parts");
     // Other triangles: as many as before, or the caller says which of them move.
     let subject = that_find_all().into_iter().find(|subject| subject.name() == "bricks robust");
     let subject = subject.expect("the registry has bricks");

@@ -22,7 +22,7 @@ use rasray_tracer::{BatchTracer, FrameOutcome, Frames, Keeping, Refresh, TracerE
 use crate::frames::crowd::{Crowd, Shown};
 use crate::frames::kept::{Kept, Recorded};
 use crate::frames::parts::that_find_all;
-use crate::frames::scenes::{among, made, swinging_hall, third, view};
+use crate::frames::scenes::{among, hall_of_objects, made, swinging_hall, third, view};
 
 const RAYS: usize = 600;
 
@@ -77,17 +77,35 @@ fn specs() -> Vec<Spec> {
 
 /// Hits of frames of a scene at times, of everything built anew and of what moved alone.
 fn hold(bench: &Bench, name: &str, scene: &Scene, times: &[f64], specs: &[Spec]) {
+    hold_parts(bench, name, (scene, None), times, specs);
+}
+
+/// The same with a part for each of at most that many objects.
+fn hold_parts(
+    bench: &Bench,
+    name: &str,
+    (scene, objects): (&Scene, Option<usize>),
+    times: &[f64],
+    specs: &[Spec],
+) {
     let device = bench.device();
     let (gpu, mut pass) = stage(bench, scene, [16, 16]);
-    let parts = pass.parts(device).expect("it fits");
-    let (moving, whole) = (parts.moving_part().triangle_count(), gpu.geometry().triangle_count());
-    println!("{name}: {moving} of {whole} triangles move, in {} runs", parts.moving().len());
+    let parts = match objects {
+        None => pass.parts(device),
+        Some(most) => pass.objects(device, most),
+    };
+    let parts = parts.expect("it fits");
+    let moving: u32 = parts.parts()[1..].iter().map(rasray_ads::Geometry::triangle_count).sum();
+    let whole = gpu.geometry().triangle_count();
+    let runs: Vec<usize> = parts.moving().iter().map(|part| part.ids.len()).collect();
+    println!("{name}: {moving} of {whole} triangles move, in parts of {runs:?} runs");
     let measured = BoundsPass::new(device).expect("the device works");
     let mut still = 0;
     for spec in specs {
         let spec = spec.clone().with_counters(Counters::Sums);
         let binding = Some(gpu.binding());
-        let system = format!("{name}, {} {:?}", spec.system().name, spec.options());
+        let system_name = spec.system().name;
+        let system = format!("{name}, {system_name} {:?}", spec.options());
         let all = spec.create(device, gpu.geometry(), binding).expect("the options are valid");
         let combined =
             Combined::new(&parts, |part| spec.create(device, part, binding)).expect("it finds all");
@@ -98,18 +116,27 @@ fn hold(bench: &Bench, name: &str, scene: &Scene, times: &[f64], specs: &[Spec])
         let mut work = [[0; 3]; 2];
         let mut viewpoint = Viewpoint::from([0.0; 3]);
         let mut first = viewpoint;
+        let (mut before, mut moved) = (None, 0);
         for (frame, &seconds) in times.iter().enumerate() {
             let posed = pass.frame(scene, &moment(seconds)).expect("it is the same scene");
             device.submit(|recorder| pass.record(recorder, 0, &posed)).expect("the device works");
             let bounds = |header: GeometryHeader| [header.lower, header.upper];
             let [united, of_moving] =
-                [gpu.geometry(), parts.moving_part()].map(|part| bounds(header(bench, part.header())));
+                [gpu.geometry(), &parts.parts()[1]].map(|part| bounds(header(bench, part.header())));
             device.submit(|recorder| measured.record(recorder, gpu.geometry())).expect("the device works");
             assert_eq!(united, bounds(header(bench, gpu.geometry().header())), "{system}, frame {frame}");
             viewpoint = gpu.viewpoint_of(&view(scene, [16, 16], 0.01 * frame as f64));
             first = if frame == 0 { viewpoint } else { first };
             all.frames.geometry_moved();
-            kept.frames.geometry_moved();
+            match before.filter(|_| objects.is_some()) {
+                Some(before) => {
+                    let which = pass.moved_parts(&before, &posed);
+                    moved += which.iter().filter(|moved| **moved).count() as u64;
+                    kept.frames.parts_moved(&which);
+                }
+                None => kept.frames.geometry_moved(),
+            }
+            before = Some(posed);
             recorded = [all.build(bench, viewpoint), kept.build(bench, viewpoint)];
             let rays = rays(&mut random, united, of_moving);
             let (expected, answered) = (all.answers(bench, &rays), kept.answers(bench, &rays));
@@ -120,7 +147,7 @@ fn hold(bench: &Bench, name: &str, scene: &Scene, times: &[f64], specs: &[Spec])
                 work.iter_mut().zip(counted).for_each(|(sum, counted)| *sum += counted);
             }
             for hit in &answered.0 {
-                let moves = parts.moving().iter().any(|ids| ids.contains(&hit[1]));
+                let moves = parts.moving().iter().flat_map(|part| &part.ids).any(|ids| ids.contains(&hit[1]));
                 found[usize::from(moves)] += usize::from(hit[1] != u32::MAX);
             }
         }
@@ -145,10 +172,15 @@ fn hold(bench: &Bench, name: &str, scene: &Scene, times: &[f64], specs: &[Spec])
         still += usize::from(!eye_matters);
         // Cells of a small part have margins for rays from anywhere in the whole, so that these need not test all of it.
         let tests = work.map(|work| work[2]);
-        assert!(eye_matters || tests[1] <= 2 * tests[0], "{system}: {tests:?} tests");
-        assert!(counts.builds >= times.len() as u64, "{system}: {counts:?}");
+        assert!(objects.is_some() || eye_matters || tests[1] <= 2 * tests[0], "{system}: {tests:?} tests");
+        if objects.is_none() {
+            assert!(counts.builds >= times.len() as u64, "{system}: {counts:?}");
+        } else if system_name == "bvh" {
+            // Nothing else makes a tree stale.
+            assert_eq!(counts.part_builds, parts.parts().len() as u64 + moved, "{system}: {counts:?}");
+        }
     }
-    assert!(still > 1, "{name}: {still} systems whose static part is built once");
+    assert!(still >= specs.len().min(2), "{name}: {still} systems whose static part is built once");
 }
 
 #[test]
@@ -168,6 +200,19 @@ fn parts_of_a_hall_swing_with_masks() {
     hold(&bench, "every third", &swinging_hall(third), &times, &specs());
     hold(&bench, "everything", &swinging_hall(|_| true), &times, &specs()[..2]);
     hold(&bench, "nothing", &swinging_hall(|_| false), &times, &specs()[..2]);
+}
+
+/// Objects have parts of their own, which are built in frames in which they move.
+#[test]
+fn objects_are_built_where_they_move() {
+    let bench = Bench::new();
+    let times: Vec<f64> = (0..12).map(|frame| 0.18 * f64::from(frame)).collect();
+    let hall = hall_of_objects();
+    hold_parts(&bench, "objects", (&hall, Some(32)), &times, first(&specs(), 3));
+    // The largest has a part of its own, the others share one, and so does all of a figure.
+    hold_parts(&bench, "one object", (&hall, Some(1)), &times[..6], &specs()[1..2]);
+    let figure = among(made("walker:8k"), &made("cornell"));
+    hold_parts(&bench, "a figure", (&figure, Some(4)), &[0.0, 0.0, 0.9, 0.9], &specs()[1..2]);
 }
 
 #[test]

@@ -89,6 +89,48 @@ pub fn swinging_hall(moves: impl Fn(usize) -> bool) -> Scene {
     scene
 }
 
+/// The hall, of which every third instance turns about itself, grows and moves in a time of its own, between 0 and 2 s, and stands still in
+/// all others; two hang on one that moves. Every other one of these is mirrored while it moves.
+pub fn hall_of_objects() -> Scene {
+    let mut scene = swinging_hall(|_| false);
+    let mut channels = Vec::new();
+    for (number, node) in (0..scene.instances.len()).filter(|&node| third(node)).enumerate() {
+        let begin = 0.5 * (number % 4) as f64;
+        let times: Vec<f32> = [begin, begin + 0.4].map(|seconds| seconds as f32).to_vec();
+        let mut channel = |values| {
+            let interpolation = Interpolation::Linear;
+            channels.push(Channel { node, interpolation, times: times.clone(), values });
+        };
+        let angle = 0.2 + 0.1 * number as f32;
+        let turned = glam::Quat::from_rotation_y(angle) * glam::Quat::from_rotation_x(0.3);
+        channel(ChannelValues::Rotation(vec![[0.0, 0.0, 0.0, 1.0], turned.to_array()]));
+        let side = if number % 2 == 0 { -1.0 } else { 1.0 };
+        channel(ChannelValues::Scale(vec![[side, 1.0, 1.0], [1.3 * side, 0.6, 1.1]]));
+        channel(ChannelValues::Translation(vec![[0.0; 3], [0.3, 0.2, -0.1]]));
+        // About its own place.
+        let rig = &mut scene.animation.rig;
+        let placement = &mut rig.placements[node];
+        let base = rig.nodes.len();
+        let mut at = at_rest(format!("place {node}"));
+        at.transform = NodeTransform::Parts {
+            translation: placement.node_from_mesh.translation,
+            rotation: glam::DQuat::IDENTITY,
+            scale: DVec3::ONE,
+        };
+        rig.nodes.push(at);
+        rig.nodes[node].parent = Some(base);
+        placement.node_from_mesh.translation = DVec3::ZERO;
+    }
+    let rig = &mut scene.animation.rig;
+    let (first, second) = (1, 4);
+    for node in [0, 3] {
+        rig.nodes[node].parent = Some(if node == 0 { first } else { second });
+    }
+    rig.clips[0].channels = channels;
+    rig.clips[0].duration = 2.0;
+    scene
+}
+
 /// Every third one.
 pub fn third(node: usize) -> bool {
     node % 3 == 1

@@ -140,7 +140,7 @@ fn parts_that_nothing_was_built_for_are_not_traced() {
         });
         submitted.expect("the device works").value.expect("it is recorded");
     };
-    build(&mut structure, true);
+    build(&mut structure, 1);
     assert_no_answers(&bench, &structure, "the moving part alone");
     build_until_complete(device, &mut structure, EYE, Timing::None).expect("it is built");
     let found: Vec<_> = bench.trace(&structure, &rays()).hits.iter().map(bits_of_any_build).collect();
@@ -208,7 +208,7 @@ fn brute_force_waits_for_indices_that_are_gathered_and_triangles_that_are_counte
             ],
             Some(_) => Vec::new(),
         };
-        let of_parts = parts.iter().flat_map(|parts| [parts.static_part(), parts.moving_part()]);
+        let of_parts = parts.iter().flat_map(|parts| [parts.static_part(), &parts.parts()[1]]);
         for (geometry, is_whole) in
             std::iter::once((&geometry, true)).chain(of_parts.map(|part| (part, false)))
         {

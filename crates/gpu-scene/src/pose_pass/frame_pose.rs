@@ -105,6 +105,8 @@ impl Placer<'_> {
             ),
         );
         let target_count = targets.len() as u32 - first_target;
+        // Where no target counts, placements do not depend on those of other draws.
+        let first_target = if target_count > 0 { first_target } else { 0 };
         let placement = PosePlacement { first_target, target_count, ..PosePlacement::default() };
         if let Some(skin) = place.skin {
             let offset = anchors[skin] - self.frame_origin;

@@ -4,7 +4,8 @@ use rasray_scene::animation::{ChannelValues, DeformedMesh, NodeTransform, Rig};
 
 /// Nodes that any clip can move, and nodes whose morph targets it can.
 pub struct Moving {
-    nodes: Vec<bool>,
+    /// What a node is carried by: itself or the nearest node above it that a clip changes, absent where it stays.
+    nodes: Vec<Option<usize>>,
     weights: Vec<bool>,
 }
 
@@ -12,14 +13,14 @@ impl Moving {
     /// Linear in nodes and channels.
     pub fn of(rig: &Rig) -> Self {
         let count = rig.nodes.len();
-        let (mut nodes, mut weights) = (vec![None; count], vec![false; count]);
+        let (mut nodes, mut weights) = (vec![None::<Option<usize>>; count], vec![false; count]);
         for channel in rig.clips.iter().flat_map(|clip| &clip.channels) {
             let Some(node) = rig.nodes.get(channel.node) else { continue };
             match channel.values {
                 ChannelValues::Weights { .. } => weights[channel.node] = true,
                 // The format forbids to animate a matrix.
                 _ if matches!(node.transform, NodeTransform::Parts { .. }) => {
-                    nodes[channel.node] = Some(true);
+                    nodes[channel.node] = Some(Some(channel.node));
                 }
                 _ => {}
             }
@@ -32,15 +33,21 @@ impl Moving {
                 chain.push(node);
                 next = rig.nodes[node].parent;
             }
-            let above = next.and_then(|node| nodes[node]).unwrap_or(false);
+            let above = next.and_then(|node| nodes[node]).flatten();
             chain.into_iter().for_each(|node| nodes[node] = Some(above));
         }
-        Self { nodes: nodes.into_iter().map(|moves| moves == Some(true)).collect(), weights }
+        Self { nodes: nodes.into_iter().map(Option::flatten).collect(), weights }
     }
 
     /// Whether a node moves, by itself or with one above it.
     pub fn node(&self, node: usize) -> bool {
-        self.nodes.get(node).copied().unwrap_or(false)
+        self.carrier(node).is_some()
+    }
+
+    /// The nearest node, itself or above it, that a clip changes: what hangs on nodes with the same one keeps its place there.
+    /// Absent where it stays.
+    pub fn carrier(&self, node: usize) -> Option<usize> {
+        self.nodes.get(node).copied().flatten()
     }
 
     /// Whether vertices move that hang on a node and are deformed like this.
@@ -90,6 +97,7 @@ mod tests {
         };
         let moving = Moving::of(&rig);
         assert_eq!([0, 1, 2, 3, 4, 9].map(|node| moving.node(node)), [true, false, true, true, false, false]);
+        assert_eq!([0, 1, 2, 3].map(|node| moving.carrier(node)), [Some(3), None, Some(3), Some(3)]);
         let morphed = DeformedMesh { targets: vec![Default::default()], ..DeformedMesh::default() };
         assert!(moving.instance(&rig, 1, Some(&morphed)) && !moving.instance(&rig, 1, None));
         assert!(!moving.instance(&rig, 1, Some(&DeformedMesh::default())), "there is no target to show");

@@ -1,42 +1,109 @@
-//! Which triangles move, and where all others are.
+//! Which triangles move, together with what, and where all others are.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
+use rasray_ads::MovingPart;
+
+use super::sources::DrawPlace;
 use crate::Posed;
 
-/// Triangles that move.
+const EMPTY: [[f32; 3]; 2] = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+
+/// The triangles of a draw.
+#[derive(Clone, Debug)]
+pub struct DrawTriangles {
+    ids: Range<u32>,
+    /// At rest; empty without triangles.
+    bounds: [[f32; 3]; 2],
+}
+
+impl DrawTriangles {
+    /// Those of all draws, in the order of their triangles.
+    pub fn all(posed: &Posed) -> Vec<Self> {
+        let of = |first: u32, count: u32| {
+            let ids = first..first + count;
+            let mut bounds = EMPTY;
+            for &index in &posed.indices[3 * ids.start as usize..3 * ids.end as usize] {
+                let position = posed.positions[index as usize];
+                bounds = united(bounds, [position; 2]);
+            }
+            Self { ids, bounds }
+        };
+        posed.draws.iter().map(|draw| of(draw.first_triangle, draw.triangle_count)).collect()
+    }
+}
+
+/// Triangles that move, in parts that may move apart from each other.
 #[derive(Clone, Debug)]
 pub struct MovingTriangles {
-    /// Their ids: in order, no range empty, none that touch.
-    pub ids: Vec<Range<u32>>,
-    /// Corners of the bounds of all others, and of these at rest, metres relative to the frame origin; those of all where
-    /// there are none.
-    pub bounds: [[[f32; 3]; 2]; 2],
+    /// At least one, which has no triangles where nothing moves; with bounds at rest, metres relative to the frame origin, of
+    /// all triangles where it has none. Ids are in order, no range empty, none that touch.
+    pub parts: Vec<MovingPart>,
+    /// Bounds of all others; of all triangles where there are none.
+    pub static_bounds: [[f32; 3]; 2],
+    /// The part of each moving draw, in the order of the pose's draws.
+    pub part_of: Vec<usize>,
 }
 
 impl MovingTriangles {
-    /// Those of the draws that move.
-    pub fn of(posed: &Posed, moving_draws: &[bool]) -> Self {
-        let mut ids: Vec<Range<u32>> = Vec::new();
-        let empty = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
-        let mut bounds = [empty; 2];
-        for (draw, &moves) in posed.draws.iter().zip(moving_draws) {
-            let end = draw.first_triangle + draw.triangle_count;
-            match ids.last_mut() {
-                _ if !moves => {}
-                Some(last) if last.end == draw.first_triangle => last.end = end,
-                _ => ids.push(draw.first_triangle..end),
-            }
-            let [lower, upper] = &mut bounds[usize::from(moves)];
-            for &index in &posed.indices[3 * draw.first_triangle as usize..3 * end as usize] {
-                let position = posed.positions[index as usize];
-                for axis in 0..3 {
-                    lower[axis] = lower[axis].min(position[axis]);
-                    upper[axis] = upper[axis].max(position[axis]);
-                }
+    /// All that moves in one part.
+    pub fn together(draws: &[DrawTriangles], places: &[DrawPlace]) -> Self {
+        Self::divided(draws, places, vec![0; places.len()])
+    }
+
+    /// A part for each object that its node alone moves: all draws that the same node carries. Of those the `most` largest
+    /// have parts, the largest first; one more, the last, has all others and what deforms.
+    pub fn objects(draws: &[DrawTriangles], places: &[DrawPlace], most: usize) -> Self {
+        let mut sizes: BTreeMap<usize, usize> = BTreeMap::new();
+        for place in places {
+            if let Some(carrier) = place.carrier {
+                *sizes.entry(carrier).or_default() += draws[place.draw].ids.len();
             }
         }
-        let whole = [posed.lower, posed.upper];
-        Self { ids, bounds: bounds.map(|bounds| if bounds == empty { whole } else { bounds }) }
+        let mut carriers: Vec<(usize, usize)> = sizes.into_iter().collect();
+        carriers.sort_by_key(|&(_, triangles)| std::cmp::Reverse(triangles));
+        carriers.truncate(most);
+        let own = |place: &DrawPlace| {
+            let found = carriers.iter().position(|&(carrier, _)| Some(carrier) == place.carrier);
+            found.unwrap_or(carriers.len())
+        };
+        Self::divided(draws, places, places.iter().map(own).collect())
     }
+
+    /// The parts that moving draws are in.
+    fn divided(draws: &[DrawTriangles], places: &[DrawPlace], part_of: Vec<usize>) -> Self {
+        let count = part_of.iter().max().map_or(1, |last| last + 1);
+        let mut ids = vec![Vec::<Range<u32>>::new(); count];
+        // The static part is the last one here.
+        let mut bounds = vec![EMPTY; count + 1];
+        let mut moving = places.iter().zip(&part_of).peekable();
+        for (number, draw) in draws.iter().enumerate() {
+            let part = moving.next_if(|(place, _)| place.draw == number).map_or(count, |(_, part)| *part);
+            bounds[part] = united(bounds[part], draw.bounds);
+            let Some(ids) = ids.get_mut(part) else { continue };
+            match ids.last_mut() {
+                _ if draw.ids.is_empty() => {}
+                Some(last) if last.end == draw.ids.start => last.end = draw.ids.end,
+                _ => ids.push(draw.ids.clone()),
+            }
+        }
+        let whole = bounds.iter().copied().fold(EMPTY, united);
+        let stated = |bounds: [[f32; 3]; 2]| match (bounds == EMPTY, whole == EMPTY) {
+            (false, _) => bounds,
+            (true, false) => whole,
+            (true, true) => [[0.0; 3]; 2],
+        };
+        let static_bounds = stated(bounds[count]);
+        let parts =
+            ids.into_iter().zip(bounds).map(|(ids, bounds)| MovingPart { ids, bounds: stated(bounds) });
+        Self { parts: parts.collect(), static_bounds, part_of }
+    }
+}
+
+fn united(one: [[f32; 3]; 2], other: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
+    let each = |corner: usize, with: fn(f32, f32) -> f32| -> [f32; 3] {
+        std::array::from_fn(|axis| with(one[corner][axis], other[corner][axis]))
+    };
+    [each(0, f32::min), each(1, f32::max)]
 }

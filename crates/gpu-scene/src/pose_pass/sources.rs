@@ -54,6 +54,8 @@ pub struct DrawPlace {
     pub shape: Option<usize>,
     /// Words of the displacements of each morph target: positions, normals, tangents.
     pub targets: Vec<[u32; 3]>,
+    /// The node of the rig that carries it, and nothing else moves it; absent where it deforms.
+    pub carrier: Option<usize>,
 }
 
 /// The joints of a mesh and their place in the joint matrices. Each mesh has its own, so that what other meshes of a skin
@@ -203,6 +205,9 @@ impl Sources {
                 deformed,
                 shape: own_shape,
                 targets: words.targets,
+                carrier: placement
+                    .filter(|_| deformed.is_none() && own_shape.is_none())
+                    .and_then(|placement| moving.carrier(placement.node)),
             });
         }
         let shapes = shape_meshes.into_iter().zip(shape_words);
