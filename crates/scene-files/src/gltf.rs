@@ -27,6 +27,7 @@ mod conform;
 mod container;
 mod deformation;
 mod document;
+mod draco;
 mod elements;
 mod extensions;
 mod hierarchy;

@@ -6,6 +6,7 @@ use ::gltf::json::accessor::{ComponentType, GenericComponentType, IndexComponent
 use ::gltf::json::validation::Checked;
 
 use super::document::Document;
+use super::draco::{self, Elements};
 use crate::Limits;
 use rasray_scene::SceneError;
 
@@ -53,6 +54,30 @@ impl<'a> Layout<'a> {
         }
         // offset <= end <= bytes.len(), and no element takes less than a byte.
         Ok(Self { bytes: &bytes[offset as usize..], stride, size, count: count as usize })
+    }
+
+    /// The elements of an accessor that Draco compressed, which must be those that it claims.
+    fn of_stream(
+        document: &Document<'_>,
+        place: &str,
+        stream: &'a Elements,
+        component: ComponentType,
+        kind: Type,
+        count: u64,
+    ) -> Result<Self, SceneError> {
+        let Elements { bytes, count: found, .. } = stream;
+        if (stream.component, stream.components, *found as u64) != (component, kind.multiplicity(), count) {
+            let reason = format!(
+                "claims {count} elements of {} {}, but its Draco stream has {found} of {} {}",
+                kind.multiplicity(),
+                component_name(component),
+                stream.components,
+                component_name(stream.component)
+            );
+            return Err(document.invalid(place, reason));
+        }
+        let size = component.size() * stream.components;
+        Ok(Self { bytes, stride: size, size, count: *found })
     }
 
     fn elements(&self) -> impl Iterator<Item = &'a [u8]> + use<'a> {
@@ -179,12 +204,23 @@ fn resolve<'a>(document: &'a Document<'_>, index: usize) -> Result<Resolved<'a>,
         return Err(unknown("componentType"));
     };
     let Checked::Valid(kind) = accessor.type_ else { return Err(unknown("type")) };
+    let stream = draco::elements(document, index)?;
+    // Small integers and indices are as wide as their stream has them; what is normalized is a share of its own type.
+    let component = match stream {
+        Some(stream) if !accessor.normalized && component != ComponentType::F32 => stream.component,
+        _ => component,
+    };
     let size = element_size(component, kind);
-    let base = accessor.buffer_view.map(|view| {
-        let offset = accessor.byte_offset.unwrap_or_default().0;
-        Layout::of(document, &place, view.value(), offset, size, accessor.count.0, true)
-    });
-    let base = base.transpose()?;
+    let base = match stream {
+        Some(stream) => Some(Layout::of_stream(document, &place, stream, component, kind, accessor.count.0)?),
+        None => accessor
+            .buffer_view
+            .map(|view| {
+                let offset = accessor.byte_offset.unwrap_or_default().0;
+                Layout::of(document, &place, view.value(), offset, size, accessor.count.0, true)
+            })
+            .transpose()?,
+    };
     // After the bytes: a count that they contradict is an error of the file, whatever the limits.
     let count = small(document.path, &place, accessor.count.0, document.limits)?;
     let sparse = accessor.sparse.as_ref().map(|sparse| {

@@ -7,6 +7,7 @@ use std::path::Path;
 use ::gltf::json::Root;
 
 use super::buffers::Buffers;
+use super::draco::Streams;
 use super::unread::Unread;
 use super::{container, indices, json};
 use crate::{Limits, LoadOptions};
@@ -23,6 +24,7 @@ pub(super) struct Document<'a> {
     /// Transform of every node relative to its parent.
     pub locals: Vec<NodeTransform>,
     pub buffers: Buffers<'a>,
+    pub draco: Streams,
     /// What is remarked while the file is read.
     pub remarks: RefCell<Remarks>,
     /// Values of enumerations that the format does not know, by their place.
@@ -43,8 +45,20 @@ impl<'a> Document<'a> {
         Limits::check(path, "the number of nodes", root.nodes.len() as u64, limits.nodes, "nodes")?;
         indices::check(path, &root)?;
         let buffers = Buffers::new(&root, container.binary);
+        let draco = Streams::of(path, &root)?;
         let remarks = RefCell::new(remarks);
-        Ok(Self { path, limits, root, locals, buffers, remarks, unknown, unread, elements: Cell::new(0) })
+        Ok(Self {
+            path,
+            limits,
+            root,
+            locals,
+            buffers,
+            draco,
+            remarks,
+            unknown,
+            unread,
+            elements: Cell::new(0),
+        })
     }
 
     /// Counts elements that are about to be read.

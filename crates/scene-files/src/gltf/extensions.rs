@@ -10,8 +10,9 @@ use rasray_scene::remarks::Remarks;
 use rasray_scene::text::shown;
 
 /// Extensions that change the scene as they should.
-const SUPPORTED: [&str; 12] = [
+const SUPPORTED: [&str; 13] = [
     "EXT_mesh_gpu_instancing",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_emissive_strength",
@@ -58,7 +59,7 @@ pub(super) fn report<'a>(used: impl Iterator<Item = &'a String>, remarks: &mut R
 /// How to get rid of an extension.
 fn fix_for(name: &str) -> &'static str {
     match name {
-        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
+        "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
             "decompress the meshes first: npx @gltf-transform/cli copy in.glb out.glb"
         }
         "EXT_texture_webp" | "EXT_texture_avif" | "MSFT_texture_dds" => {

@@ -9,7 +9,7 @@ use super::accessor::read_integers;
 use super::attributes::{self, attribute};
 use super::document::Document;
 use super::hierarchy::Hierarchy;
-use super::{deformation, skins};
+use super::{deformation, draco, skins};
 use crate::Limits;
 use rasray_scene::animation::{DeformedMesh, Skin};
 use rasray_scene::pose::{Joints, deform};
@@ -90,6 +90,7 @@ pub(super) fn read(
     let primitive = &source.primitives[shown.primitive];
     let place = format!("meshes[{}].primitives[{}]", shown.mesh, shown.primitive);
     let Some((mode, positions)) = skipped.triangles_of(document, &place, primitive)? else { return Ok(None) };
+    draco::check(document, &place, primitive)?;
     let name = mesh_name(source.name.as_deref(), shown.mesh, shown.primitive, source.primitives.len());
     attributes::remark(document, &place, primitive);
     if let Some(unread) = document.unread.get(&(shown.mesh, shown.primitive)) {

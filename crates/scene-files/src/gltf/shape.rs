@@ -272,13 +272,15 @@ const MESH: &[Member] = &[
             may("material", Whole),
             may("mode", OpenCode(&[0, 1, 2, 3, 4, 5, 6])),
             may("targets", List(&Map(&Whole))),
-            PLAIN,
+            may("extensions", Extensions(&[may("KHR_draco_mesh_compression", Object(DRACO))])),
         ])),
     ),
     may("weights", List(&Number)),
     NAME,
     PLAIN,
 ];
+
+const DRACO: &[Member] = &[must("bufferView", Whole), must("attributes", Map(&Whole))];
 
 const NODE: &[Member] = &[
     may("camera", Whole),

@@ -127,6 +127,9 @@ await io.write("plain.glb", document);
 const run = (program, ...rest) => execFileSync("npx", [program, ...rest], { stdio: "inherit" });
 run("gltf-transform", "meshopt", "plain.glb", "gltf-transform-high.glb");
 run("gltf-transform", "meshopt", "--level", "medium", "plain.glb", "gltf-transform-medium.glb");
+run("gltf-transform", "draco", "plain.glb", "draco-edgebreaker.glb");
+run("gltf-transform", "draco", "--encode-speed", "0", "--decode-speed", "0", "plain.glb", "draco-valence.glb");
+run("gltf-transform", "draco", "--method", "sequential", "plain.glb", "draco-sequential.glb");
 // -af 0: the times of keys are those of the file.
 const pack = (output, ...options) => run("gltfpack", "-i", "plain.glb", "-o", output, "-kn", "-km", "-kv", "-af", "0", ...options);
 pack("gltfpack-quantized.glb");

@@ -149,6 +149,9 @@ fn compressed_scenes_equal_their_plain_twins() {
         ("gltfpack-floats.glb", 0.005, 1.0 / 255.0),
         // Its second file, the fallback, is not there.
         ("gltfpack-fallback.gltf", 0.008, 0.0),
+        ("draco-edgebreaker.glb", 0.0025, 0.0),
+        ("draco-valence.glb", 0.0025, 0.0),
+        ("draco-sequential.glb", 0.0025, 0.0),
     ] {
         let twin = read(file);
         let mut worst = compare(file, &plain, &twin);
@@ -249,6 +252,32 @@ fn what_views_say_of_their_streams_is_checked() {
     }
 }
 
+/// What accessors claim of a Draco stream is held against the stream.
+#[test]
+fn what_accessors_claim_of_draco_streams_is_checked() {
+    for (from, to, words) in [
+        (
+            r#""bufferView":7,"attributes":{"POSITION":0,"NORMAL":1"#,
+            r#""bufferView":99,"attributes":{"POSITION":0"#,
+            "refers to element 99, but there are only",
+        ),
+        (r#""POSITION":0"#, r#""POSITION":9"#, "is attribute 9 of bufferViews["),
+        (r#""count":89"#, r#""count":88"#, "claims 88 elements of 3 floats, but its Draco stream has 89"),
+        (r#""count":360"#, r#""count":363"#, "claims 363 elements of 1 unsigned"),
+        ("DRACO", "DRAKE", "is no mesh that Draco compressed"),
+    ] {
+        let error = match load_with("draco-edgebreaker.glb", from, to) {
+            Ok(_) => panic!("{to} loads"),
+            Err(error) => error.to_string(),
+        };
+        assert!(error.contains("draco-edgebreaker.glb: ") && error.contains(words), "{to}: {error}");
+    }
+    let path = folder().join("draco-edgebreaker.glb");
+    let limits = Limits { triangles: 100, ..Limits::default() };
+    let error = load(&path, &LoadOptions { limits, ..LoadOptions::default() }).expect_err("120 triangles");
+    assert!(error.to_string().contains("too large for the limits of scenes"), "{error}");
+}
+
 /// Bytes that are decoded count as bytes of buffers, and none are held for a stream that is too short for them.
 #[test]
 fn decoded_bytes_are_bounded() {
@@ -276,6 +305,9 @@ fn damaged_compressed_scenes_do_no_harm() {
         "gltf-transform-high.glb",
         "gltfpack-khr.glb",
         "gltfpack-floats.glb",
+        "draco-edgebreaker.glb",
+        "draco-valence.glb",
+        "draco-sequential.glb",
         "ktx2-etc1s.glb",
         "ktx2-uastc-zstd.glb",
     ] {
