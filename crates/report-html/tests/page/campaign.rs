@@ -106,7 +106,7 @@ fn points_of_one_system_are_named_by_what_it_was_asked_for() {
 #[test]
 fn a_single_run_has_a_table_and_no_plot() {
     let page = page(&lines()[..1]);
-    assert!(page.contains("<tr><td") && !page.contains("plotly.js v"));
+    assert!(page.contains("<tr><td") && !page.contains("plotly.js (basic"));
 }
 
 #[test]
