@@ -3,11 +3,11 @@
 //! facing the eye; id 32-bit unsigned global triangle id (4294967295: miss); samples how many are in the pixel's mean. A
 //! share of the samples has sums in R, G, B, and in samples how many each sum holds.
 
+use super::exr_channels::{Channels, Values};
 use super::exr_header::{CHECKSUM, NO_CHECKSUM, finish};
 use super::stamp::KEY;
 use exr::prelude::*;
 use rasray_experiment::{RenderOutput, Shard};
-use smallvec::SmallVec;
 use std::io::Cursor;
 
 /// What is written into the header of an image.
@@ -62,28 +62,23 @@ fn text(value: &str) -> Text {
 /// # Errors
 /// What the encoder says, in words.
 pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result<Vec<u8>, String> {
-    let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = SmallVec::new();
-    let component =
-        |pixels: &[[f32; 3]], axis: usize| FlatSamples::F32(pixels.iter().map(|pixel| pixel[axis]).collect());
+    let mut channels = Channels(Vec::new());
     let sums = output.sums.as_ref().filter(|_| metadata.part.is_some());
     let colours = sums.map_or(&output.beauty, |film| &film.sums);
-    for (axis, name) in ["R", "G", "B"].into_iter().enumerate() {
-        channels.push(AnyChannel::new(name, component(colours, axis)));
-    }
+    channels.add_axes(["R", "G", "B"], colours);
     if let Some(counts) = sums.map(|film| &film.counts).or(output.samples.as_ref()) {
-        channels.push(AnyChannel::new(SAMPLES, FlatSamples::U32(counts.clone())));
+        channels.add(SAMPLES, Values::Whole(counts));
     }
     if let Some(depth) = &output.depth {
-        channels.push(AnyChannel::new("Z", FlatSamples::F32(depth.clone())));
+        channels.add("Z", Values::Floats(depth));
     }
     if let Some(normal) = &output.normal {
-        for (axis, name) in ["N.X", "N.Y", "N.Z"].into_iter().enumerate() {
-            channels.push(AnyChannel::new(name, component(normal, axis)));
-        }
+        channels.add_axes(["N.X", "N.Y", "N.Z"], normal);
     }
     if let Some(primitive) = &output.primitive {
-        channels.push(AnyChannel::new("id", FlatSamples::U32(primitive.clone())));
+        channels.add("id", Values::Whole(primitive));
     }
+    channels.0.sort_unstable_by_key(|(name, _)| *name);
 
     let mut attributes = LayerAttributes { software_name: Some(text(&software())), ..Default::default() };
     let part = metadata.part.as_ref();
@@ -114,7 +109,7 @@ pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result
         blocks: Blocks::ScanLines,
         line_order: LineOrder::Increasing,
     };
-    let image = Image::from_layer(Layer::new(size, attributes, encoding, AnyChannels::sort(channels)));
+    let image = Image::from_layer(Layer::new(size, attributes, encoding, channels));
     let mut bytes = Cursor::new(Vec::new());
     image.write().to_unbuffered(&mut bytes).map_err(|error| error.to_string())?;
     let mut bytes = bytes.into_inner();

@@ -5,6 +5,7 @@ use super::exr_header::{is_readable, is_whole, number, text};
 use super::stamp::KEY;
 use exr::prelude::*;
 use rasray_experiment::{FilmSums, RenderOutput, Shard};
+use std::collections::BTreeMap;
 use std::io::Cursor;
 
 /// A share of a picture's samples, its header read and its bytes compared with their checksum.
@@ -64,37 +65,37 @@ impl PartFile {
             .all_channels()
             .first_valid_layer()
             .all_attributes()
-            .from_buffered(Cursor::new(&self.bytes))
+            .from_buffered(Cursor::new(self.bytes))
             .map_err(|error| error.to_string())?;
         let layer = image.layer_data;
-        let channel = |name: &str| {
-            let found = layer.channel_data.list.iter().find(|channel| channel.name.to_string() == name);
-            found.map(|channel| &channel.sample_data)
-        };
-        let floats = |name: &str| match channel(name) {
-            Some(FlatSamples::F32(values)) => Some(values.clone()),
+        // Each is taken once, so that there is no second copy.
+        let mut channels: BTreeMap<_, _> =
+            layer.channel_data.list.into_iter().map(|one| (one.name.to_string(), one.sample_data)).collect();
+        let floats = |samples| match samples {
+            Some(FlatSamples::F32(values)) => Some(values),
             _ => None,
         };
-        let whole = |name: &str| match channel(name) {
-            Some(FlatSamples::U32(values)) => Some(values.clone()),
+        let whole = |samples| match samples {
+            Some(FlatSamples::U32(values)) => Some(values),
             _ => None,
         };
-        let triples = |names: [&str; 3]| {
-            let [x, y, z] = names.map(floats);
+        let triples = |all: [Option<FlatSamples>; 3]| {
+            let [x, y, z] = all.map(floats);
             let pixels = x?.into_iter().zip(y?).zip(z?);
             Some(pixels.map(|((x, y), z)| [x, y, z]).collect::<Vec<_>>())
         };
+        let mut taken = |name: &str| channels.remove(name);
         let missing = || "it lacks the sums or the counts of its samples".to_owned();
         Ok(RenderOutput {
             width: layer.size.x() as u32,
             height: layer.size.y() as u32,
             sums: Some(FilmSums {
-                sums: triples(["R", "G", "B"]).ok_or_else(missing)?,
-                counts: whole(SAMPLES).ok_or_else(missing)?,
+                sums: triples(["R", "G", "B"].map(&mut taken)).ok_or_else(missing)?,
+                counts: whole(taken(SAMPLES)).ok_or_else(missing)?,
             }),
-            depth: floats("Z"),
-            normal: triples(["N.X", "N.Y", "N.Z"]),
-            primitive: whole("id"),
+            depth: floats(taken("Z")),
+            normal: triples(["N.X", "N.Y", "N.Z"].map(&mut taken)),
+            primitive: whole(taken("id")),
             samples_done: self.metadata.samples,
             ..RenderOutput::default()
         })

@@ -3,6 +3,7 @@
 mod cells;
 mod destination;
 mod exr;
+mod exr_channels;
 mod exr_header;
 mod exr_part;
 mod format;

@@ -5,15 +5,17 @@ use super::stamp::{KEY, TONE, tone_text};
 use crate::error::AppError;
 use rasray_experiment::RenderOutput;
 use rasray_metrics::{Tone, tone_map};
+use std::io::Write;
 
 /// The bytes of a PNG file of the colours, with how they are shown, and a key where it has one.
 ///
 /// # Errors
 /// What the encoder says, in words.
 pub fn encode(output: &RenderOutput, tone: Tone, key: Option<&str>) -> Result<Vec<u8>, String> {
+    let rows = output.beauty.chunks(output.width.max(1) as usize);
     let shown = tone_text(tone);
     let texts = [key.map(|key| (KEY, key)), Some((TONE, &shown))];
-    encode_bytes(&tone_map(&output.beauty, tone), [output.width, output.height], texts.into_iter().flatten())
+    encode_rows(rows.map(|row| tone_map(row, tone)), [output.width, output.height], texts.into_iter().flatten())
 }
 
 /// The bytes of a PNG file of pixels of three bytes each, rows from the top; the size in pixels.
@@ -21,31 +23,42 @@ pub fn encode(output: &RenderOutput, tone: Tone, key: Option<&str>) -> Result<Ve
 /// # Errors
 /// [`AppError::Refused`] with what the encoder says.
 pub(crate) fn encode_picture(pixels: &[u8], size: [u32; 2]) -> Result<Vec<u8>, AppError> {
-    encode_bytes(pixels, size, [])
+    let rows = pixels.chunks(3 * size[0].max(1) as usize);
+    encode_rows(rows, size, [])
         .map_err(|error| AppError::refused(format!("the picture could not be encoded: {error}"), ""))
 }
 
-/// The same with texts, each by its name, and the error in words.
-fn encode_bytes<'a>(
-    pixels: &[u8],
-    [width, height]: [u32; 2],
+/// The same of rows, with texts, each by its name, and the error in words.
+fn encode_rows<'a>(
+    rows: impl Iterator<Item = impl AsRef<[u8]>>,
+    size: [u32; 2],
     texts: impl IntoIterator<Item = (&'a str, &'a str)>,
 ) -> Result<Vec<u8>, String> {
-    let write = |bytes: &mut Vec<u8>| {
-        let mut encoder = png::Encoder::new(bytes, width, height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_compression(png::Compression::Fast);
-        for (name, text) in texts {
-            encoder.add_text_chunk(name.to_owned(), text.to_owned())?;
-        }
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(pixels)?;
-        writer.finish()
-    };
     let mut bytes = Vec::new();
-    write(&mut bytes).map_err(|error: png::EncodingError| error.to_string())?;
+    write_rows(&mut bytes, rows, size, texts).map_err(|error| error.to_string())?;
     Ok(bytes)
+}
+
+fn write_rows<'a>(
+    bytes: &mut Vec<u8>,
+    rows: impl Iterator<Item = impl AsRef<[u8]>>,
+    [width, height]: [u32; 2],
+    texts: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> Result<(), png::EncodingError> {
+    let mut encoder = png::Encoder::new(bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    for (name, text) in texts {
+        encoder.add_text_chunk(name.to_owned(), text.to_owned())?;
+    }
+    let mut writer = encoder.write_header()?;
+    let mut pixels = writer.stream_writer()?;
+    for row in rows {
+        pixels.write_all(row.as_ref())?;
+    }
+    pixels.finish()?;
+    writer.finish()
 }
 
 #[cfg(test)]
