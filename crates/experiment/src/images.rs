@@ -11,7 +11,7 @@ use crate::contestant::Contestant;
 use crate::device_scene::device_error;
 use crate::error::ExperimentError;
 use crate::jobs::{Comparison, Frame, OccluderKind, Primary};
-use crate::render::render_pixels;
+use crate::render::{Kept, render_pixels};
 use crate::rendering::Rendering;
 use rasray_report::figures::{Images, SystemImage};
 use rasray_report::{ImageError, PassOf, Run};
@@ -109,7 +109,8 @@ pub(super) fn compare_images(
         let task = format!("image {}", config.system.name);
         Rendering::check(frame, &built)?;
         let mut rendering = Rendering::new(device, stage, frame, None, &job.needs)?;
-        let pixels = render_pixels(device, &mut rendering, &built, (true, &task), progress)?;
+        let mut pixels =
+            render_pixels(device, &mut rendering, &built, (true, &task, Kept::default()), progress)?;
         if pixels.samples_done < frame.spp {
             return Ok(());
         }
@@ -119,7 +120,7 @@ pub(super) fn compare_images(
         rendering.write_memory(run.memory.get_or_insert_default());
         run.adaptive = frame.adaptive.map(|rule| pixels.adaptive(rule));
         pixels.write_times(&mut run.times);
-        let beauty = pixels.means();
+        let beauty = std::mem::take(&mut pixels.means);
         run.stages.extend(pixels.passes.stages());
         run.passes.extend(pixels.passes.report(Some(PassOf::Image)));
         run.counters = Some(pixels.counters);

@@ -29,6 +29,7 @@ mod frame;
 mod hard;
 mod hard_file;
 mod hard_verdict;
+mod image_memory;
 mod images;
 mod jobs;
 mod kept_files;

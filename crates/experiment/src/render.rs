@@ -5,13 +5,14 @@ use std::time::Instant;
 use rasray_frame::Adaptive;
 use rasray_gpu::{Device, Stage};
 use rasray_gpu_scene::View;
-use rasray_integrators::{AovPixel, FilmPixel};
+use rasray_integrators::{AovPixel, Film, FilmPixel};
 use rasray_scene::needs::Needs;
 
 use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
 use crate::device_scene::{DeviceScene, device_error, frame_error};
 use crate::error::ExperimentError;
+use crate::image_memory;
 use crate::jobs::{AovSelection, FilmSums, Frame, Refresh, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::rendering::Rendering;
@@ -20,8 +21,18 @@ use crate::system_config::SystemConfig;
 use rasray_report::{AdaptiveRecord, Counters, PassOf, Times};
 
 /// Pixels and what they cost.
+#[derive(Default)]
 pub(super) struct Pixels {
-    film: Vec<FilmPixel>,
+    /// Linear Rec. 709, W/(sr m^2).
+    pub(super) means: Vec<[f32; 3]>,
+    /// Of samples, where they are kept.
+    sums: Option<Vec<[f32; 3]>>,
+    /// Samples in each pixel's sum, where they are kept.
+    counts: Option<Vec<u32>>,
+    /// Samples of all pixels.
+    samples: u64,
+    /// Of the pixel that has most.
+    samples_most: u32,
     pub(super) samples_done: u32,
     pub(super) passes: Passes,
     pub(super) counters: Counters,
@@ -30,28 +41,31 @@ pub(super) struct Pixels {
 }
 
 impl Pixels {
-    /// Linear Rec. 709, W/(sr m^2).
-    pub(super) fn means(&self) -> Vec<[f32; 3]> {
-        self.film.iter().map(FilmPixel::mean).collect()
-    }
-
-    fn sums(&self) -> FilmSums {
-        FilmSums { sums: self.film.iter().map(|pixel| pixel.sum).collect(), counts: self.counts() }
-    }
-
-    /// Samples in each pixel's sum.
-    fn counts(&self) -> Vec<u32> {
-        self.film.iter().map(|pixel| pixel.samples).collect()
+    /// The pixels of a film, without what they cost.
+    fn of(film: &Film, device: &Device, kept: Kept) -> Result<Self, ExperimentError> {
+        let count = film.pixel_count() as usize;
+        let mut means = Vec::with_capacity(count);
+        let mut sums = kept.sums.then(|| Vec::with_capacity(count));
+        let mut counts = kept.counts.then(|| Vec::with_capacity(count));
+        let (mut samples, mut samples_most) = (0, 0);
+        let take = |pixels: &[FilmPixel]| {
+            means.extend(pixels.iter().map(FilmPixel::mean));
+            sums.iter_mut().for_each(|sums| sums.extend(pixels.iter().map(|pixel| pixel.sum)));
+            counts.iter_mut().for_each(|counts| counts.extend(pixels.iter().map(|pixel| pixel.samples)));
+            samples += pixels.iter().map(|pixel| u64::from(pixel.samples)).sum::<u64>();
+            samples_most = pixels.iter().map(|pixel| pixel.samples).fold(samples_most, u32::max);
+        };
+        film.read_bands(device, take).map_err(device_error)?;
+        Ok(Self { means, sums, counts, samples, samples_most, ..Self::default() })
     }
 
     /// How samples were shared among the pixels by a rule.
     pub(super) fn adaptive(&self, rule: Adaptive) -> AdaptiveRecord {
-        let all: u64 = self.film.iter().map(|pixel| u64::from(pixel.samples)).sum();
         AdaptiveRecord {
             threshold: rule.threshold,
             least_samples: rule.least,
-            samples_mean: all as f64 / self.film.len().max(1) as f64,
-            samples_most: self.film.iter().map(|pixel| pixel.samples).max().unwrap_or(0),
+            samples_mean: self.samples as f64 / self.means.len().max(1) as f64,
+            samples_most: self.samples_most,
         }
     }
 
@@ -65,12 +79,19 @@ impl Pixels {
     }
 }
 
+/// What of a film is kept in addition to the means.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Kept {
+    sums: bool,
+    counts: bool,
+}
+
 /// Renders the samples of an image through a built structure; kernels that are `new` are used once before.
 pub(super) fn render_pixels(
     device: &Device,
     rendering: &mut Rendering,
     built: &Built,
-    (new, task): (bool, &str),
+    (new, task, kept): (bool, &str, Kept),
     progress: &mut OnProgress<'_>,
 ) -> Result<Pixels, ExperimentError> {
     let mut first_use_ms = None;
@@ -85,15 +106,15 @@ pub(super) fn render_pixels(
     let mut counters = built.counters()?;
     counters.unfinished = Some(image.unfinished());
     counters.cut = (faults.cut > 0).then(|| faults.cut.into());
-    let film = image.film().read_pixels(device).map_err(device_error)?;
+    let mut pixels = Pixels::of(image.film(), device, kept)?;
     if image.passes().integrator().selects() {
         let selected = u64::from(faults.selected_low) | u64::from(faults.selected_high) << 32;
-        let samples = film.iter().map(|pixel| u64::from(pixel.samples)).sum::<u64>();
-        let samples = samples + u64::from(faults.non_finite);
+        let samples = pixels.samples + u64::from(faults.non_finite);
         counters.selected_share = (samples > 0).then(|| selected as f64 / samples as f64);
     }
-    let samples_done = image.samples_done();
-    Ok(Pixels { film, samples_done, passes: std::mem::take(&mut rendering.passes), counters, first_use_ms })
+    pixels.samples_done = image.samples_done();
+    pixels.passes = std::mem::take(&mut rendering.passes);
+    Ok(Pixels { counters, first_use_ms, ..pixels })
 }
 
 /// What a device has of a scene that is rendered at one moment after the other: the scene, the structure, the image. Begin
@@ -202,6 +223,10 @@ pub(super) fn render(
 ) -> Result<RenderOutput, ExperimentError> {
     let started = Instant::now();
     let frame = &job.frame;
+    // Images after the first of a sequence take its memory again.
+    if kept.0.is_none() {
+        image_memory::check(device, frame, job.aovs, job.shard.is_some())?;
+    }
     let (mut on_device, posing) = on_device(device, job, kept.0.take(), progress)?;
     let OnDevice { stage, built, rendering, is_warm, .. } = &mut on_device;
     for _ in 0..job.repetitions {
@@ -210,7 +235,8 @@ pub(super) fn render(
         }
         built.build_again(device)?;
     }
-    let pixels = render_pixels(device, rendering, built, (!*is_warm, "render"), progress)?;
+    let kept_of_film = Kept { sums: job.shard.is_some(), counts: job.shard.is_some() || job.aovs.samples };
+    let mut pixels = render_pixels(device, rendering, built, (!*is_warm, "render", kept_of_film), progress)?;
     let (options, mut paths) = built.resolved()?;
     if job.refresh != Refresh::All {
         paths.insert("refresh".to_owned(), job.refresh.name().to_owned());
@@ -230,17 +256,20 @@ pub(super) fn render(
     let mut times = Times { pose_ms: posing.median_of(|_| true), ..Times::default() };
     pixels.write_times(&mut times);
     built.write_times(&mut times);
+    let adaptive = frame.adaptive.map(|rule| pixels.adaptive(rule));
+    let samples = job.aovs.samples.then(|| pixels.counts.clone()).flatten();
+    let sums = pixels.sums.take().zip(pixels.counts.take()).map(|(sums, counts)| FilmSums { sums, counts });
     let mut output = RenderOutput {
         width: frame.width,
         height: frame.height,
-        beauty: pixels.means(),
-        sums: job.shard.map(|_| pixels.sums()),
+        beauty: std::mem::take(&mut pixels.means),
+        sums,
         depth: None,
         normal: None,
         primitive: None,
-        samples: job.aovs.samples.then(|| pixels.counts()),
+        samples,
         samples_done: pixels.samples_done,
-        adaptive: frame.adaptive.map(|rule| pixels.adaptive(rule)),
+        adaptive,
         options,
         paths,
         stages,
@@ -252,12 +281,16 @@ pub(super) fn render(
     };
     if (AovSelection { samples: false, ..job.aovs }) != AovSelection::default() {
         _ = progress(Progress { task: "render", done: 0, total: 0, unit: "additional images" });
-        let mut found = Vec::new();
-        let take = |pixels: &[AovPixel]| found.extend_from_slice(pixels);
+        let AovSelection { depth, normal, primitive, .. } = job.aovs;
+        output.depth = depth.then(Vec::new);
+        output.normal = normal.then(Vec::new);
+        output.primitive = primitive.then(Vec::new);
+        let take = |found: &[AovPixel]| {
+            output.depth.iter_mut().for_each(|all| all.extend(found.iter().map(|pixel| pixel.distance)));
+            output.normal.iter_mut().for_each(|all| all.extend(found.iter().map(|pixel| pixel.normal)));
+            output.primitive.iter_mut().for_each(|all| all.extend(found.iter().map(|pixel| pixel.primitive)));
+        };
         rendering.image().aovs(&stage.scene, built.structure(), take).map_err(frame_error)?;
-        output.depth = job.aovs.depth.then(|| found.iter().map(|pixel| pixel.distance).collect());
-        output.normal = job.aovs.normal.then(|| found.iter().map(|pixel| pixel.normal).collect());
-        output.primitive = job.aovs.primitive.then(|| found.iter().map(|pixel| pixel.primitive).collect());
     }
     output.times.frame_ms = Some(started.elapsed().as_secs_f64() * 1.0e3);
     *kept = KeptScene(Some(on_device).filter(|on_device| on_device.stage.is_moving()));

@@ -1,0 +1,150 @@
+//! Whether an image fits the memory of device and host, before anything is made.
+
+use rasray_gpu::Device;
+use rasray_integrators::FilmPixel;
+use rasray_report::{bytes as in_words, grouped};
+
+use crate::error::ExperimentError;
+use crate::jobs::{AovSelection, Frame};
+
+/// Bytes per pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct PerPixel {
+    device: u64,
+    host: u64,
+}
+
+const NUMBER: u64 = size_of::<u32>() as u64;
+const COLOUR: u64 = size_of::<[f32; 3]>() as u64;
+
+/// What the pilot of adaptive samples keeps: mean, squares, sum, and two numbers of samples.
+const PILOT: u64 = 5 * NUMBER;
+
+impl PerPixel {
+    /// Of an image with these further images; with sums where it is a share of the samples.
+    fn of(frame: &Frame, aovs: AovSelection, has_sums: bool) -> Self {
+        let AovSelection { depth, normal, primitive, samples } = aovs;
+        let kept = [
+            (true, COLOUR),
+            (has_sums, COLOUR + NUMBER),
+            (samples, NUMBER),
+            (depth, NUMBER),
+            (normal, COLOUR),
+            (primitive, NUMBER),
+            (frame.adaptive.is_some(), PILOT),
+        ];
+        let listed = if frame.adaptive.is_some() { NUMBER } else { 0 };
+        Self {
+            device: size_of::<FilmPixel>() as u64 + listed,
+            host: kept.iter().filter(|(is_kept, _)| *is_kept).map(|(_, bytes)| bytes).sum(),
+        }
+    }
+}
+
+/// Memory that there is, bytes.
+#[derive(Clone, Copy, Debug)]
+struct There {
+    /// Of the device; absent where it is the host's.
+    device: Option<u64>,
+    /// Of the host; absent where it is not known.
+    host: Option<u64>,
+}
+
+impl There {
+    fn of(device: &Device) -> Self {
+        let of_device = device.limits().device_local_bytes;
+        Self { device: (!device.is_software()).then_some(of_device), host: available_to_host() }
+    }
+
+    /// # Errors
+    /// An image with so many pixels does not fit.
+    fn check(self, [width, height]: [u32; 2], per_pixel: PerPixel) -> Result<(), ExperimentError> {
+        let pixels = u64::from(width) * u64::from(height);
+        let refused = |bytes: u64, there: u64, whose: &str| {
+            let message = format!(
+                "an image of {width} x {height} pixels takes {} ({bytes} bytes a pixel), and {whose} has {}",
+                in_words(pixels * bytes),
+                in_words(there)
+            );
+            let most = grouped(there / bytes);
+            (
+                message,
+                format!("choose a --size of at most {most} pixels in all, or leave out --aov and --adaptive"),
+            )
+        };
+        let PerPixel { device, host } = per_pixel;
+        if let Some(there) = self.device.filter(|there| pixels * device > *there) {
+            let (message, help) = refused(device, there, "the device");
+            return Err(ExperimentError::device(message, help));
+        }
+        let bytes = if self.device.is_some() { host } else { host + device };
+        if let Some(there) = self.host.filter(|there| pixels * bytes > *there) {
+            let (message, help) = refused(bytes, there, "this machine");
+            return Err(ExperimentError::usage(message, help));
+        }
+        Ok(())
+    }
+}
+
+/// Refuses an image that the memory of the device, or that of the host, does not hold.
+///
+/// # Errors
+/// Says how large it may be.
+pub(crate) fn check(
+    device: &Device,
+    frame: &Frame,
+    aovs: AovSelection,
+    has_sums: bool,
+) -> Result<(), ExperimentError> {
+    There::of(device).check([frame.width, frame.height], PerPixel::of(frame, aovs, has_sums))
+}
+
+/// Bytes that a process may still take, where the system says so: those that are free or can be made so, and no more than the
+/// limit of its group.
+fn available_to_host() -> Option<u64> {
+    let free = std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| available(&text))?;
+    let limit = std::fs::read_to_string("/sys/fs/cgroup/memory.max").ok();
+    Some(limit.and_then(|text| text.trim().parse().ok()).map_or(free, |limit: u64| free.min(limit)))
+}
+
+/// `MemAvailable` of `/proc/meminfo`, bytes.
+fn available(text: &str) -> Option<u64> {
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    kibibytes.checked_mul(1 << 10)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GIBIBYTE: u64 = 1 << 30;
+    const PLAIN: PerPixel = PerPixel { device: 16, host: 12 };
+
+    #[test]
+    fn an_image_that_does_not_fit_is_refused_with_the_size_that_does() {
+        let size = [8192, 8192];
+        let check = |device, host| There { device, host }.check(size, PLAIN);
+        // 64 Mi pixels: 1 GiB on the device, three quarters of one on the host.
+        assert!(check(Some(GIBIBYTE), Some(GIBIBYTE)).is_ok());
+        assert!(check(None, Some(2 * GIBIBYTE)).is_ok() && check(None, None).is_ok());
+        let device = check(Some(GIBIBYTE / 2), None).expect_err("the device is too small");
+        assert!(matches!(device, ExperimentError::Device { .. }), "{device}");
+        let expected =
+            "an image of 8192 x 8192 pixels takes 1.00 GiB (16 bytes a pixel), and the device has 512.00 MiB";
+        assert_eq!(device.to_string(), expected);
+        assert!(device.help().contains("at most 33,554,432 pixels"), "{}", device.help());
+        let shared = check(None, Some(GIBIBYTE)).expect_err("device and host share what there is");
+        assert!(matches!(shared, ExperimentError::Usage { .. }) && shared.to_string().contains("1.75 GiB"));
+        let host = check(Some(GIBIBYTE), Some(GIBIBYTE / 2)).expect_err("the host is too small");
+        assert!(host.to_string().contains("768.00 MiB (12 bytes a pixel)"), "{host}");
+    }
+
+    #[test]
+    fn what_the_system_says_is_read() {
+        let text =
+            "MemTotal:       24684084 kB\nMemFree:  160 kB\nMemAvailable:   20437580 kB\nBuffers: 1 kB\n";
+        assert_eq!(available(text), Some(20_437_580 << 10));
+        assert_eq!(available("MemTotal: 1 kB\n"), None);
+    }
+}
