@@ -26,33 +26,44 @@ uint random_scramble_reversed(uint bits, uint seed) {
     return bits;
 }
 
-uint random_scramble(uint bits, uint seed) {
-    return bitfieldReverse(random_scramble_reversed(bitfieldReverse(bits), seed));
-}
+// All Sobol dimensions of an index have their bits in reverse: bit k is worth 2^-(k + 1).
 
-// Second Sobol dimension from the first: Pascal's triangle modulo 2, applied bit by bit.
+// The second dimension of the index whose reverse is `first`: Pascal's triangle modulo 2, applied bit by bit.
 uint random_sobol_second(uint first) {
     first ^= first << 16;
     first ^= (first & 0x00FF00FFu) << 8;
     first ^= (first & 0x0F0F0F0Fu) << 4;
     first ^= (first & 0x33333333u) << 2;
-    return first ^ ((first & 0x55555555u) << 1);
+    return bitfieldReverse(first ^ ((first & 0x55555555u) << 1));
 }
 
-// Third and fourth Sobol dimension of an index, by the recurrences of x^2 + x + 1 and x^3 + x + 1.
-uvec2 random_sobol_others(uint index) {
-    uvec2 point = uvec2(0u);
-    uvec2 v0 = uvec2(1u, 1u) << 31;
-    uvec2 v1 = uvec2(3u, 3u) << 30;
-    uvec2 v2 = uvec2(v1.x ^ v0.x ^ (v0.x >> 2), 1u << 29);
-    for (; index != 0u; index >>= 1) {
-        if ((index & 1u) != 0u) point ^= v0;
-        uvec2 next = uvec2(v2.x ^ v1.x ^ (v1.x >> 2), v1.y ^ v0.y ^ (v0.y >> 3));
-        v0 = v1;
-        v1 = v2;
-        v2 = next;
-    }
-    return point;
+// In each field of 2 * degree * block bits, a polynomial over GF(2): divides it by
+// x^(degree * block) + x^block + 1 and leaves the quotient above the remainder. The masks are the uppermost block of the
+// fields, their upper halves, and their lower halves without the lowest block.
+uint random_sobol_divide(uint fields, uint degree, uint block, uint top, uint upper, uint lower) {
+    fields ^= (fields & top) >> ((degree - 1u) * block);
+    uint quotient = (fields & upper) >> (degree * block);
+    return fields ^ quotient ^ ((quotient << block) & lower);
+}
+
+// The third and the fourth dimension, of the primitive polynomials p = x^2 + x + 1 and x^3 + x + 1 of degree s. The
+// recurrence of the directions V is that of the powers of x where p = y^s and y halves. So the index, as a polynomial in
+// x, is written in base p, by dividing by p^8, p^4, p^2 and p, which have three terms like p; then digit j is worth
+// y^(s j) times its sum of V_0 ... V_(s-1), which are 1, 1 + y and y^2.
+uint random_sobol_third(uint index) {
+    index = random_sobol_divide(index, 2u, 8u, 0xFF000000u, 0xFFFF0000u, 0x0000FF00u);
+    index = random_sobol_divide(index, 2u, 4u, 0xF000F000u, 0xFF00FF00u, 0x00F000F0u);
+    index = random_sobol_divide(index, 2u, 2u, 0xC0C0C0C0u, 0xF0F0F0F0u, 0x0C0C0C0Cu);
+    index = random_sobol_divide(index, 2u, 1u, 0x88888888u, 0xCCCCCCCCu, 0x22222222u);
+    return index ^ ((index >> 1) & 0x55555555u);
+}
+
+uint random_sobol_fourth(uint index) {
+    index = random_sobol_divide(index, 3u, 8u, 0x00000000u, 0xFF000000u, 0x00FFFF00u);
+    index = random_sobol_divide(index, 3u, 4u, 0x00F00000u, 0x00FFF000u, 0xF0000FF0u);
+    index = random_sobol_divide(index, 3u, 2u, 0x00C00C00u, 0xC0FC0FC0u, 0x3C03C03Cu);
+    index = random_sobol_divide(index, 3u, 1u, 0x20820820u, 0x38E38E38u, 0x86186186u);
+    return index ^ ((index >> 1) & 0x49249249u);
 }
 
 // The four numbers of a group of dimensions: Sobol points in an order of their own, each dimension scrambled.
@@ -60,9 +71,11 @@ uvec4 random_group(uint pixel, uint sample_index, uint group) {
     uvec4 words = random_words(uvec4(pixel, RANDOM_GROUP_KEY, group, random_seed()));
     uint order = words.x ^ (words.z * 0x9e3779b9u);
     uint reversed = random_scramble_reversed(bitfieldReverse(sample_index), order);
-    uvec2 others = random_sobol_others(bitfieldReverse(reversed));
-    return uvec4(random_scramble(others.x, words.x), random_scramble(others.y, words.y),
-                 random_scramble(reversed, words.z), random_scramble(random_sobol_second(reversed), words.w));
+    uint index = bitfieldReverse(reversed);
+    return bitfieldReverse(uvec4(random_scramble_reversed(random_sobol_third(index), words.x),
+                                 random_scramble_reversed(random_sobol_fourth(index), words.y),
+                                 random_scramble_reversed(index, words.z),
+                                 random_scramble_reversed(random_sobol_second(reversed), words.w)));
 }
 
 // A number of the sampler without groups.
