@@ -15,7 +15,11 @@ pub fn encode(output: &RenderOutput, tone: Tone, key: Option<&str>) -> Result<Ve
     let rows = output.beauty.chunks(output.width.max(1) as usize);
     let shown = tone_text(tone);
     let texts = [key.map(|key| (KEY, key)), Some((TONE, &shown))];
-    encode_rows(rows.map(|row| tone_map(row, tone)), [output.width, output.height], texts.into_iter().flatten())
+    encode_rows(
+        rows.map(|row| tone_map(row, tone)),
+        [output.width, output.height],
+        texts.into_iter().flatten(),
+    )
 }
 
 /// The bytes of a PNG file of pixels of three bytes each, rows from the top; the size in pixels.
