@@ -1,7 +1,7 @@
 // What: one step of every path that continues, where surfaces let light pass in a straight line. Paths and their shadow
 // rays take turns in one queue: a path that asks for a shadow ray waits until that has ended, however many surfaces it
 // passes. Where a path ends, its radiance is added to its pixel.
-// Reads: rays and surfaces of the queue, path states, waiting paths, scene, geometry. Writes: path states, waiting paths,
+// Reads: rays and surfaces (or hits) of the queue, path states, waiting paths, scene, geometry. Writes: path states, waiting paths,
 // film, rays of the queue (the next closest-hit round); selects the slots that have a ray to trace.
 // Source: docs/shading.md, "Paths" and "Straight through".
 #version 460

@@ -1,5 +1,5 @@
 // What: paths of a wave as the kernels that shade them find and leave them.
-// Reads, writes: path states, surfaces of the queue. What a scene without transmission, or without anything that lets light
+// Reads: hits and surfaces of the queue, the scene. Reads, writes: path states. What a scene without transmission, or without anything that lets light
 // pass in a straight line, never changes is neither stored nor read.
 // Source: wavefront path tracing as in pbrt-v4, section 15.
 #ifndef INTEGRATORS_PATH_STORAGE_GLSL
@@ -39,10 +39,17 @@ void path_keep(uint slot, PathState state) {
     }
 }
 
-// What the ray of a slot hit; a miss where it hit nothing.
+// What the ray of a slot hit; a miss where it hit nothing. SURFACES_OF_HITS: the surface is that of the triangle, and is
+// looked up here; otherwise the queue has it.
 Surface path_surface(uint slot, Ray ray) {
+#ifdef SURFACES_OF_HITS
+    Hit hit = queue_hit(slot);
+    if (hit.primitive == PRIMITIVE_NONE) return surface_miss(ray);
+    return scene_surface(ray, hit.t, hit.primitive, vec2(hit.a, hit.b));
+#else
     if (queue_surfaces[slot].valid == 0u) return surface_miss(ray);
     return queue_surface(slot);
+#endif
 }
 
 #endif

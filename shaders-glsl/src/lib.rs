@@ -171,6 +171,7 @@ mod tests {
                 // What masks, backs and hits need of a triangle is found by its id, which parts of a geometry look up.
                 ("ads/trace.comp", "brute" | "bvh" | "bricks" | "grid") => 10_000,
                 // Anisotropic materials have a texture and tangents of their own.
+                ("integrators/path_shade.comp", _) if shader.name.ends_with(".hits") => 25_000,
                 ("integrators/path_shade.comp", _) => 20_000,
                 _ => 32_000,
             };

@@ -84,6 +84,7 @@ impl Design for Passes {
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
+    const HAS_SURFACES_OF_TRIANGLES: bool = true;
 
     fn kind(config: &Config) -> StructureKind {
         if config.is_exact() { StructureKind::Primitive } else { StructureKind::LossyPrimitive }

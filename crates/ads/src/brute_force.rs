@@ -80,6 +80,10 @@ impl Structure for BruteForce {
         StructureKind::Primitive
     }
 
+    fn has_surfaces_of_triangles(&self) -> bool {
+        self.kernels.surfaces(TracedPart::Whole).is_some()
+    }
+
     fn requirements(&self) -> Requirements {
         Self::requirements_of()
     }

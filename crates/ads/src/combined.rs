@@ -129,6 +129,10 @@ impl Structure for Combined {
         self.parts[0].kind()
     }
 
+    fn has_surfaces_of_triangles(&self) -> bool {
+        self.parts[0].has_surfaces_of_triangles()
+    }
+
     fn requirements(&self) -> Requirements {
         self.parts[0].requirements()
     }

@@ -108,6 +108,8 @@ pub trait Design: fmt::Debug + Sized {
     const UNSORTED: Option<usize> = None;
     /// What it shares with its shaders, the header first.
     const RECORDS: &'static [RecordLayout];
+    /// Whether the surface of every hit is `scene_surface` of its triangle.
+    const HAS_SURFACES_OF_TRIANGLES: bool = false;
 
     /// What its hits are.
     fn kind(config: &Self::Config) -> StructureKind;

@@ -174,6 +174,10 @@ impl<D: Design> Structure for Pooled<D> {
         D::kind(&self.parts.config)
     }
 
+    fn has_surfaces_of_triangles(&self) -> bool {
+        D::HAS_SURFACES_OF_TRIANGLES && self.kernels.surfaces(TracedPart::Whole).is_some()
+    }
+
     fn requirements(&self) -> Requirements {
         Self::requirements_of(&self.parts.config)
     }

@@ -101,6 +101,12 @@ pub trait Structure {
     /// What its hits are.
     fn kind(&self) -> StructureKind;
 
+    /// Whether the surface of every hit is that of its triangle at its barycentrics (`scene_surface`), which needs nothing of
+    /// the structure: kernels that shade may look it up in place of [`Structure::record_surfaces`]. False without a scene.
+    fn has_surfaces_of_triangles(&self) -> bool {
+        false
+    }
+
     /// Device features that it uses.
     fn requirements(&self) -> Requirements;
 

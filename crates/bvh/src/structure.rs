@@ -147,6 +147,7 @@ impl Design for Tree {
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] =
         &[Header::LAYOUT, Node::LAYOUT, WideNode::LAYOUT, Record::LAYOUT];
+    const HAS_SURFACES_OF_TRIANGLES: bool = true;
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Primitive

@@ -107,8 +107,7 @@ pub(super) fn compare_images(
             built.build_again(device)?;
         }
         let task = format!("image {}", config.system.name);
-        Rendering::check(frame, &built)?;
-        let mut rendering = Rendering::new(device, stage, frame, None, &job.needs)?;
+        let mut rendering = Rendering::new(device, (stage, &built), frame, None, &job.needs)?;
         let mut pixels =
             render_pixels(device, &mut rendering, &built, (true, &task, Kept::default()), progress)?;
         if pixels.samples_done < frame.spp {

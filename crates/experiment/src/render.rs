@@ -209,7 +209,7 @@ fn on_device(
             rendering.scene_moved();
             rendering
         }
-        None => Rendering::new(device, &stage, &job.frame, job.shard, &job.needs)?,
+        None => Rendering::new(device, (&stage, &built), &job.frame, job.shard, &job.needs)?,
     };
     Ok((OnDevice { stage, built, rendering, made_for, is_warm }, shown.times()))
 }

@@ -117,21 +117,25 @@ pub struct Rendering {
     /// What is on the film.
     pub(super) image: ImageRenderer,
     pub(super) passes: Passes,
+    /// Its kernels look up the surfaces of hits.
+    of_hits: bool,
 }
 
 impl Rendering {
     /// Allocates the film of a frame and makes its integrator; nothing is rendered. The scene's view has the size of the
-    /// frame. With a shard only its samples are made.
+    /// frame. With a shard only its samples are made. `built` is what will be traced, or what has hits like it
+    /// ([`Rendering::serves`]).
     ///
     /// # Errors
-    /// The device fails, or the frame asks for more than the integrator does.
+    /// The device fails, the frame asks for more than the integrator does, or for first hits that `built` does not have.
     pub fn new(
         device: &Device,
-        stage: &DeviceScene,
+        (stage, built): (&DeviceScene, &Built),
         frame: &Frame,
         shard: Option<Shard>,
         needs: &Needs,
     ) -> Result<Self, ExperimentError> {
+        Self::check(frame, built)?;
         let film = Film::new(device, frame.width, frame.height);
         let film = match frame.adaptive {
             Some(_) => film.and_then(|film| film.listed(device)),
@@ -142,6 +146,7 @@ impl Rendering {
         if *needs == Needs::all() {
             desc.features = rasray_gpu_scene::ShadingFeatures::ALL;
         }
+        desc.surfaces_of_hits = built.structure().has_surfaces_of_triangles();
         let passes = ImagePasses::from(integrator(frame, &desc)?);
         let passes = passes.with_visibility(visibility(device, stage, frame)?);
         let passes = if frame.primary == Primary::Fragments { passes.with_stored_hits() } else { passes };
@@ -153,7 +158,12 @@ impl Rendering {
             None => image,
         };
         let image = image.map_err(frame_error)?;
-        Ok(Self { image, passes: Passes::default() })
+        Ok(Self { image, passes: Passes::default(), of_hits: desc.surfaces_of_hits })
+    }
+
+    /// Whether it renders what `built` holds, without kernels of its own.
+    pub fn serves(&self, built: &Built) -> bool {
+        !self.of_hits || built.structure().has_surfaces_of_triangles()
     }
 
     /// Refuses a structure without the first hits that the frame takes from it.
@@ -239,7 +249,7 @@ impl Rendering {
         task: &str,
         progress: &mut OnProgress<'_>,
     ) -> Result<(), ExperimentError> {
-        let Self { image, passes } = self;
+        let Self { image, passes, .. } = self;
         let after = |image: &ImageRenderer, step: Advance| {
             if !keep_times(passes, &step) {
                 return ControlFlow::Continue(());

@@ -76,6 +76,7 @@ impl Design for Passes {
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
+    const HAS_SURFACES_OF_TRIANGLES: bool = true;
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Primitive

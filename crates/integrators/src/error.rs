@@ -65,6 +65,12 @@ pub enum IntegratorError {
     /// Some pixels of a film were asked for that has no list of the pixels of such a band.
     #[error("the film has no list of pixels of this band: make it with `Film::listed`")]
     NotListed,
+    /// Kernels look surfaces up by hits, and what is traced does not allow that.
+    #[error("surfaces of {structure} are not those of triangles alone: leave out `surfaces_of_hits`")]
+    SurfacesOfHits {
+        /// What is traced.
+        structure: &'static str,
+    },
     /// Waves without rays, or with more than there can be.
     #[error("a wave of up to {capacity} rays cannot be made: from 1 to {WAVE_LIMIT} are possible")]
     WaveCapacity {

@@ -20,6 +20,10 @@ pub struct IntegratorDesc<'a> {
     pub wave_capacity: u32,
     /// Shading code that is compiled in: [`GpuScene::features`], or [`ShadingFeatures::ALL`].
     pub features: ShadingFeatures,
+    /// Kernels that shade look up the surfaces of hits themselves, which saves storing and reading them, where an integrator
+    /// can ([`Path`](crate::Path)). What is traced must then be
+    /// [`Structure::has_surfaces_of_triangles`](rasray_ads::Structure::has_surfaces_of_triangles). No picture changes.
+    pub surfaces_of_hits: bool,
 }
 
 impl<'a> IntegratorDesc<'a> {
@@ -31,6 +35,7 @@ impl<'a> IntegratorDesc<'a> {
             film,
             wave_capacity: wave_capacity(device).min(film.pixel_count()),
             features: scene.features(),
+            surfaces_of_hits: false,
         }
     }
 

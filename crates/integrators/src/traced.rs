@@ -3,7 +3,7 @@
 use rasray_ads::{AdsError, Domain, Occluder, RayQueue, Structure, TraceMode};
 use rasray_gpu::Recorder;
 
-use crate::{Fetch, Visibility, Wave};
+use crate::{Fetch, IntegratorError, Visibility, Wave};
 
 /// What finds what camera rays hit.
 #[derive(Clone, Copy, Debug, Default)]
@@ -35,17 +35,19 @@ pub struct Traced<'a> {
     pub primary: FirstHits<'a>,
     /// Fetches the surfaces of what is traced by drawing; where absent, the structure looks them up.
     pub fetch: Option<&'a Fetch>,
+    /// Surfaces are looked up by what shades them, of the hits in the queue.
+    of_hits: bool,
 }
 
 impl<'a> From<&'a dyn Structure> for Traced<'a> {
     fn from(structure: &'a dyn Structure) -> Self {
-        Self { closest: structure, occluder: None, primary: FirstHits::Traced, fetch: None }
+        Self { closest: structure, occluder: None, primary: FirstHits::Traced, fetch: None, of_hits: false }
     }
 }
 
 impl<'a, S: Structure> From<&'a S> for Traced<'a> {
     fn from(structure: &'a S) -> Self {
-        Self { closest: structure, occluder: None, primary: FirstHits::Traced, fetch: None }
+        Self { closest: structure, occluder: None, primary: FirstHits::Traced, fetch: None, of_hits: false }
     }
 }
 
@@ -66,6 +68,17 @@ impl<'a> Traced<'a> {
     #[must_use]
     pub fn with_fetch(self, fetch: Option<&'a Fetch>) -> Self {
         Self { fetch, ..self }
+    }
+
+    /// The same without surfaces in the queue, for a kernel that looks them up by the hits.
+    ///
+    /// # Errors
+    /// Surfaces of the structure are not those of the triangles that its hits name.
+    pub(crate) fn with_surfaces_of_hits(self) -> Result<Self, IntegratorError> {
+        if !self.closest.has_surfaces_of_triangles() {
+            return Err(IntegratorError::SurfacesOfHits { structure: self.closest.name() });
+        }
+        Ok(Self { of_hits: true, ..self })
     }
 
     /// Records hits and surfaces of the camera rays of a wave.
@@ -106,6 +119,7 @@ impl<'a> Traced<'a> {
         self.closest.record_trace(recorder, queue, domain, TraceMode::Closest, self.closest.rounds());
         match self.fetch {
             Some(fetch) => fetch.record(recorder, queue, domain, self.closest.kind()),
+            None if self.of_hits => Ok(()),
             None => self.closest.record_surfaces(recorder, queue, domain),
         }
     }

@@ -280,7 +280,7 @@ impl Engine {
     ) -> Result<Step, ExperimentError> {
         let Self { device, stage, traced, preview, settings, .. } = self;
         let (Some((stage, needs)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
-        let kept = preview.take().filter(|preview| preview.size == size);
+        let kept = preview.take().filter(|kept| kept.size == size && kept.serves(&traced.built));
         let films = preview.insert(match kept {
             Some(films) => films,
             None => {
@@ -447,9 +447,9 @@ fn opened<'a>(
     built: &Built,
     say: &mut dyn FnMut(&str),
 ) -> Result<&'a mut Rendering, ExperimentError> {
-    if film.is_none() {
+    if film.as_ref().is_none_or(|film| !film.serves(built)) {
         say("first use of the shaders");
-        let mut made = Rendering::new(device, stage, frame, None, needs)?;
+        let mut made = Rendering::new(device, (stage, built), frame, None, needs)?;
         made.warm_up(built)?;
         *film = Some(made);
     }

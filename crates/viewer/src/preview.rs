@@ -57,7 +57,7 @@ impl Preview {
         built: &Built,
     ) -> Result<Self, ExperimentError> {
         let open = |frame: &Frame| -> Result<Rendering, ExperimentError> {
-            let mut made = Rendering::new(device, stage, frame, None, needs)?;
+            let mut made = Rendering::new(device, (stage, built), frame, None, needs)?;
             made.warm_up(built)?;
             Ok(made)
         };
@@ -78,6 +78,11 @@ impl Preview {
             Some(surfaces) if surfaces.image().samples_done() <= done => surfaces,
             _ => &mut self.light,
         }
+    }
+
+    /// Whether its films can show what is traced.
+    pub(crate) fn serves(&self, built: &Built) -> bool {
+        self.light.serves(built) && self.surfaces.as_ref().is_none_or(|surfaces| surfaces.serves(built))
     }
 
     /// That of the light, which is the last to have a sample.

@@ -8,7 +8,8 @@ use rasray_scene::ShadowTerminator;
 use rasray_scene::needs::Workload;
 use rasray_shaders_glsl::{
     INTEGRATORS_FILM_ACCUMULATE, INTEGRATORS_PATH_RESOLVE, INTEGRATORS_PATH_SHADE,
-    INTEGRATORS_PATH_SHADE_PASSING, INTEGRATORS_PRIMARY,
+    INTEGRATORS_PATH_SHADE_HITS, INTEGRATORS_PATH_SHADE_PASSING, INTEGRATORS_PATH_SHADE_PASSING_HITS,
+    INTEGRATORS_PRIMARY,
     constant_ids::integrators::PATHS_PASS_PANES,
     constant_ids::scene::{SPECULAR_IS_WARD, TERMINATOR_IS_SMOOTH},
     constants::scene::PATH_LAYER_LIMIT,
@@ -73,6 +74,8 @@ pub struct Path {
     bindings: Bindings,
     primary: Kernel,
     shade: Kernel,
+    /// It looks up surfaces by the hits in the queue.
+    of_hits: bool,
     /// Finds surfaces in place of the structure.
     fetch: Option<Fetch>,
 }
@@ -120,7 +123,13 @@ impl Path {
             let accumulate = bindings.kernel(device, &INTEGRATORS_FILM_ACCUMULATE, &[])?.of_film();
             (Shadows::Occluded { queue, pending, resolve, accumulate }, bindings)
         };
-        let shader = if passing { &INTEGRATORS_PATH_SHADE_PASSING } else { &INTEGRATORS_PATH_SHADE };
+        let of_hits = desc.surfaces_of_hits && fetch == Fetching::Direct;
+        let shader = match (passing, of_hits) {
+            (false, false) => &INTEGRATORS_PATH_SHADE,
+            (false, true) => &INTEGRATORS_PATH_SHADE_HITS,
+            (true, false) => &INTEGRATORS_PATH_SHADE_PASSING,
+            (true, true) => &INTEGRATORS_PATH_SHADE_PASSING_HITS,
+        };
         let mut constants = Vec::from(desc.features.constants());
         constants.push((PATHS_PASS_PANES, panes.into()));
         constants.push((TERMINATOR_IS_SMOOTH, (shadow_terminator == ShadowTerminator::Offset).into()));
@@ -131,6 +140,7 @@ impl Path {
             features: desc.features,
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
             shade: bindings.kernel(device, shader, &constants)?,
+            of_hits,
             fetch: (fetch == Fetching::Raster)
                 .then(|| Fetch::new(device, desc.scene, capacity))
                 .transpose()?,
@@ -154,6 +164,12 @@ impl Path {
     /// What fetches surfaces by drawing, where they are.
     pub fn fetch(&self) -> Option<&Fetch> {
         self.fetch.as_ref()
+    }
+
+    /// What is traced, with surfaces found as the kernel expects them.
+    fn finding<'a>(&'a self, traced: Traced<'a>) -> Result<Traced<'a>, IntegratorError> {
+        let traced = traced.with_fetch(self.fetch.as_ref());
+        if self.of_hits { traced.with_surfaces_of_hits() } else { Ok(traced) }
     }
 
     /// The rounds of paths whose shadow rays end at whatever they hit, and all of the film.
@@ -218,7 +234,7 @@ impl Integrator for Path {
     ) -> Result<(), IntegratorError> {
         self.bindings.record_camera_rays(recorder, &self.primary, &self.queue, wave)?;
         self.queue.record_select_none(recorder);
-        let traced = traced.with_fetch(self.fetch.as_ref());
+        let traced = self.finding(traced)?;
         match &self.shadows {
             Shadows::Occluded { queue, resolve, accumulate, .. } => {
                 self.record_occluded(recorder, (traced, wave), (queue, resolve, accumulate))
@@ -236,9 +252,7 @@ impl Integrator for Path {
         self.bindings.check(&self.queue, wave)?;
         match &self.shadows {
             Shadows::Occluded { .. } => Ok(()),
-            Shadows::Passing { .. } => {
-                self.record_passing(recorder, traced.with_fetch(self.fetch.as_ref()), wave, true)
-            }
+            Shadows::Passing { .. } => self.record_passing(recorder, self.finding(traced)?, wave, true),
         }
     }
 

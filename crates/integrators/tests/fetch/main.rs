@@ -2,7 +2,7 @@
 //! path.
 
 use crate::pictures::common::{
-    assert_silent, box_inside, device, forward_camera, lambert, scene,
+    are_same, assert_silent, box_inside, device, forward_camera, lambert, scene,
     scenes::{glass_room, textured_room, veiled_room},
 };
 use crate::visibility::{Random, bits, drawing_device, perspective, soup, turned};
@@ -43,11 +43,12 @@ impl Stage {
         Self { device: device.clone(), scene, structure }
     }
 
-    fn render(&self, bounces: u32, capacity: u32, fetch: Fetching) -> Rendered {
+    fn render(&self, bounces: u32, capacity: u32, fetch: Fetching, surfaces_of_hits: bool) -> Rendered {
         let [width, height] = self.scene.image_size();
         let film = Film::new(&self.device, width, height).expect("the film fits");
         let desc = IntegratorDesc {
             wave_capacity: capacity,
+            surfaces_of_hits,
             ..IntegratorDesc::new(&self.device, &self.scene, &film)
         };
         let path = Path::new(&desc, PathOptions { fetch, ..PathOptions::from(bounces) }).expect("valid");
@@ -75,8 +76,15 @@ impl Stage {
         let mut all = FetchCounts::default();
         let triangles = self.scene.geometry().triangle_count();
         for bounces in [0, 1, 3] {
-            let direct = self.render(bounces, capacity, Fetching::Direct);
-            let drawn = self.render(bounces, capacity, Fetching::Raster);
+            let direct = self.render(bounces, capacity, Fetching::Direct, false);
+            let drawn = self.render(bounces, capacity, Fetching::Raster, false);
+            // Surfaces that the shading kernel looks up are not stored.
+            let of_hits = self.render(bounces, capacity, Fetching::Direct, true);
+            assert!(
+                of_hits.waves.iter().all(|(_, surfaces)| surfaces.iter().all(|surface| surface.valid == 0))
+            );
+            let is_same = are_same(&self.device, &of_hits.image, &direct.image);
+            assert!(is_same, "{name}, {bounces} bounces: surfaces of hits");
             assert_eq!((direct.counts, direct.bytes), (None, 0));
             assert_eq!(drawn.bytes, formula_bytes(capacity, triangles), "{name}");
             for ((hits, surfaces), (other_hits, others)) in drawn.waves.iter().zip(&direct.waves) {
@@ -188,5 +196,24 @@ fn devices_that_cannot_draw_are_refused() {
     let refused = Path::new(&desc, options).expect_err("stores of fragments are missing");
     assert!(matches!(refused, IntegratorError::CannotFetch { .. }), "{refused:?}");
     assert!(refused.to_string().contains("fragmentStoresAndAtomics"), "{refused}");
+    assert_silent(&device);
+}
+
+/// Without a scene a structure has no surfaces, whoever looks them up.
+#[test]
+fn surfaces_of_hits_are_refused_where_a_structure_has_none() {
+    let device = device();
+    let cornell = builtin::builtin("cornell").expect("a built-in scene").expect("no parameters");
+    let stage = Stage::new(&device, &cornell, cornell.cameras[0].clone(), [8, 8]);
+    let without = BruteForce::new(&device, stage.scene.geometry(), None, false).expect("it can be made");
+    let film = Film::new(&device, 8, 8).expect("the film fits");
+    let desc = IntegratorDesc { surfaces_of_hits: true, ..IntegratorDesc::new(&device, &stage.scene, &film) };
+    let path = Path::new(&desc, 1).expect("valid");
+    let render = |structure| {
+        let wave = film.bands().waves([0], 64).next().expect("one wave");
+        path.render_wave(&device, rasray_gpu::Timing::None, Traced::from(structure), wave).map(drop)
+    };
+    assert!(matches!(render(&without), Err(IntegratorError::SurfacesOfHits { structure: "brute-force" })));
+    assert!(render(&stage.structure).is_ok());
     assert_silent(&device);
 }
