@@ -221,7 +221,7 @@ impl Setting<'_> {
     fn create(&mut self, spec: &Spec, in_parts: bool) -> Result<FrameStructure> {
         let refresh =
             if in_parts { rasray_experiment::Refresh::Moving } else { rasray_experiment::Refresh::All };
-        let parts = self.stage.parts(self.device, refresh)?;
+        let parts = self.stage.parts(self.device, &self.loaded.scene, refresh)?;
         let scene = &self.stage.scene;
         let create = |geometry: &Geometry| spec.create(self.device, geometry, Some(scene.binding()));
         let structure: Refresh = match parts {

@@ -105,9 +105,13 @@ float axis_extent(AxisView view, vec3 a, vec3 b, vec3 c) {
     return rise < abs(normal.z) ? rise / abs(normal.z) * view.cell : view.cell;
 }
 
-// More than rounding moves corners and rays, in cells.
+// More than rounding moves corners and rays, in cells; AXIS_REACH_MORE where they move for other reasons, too.
 float axis_reach_slack(AxisView view) {
-    return 1.0e-4 + 1.0e-6 * float(view.resolution);
+    float slack = 1.0e-4 + 1.0e-6 * float(view.resolution);
+#ifdef AXIS_REACH_MORE
+    slack += AXIS_REACH_MORE;
+#endif
+    return slack;
 }
 
 // Whether a triangle (frame of the view) reaches into a cell, or touches it within rounding: more than is exact,

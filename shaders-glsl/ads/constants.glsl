@@ -11,6 +11,12 @@
 // then no status is that of a build of these triangles.
 #define GEOMETRY_NOT_GATHERED 1u
 
+// Bytes in the buffer of a geometry's header: of the header, of each run of a part behind it, and of the map of a part that
+// is built in a space of its own, which is at a multiple of them.
+#define GEOMETRY_HEADER_BYTES 112u
+#define GEOMETRY_RUN_BYTES 8u
+#define GEOMETRY_RIGID_BYTES 72u
+
 // What a structure is traced for: all triangles; the part that is traced first; a next one, which goes on from the hits
 // that the queue has of those before.
 #define PART_WHOLE 0u

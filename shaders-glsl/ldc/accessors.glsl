@@ -4,9 +4,9 @@
 #ifndef LDC_ACCESSORS_GLSL
 #define LDC_ACCESSORS_GLSL
 
+#include "ldc/header.glsl"
 #include "ads/axis_views.glsl"
 #include "ads/constants.glsl"
-#include "ldc/header.glsl"
 
 #ifdef ADDRESSING_ADDRESS
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LdcWordAddress { uint words[]; };

@@ -49,6 +49,9 @@
 // Margin for the rounding of what is subtracted from corner and ray, over the largest coordinate of the geometry.
 #define LDC_ROUNDING 4.8e-7
 
+// How much farther cells take triangles in where the cube is in a space of its own, in cells.
+#define LDC_RIGID_REACH 0.001
+
 // Threads in a workgroup of the build's compute passes.
 #define LDC_GROUP_SIZE 64u
 

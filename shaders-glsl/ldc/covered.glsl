@@ -4,11 +4,11 @@
 #ifndef LDC_COVERED_GLSL
 #define LDC_COVERED_GLSL
 
+#include "ldc/header.glsl"
 #include "contract/alpha.glsl"
 #include "ads/axis_views.glsl"
 #include "ads/geometry.glsl"
 #include "ads/reached.glsl"
-#include "ldc/header.glsl"
 #include "ldc/names.glsl"
 #include "ads/build_constants.glsl"
 

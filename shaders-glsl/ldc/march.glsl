@@ -6,6 +6,14 @@
 #ifndef LDC_MARCH_GLSL
 #define LDC_MARCH_GLSL
 
+#ifdef RIGID
+// How far rounding may move the ray, in cells: squares that it passes as close by are crossed, too.
+float ldc_spread = 0.0;
+#define LDC_SPREAD(wide) + (wide)
+#else
+#define LDC_SPREAD(wide)
+#endif
+
 // A ray over a view, in cells.
 struct LdcFlatRay {
     bool turned;          // columns are along the second side
@@ -53,7 +61,7 @@ LdcArea ldc_area(LdcFlatRay ray, vec2 width, ivec2 first, ivec2 last) {
 ivec2 ldc_touched(LdcFlatRay ray, LdcArea area, int side, vec2 t) {
     float origin = ray.origin[side];
     vec2 moved = ray.direction[side] == 0.0 ? vec2(0.0) : t * ray.direction[side];
-    float guard = 9.6e-7 * (abs(origin) + max(abs(moved.x), abs(moved.y)));
+    float guard = 9.6e-7 * (abs(origin) + max(abs(moved.x), abs(moved.y))) LDC_SPREAD(ldc_spread);
     vec2 ends = vec2(origin + min(moved.x, moved.y) - guard, origin + max(moved.x, moved.y) + guard) / area.width[side];
     // Clamped as floats: what does not fit into an integer cannot be converted.
     ivec2 squares = ivec2(floor(clamp(ends, vec2(-1.0), vec2(float(area.last[side] + 1)))));
@@ -66,7 +74,8 @@ void ldc_enter_column(LdcFlatRay ray, inout LdcMarch march) {
     if (ray.inverse != 0.0) {
         float from = (float(march.column) * march.area.width.x - ray.origin.x) * ray.inverse;
         float to = (float(march.column + 1) * march.area.width.x - ray.origin.x) * ray.inverse;
-        float slack = 6.0e-8 * (8.0 * max(abs(from), abs(to)) + 2.0 * abs(ray.origin.x * ray.inverse));
+        float slack = 6.0e-8 * (8.0 * max(abs(from), abs(to)) + 2.0 * abs(ray.origin.x * ray.inverse))
+            LDC_SPREAD(ldc_spread * abs(ray.inverse));
         t = vec2(max(t.x, min(from, to) - slack), min(t.y, max(from, to) + slack));
     }
     ivec2 rows = ldc_touched(ray, march.area, 1, t);

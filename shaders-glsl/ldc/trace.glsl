@@ -9,6 +9,9 @@
 #include "contract/trace_log.glsl"
 #include "contract/trace_functions.glsl"
 #include "ldc/pause.glsl"
+#ifdef RIGID
+#include "ads/rigid.glsl"
+#endif
 
 // The part of [t_min, t_max] in which the ray is inside the bounds of the geometry.
 vec2 ldc_clip(LdcRef s, Ray ray) {
@@ -16,8 +19,8 @@ vec2 ldc_clip(LdcRef s, Ray ray) {
     for (int axis = 0; axis < 3; axis++) {
         float o = ray.origin[axis];
         float d = ray.direction[axis];
-        float lower = LDC_HEADER(s).lower[axis];
-        float upper = LDC_HEADER(s).upper[axis];
+        float lower = LDC_HEADER(s).lower[axis] LDC_SPREAD(-ldc_spread * LDC_HEADER(s).cell);
+        float upper = LDC_HEADER(s).upper[axis] LDC_SPREAD(ldc_spread * LDC_HEADER(s).cell);
         if (d == 0.0) {
             interval.y = o < lower || o > upper ? -1.0 : interval.y;
             continue;
@@ -139,13 +142,48 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
     return false;
 }
 
+#ifdef RIGID
+// Tests all triangles, where rounding may move them farther than cells take them in. No cell is remembered: the cursor has
+// the next triangle.
+uint ldc_trace_all(Ray ray, inout TraceState state, bool any_hit) {
+    uint end = geometry_triangle_count();
+    uint primitive = state.cursor[0];
+    for (uint work = 0u; primitive < end; primitive++) {
+        if (work >= work_budget) {
+            state.cursor[0] = primitive;
+            return TRACE_PAUSED;
+        }
+        work++;
+        test_anywhere(ray, primitive, state);
+        if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
+            break;
+        }
+    }
+    return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
+}
+#endif
+
+// Views, blocks and cells are crossed by the ray where the cube was built, triangles tested by the ray itself.
 uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     if (LDC_ENDS == ENDS_CLEAR) {
         ray = leaving_ray(ray, ldc_reach(s));
     }
     bool ordered = LDC_HEADER(s).unsorted == 0u;
     LdcSizes sizes = ldc_sizes(s, ray);
-    vec2 clip = ldc_clip(s, ray);
+#ifdef RIGID
+    GeometryRigid map = rigid_map();
+    float spread;
+    Ray marched = rigid_ray(map, ray, spread);
+    if (!(map.error <= LDC_RIGID_REACH * sizes.cell)) {
+        return ldc_trace_all(ray, state, any_hit);
+    }
+    ldc_spread = spread / sizes.cell;
+    // A plane rises by a cell along each side at most.
+    sizes.margin += 4.0 * spread;
+#else
+#define marched ray
+#endif
+    vec2 clip = ldc_clip(s, marched);
     if (!(clip.x <= clip.y)) {
         trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, clip.x, clip.y);
         return TRACE_MISS;
@@ -153,10 +191,10 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     bool restored = bits_are_set(state.cursor[0], LDC_CURSOR_STARTED);
     uint work = 0u;
     // First the view in which the ray crosses the fewest cells: a hit there ends it early in the others.
-    uint first_axis = triangle_major_axis(ray.direction);
+    uint first_axis = triangle_major_axis(marched.direction);
     for (uint turn = restored ? bits_get(state.cursor[0], LDC_CURSOR_TURN) : 0u; turn < AXIS_VIEWS; turn++) {
         uint axis = (first_axis + turn) % AXIS_VIEWS;
-        LdcTraversal traversal = ldc_begin_traversal(s, ray, sizes, axis, clip.x, clip.y);
+        LdcTraversal traversal = ldc_begin_traversal(s, marched, sizes, axis, clip.x, clip.y);
         LdcSearch search;
         search.sizes = sizes;
         search.axis = axis;
@@ -183,6 +221,7 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     }
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
+#undef marched
 
 uint ldc_status(LdcRef s) {
     return LDC_HEADER(s).status;

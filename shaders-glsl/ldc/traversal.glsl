@@ -70,11 +70,12 @@ vec2 ldc_square_interval(LdcTraversal traversal, ivec2 lower, ivec2 upper) {
         float from = float(lower[side]) - traversal.origin[side];
         float to = float(upper[side]) - traversal.origin[side];
         if (inverse == 0.0) {
-            float slack = 2.4e-7 * abs(traversal.origin[side]);
+            float slack = 2.4e-7 * abs(traversal.origin[side]) LDC_SPREAD(ldc_spread);
             t = from > slack || to < -slack ? vec2(1.0, 0.0) : t;
             continue;
         }
-        t = vec2(max(t.x, min(from * inverse, to * inverse)), min(t.y, max(from * inverse, to * inverse)));
+        t = vec2(max(t.x, min(from * inverse, to * inverse) LDC_SPREAD(-ldc_spread * abs(inverse))),
+            min(t.y, max(from * inverse, to * inverse) LDC_SPREAD(ldc_spread * abs(inverse))));
     }
     vec2 slack = 6.0e-8 * (8.0 * abs(t) + 2.0 * traversal.shift);
     return vec2(t.x - slack.x, t.y + slack.y);
@@ -88,7 +89,8 @@ vec2 ldc_block_interval(LdcTraversal traversal, uint level, ivec2 block) {
 // Whether nothing in a segment that begins at t_low, or later on the way, can be nearer than the best hit. What comes
 // later may begin earlier by as much as a segment is widened for its rounding.
 bool ldc_is_behind(LdcTraversal traversal, float t_low, float best_t) {
-    return t_low - traversal.sizes.slack - 6.0e-8 * (8.0 * abs(t_low) + 2.0 * traversal.shift) > best_t;
+    return t_low - traversal.sizes.slack - 6.0e-8 * (8.0 * abs(t_low) + 2.0 * traversal.shift)
+        LDC_SPREAD(-2.0 * ldc_spread * max(abs(traversal.inverse.x), abs(traversal.inverse.y))) > best_t;
 }
 
 // Begins the traversal over the blocks of a level, or over cells (level 2), in a block of the level above or in

@@ -26,6 +26,12 @@ layout(constant_id = 60) const uint LDC_ENDS = ENDS_TOUCHING;
 // How often a pass draws the scene: once for all views, or once for each of the three.
 layout(constant_id = 61) const uint LDC_PASSES = 1u;
 layout(constant_id = 62) const uint LDC_BLOCK_ROWS = 8u;
+// Whether the cube is in a space of its own (ads/rigid.glsl).
+layout(constant_id = 63) const uint LDC_RIGID = 0u;
+
+// How much farther cells take triangles in then, in cells: that much may rounding move where they are posed.
+#define LDC_REACH_MORE (LDC_RIGID == 0u ? 0.0 : LDC_RIGID_REACH)
+#define AXIS_REACH_MORE LDC_REACH_MORE
 
 // State and sizes of a layered depth cube. 188 bytes.
 struct LdcHeader {

@@ -111,7 +111,11 @@ impl Combined {
             if number > 0 {
                 self.geometry.record_note(recorder, queue, number);
             }
-            if continues || number > 0 {
+            // The part of all that moves is met by many rays.
+            if number > 0 && self.parts.len() > 2 {
+                let rays = self.geometry.rays_of(number);
+                part.record_part_trace(recorder, queue, domain, mode, rounds, rays);
+            } else if continues || number > 0 {
                 part.record_continued_trace(recorder, queue, domain, mode, rounds);
             } else {
                 part.record_trace(recorder, queue, domain, mode, rounds);

@@ -138,6 +138,16 @@ pub trait Design: fmt::Debug + Sized {
         String::new()
     }
 
+    /// Specialisation constants of a part that is built in a space of its own.
+    const FOLLOWING: &'static [(u32, u32)] = &[];
+
+    /// Changes a configuration for a part that is built in a space of its own, so that a build stays while an affine map moves
+    /// the part ([`Geometry::record_map`]): traces are those of the variant `.rigid`. False, and no change, where traces
+    /// cannot follow.
+    fn follow(_config: &mut Self::Config, _part: &Geometry) -> bool {
+        false
+    }
+
     /// The sizes to begin with, before anything has been counted.
     ///
     /// # Errors

@@ -9,12 +9,14 @@ use rasray_gpu::{
     MemoryLocation, Recorder, SetLayout,
 };
 
-use rasray_shaders_glsl::constants::ads::GEOMETRY_COUNT_STAMPS;
+use rasray_shaders_glsl::constants::ads::{
+    GEOMETRY_COUNT_STAMPS, GEOMETRY_HEADER_BYTES, GEOMETRY_RIGID_BYTES, GEOMETRY_RUN_BYTES,
+};
 use rasray_shaders_glsl::constants::contract::STATUS_FLAGS;
 
 use crate::geometry_gather::{Count, DRAW_ARGUMENT_BYTES, Gather, TRIANGLE_INDEX_BYTES, pipeline, whole};
 use crate::groups::folded;
-use crate::{AdsError, GeometryDesc, GeometryHeader, IndexRange};
+use crate::{AdsError, GeometryDesc, GeometryHeader, GeometryRigid, IndexRange};
 
 /// Buffers of the geometry set.
 pub(crate) const BINDINGS: u32 = 4;
@@ -46,6 +48,8 @@ pub struct Geometry {
     gather: Option<Gather>,
     /// What it is a part of.
     whole: Option<Box<Self>>,
+    /// The same triangles in a space of their own, where they have one.
+    rest: Option<Box<Self>>,
 }
 
 /// From one stamp to the next: flags of a status lie below.
@@ -67,6 +71,26 @@ fn new_stamps(count: u32) -> u32 {
     stamps_from(next, count) * STAMP_STEP
 }
 
+/// No map to the space that a part was built in: its rays are tested against all of its triangles.
+pub const NO_MAP: GeometryRigid = GeometryRigid {
+    x: [0.0; 3],
+    y: [0.0; 3],
+    z: [0.0; 3],
+    centre: [0.0; 3],
+    offset: [0.0; 3],
+    stretch: 0.0,
+    reach: 0.0,
+    error: f32::INFINITY,
+};
+
+/// Where in a header the map of a part lies that has room for so many runs.
+fn rigid_place(bound_runs: usize) -> usize {
+    const { assert!(size_of::<GeometryHeader>() == GEOMETRY_HEADER_BYTES as usize) };
+    const { assert!(size_of::<Run>() == GEOMETRY_RUN_BYTES as usize) };
+    const { assert!(size_of::<GeometryRigid>() == GEOMETRY_RIGID_BYTES as usize) };
+    (size_of::<GeometryHeader>() + bound_runs * size_of::<Run>()).next_multiple_of(size_of::<GeometryRigid>())
+}
+
 /// Whether shaders read indices that a pass gathers, those of the whole included.
 fn gathers(gather: Option<&Gather>, whole: Option<&Geometry>) -> bool {
     gather.is_some() || whole.is_some_and(|whole| whole.gather.is_some())
@@ -83,14 +107,15 @@ pub(crate) struct Run {
 }
 
 impl Geometry {
-    /// Makes the header buffer ([`GeometryHeader`], 112 bytes, and 8 for each run of a part, at least one), where they are needed one for gathered indices (12 bytes
+    /// Makes the header buffer ([`GeometryHeader`], 112 bytes, and 8 for each run of a part, at least one; 72 for a part with a
+    /// space of its own), where they are needed one for gathered indices (12 bytes
     /// per triangle) and one for draws (96 bytes), and the binding set.
     ///
     /// # Errors
     /// Ranges beyond their buffers, offsets or a stride that are not aligned, bounds that are not finite or the wrong way
     /// round; out of memory, or a range exceeds what one binding can hold.
     pub fn new(device: &Device, desc: GeometryDesc) -> Result<Self, AdsError> {
-        Self::made(device, desc, None)
+        Self::made(device, desc, None, None)
     }
 
     /// The triangles of `runs` of `whole`, which reads absolute indices: in place where they are one run, else gathered.
@@ -99,6 +124,7 @@ impl Geometry {
         whole: &Self,
         (runs, triangle_count): (&[Run], u32),
         bounds: [[f32; 3]; 2],
+        rest: Option<Self>,
     ) -> Result<Self, AdsError> {
         let mut indices = match &whole.gather {
             Some(gather) => IndexRange::from(gather.indices.clone()),
@@ -108,16 +134,24 @@ impl Geometry {
             indices.offset += u64::from(run.id) * TRIANGLE_INDEX_BYTES;
         }
         let desc = GeometryDesc { indices, triangle_count, bounds, ..whole.desc.clone() };
-        Self::made(device, desc, Some((whole, runs)))
+        Self::made(device, desc, Some((whole, runs)), rest)
     }
 
-    fn made(device: &Device, desc: GeometryDesc, part: Option<(&Self, &[Run])>) -> Result<Self, AdsError> {
+    fn made(
+        device: &Device,
+        desc: GeometryDesc,
+        part: Option<(&Self, &[Run])>,
+        rest: Option<Self>,
+    ) -> Result<Self, AdsError> {
         desc.check(device)?;
         let runs = part.map_or(&[][..], |(_, runs)| runs);
         let bound_runs = if runs.len() > 1 { runs.len() } else { 1 };
         let header = device.create_buffer(&BufferDesc {
             name: "geometry header",
-            size: (size_of::<GeometryHeader>() + bound_runs * size_of::<Run>()) as u64,
+            size: match rest {
+                Some(_) => (rigid_place(bound_runs) + size_of::<GeometryRigid>()) as u64,
+                None => (size_of::<GeometryHeader>() + bound_runs * size_of::<Run>()) as u64,
+            },
             usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
             location: MemoryLocation::Upload,
         })?;
@@ -139,7 +173,9 @@ impl Geometry {
             }
             _ => None,
         };
-        let stamp = new_stamps(if desc.count.is_some() { GEOMETRY_COUNT_STAMPS } else { 1 });
+        // What is built for the triangles in a space of their own is traced with these.
+        let new = || new_stamps(if desc.count.is_some() { GEOMETRY_COUNT_STAMPS } else { 1 });
+        let stamp = rest.as_ref().map_or_else(new, |rest| rest.stamp);
         let count = match bindings.get(3) {
             Some((range, before)) => {
                 Some(Count::new(device, &layout, &desc, (*range, *before), stamp, gather.is_some())?)
@@ -173,12 +209,29 @@ impl Geometry {
         if runs.len() > 1 {
             header.write(size_of::<GeometryHeader>() as u64, cast_slice(runs))?;
         }
+        if rest.is_some() {
+            header.write(rigid_place(bound_runs) as u64, bytes_of(&NO_MAP))?;
+        }
         let read = gather.as_ref().map_or(indices, |gather| whole(&gather.indices));
         let ranges = [whole(&header), positions, read, draws];
         let set = device.create_binding_set_of_ranges(&layout, "geometry", &ranges)?;
         let check = pipeline(device, &rasray_shaders_glsl::ADS_GEOMETRY_CHECK, &[&layout], 0)?;
         let whole = part.map(|(whole, _)| Box::new(whole.clone()));
-        Ok(Self { desc, header, check, layout, set, stamp, count, gather, whole })
+        Ok(Self { desc, header, check, layout, set, stamp, count, gather, whole, rest: rest.map(Box::new) })
+    }
+
+    /// The same triangles in a space of their own, where they do not move: what is built for these is traced with the part.
+    pub(crate) fn rest(&self) -> Option<&Self> {
+        self.rest.as_deref()
+    }
+
+    /// Records where a part with a space of its own is posed from here on; the caller sees to barriers around this write of a
+    /// transfer. Nothing for any other geometry.
+    pub fn record_map(&self, recorder: &mut Recorder<'_>, map: &GeometryRigid) {
+        if self.rest.is_some() {
+            let place = self.header.size() - size_of::<GeometryRigid>() as u64;
+            recorder.update(&self.header, place, bytes_of(map));
+        }
     }
 
     /// Records what shaders do not read in place: the number of triangles where only the device knows it, and

@@ -3,23 +3,40 @@
 use std::mem::offset_of;
 use std::ops::Range;
 
+use bytemuck::bytes_of;
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, Device, GpuError, MemoryLocation,
-    Recorder, SetLayout,
+    Recorder, SetLayout, Stage,
 };
-use rasray_shaders_glsl::ADS_QUEUE_NOTE;
 use rasray_shaders_glsl::constants::contract::PARTS_MOST;
+use rasray_shaders_glsl::records::QueueMeetConstants;
+use rasray_shaders_glsl::{ADS_QUEUE_MEET, ADS_QUEUE_NOTE};
 
 use crate::geometry::Run;
 use crate::geometry_gather::pipeline;
-use crate::{AdsError, Geometry, GeometryHeader, QueueHeader, RayQueue};
+use crate::kernels::record_first_round;
+use crate::{
+    AdsError, Domain, Geometry, GeometryDesc, GeometryHeader, PositionRange, QueueHeader, RayQueue, TraceMode,
+};
 
 /// Triangles that move together.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct MovingPart {
     /// Their ids, in any order. Of what [`GeometryParts::moving`] answers: in order, no range empty, none that touch.
     pub ids: Vec<Range<u32>>,
     /// Lower and upper corner of all their positions, metres relative to the frame origin.
+    pub bounds: [[f32; 3]; 2],
+    /// Where they are in a space of their own, if an affine map takes them from there to where they are posed: each pose says
+    /// which ([`Geometry::record_map`]).
+    pub rest: Option<Rest>,
+}
+
+/// Triangles in a space of their own.
+#[derive(Clone, Debug)]
+pub struct Rest {
+    /// As many positions as the whole geometry has; only those of the part's vertices are read.
+    pub positions: PositionRange,
+    /// Lower and upper corner of these, metres.
     pub bounds: [[f32; 3]; 2],
 }
 
@@ -34,6 +51,47 @@ pub struct GeometryParts {
     headers: Buffer,
     set: BindingSet,
     note: ComputePipeline,
+    meet: ComputePipeline,
+    /// The status of the structure over each part, as it was when it was last traced.
+    statuses: Buffer,
+    statuses_set: BindingSet,
+}
+
+/// The rays of a queue that meet the bounds of a part.
+#[derive(Clone, Copy, Debug)]
+pub struct PartRays<'a> {
+    parts: &'a GeometryParts,
+    part: usize,
+}
+
+impl PartRays<'_> {
+    /// Records that the queue lists those of the slots of `domain` as paused, but for rays that are done in `mode`; all that have
+    /// an answer where the structure with this header was not built. What is recorded next is the trace of the part.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        header: &Buffer,
+        queue: &RayQueue,
+        domain: Domain,
+        mode: TraceMode,
+    ) {
+        let GeometryParts { parts, meet, statuses, statuses_set, .. } = self.parts;
+        let constants = QueueMeetConstants {
+            domain: domain.word(),
+            any_hit: (mode == TraceMode::Occluded).into(),
+            part: self.part as u32,
+        };
+        recorder.begin_pass(Stage::Trace(mode), ADS_QUEUE_MEET.name);
+        recorder.barrier(Access::COMPUTE | Access::TRANSFER_WRITE, Access::TRANSFER);
+        recorder.copy(header, 0, statuses, 4 * self.part as u64, 4);
+        record_first_round(recorder, queue);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
+        recorder.bind_compute(meet);
+        recorder.bind_sets(0, &[parts[self.part].set(), queue.set(), statuses_set]);
+        recorder.push_constants(bytes_of(&constants));
+        queue.record_dispatch(recorder, domain);
+        recorder.end_pass();
+    }
 }
 
 impl GeometryParts {
@@ -68,7 +126,7 @@ impl GeometryParts {
     pub(crate) fn of(&self, device: &Device, geometry: &Geometry) -> Result<Self, AdsError> {
         let bounds = geometry.bounds();
         let moving: Vec<MovingPart> =
-            self.moving.iter().map(|part| MovingPart { ids: part.ids.clone(), bounds }).collect();
+            self.moving.iter().map(|part| MovingPart { bounds, rest: None, ..part.clone() }).collect();
         geometry.in_parts(device, &moving, bounds)
     }
 
@@ -89,6 +147,11 @@ impl GeometryParts {
             recorder.copy(whole.header(), from, part.header(), to, size_of::<[[f32; 3]; 2]>() as u64);
         }
         recorder.barrier(Access::TRANSFER_WRITE, Access::ALL);
+    }
+
+    /// The rays that meet a part.
+    pub(crate) fn rays_of(&self, part: usize) -> PartRays<'_> {
+        PartRays { parts: self, part }
     }
 
     /// Records that a queue adds the faults that part `part - 1` found to those of the parts before it, from 1 on.
@@ -121,7 +184,7 @@ impl Geometry {
         moving: &[Range<u32>],
         [static_bounds, moving_bounds]: [[[f32; 3]; 2]; 2],
     ) -> Result<GeometryParts, AdsError> {
-        let moving = MovingPart { ids: moving.to_vec(), bounds: moving_bounds };
+        let moving = MovingPart { ids: moving.to_vec(), bounds: moving_bounds, rest: None };
         self.in_parts(device, &[moving], static_bounds)
     }
 
@@ -171,16 +234,23 @@ impl Geometry {
             append(&mut joined[part + 1], ids);
         }
         append(&mut joined[0], end..count);
-        let bounds = std::iter::once(static_bounds).chain(moving.iter().map(|part| part.bounds));
-        let part = |(ids, bounds): (&Vec<Range<u32>>, _)| {
+        let stated = std::iter::once((static_bounds, None));
+        let stated = stated.chain(moving.iter().map(|part| (part.bounds, part.rest.as_ref())));
+        let part = |(ids, (bounds, rest)): (&Vec<Range<u32>>, (_, Option<&Rest>))| {
             let (mut runs, mut first) = (Vec::with_capacity(ids.len()), 0);
             for ids in ids {
                 runs.push(Run { first, id: ids.start });
                 first += ids.end - ids.start;
             }
-            Self::part_of(device, self, (&runs, first), bounds)
+            let runs = (&runs[..], first);
+            let at_rest = |rest: &Rest| {
+                let Rest { positions, bounds } = rest.clone();
+                let whole = Self::new(device, GeometryDesc { positions, bounds, ..self.desc().clone() })?;
+                Self::part_of(device, &whole, runs, bounds, None)
+            };
+            Self::part_of(device, self, runs, bounds, rest.map(at_rest).transpose()?)
         };
-        let parts = joined.iter().zip(bounds).map(part).collect::<Result<Vec<_>, _>>()?;
+        let parts = joined.iter().zip(stated).map(part).collect::<Result<Vec<_>, _>>()?;
         let headers = device.create_buffer(&BufferDesc {
             name: "geometry parts",
             size: (parts.len() * size_of::<GeometryHeader>()) as u64,
@@ -189,10 +259,17 @@ impl Geometry {
         })?;
         let set =
             device.create_binding_set(&GeometryParts::layout(device)?, "geometry parts", &[&headers])?;
-        let note = pipeline(device, &ADS_QUEUE_NOTE, &[&RayQueue::layout(device)?], 0)?;
+        let (queue, statuses_layout) =
+            (RayQueue::layout(device)?, device.create_set_layout("part statuses", 1)?);
+        let note = pipeline(device, &ADS_QUEUE_NOTE, &[&queue], 0)?;
+        let sets = [self.layout(), &queue, &statuses_layout];
+        let meet = pipeline(device, &ADS_QUEUE_MEET, &sets, size_of::<QueueMeetConstants>())?;
+        let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_DST;
+        let statuses = device.create_buffer_of_zeros("part statuses", usage, 4 * parts.len() as u64)?;
+        let statuses_set = device.create_binding_set(&statuses_layout, "part statuses", &[&statuses])?;
         let moving = joined.drain(1..).zip(moving);
-        let moving = moving.map(|(ids, part)| MovingPart { ids, bounds: part.bounds }).collect();
-        Ok(GeometryParts { moving, parts, headers, set, note })
+        let moving = moving.map(|(ids, part)| MovingPart { ids, ..part.clone() }).collect();
+        Ok(GeometryParts { moving, parts, headers, set, note, meet, statuses, statuses_set })
     }
 }
 

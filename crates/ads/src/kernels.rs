@@ -28,6 +28,8 @@ pub enum TracedPart {
         /// Parts traced after it: surfaces alone ask.
         after: u32,
     },
+    /// The same for rays that the queue lists as paused, with states ([`PartRays`](crate::PartRays)).
+    Listed,
 }
 
 impl TracedPart {
@@ -36,6 +38,7 @@ impl TracedPart {
             Self::Whole => PART_WHOLE,
             Self::First { after } => PART_FIRST + after * PART_AFTER,
             Self::Next { after } => PART_NEXT + after * PART_AFTER,
+            Self::Listed => PART_NEXT,
         }
     }
 }
@@ -191,15 +194,14 @@ impl TraceKernels {
     ) {
         let any_hit = mode == TraceMode::Occluded;
         let constants = TraceConstants { any_hit: any_hit.into(), ..self.constants(address, domain, part) };
-        let round = std::mem::offset_of!(QueueHeader, round) as u64;
-        let after_paused = std::mem::offset_of!(QueueHeader, unfinished) as u64;
         recorder.begin_pass(Stage::Trace(mode), &self.trace_labels[usize::from(any_hit)]);
-        recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
-        recorder.fill(queue.header(), round, after_paused - round, 0);
-        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
-        self.bind(recorder, &self.trace, geometry, structure, queue, constants);
-        queue.record_dispatch(recorder, domain);
-        for _ in 1..rounds.max(1) {
+        let listed = part == TracedPart::Listed;
+        if !listed {
+            record_first_round(recorder, queue);
+            self.bind(recorder, &self.trace, geometry, structure, queue, constants);
+            queue.record_dispatch(recorder, domain);
+        }
+        for _ in u32::from(!listed)..rounds.max(1) {
             self.record_next_round(recorder, queue, false);
             self.bind(recorder, &self.trace, geometry, structure, queue, constants);
             recorder.dispatch_indirect(queue.header(), 0);
@@ -229,6 +231,15 @@ impl TraceKernels {
         let kernel = self.first_hits.as_ref()?;
         Some(Lookup { kernels: self, kernel, stage: Stage::Visible, part: TracedPart::Whole })
     }
+}
+
+/// Records that no ray of a queue has been traced yet, and none paused.
+pub(crate) fn record_first_round(recorder: &mut Recorder<'_>, queue: &RayQueue) {
+    let round = std::mem::offset_of!(QueueHeader, round) as u64;
+    let after_paused = std::mem::offset_of!(QueueHeader, unfinished) as u64;
+    recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
+    recorder.fill(queue.header(), round, after_paused - round, 0);
+    recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
 }
 
 /// One dispatch that looks something up for the slots of a queue.

@@ -65,9 +65,9 @@ pub use counters::Counters;
 pub use design::{Demand, Design, Parts, PoolBytes, bytes_of_words, default_work_budget};
 pub use ends::Ends;
 pub use error::AdsError;
-pub use geometry::Geometry;
+pub use geometry::{Geometry, NO_MAP};
 pub use geometry_desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
-pub use geometry_parts::{GeometryParts, MovingPart};
+pub use geometry_parts::{GeometryParts, MovingPart, PartRays, Rest};
 pub use groups::folded;
 pub use kernels::{Lookup, TraceKernels, TraceKernelsDesc, TracedPart};
 pub use lengths::Lengths;
@@ -83,7 +83,7 @@ pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
 pub use queue_buffers::QueueBuffers;
 pub use rasray_gpu::TraceMode;
 pub use rasray_shaders_glsl::records::{
-    Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
+    Draw, GeometryHeader, GeometryRigid, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
 };
 pub use scan::Scan;
 pub use scene_binding::SceneBinding;

@@ -8,9 +8,9 @@ use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Counters, Demand, Dependencies, Design,
-    Domain, Geometry, InlineTrace, ListCounts, Modules, Parts, PoolName, PoolSize, PoolStatus, Pools,
-    RayQueue, RecordLayout, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
-    TraceKernelsDesc, TraceMode, TracedPart, Viewpoint, default_work_budget,
+    Domain, Geometry, InlineTrace, ListCounts, Modules, PartRays, Parts, PoolName, PoolSize, PoolStatus,
+    Pools, RayQueue, RecordLayout, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
+    TraceKernels, TraceKernelsDesc, TraceMode, TracedPart, Viewpoint, default_work_budget,
 };
 
 /// A demand that [varies](Design::varies) is met with capacity for one in so many more. Pages of a small scene differ by up to
@@ -22,6 +22,10 @@ pub const VARYING_SHARE: u64 = 16;
 pub struct Pooled<D: Design> {
     design: D,
     parts: Parts<D::Config>,
+    /// What is traced: the triangles that builds read, or where these are in a space of their own, the same as posed.
+    traced: Geometry,
+    /// Whether they are.
+    follows: bool,
     kernels: TraceKernels,
     /// The scene's set, where passes of the build read it.
     scene: Option<BindingSet>,
@@ -48,10 +52,13 @@ impl<D: Design> Pooled<D> {
     /// exceeds what one binding can hold (then use device addresses).
     pub fn new(
         device: &Device,
-        config: D::Config,
+        mut config: D::Config,
         geometry: &Geometry,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
+        let traced = geometry;
+        let rest = geometry.rest().filter(|_| D::follow(&mut config, geometry));
+        let geometry = rest.unwrap_or(geometry);
         let sizes = D::first_plan(&config, geometry)?;
         let common = config.common();
         let Common { addressing, counters, .. } = common;
@@ -60,12 +67,14 @@ impl<D: Design> Pooled<D> {
         device.require(D::TITLE, &Self::requirements_of(&config))?;
         let pools = Pools::new(device, D::NAME, addressing, &sizes)?;
         let modules = modules::<D>(&config);
-        let constants = D::constants(&config);
+        let mut constants = D::constants(&config);
+        constants.extend(D::FOLLOWING.iter().filter(|_| rest.is_some()));
         let build_scene = scene.filter(|_| D::BUILD_READS_SCENE);
         let pipelines = BuildPipelines::new(device, modules, geometry, &pools, build_scene, &constants);
         let design = D::make(&pipelines, &config, build_scene)?;
         let header_pass = pipelines.compute("build_0_header")?;
-        let mut trace_modules = modules.trace_variant(&D::trace_variant(&config), scene)?;
+        let variant = D::trace_variant(&config) + if rest.is_some() { ".rigid" } else { "" };
+        let mut trace_modules = modules.trace_variant(&variant, scene)?;
         if D::has_first_hits(&config) {
             trace_modules.first_hits = Some(modules.find("first_hits")?);
         }
@@ -85,6 +94,8 @@ impl<D: Design> Pooled<D> {
         Ok(Self {
             design,
             parts: Parts { config, geometry: geometry.clone(), pools, work_budget, header_pass },
+            traced: traced.clone(),
+            follows: rest.is_some(),
             kernels,
             scene,
             is_scene_new: false,
@@ -156,7 +167,7 @@ impl<D: Design> Pooled<D> {
         rounds: u32,
         part: TracedPart,
     ) {
-        let (Parts { pools, geometry, .. }, kernels) = (&self.parts, &self.kernels);
+        let (Parts { pools, .. }, geometry, kernels) = (&self.parts, &self.traced, &self.kernels);
         let corrupted = D::CORRUPTED;
         if self.is_scene_new {
             pools.record_forget(recorder);
@@ -201,10 +212,19 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
-        if let Some(sizes) = D::plan_for(&self.parts, geometry)? {
+        let built = match (self.follows, geometry.rest()) {
+            (false, _) => geometry,
+            (true, Some(rest)) => rest,
+            (true, None) => {
+                let reason = "a part that was built in a space of its own stays in one";
+                return Err(AdsError::InParts { structure: D::NAME, reason });
+            }
+        };
+        if let Some(sizes) = D::plan_for(&self.parts, built)? {
             self.resize(device, &sizes)?;
         }
-        self.parts.geometry = geometry.clone();
+        self.parts.geometry = built.clone();
+        self.traced = geometry.clone();
         self.design.forget();
         Ok(())
     }
@@ -238,6 +258,10 @@ impl<D: Design> Structure for Pooled<D> {
         D::depends_on(&self.parts.config)
     }
 
+    fn follows(&self) -> bool {
+        self.follows
+    }
+
     fn is_stale(&self, built: Viewpoint, wanted: Viewpoint) -> bool {
         D::is_stale(&self.parts, built, wanted)
     }
@@ -251,6 +275,9 @@ impl<D: Design> Structure for Pooled<D> {
         let header = self.design.first_header(&self.parts, viewpoint)?;
         self.parts.pools.begin(slot, &header)?;
         self.is_scene_new = false;
+        if self.follows {
+            self.traced.record_gather(recorder);
+        }
         self.design.record_passes(recorder, &self.parts, self.scene.as_ref());
         Ok(())
     }
@@ -333,6 +360,26 @@ impl<D: Design> Structure for Pooled<D> {
         self.trace(recorder, queue, domain, mode, rounds, TracedPart::Next { after: 0 });
     }
 
+    fn record_part_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        domain: Domain,
+        mode: TraceMode,
+        rounds: u32,
+        rays: PartRays<'_>,
+    ) {
+        if self.kind() != StructureKind::Primitive {
+            return self.record_continued_trace(recorder, queue, domain, mode, rounds);
+        }
+        let pools = &self.parts.pools;
+        if self.is_scene_new {
+            pools.record_forget(recorder);
+        }
+        rays.record(recorder, pools.header_buffer(), queue, domain, mode);
+        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Listed);
+    }
+
     fn record_surfaces(
         &self,
         recorder: &mut Recorder<'_>,
@@ -349,7 +396,7 @@ impl<D: Design> Structure for Pooled<D> {
         domain: Domain,
         part: TracedPart,
     ) -> Result<(), AdsError> {
-        let Parts { pools, geometry, .. } = &self.parts;
+        let (Parts { pools, .. }, geometry) = (&self.parts, &self.traced);
         let lookup = self.kernels.surfaces(part).ok_or(AdsError::NoScene { structure: self.name() })?;
         pools.record_lookup(recorder, lookup, geometry.whole(), queue, domain, D::CORRUPTED);
         Ok(())
@@ -366,7 +413,7 @@ impl<D: Design> Structure for Pooled<D> {
         domain: Domain,
     ) -> Result<(), AdsError> {
         let lookup = self.kernels.first_hits().ok_or(AdsError::NoFirstHits { structure: self.name() })?;
-        let Parts { pools, geometry, .. } = &self.parts;
+        let (Parts { pools, .. }, geometry) = (&self.parts, &self.traced);
         if self.is_scene_new {
             pools.record_forget(recorder);
         }

@@ -3,8 +3,8 @@
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout, TraceMode};
 
 use crate::{
-    AdsError, BuildStatus, Check, Counters, Domain, Geometry, ListCounts, RayQueue, SceneBinding, Sizes,
-    TracedPart, Viewpoint,
+    AdsError, BuildStatus, Check, Counters, Domain, Geometry, ListCounts, PartRays, RayQueue, SceneBinding,
+    Sizes, TracedPart, Viewpoint,
 };
 
 /// What a structure's hits are, and hence what may be demanded of them.
@@ -169,6 +169,12 @@ pub trait Structure {
     /// What makes a build stale, in addition to the triangles.
     fn depends_on(&self) -> Dependencies;
 
+    /// Whether a build stays while its triangles are moved by a map ([`Geometry::record_map`]), because it is in a space of its
+    /// own.
+    fn follows(&self) -> bool {
+        false
+    }
+
     /// Whether a build for `built` is to be made anew for `wanted`, where the triangles are the same: the dependencies
     /// differ, unless the structure knows that the difference does not matter.
     fn is_stale(&self, built: Viewpoint, wanted: Viewpoint) -> bool {
@@ -235,6 +241,19 @@ pub trait Structure {
         mode: TraceMode,
         rounds: u32,
     );
+
+    /// The same for one part of several. Where all triangles are found, rays that pass by its bounds need not be traced.
+    fn record_part_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        domain: Domain,
+        mode: TraceMode,
+        rounds: u32,
+        _rays: PartRays<'_>,
+    ) {
+        self.record_continued_trace(recorder, queue, domain, mode, rounds);
+    }
 
     /// Records the lookup of the surfaces of the slots of `domain` of `queue`.
     ///

@@ -6,6 +6,7 @@ use std::time::Instant;
 use rasray_ads::{AdsError, Combined, GeometryParts, ListCounts, Structure, Viewpoint};
 use rasray_gpu::{Device, Feature, GpuError, Stage, Timing};
 use rasray_gpu_scene::GpuScene;
+use rasray_scene::Scene;
 use rasray_systems::{Spec, SystemsError};
 use rasray_tracer::{BuildOutcome, FrameStructure, Keeping, TracerError, refresh_until_complete};
 use serde_json::Value;
@@ -154,9 +155,9 @@ impl Built {
         device: &Device,
         spec: &Spec,
         stage: &mut DeviceScene,
-        refresh: Refresh,
+        (shown, refresh): (&Scene, Refresh),
     ) -> Result<Self, ExperimentError> {
-        let parts = stage.parts(device, refresh)?;
+        let parts = stage.parts(device, shown, refresh)?;
         Self::over(device, spec, (&stage.scene, parts.as_ref()), stage.scene.eye())
     }
 

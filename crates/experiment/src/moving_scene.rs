@@ -48,7 +48,7 @@ impl DeviceScene {
         };
         let mut stage = Self::moving(device, job.scene, &job.camera, [width, height], seed, &job.needs)?;
         // The pose measures the bounds of the parts that there are.
-        stage.parts(device, job.refresh)?;
+        stage.parts(device, job.scene, job.refresh)?;
         let shown = stage.pose(device, job.scene, moment, device.best_timing())?;
         Ok((stage, shown))
     }
@@ -58,13 +58,14 @@ impl DeviceScene {
         self.pose.is_some()
     }
 
-    /// The geometry in the parts that are built apart; absent where it is built as a whole. They stay once there are any.
+    /// The geometry of the scene that this was made from in the parts that are built apart; absent where it is built as a whole. They stay once there are any.
     ///
     /// # Errors
     /// Nothing here moves, out of memory, or a lost device.
     pub fn parts(
         &mut self,
         device: &Device,
+        scene: &Scene,
         refresh: Refresh,
     ) -> Result<Option<GeometryParts>, ExperimentError> {
         if refresh == Refresh::All {
@@ -77,7 +78,7 @@ impl DeviceScene {
             ));
         };
         let parts = match refresh {
-            Refresh::Objects => pass.objects(device, OBJECTS_MOST),
+            Refresh::Objects => pass.objects(device, Some(scene), OBJECTS_MOST),
             _ => pass.parts(device),
         };
         parts.map(Some).map_err(scene_error)

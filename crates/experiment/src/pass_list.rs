@@ -16,7 +16,7 @@ const RAYS: u32 = 1;
 pub(super) fn pass_list(device: &Device, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError> {
     let spec = job.system.spec()?;
     let (mut stage, _) = DeviceScene::of_job(device, job)?;
-    let mut built = Built::refreshed(device, &spec, &mut stage, job.refresh)?;
+    let mut built = Built::refreshed(device, &spec, &mut stage, (job.scene, job.refresh))?;
     let queue = RayQueue::new(device, "listed", RAYS, true).map_err(device_error)?;
     let viewpoint = stage.scene.viewpoint().at(stage.scene.eye());
     let frames = &mut built.frames;

@@ -199,7 +199,7 @@ fn on_device(
         Some(built) => built,
         None => {
             says("build", "first build");
-            Built::refreshed(device, &spec, &mut stage, job.refresh)?
+            Built::refreshed(device, &spec, &mut stage, (job.scene, job.refresh))?
         }
     };
     Rendering::check(&job.frame, &built)?;

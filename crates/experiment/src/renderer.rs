@@ -92,7 +92,8 @@ impl Backend for Renderer {
 
     fn lists(&mut self, job: &RenderJob<'_>) -> Result<Vec<ListRecord>, ExperimentError> {
         let (mut stage, _) = DeviceScene::of_job(&self.device, job)?;
-        let built = Built::refreshed(&self.device, &job.system.spec()?, &mut stage, job.refresh)?;
+        let built =
+            Built::refreshed(&self.device, &job.system.spec()?, &mut stage, (job.scene, job.refresh))?;
         let lists = built.lists(&self.device)?;
         self.check_validation()?;
         Ok(lists)

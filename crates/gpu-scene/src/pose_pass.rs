@@ -6,6 +6,7 @@ mod frame_pose;
 mod moving;
 mod moving_triangles;
 mod pivot;
+mod rigid;
 mod shapes;
 mod sources;
 
@@ -13,7 +14,7 @@ use std::mem::offset_of;
 
 use bytemuck::{NoUninit, bytes_of, cast_slice};
 use glam::DVec3;
-use rasray_ads::{BoundsPass, Geometry, GeometryParts, folded};
+use rasray_ads::{BoundsPass, Geometry, GeometryParts, NO_MAP, Rest, folded};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
     MemoryLocation, Recorder, Stage,
@@ -29,6 +30,7 @@ use self::far_lights::FarLights;
 use self::frame_pose::Placer;
 use self::moving::Moving;
 use self::moving_triangles::{DrawTriangles, MovingTriangles};
+use self::rigid::RigidObject;
 use self::shapes::Shapes;
 use self::sources::{DrawPlace, SkinPlace, Sources};
 use crate::layout::{EmissiveTriangle, Frame};
@@ -69,6 +71,7 @@ pub struct PosePass {
     joints: Buffer,
     targets: Buffer,
     geometry: Geometry,
+    staging: Staging,
     bounds: BoundsPass,
     /// Where only what moves is measured.
     parts: Option<Division>,
@@ -171,6 +174,7 @@ impl PosePass {
             joints,
             targets,
             geometry,
+            staging: gpu.staging().clone(),
             bounds: BoundsPass::new(device)?,
             parts: None,
             far_lights,
@@ -225,7 +229,12 @@ impl PosePass {
             false => (self.emitters.power_at_rest(), Vec::new()),
         };
         let (cameras, shapes) = (pose.cameras(rig, &scene.cameras), shapes.words);
-        Ok(FramePose { placements, joints, targets, shapes, lights, emissive, emissive_power, cameras })
+        let objects = self.parts.iter().flat_map(|division| &division.objects);
+        let map = |object: &Option<RigidObject>| {
+            object.as_ref().map_or(NO_MAP, |object| object.map(&pose, self.frame_origin))
+        };
+        let maps = objects.map(map).collect();
+        Ok(FramePose { maps, placements, joints, targets, shapes, lights, emissive, emissive_power, cameras })
     }
 
     /// Records a frame: what `pose` holds is stored in the command buffer, so that several recordings may be pending, and
@@ -235,9 +244,11 @@ impl PosePass {
     pub fn record(&self, recorder: &mut Recorder<'_>, slot: u32, pose: &FramePose) {
         let is_own = pose.placements.len() == self.places.len()
             && pose.joints.len() == self.joint_count
-            && pose.shapes.len() == self.shapes.word_count();
+            && pose.shapes.len() == self.shapes.word_count()
+            && pose.maps.len() == self.parts.as_ref().map_or(0, |division| division.objects.len());
         if !is_own {
-            return recorder.refuse("the pose of a frame was made for another scene");
+            return recorder
+                .refuse("the pose of a frame was made for another scene, or before it was in parts");
         }
         if !self.moves() {
             return;
@@ -249,6 +260,8 @@ impl PosePass {
         update(recorder, &self.targets, 0, cast_slice(&pose.targets));
         self.shapes.record(recorder, slot, &pose.shapes);
         self.update_lights(recorder, pose);
+        let moving = self.parts.iter().flat_map(|division| &division.parts.parts()[1..]);
+        moving.zip(&pose.maps).for_each(|(part, map)| part.record_map(recorder, map));
         recorder.barrier(Access::TRANSFER_WRITE, Access::ALL);
         if let Some(groups) = folded(self.group_count) {
             recorder.bind_compute(&self.vertices);
@@ -303,30 +316,58 @@ impl PosePass {
     /// # Errors
     /// Out of memory, or a lost device.
     pub fn parts(&mut self, device: &Device) -> Result<GeometryParts, GpuSceneError> {
-        self.divide(device, MovingTriangles::together)
+        self.divide(device, None, MovingTriangles::together)
     }
 
     /// The same in a part for each object that its node alone moves, for at most `most` of them, the largest; one for what else
     /// moves, where anything does; and all that stands still. An object is all that hangs on the same node that a clip
-    /// changes, and no other below it: without joints, morph targets and deformer.
+    /// changes, and no other below it: without joints, morph targets and deformer. Objects of `scene`, the one that this was
+    /// made from, also have positions in a space of their own, 12 bytes for each vertex of the scene, in which a structure may
+    /// be built once ([`Structure::follows`](rasray_ads::Structure::follows)). Poses of frames are made after this.
     ///
     /// # Errors
     /// Out of memory, or a lost device.
-    pub fn objects(&mut self, device: &Device, most: usize) -> Result<GeometryParts, GpuSceneError> {
-        self.divide(device, |draws, places| MovingTriangles::objects(draws, places, most))
+    pub fn objects(
+        &mut self,
+        device: &Device,
+        scene: Option<&Scene>,
+        most: usize,
+    ) -> Result<GeometryParts, GpuSceneError> {
+        self.divide(device, scene, |draws, places| MovingTriangles::objects(draws, places, most))
     }
 
     fn divide(
         &mut self,
         device: &Device,
+        scene: Option<&Scene>,
         divided: impl FnOnce(&[DrawTriangles], &[DrawPlace]) -> MovingTriangles,
     ) -> Result<GeometryParts, GpuSceneError> {
         if let Some(division) = &self.parts {
             return Ok(division.parts.clone());
         }
-        let MovingTriangles { parts, static_bounds, part_of } = divided(&self.draws, &self.places);
+        let MovingTriangles { mut parts, static_bounds, part_of, carriers } =
+            divided(&self.draws, &self.places);
+        let mut objects = vec![None; parts.len()];
+        if let Some(scene) = scene.filter(|_| !carriers.is_empty()) {
+            let mut positions = vec![[0.0_f32; 3]; self.geometry.desc().vertex_count as usize];
+            for (part, &carrier) in carriers.iter().enumerate() {
+                let own = self.places.iter().zip(&part_of).filter(|(_, of)| **of == part);
+                let own: Vec<&DrawPlace> = own.map(|(place, _)| place).collect();
+                objects[part] = RigidObject::new(scene, carrier, &own, &mut positions);
+            }
+            let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC;
+            let positions = self.staging.buffer(device, "positions of objects", usage, &positions)?;
+            self.bytes_by_part.push(("positions of objects", positions.size()));
+            for (part, object) in parts.iter_mut().zip(&objects) {
+                let rest = |object: &RigidObject| Rest {
+                    positions: positions.clone().into(),
+                    bounds: object.bounds,
+                };
+                part.rest = object.as_ref().map(rest);
+            }
+        }
         let parts = self.geometry.in_parts(device, &parts, static_bounds)?;
-        Ok(self.parts.insert(Division { parts, part_of }).parts.clone())
+        Ok(self.parts.insert(Division { parts, part_of, objects }).parts.clone())
     }
 
     /// What [`PosePass::parts`] or [`PosePass::objects`] made.
@@ -369,6 +410,8 @@ struct Division {
     parts: GeometryParts,
     /// The part of each moving draw, among those that move.
     part_of: Vec<usize>,
+    /// Of each part that moves what has a space of its own.
+    objects: Vec<Option<RigidObject>>,
 }
 
 /// Bytes into a buffer, in as many commands as it takes.

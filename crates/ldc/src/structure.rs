@@ -7,6 +7,7 @@ use rasray_ads::{
     SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
+use rasray_shaders_glsl::constant_ids::ldc::LDC_RIGID;
 
 use crate::build::Build;
 use crate::layout::{Demand, first_plan, formula_bytes, layer_capacity, plan, scratch, scratch_words};
@@ -14,6 +15,9 @@ use crate::{Accept, Config, Contents, Header, Pool, well_formed};
 
 /// Fragments of three orthographic views, each triangle in the one it faces most; made from a [`Config`].
 pub type LayeredDepthCube = Pooled<Build>;
+
+/// Cells along a side of the cube of a part that has few triangles and is small.
+const LEAST_RESOLUTION: f64 = 16.0;
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>) -> Header {
@@ -67,6 +71,25 @@ impl Design for Build {
 
     fn kind(config: &Config) -> StructureKind {
         if config.accept == Accept::Triangle { StructureKind::Primitive } else { StructureKind::Fragment }
+    }
+
+    const FOLLOWING: &'static [(u32, u32)] = &[(LDC_RIGID, 1)];
+
+    /// Cells are about as fine as those of the whole, and at least as many along a side as lets each have a few triangles.
+    fn follow(config: &mut Config, part: &Geometry) -> bool {
+        if config.accept != Accept::Triangle {
+            return false;
+        }
+        let size = |geometry: &Geometry| {
+            let [lower, upper] = geometry.bounds();
+            (0..3).map(|axis| f64::from(upper[axis]) - f64::from(lower[axis])).fold(0.0, f64::max)
+        };
+        let share = f64::from(config.resolution) * size(part) / size(part.whole());
+        let wanted = share.max(f64::from(part.triangle_count()).sqrt()).max(LEAST_RESOLUTION);
+        if wanted < f64::from(config.resolution) {
+            config.resolution = wanted.ceil() as u32;
+        }
+        true
     }
 
     fn depends_on(_config: &Config) -> Dependencies {

@@ -124,25 +124,23 @@ impl FrameStructure {
 
     /// The vertices have moved, or will have by the time that the next frame builds: in parts those of all parts that move.
     pub fn geometry_moved(&mut self) {
-        let first = usize::from(self.is_in_parts());
-        self.parts[first..].iter_mut().for_each(|part| part.built = None);
+        self.parts_moved(&[]);
     }
 
-    /// The same of parts that move, for each of them whether it moved; one that is not stated did. Without parts, all of the
-    /// vertices have moved where any have.
+    /// The same of parts that move, for each of them whether it moved; one that is not stated did. What is built for a part in
+    /// a space of its own stays ([`Structure::follows`]). Without parts, all of the vertices have moved where any have.
     pub fn parts_moved(&mut self, moved: &[bool]) {
         if !self.is_in_parts() {
             if moved.is_empty() || moved.contains(&true) {
-                self.geometry_moved();
+                self.parts[0].built = None;
             }
             return;
         }
-        let moved = moved.iter().copied().chain(std::iter::repeat(true));
-        self.parts[1..]
-            .iter_mut()
-            .zip(moved)
-            .filter(|(_, moved)| *moved)
-            .for_each(|(part, _)| part.built = None);
+        for part in 1..self.parts.len() {
+            if moved.get(part - 1).copied().unwrap_or(true) && !self.structure.part(part).follows() {
+                self.parts[part].built = None;
+            }
+        }
     }
 
     /// Takes other triangles; all of them are built. Frames in flight keep those that they were recorded with.

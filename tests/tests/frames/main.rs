@@ -6,6 +6,7 @@ mod changing;
 mod crowd;
 mod kept;
 mod nearer_part;
+mod objects;
 mod parts;
 mod pictures;
 mod refresh;

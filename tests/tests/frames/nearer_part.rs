@@ -152,7 +152,11 @@ fn hits_are_the_nearest_of_many_parts() {
     let eye = [0.5; 3];
     let moving = many(triangles.len() as u32);
     let all = moving.concat();
-    let of = |ids: &Vec<Range<u32>>| MovingPart { ids: ids.clone(), bounds: bounds(&triangles, ids, true) };
+    let of = |ids: &Vec<Range<u32>>| MovingPart {
+        ids: ids.clone(),
+        bounds: bounds(&triangles, ids, true),
+        rest: None,
+    };
     let moving_parts: Vec<MovingPart> = moving.iter().map(of).collect();
     let parts = whole.in_parts(bench.device(), &moving_parts, bounds(&triangles, &all, false));
     let parts = parts.expect("they are parts");

@@ -161,7 +161,11 @@ fn hits_in_many_parts_are_those_of_all_triangles() {
     let whole = bench.geometry(&triangles);
     let moving = many(triangles.len() as u32);
     let all: Vec<Range<u32>> = moving.concat();
-    let own = |ids: &Vec<Range<u32>>| MovingPart { ids: ids.clone(), bounds: bounds(&triangles, ids, true) };
+    let own = |ids: &Vec<Range<u32>>| MovingPart {
+        ids: ids.clone(),
+        bounds: bounds(&triangles, ids, true),
+        rest: None,
+    };
     let moving: Vec<MovingPart> = moving.iter().map(own).collect();
     let parts = whole.in_parts(bench.device(), &moving, bounds(&triangles, &all, false));
     let parts = parts.expect("they are parts");

@@ -92,7 +92,7 @@ fn hold_parts(
     let (gpu, mut pass) = stage(bench, scene, [16, 16]);
     let parts = match objects {
         None => pass.parts(device),
-        Some(most) => pass.objects(device, most),
+        Some(most) => pass.objects(device, Some(scene), most),
     };
     let parts = parts.expect("it fits");
     let moving: u32 = parts.parts()[1..].iter().map(rasray_ads::Geometry::triangle_count).sum();

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
+use rasray_ads::GeometryRigid;
 use rasray_scene::Scene;
 use rasray_scene::animation::Rig;
 use rasray_scene::pose::Pose;
@@ -26,6 +27,8 @@ pub struct FramePose {
     /// W, by luminance.
     pub(super) emissive_power: f64,
     pub(super) cameras: Vec<DAffine3>,
+    /// Of each part that moves, where there are parts.
+    pub(super) maps: Vec<GeometryRigid>,
 }
 
 impl FramePose {
@@ -41,7 +44,8 @@ impl FramePose {
             + size_of_val(&self.joints[..])
             + size_of_val(&self.targets[..])
             + size_of_val(&self.lights[..])
-            + size_of_val(&self.emissive[..]);
+            + size_of_val(&self.emissive[..])
+            + size_of_val(&self.maps[..]);
         bytes as u64
     }
 

@@ -44,12 +44,14 @@ pub struct MovingTriangles {
     pub static_bounds: [[f32; 3]; 2],
     /// The part of each moving draw, in the order of the pose's draws.
     pub part_of: Vec<usize>,
+    /// The node that carries each of the first parts; all others have more than what one node moves.
+    pub carriers: Vec<usize>,
 }
 
 impl MovingTriangles {
     /// All that moves in one part.
     pub fn together(draws: &[DrawTriangles], places: &[DrawPlace]) -> Self {
-        Self::divided(draws, places, vec![0; places.len()])
+        Self::divided(draws, places, vec![0; places.len()], Vec::new())
     }
 
     /// A part for each object that its node alone moves: all draws that the same node carries. Of those the `most` largest
@@ -68,11 +70,17 @@ impl MovingTriangles {
             let found = carriers.iter().position(|&(carrier, _)| Some(carrier) == place.carrier);
             found.unwrap_or(carriers.len())
         };
-        Self::divided(draws, places, places.iter().map(own).collect())
+        let part_of = places.iter().map(own).collect();
+        Self::divided(draws, places, part_of, carriers.into_iter().map(|(carrier, _)| carrier).collect())
     }
 
     /// The parts that moving draws are in.
-    fn divided(draws: &[DrawTriangles], places: &[DrawPlace], part_of: Vec<usize>) -> Self {
+    fn divided(
+        draws: &[DrawTriangles],
+        places: &[DrawPlace],
+        part_of: Vec<usize>,
+        carriers: Vec<usize>,
+    ) -> Self {
         let count = part_of.iter().max().map_or(1, |last| last + 1);
         let mut ids = vec![Vec::<Range<u32>>::new(); count];
         // The static part is the last one here.
@@ -95,9 +103,12 @@ impl MovingTriangles {
             (true, true) => [[0.0; 3]; 2],
         };
         let static_bounds = stated(bounds[count]);
-        let parts =
-            ids.into_iter().zip(bounds).map(|(ids, bounds)| MovingPart { ids, bounds: stated(bounds) });
-        Self { parts: parts.collect(), static_bounds, part_of }
+        let parts = ids.into_iter().zip(bounds).map(|(ids, bounds)| MovingPart {
+            ids,
+            bounds: stated(bounds),
+            rest: None,
+        });
+        Self { parts: parts.collect(), static_bounds, part_of, carriers }
     }
 }
 

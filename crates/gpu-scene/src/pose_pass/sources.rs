@@ -44,6 +44,8 @@ pub struct DrawPlace {
     /// Index into the draws of the geometry.
     pub draw: usize,
     pub instance: usize,
+    /// Of the geometry.
+    pub first_vertex: u32,
     /// Mesh space, metres: what positions at rest are relative to.
     pub pivot: DVec3,
     /// Index into the skins of the sources.
@@ -200,6 +202,7 @@ impl Sources {
             sources.places.push(DrawPlace {
                 draw,
                 instance,
+                first_vertex: shading.first_vertex,
                 pivot,
                 skin: skin_index,
                 deformed,

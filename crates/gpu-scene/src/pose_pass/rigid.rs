@@ -1,0 +1,132 @@
+//! Objects in spaces of their own, and the maps from where they are posed to there.
+
+use glam::{DAffine3, DVec3};
+use rasray_ads::GeometryRigid;
+use rasray_scene::pose::Pose;
+use rasray_scene::{Scene, animation::Rig};
+
+use super::sources::DrawPlace;
+
+/// Half a unit of rounding of f32, as a share of the number.
+const HALF_UNIT: f64 = 1.0 / 16_777_216.0;
+
+/// An object that its node alone moves, in a space that is that of the node but for its origin, which is the middle of the
+/// object. Metres.
+#[derive(Clone, Debug)]
+pub struct RigidObject {
+    carrier: usize,
+    /// In the space of the node.
+    centre: DVec3,
+    /// How far its corners are from the middle.
+    radius: f64,
+    draws: Vec<RigidDraw>,
+    /// Corners of its positions.
+    pub bounds: [[f32; 3]; 2],
+}
+
+/// A draw of an object, as its vertices are posed.
+#[derive(Clone, Debug)]
+struct RigidDraw {
+    carrier_from_mesh: DAffine3,
+    /// Mesh space: what positions are relative to, and how far they are from there along each axis.
+    pivot: DVec3,
+    half: DVec3,
+}
+
+impl RigidObject {
+    /// The object of these draws, whose positions are written to their vertices. Absent where some are not finite.
+    pub fn new(
+        scene: &Scene,
+        carrier: usize,
+        places: &[&DrawPlace],
+        positions: &mut [[f32; 3]],
+    ) -> Option<Self> {
+        let rig = &scene.animation.rig;
+        let mut draws = Vec::with_capacity(places.len());
+        let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for place in places {
+            let carrier_from_mesh = carrier_from_mesh(rig, carrier, place.instance);
+            let mut half = DVec3::ZERO;
+            for position in mesh_positions(scene, place) {
+                half = half.max((position - place.pivot).abs());
+                let position = carrier_from_mesh.transform_point3(position);
+                (lower, upper) = (lower.min(position), upper.max(position));
+            }
+            draws.push(RigidDraw { carrier_from_mesh, pivot: place.pivot, half });
+        }
+        let centre = 0.5 * (lower + upper);
+        let mut bounds = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+        for (place, draw) in places.iter().zip(&draws) {
+            let own = positions.get_mut(place.first_vertex as usize..)?.iter_mut();
+            for (own, position) in own.zip(mesh_positions(scene, place)) {
+                *own = (draw.carrier_from_mesh.transform_point3(position) - centre).as_vec3().to_array();
+                for axis in 0..3 {
+                    bounds[0][axis] = bounds[0][axis].min(own[axis]);
+                    bounds[1][axis] = bounds[1][axis].max(own[axis]);
+                }
+            }
+        }
+        let radius = (0.5 * (upper - lower)).length();
+        let is_finite = bounds.iter().flatten().all(|corner| corner.is_finite());
+        (radius.is_finite() && is_finite).then_some(Self { carrier, centre, radius, draws, bounds })
+    }
+
+    /// The map from where a pose has it, relative to the frame origin. Where its node is flat or a number is beyond f32, the
+    /// map has an infinite error.
+    pub fn map(&self, pose: &Pose, frame_origin: DVec3) -> GeometryRigid {
+        let world = pose.world(self.carrier);
+        let centre = world.transform_point3(self.centre) - frame_origin;
+        let linear = world.matrix3.inverse();
+        let about = centre.as_vec3();
+        // The largest length that a unit vector has, or more.
+        let norm = |matrix: glam::DMat3| {
+            let squares = matrix.to_cols_array().into_iter().map(|x| x * x);
+            squares.sum::<f64>().sqrt()
+        };
+        let stretch = norm(linear);
+        let reach = stretch * norm(world.matrix3) * self.radius;
+        // Products and sums of the pose's kernel, the rounded matrix and what it moves, then the way to the frame origin.
+        let posed = self.draws.iter().map(|draw| {
+            let place = world * draw.carrier_from_mesh;
+            let moved = (0..3).map(|row| place.matrix3.row(row).abs().dot(draw.half)).fold(0.0, f64::max);
+            let way = place.transform_point3(draw.pivot) - frame_origin;
+            HALF_UNIT * (8.0 * moved + 4.0 * way.abs().max_element())
+        });
+        let posed = posed.fold(0.0, f64::max);
+        let error = 2.0 * (3.0_f64.sqrt() * stretch * posed + HALF_UNIT * self.radius);
+        let map = GeometryRigid {
+            x: linear.x_axis.as_vec3().to_array(),
+            y: linear.y_axis.as_vec3().to_array(),
+            z: linear.z_axis.as_vec3().to_array(),
+            centre: about.to_array(),
+            offset: (linear * (about.as_dvec3() - centre)).as_vec3().to_array(),
+            stretch: (stretch * 1.000_001) as f32,
+            reach: (reach * 1.000_001) as f32,
+            error: (error * 1.000_001) as f32,
+        };
+        let numbers = [map.x, map.y, map.z, map.centre, map.offset, [map.stretch, map.reach, map.error]];
+        let holds = numbers.iter().flatten().all(|number| number.is_finite()) && map.stretch > 0.0;
+        GeometryRigid { error: if holds { map.error } else { f32::INFINITY }, ..map }
+    }
+}
+
+fn mesh_positions<'a>(scene: &'a Scene, place: &DrawPlace) -> impl Iterator<Item = DVec3> + 'a {
+    let mesh = &scene.meshes[scene.instances[place.instance].mesh];
+    mesh.positions.iter().map(|position| DVec3::from(position.map(f64::from)))
+}
+
+/// Between an instance and the node that carries it no node moves.
+fn carrier_from_mesh(rig: &Rig, carrier: usize, instance: usize) -> DAffine3 {
+    let placement = rig.placements[instance];
+    let (mut from_mesh, mut node) = (placement.node_from_mesh, placement.node);
+    // A forest has no cycle; a chain longer than there are nodes would be one.
+    for _ in 0..rig.nodes.len() {
+        if node == carrier {
+            break;
+        }
+        from_mesh = rig.nodes[node].transform.to_affine() * from_mesh;
+        let Some(parent) = rig.nodes[node].parent else { break };
+        node = parent;
+    }
+    from_mesh
+}

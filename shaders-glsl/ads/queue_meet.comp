@@ -1,0 +1,58 @@
+// What: lists the rays of a queue that meet the bounds of a part, as if they had paused before it was traced: the trace of the
+// part goes on from there, and is no work where no ray meets it.
+// Reads: the header of GEOMETRY_SET, the status of the structure over it, rays and hits. Writes: states, the list of paused
+// rays.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/bounds_interval.glsl"
+#include "ads/geometry.glsl"
+#include "ads/queue.glsl"
+#include "contract/trace_state.glsl"
+
+layout(local_size_x = QUEUE_GROUP_SIZE) in;
+
+layout(set = 2, binding = 0, scalar) readonly buffer PartStatusBuffer {
+    uint part_status[];
+};
+
+// Which rays. 12 bytes.
+layout(push_constant, scalar) uniform QueueMeetConstants {
+    uint domain;          // the number of first slots, or DOMAIN_SELECTED
+    uint any_hit;         // 1: rays that have a hit are done
+    uint part;            // whose status it is
+} pushed;
+
+// How far a ray may pass by the bounds of a triangle that it is tested to hit: 64 units of rounding of its way.
+#define MEET_MARGIN 0.0000038146973
+
+bool meets_bounds(Ray ray, float t_max) {
+    vec3 lower = geometry_header.lower;
+    vec3 upper = geometry_header.upper;
+    vec3 way = max(abs(lower - ray.origin), abs(upper - ray.origin));
+    float margin = MEET_MARGIN * (max(way.x, max(way.y, way.z)) + largest_coordinate(ray.origin));
+    vec2 interval = bounds_interval(lower - margin, upper + margin, ray.origin, ray.direction, max(ray.t_min, 0.0), t_max);
+    // Comparisons with NaN are false.
+    return !(interval.x > interval.y);
+}
+
+void main() {
+    uint slot;
+    if (!queue_slot(pushed.domain, gl_GlobalInvocationID.x, slot)) {
+        return;
+    }
+    Hit before = queue_hit(slot);
+    bool is_hit = before.primitive != PRIMITIVE_NONE;
+    if (is_hit ? pushed.any_hit != 0u : floatBitsToUint(before.b) == HIT_NOT_READY) {
+        return;
+    }
+    Ray ray = queue_ray(slot);
+    // A part that is not ready answers nothing to any ray.
+    bool is_ready = geometry_is_built(part_status[pushed.part]);
+    if (!ray_is_valid(ray) || (is_ready && !meets_bounds(ray, before.t))) {
+        return;
+    }
+    TraceState state = trace_state_begin(ray);
+    state.best = before;
+    queue_states[slot] = state;
+    LIST_APPEND(queue_header.paused, queue_header.capacity, queue_list, queue_paused_at(0u, queue_header.capacity), slot)
+}

@@ -1,0 +1,46 @@
+// What: where a part is whose structure was built in a space of its own, and rays as that space has them.
+// Reads: what follows the runs in the header of GEOMETRY_SET. Writes: nothing.
+// Source: Bürger et al. section 1.2, cubes of rigid objects. An affine map keeps t along a ray whose direction keeps its
+// length.
+#ifndef ADS_RIGID_GLSL
+#define ADS_RIGID_GLSL
+
+#include "ads/constants.glsl"
+#include "ads/geometry.glsl"
+
+// The map from where a part is posed to where its structure was built, both in metres. 72 bytes.
+struct GeometryRigid {
+    vec3 x;               // first column of the linear map
+    vec3 y;               // second column
+    vec3 z;               // third column
+    vec3 centre;          // of the space it was built in, as posed
+    vec3 offset;          // where the map takes `centre`
+    float stretch;        // no length grows by more than this
+    float reach;          // a bound of how far its corners are from `centre`, where it was built
+    float error;          // how far rounding may move its corners, where it was built; infinite where there is no map
+};
+
+// How far rounding may move a ray, over its distance from the part: 32 units, for what maps it and for what tests triangles.
+#define RIGID_ROUNDING 0.0000019073486
+
+// The same buffer as the header: the map is the first element behind the runs.
+layout(set = GEOMETRY_SET, binding = 0, scalar) readonly buffer GeometryRigidBuffer {
+    GeometryRigid geometry_rigids[];
+};
+
+GeometryRigid rigid_map() {
+    uint end = GEOMETRY_HEADER_BYTES + GEOMETRY_RUN_BYTES * max(geometry_header.run_count, 1u);
+    return geometry_rigids[(end + GEOMETRY_RIGID_BYTES - 1u) / GEOMETRY_RIGID_BYTES];
+}
+
+// A ray where the structure was built, and how far it may be from where it should be, until it has left the part.
+Ray rigid_ray(GeometryRigid map, Ray ray, out float spread) {
+    vec3 from_centre = ray.origin - map.centre;
+    ray.origin = (map.x * from_centre.x + map.y * from_centre.y + map.z * from_centre.z) + map.offset;
+    ray.direction = map.x * ray.direction.x + map.y * ray.direction.y + map.z * ray.direction.z;
+    vec3 away = abs(from_centre);
+    spread = RIGID_ROUNDING * (map.stretch * (away.x + away.y + away.z) + map.reach);
+    return ray;
+}
+
+#endif

@@ -1,0 +1,169 @@
+//! Objects in depth cubes of their own, which are built once: hits of every frame are those of brute force.
+
+use glam::DVec3;
+use rasray_ads::{Combined, Counters, Domain, GeometryRigid, RayQueue, TraceMode};
+use rasray_gpu_scene::{GpuScene, Parts, PosePass, SceneTables};
+use rasray_scene::animation::ChannelValues;
+use rasray_scene::{Moment, Scene};
+use rasray_systems::Spec;
+use rasray_tests::harness::Bench;
+use rasray_tests::random::Random;
+use rasray_tests::tier::is_full;
+use rasray_tracer::Refresh;
+
+use crate::frames::kept::{Kept, Recorded};
+use crate::frames::refresh::{header, rays};
+use crate::frames::scenes::{hall_of_objects, view};
+
+/// What is built anew in a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Anew {
+    All,
+    Moving,
+    /// Objects that moved.
+    Objects,
+    /// Nothing of objects, which have cubes in spaces of their own.
+    Deforming,
+}
+
+/// Sums over frames.
+#[derive(Clone, Debug, Default)]
+struct Walked {
+    /// Builds of parts after the first frame.
+    builds: u64,
+    /// Those of the first frame, also of pools that grew.
+    first: u64,
+    /// Of all pools.
+    bytes: u64,
+    /// Cells, entries and tests per ray.
+    work: [f64; 3],
+    /// Recorded for a trace of nearest hits.
+    dispatches: u32,
+    /// How far rounding may move corners of objects, in the last frame.
+    errors: Vec<f32>,
+}
+
+fn spec(system: &str, options: &[(&str, &str)]) -> Spec {
+    let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+    Spec::new(system, "robust", given).expect("the options are the system's").with_counters(Counters::Sums)
+}
+
+/// Frames of a scene through a structure that builds what it has to, each held against brute force.
+fn walk(bench: &Bench, scene: &Scene, times: &[f64], spec: &Spec, anew: Anew) -> Walked {
+    let device = bench.device();
+    let tables = SceneTables::new(scene, DVec3::ZERO, &Parts::ALL).expect("the scene is whole");
+    let gpu = GpuScene::upload(device, &tables, &view(scene, [16, 16], 0.0)).expect("it fits");
+    let mut pass = PosePass::new(device, scene, &tables, &gpu).expect("it fits");
+    let parts = match anew {
+        Anew::All => None,
+        Anew::Moving => Some(pass.parts(device).expect("it fits")),
+        Anew::Objects => Some(pass.objects(device, None, 32).expect("it fits")),
+        Anew::Deforming => Some(pass.objects(device, Some(scene), 32).expect("it fits")),
+    };
+    let binding = Some(gpu.binding());
+    let structure: Refresh = match &parts {
+        None => spec.create(device, gpu.geometry(), binding).expect("the options are valid").into(),
+        Some(parts) => {
+            Combined::new(parts, |part| spec.create(device, part, binding)).expect("it fits").into()
+        }
+    };
+    let mut kept = Kept::new(bench, structure);
+    let brute = Spec::new("brute-force", "robust", []).expect("it has no options");
+    let mut brute = Kept::new(bench, brute.create(device, gpu.geometry(), binding).expect("it fits"));
+    let mut random = Random::new(83);
+    let (mut walked, mut before, mut traced, mut hit) = (Walked::default(), None, 0, 0);
+    for (frame, &seconds) in times.iter().enumerate() {
+        let posed = pass.frame(scene, &Moment { seconds, clips: vec![0] }).expect("it is the same scene");
+        device.submit(|recorder| pass.record(recorder, 0, &posed)).expect("the device works");
+        match before.as_ref().filter(|_| anew != Anew::Moving) {
+            Some(before) => kept.frames.parts_moved(&pass.moved_parts(before, &posed)),
+            None => kept.frames.geometry_moved(),
+        }
+        before = Some(posed);
+        brute.frames.geometry_moved();
+        kept.build(bench, gpu.viewpoint());
+        brute.build(bench, gpu.viewpoint());
+        if frame == 0 {
+            walked.first = kept.frames.counts().part_builds;
+        }
+        let towards =
+            parts.as_ref().map_or(gpu.geometry(), |parts| &parts.parts()[1 + frame % parts.moving().len()]);
+        let [all, towards] = [gpu.geometry(), towards].map(|part| {
+            let header = header(bench, part.header());
+            [header.lower, header.upper]
+        });
+        // The first are the same whatever is built anew.
+        let aimed = [all, towards].map(|towards| rays(&mut random, all, towards));
+        for (place, rays) in aimed.iter().enumerate() {
+            let (expected, answered) = (brute.answers(bench, rays), kept.answers(bench, rays));
+            let is_other =
+                |at: &usize| expected.0[*at] != answered.0[*at] || expected.1[*at] != answered.1[*at];
+            let differs = (0..rays.len()).find(is_other);
+            assert_eq!(differs, None, "{anew:?}, frame {frame}: {:?}", differs.map(|at| rays[at]));
+            if place == 0 {
+                hit += expected.0.iter().filter(|hit| hit[1] != u32::MAX).count();
+                traced += rays.len();
+                walked.work.iter_mut().zip(answered.2).for_each(|(sum, counted)| *sum += counted as f64);
+            }
+        }
+    }
+    assert!(8 * hit > traced, "{hit} hits of {traced} rays");
+    walked.work = walked.work.map(|sum| sum / traced as f64);
+    walked.builds = kept.frames.counts().part_builds - walked.first;
+    walked.bytes = kept.frames.structure().sizes().bytes();
+    let queue = RayQueue::new(device, "rays", 1, false).expect("a queue fits");
+    let structure = kept.frames.structure();
+    let recorded = device.submit(|recorder| {
+        let (all, rounds) = (Domain::First(1), structure.rounds());
+        structure.record_trace(recorder, &queue, all, TraceMode::Closest, rounds);
+        Recorded::of(recorder.passes())
+    });
+    walked.dispatches = recorded.expect("the device works").value.dispatches;
+    if anew == Anew::Deforming {
+        let moving = parts.iter().flat_map(|parts| &parts.parts()[1..]);
+        let error = |part: &rasray_ads::Geometry| {
+            let place = part.header().size() - size_of::<GeometryRigid>() as u64;
+            device.download_as::<GeometryRigid>(part.header(), place, 1).expect("the device works")[0].error
+        };
+        walked.errors = moving.map(error).collect();
+    }
+    walked
+}
+
+#[test]
+fn cubes_of_objects_are_built_once() {
+    let bench = Bench::new();
+    let scene = hall_of_objects();
+    let count = if is_full() { 60 } else { 8 };
+    let times: Vec<f64> = (0..count).map(|frame| 2.2 * f64::from(frame) / f64::from(count)).collect();
+    let spec = spec("ldc", &[("resolution", "96")]);
+    for anew in [Anew::All, Anew::Moving, Anew::Objects, Anew::Deforming] {
+        let walked = walk(&bench, &scene, &times, &spec, anew);
+        println!("{anew:?}, {count} frames: {walked:?}");
+        if anew == Anew::Deforming {
+            assert_eq!(walked.builds, 0, "{walked:?}");
+            assert!(walked.errors.iter().all(|error| *error < 1.0e-4), "{walked:?}");
+        } else {
+            assert!(walked.builds >= 4, "{walked:?}");
+        }
+    }
+}
+
+/// Where rounding may move corners farther than cells take them in, all triangles of an object are tested.
+#[test]
+fn objects_far_smaller_than_their_meshes_keep_their_hits() {
+    let bench = Bench::new();
+    let mut scene = hall_of_objects();
+    for channel in &mut scene.animation.rig.clips[0].channels {
+        match &mut channel.values {
+            ChannelValues::Scale(values) if channel.node == 4 => values[1] = [1.0e-4, -2.0e-4, 1.0e-4],
+            ChannelValues::Translation(values) if channel.node == 4 => values[1] = [200.0, 10.0, 0.0],
+            _ => {}
+        }
+    }
+    let spec = spec("ldc", &[("resolution", "32")]);
+    let walked = walk(&bench, &scene, &[0.0, 0.7, 1.4], &spec, Anew::Deforming);
+    println!("{walked:?}");
+    assert_eq!(walked.builds, 0, "{walked:?}");
+    assert!(walked.errors.iter().any(|error| *error > 1.0e-2), "{walked:?}");
+}
