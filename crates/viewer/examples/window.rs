@@ -72,7 +72,7 @@ fn opened(name: &OsStr) -> Result<Opened, LoadError> {
         time_words: Vec::new(),
         other_words: Vec::new(),
         settings,
-        exposure: 0.0,
+        tone: Default::default(),
         duration: loaded.scene.animation.duration.into(),
         bounds: view::bounds(&loaded.scene).unwrap_or_default(),
         output: "window.###.ppm".into(),

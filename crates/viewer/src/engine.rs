@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use rasray_experiment::{
-    Built, DeviceScene, ExperimentError, Frame, Rendering, SystemConfig, TexelCapacity, hit_at, texels,
+    Built, DeviceScene, ExperimentError, Frame, Rendering, SystemConfig, TexelCapacity, texels,
     work_per_pixel,
 };
 use rasray_gpu::{Device, Timing};
@@ -13,7 +13,7 @@ use rasray_scene::Camera;
 use rasray_scene::needs::Needs;
 use rasray_scene_source::LoadedScene;
 
-use crate::picked::{Answer, Pick, PickedHit, PickedTriangle};
+use crate::picked::{Answer, Pick};
 use crate::picture::{Picture, Pixels};
 use crate::preview::Preview;
 use crate::preview_size::{PreviewSize, TARGET_MS};
@@ -133,7 +133,8 @@ impl Engine {
         }
     }
 
-    /// Does the next piece of work: at most one wave of rays after what must be made. `say` is told in a few words what
+    /// Does the next piece of work: at most one wave of rays after what must be made, or a sample of a picture while something
+    /// moves. `say` is told in a few words what
     /// takes long.
     ///
     /// # Errors
@@ -271,7 +272,7 @@ impl Engine {
         Ok(step)
     }
 
-    /// One wave of the picture while something moves; as many samples as there is time for.
+    /// A sample of the picture while something moves; as many as there is time for.
     fn preview(
         &mut self,
         camera: Camera,
@@ -289,12 +290,10 @@ impl Engine {
                 Preview::new(device, stage, &settings.frame, size, needs, &traced.built)?
             }
         });
+        // A sample of all films in one step: settings change faster than waves end, and would start them over for ever.
         let started = Instant::now();
-        let is_sample = advance(device, films.next(), traced, &mut self.sample_ms)?;
+        while !(advance(device, films.next(), traced, &mut self.sample_ms)? && films.is_whole()) {}
         self.preview_ms += started.elapsed().as_secs_f64() * 1.0e3;
-        if !is_sample || !films.is_whole() {
-            return Ok(Step::Working);
-        }
         let samples = films.light().image().samples_done();
         self.done = samples >= settings.frame.spp;
         let of_a_sample = self.preview_ms / f64::from(samples);
@@ -361,49 +360,17 @@ impl Engine {
 
     /// Traces the ray of a pick through one of its systems. The structure that is there is used where it is of that system;
     /// one that is built for this is dropped.
-    pub fn answer(&mut self, pick: &Pick, config: &SystemConfig) -> Answer {
+    pub fn answer(&self, pick: &Pick, config: &SystemConfig) -> Answer {
         let system = format!("{} {}", config.system.name, config.preset.name());
-        let hit = self.picked_hit(pick, config).map_err(|error| error.to_string());
-        Answer { system, hit }
-    }
-
-    fn picked_hit(
-        &mut self,
-        pick: &Pick,
-        config: &SystemConfig,
-    ) -> Result<Option<PickedHit>, ExperimentError> {
-        let stage =
-            self.stage.as_ref().filter(|_| pick.scene == self.settings.scene && pick.seconds == self.posed);
-        let Some((stage, _)) = stage else {
-            return Err(ExperimentError::usage("the scene has moved since it was picked", "pick again"));
-        };
-        let [width, height] = pick.size;
-        let frame = Frame { width, height, ..self.settings.frame.clone() };
-        let config = config.clone().serving(frame.workload()).seen_by(&pick.camera, &frame);
-        let eye = pick.camera.world_from_camera.translation;
-        let own = self.traced.as_ref().filter(|traced| traced.config == config).map(|traced| &traced.built);
-        let made = match own {
-            Some(_) => None,
-            None => {
-                let relative = (eye - stage.scene.frame_origin()).as_vec3().to_array();
-                Some(Built::new(&self.device, &config.spec()?, &stage.scene, relative)?)
+        let is_there = pick.scene == self.settings.scene && pick.seconds == self.posed;
+        let hit = match self.stage.as_ref().filter(|_| is_there) {
+            Some((stage, _)) => {
+                let scene = (&self.scene.loaded().scene, stage);
+                pick.hit(&self.device, scene, self.traced.as_ref(), config, &self.settings.frame)
             }
+            None => Err(ExperimentError::usage("the scene has moved since it was picked", "pick again")),
         };
-        let Some(built) = own.or(made.as_ref()) else { return Ok(None) };
-        let Some(hit) = hit_at(&self.device, stage, built, &pick.camera, pick.size, pick.place)? else {
-            return Ok(None);
-        };
-        let (origin, direction) = pick.ray();
-        let distance = f64::from(hit.t);
-        let point = origin + direction * distance;
-        let forward = -pick.camera.world_from_camera.matrix3.z_axis.normalize_or_zero();
-        let scene = &self.scene.loaded().scene;
-        Ok(Some(PickedHit {
-            point,
-            depth: (point - eye).dot(forward),
-            distance,
-            triangle: hit.primitive.and_then(|id| PickedTriangle::of(scene, id)),
-        }))
+        Answer { system, hit: hit.map_err(|error| error.to_string()) }
     }
 
     fn picture(

@@ -1,8 +1,11 @@
 //! A point of the scene that was picked in a picture, and what each system hits there.
 
 use glam::DVec3;
-use rasray_experiment::SystemConfig;
+use rasray_experiment::{Built, DeviceScene, ExperimentError, Frame, SystemConfig, hit_at};
+use rasray_gpu::Device;
 use rasray_scene::{Camera, Projection, Scene};
+
+use crate::traced::Traced;
 
 /// A ray through a picture, and the systems that it is to be traced through.
 #[derive(Clone, Debug)]
@@ -25,7 +28,7 @@ pub struct Pick {
 
 impl Pick {
     /// Its ray: from where, world, metres, and in which direction, a unit vector.
-    pub(crate) fn ray(&self) -> (DVec3, DVec3) {
+    fn ray(&self) -> (DVec3, DVec3) {
         let [width, height] = self.size;
         let half = self.camera.half_extents(width, height);
         let [x, y] = [
@@ -41,6 +44,40 @@ impl Pick {
             Projection::Perspective { .. } => (frame.translation, (across - back).normalize_or_zero()),
             Projection::Orthographic { .. } => (frame.translation + across, -back),
         }
+    }
+
+    /// What it hits in the structure of a configuration: the one that is there where it is of that, else one that is built for
+    /// this. The scene is given as it was read and as it is on the device.
+    pub(crate) fn hit(
+        &self,
+        device: &Device,
+        (scene, stage): (&Scene, &DeviceScene),
+        traced: Option<&Traced>,
+        config: &SystemConfig,
+        frame: &Frame,
+    ) -> Result<Option<PickedHit>, ExperimentError> {
+        let [width, height] = self.size;
+        let frame = Frame { width, height, ..frame.clone() };
+        let config = config.clone().serving(frame.workload()).seen_by(&self.camera, &frame);
+        let eye = self.camera.world_from_camera.translation;
+        let made;
+        let built = match traced.filter(|traced| traced.config == config) {
+            Some(traced) => &traced.built,
+            None => {
+                let relative = (eye - stage.scene.frame_origin()).as_vec3().to_array();
+                made = Built::new(device, &config.spec()?, &stage.scene, relative)?;
+                &made
+            }
+        };
+        let Some(hit) = hit_at(device, stage, built, &self.camera, self.size, self.place)? else {
+            return Ok(None);
+        };
+        let (origin, direction) = self.ray();
+        let distance = f64::from(hit.t);
+        let point = origin + direction * distance;
+        let forward = -self.camera.world_from_camera.matrix3.z_axis.normalize_or_zero();
+        let triangle = hit.primitive.and_then(|id| PickedTriangle::of(scene, id));
+        Ok(Some(PickedHit { point, depth: (point - eye).dot(forward), distance, triangle }))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::settings::Settings;
 use rasray_experiment::Resolved;
-use rasray_metrics::tone_map;
+use rasray_metrics::{Tone, tone_map};
 use rasray_report::colour_scale::{MAGMA, Scale, VIRIDIS, colour, place};
 use rasray_report::{Memory, Pass, grouped};
 use rasray_scene::Camera;
@@ -49,10 +49,11 @@ pub enum Pixels {
 }
 
 impl Pixels {
-    /// Three bytes of sRGB per pixel; exposure in stops, of radiance alone. Radiance is mapped as files of PNG are.
-    pub fn bytes(&self, exposure: f32) -> Vec<u8> {
+    /// Three bytes of sRGB per pixel, of radiance as files of PNG are in this tone; maps have none. A number is stops of exposure
+    /// alone.
+    pub fn bytes(&self, tone: impl Into<Tone>) -> Vec<u8> {
         match self {
-            Self::Radiance(radiance) => tone_map(radiance, exposure),
+            Self::Radiance(radiance) => tone_map(radiance, tone),
             Self::Map(colours, _) => colours.as_flattened().to_vec(),
         }
     }

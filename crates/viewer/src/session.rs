@@ -19,6 +19,7 @@ use crate::worker::{Opened, Update};
 use cameras::Stand;
 pub use opening::{Opening, camera_names};
 use rasray_experiment::{ExperimentError, Frame, SystemConfig};
+use rasray_metrics::{Tone, ToneCurve};
 use rasray_scene::Lens;
 
 /// Seconds after the last motion until the whole picture is made.
@@ -56,8 +57,8 @@ pub struct Session {
     pub frame: Frame,
     /// What is shown.
     pub shown: crate::settings::Shown,
-    /// Stops of exposure.
-    pub exposure: f32,
+    /// How colours are shown, and saved.
+    pub tone: Tone,
     /// The time.
     pub playback: Playback,
     stand: Stand,
@@ -102,7 +103,7 @@ impl Session {
             config: system,
             frame,
             shown,
-            exposure: opening.exposure,
+            tone: opening.tone,
             playback: Playback::new(seconds, opening.duration),
             stand: Stand::AsGiven,
             scene: 0,
@@ -262,8 +263,12 @@ impl Session {
         words.extend(frame_words(&settings.frame));
         words.extend(system_words(&settings.system));
         words.extend_from_slice(other_words);
-        if self.exposure != 0.0 {
-            words.extend(["--exposure".to_owned(), self.exposure.to_string()]);
+        let Tone { curve, exposure } = self.tone;
+        if exposure != 0.0 {
+            words.extend(["--exposure".to_owned(), exposure.to_string()]);
+        }
+        if curve != ToneCurve::default() {
+            words.extend(["--tone".to_owned(), curve.name().to_owned()]);
         }
         words.extend(["--output".to_owned(), output.to_string_lossy().into_owned()]);
         words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")

@@ -2,7 +2,7 @@
 
 use super::shared::WorkArguments;
 use super::structure::{preset_parser, system_request_parser};
-use super::values;
+use super::tone::ToneArguments;
 use clap::Args;
 use rasray_experiment::SystemRequest;
 use rasray_systems::Preset;
@@ -43,9 +43,9 @@ pub struct ViewerArguments {
     /// Where pictures are saved, .png; a run of # is a number [default: as SCENE is named]
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Stops of exposure
-    #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true, default_value = "0")]
-    pub exposure: f32,
+    /// How colours are shown, and saved.
+    #[command(flatten)]
+    pub tone: ToneArguments,
     /// The image, the camera, the scene, the structure and the device.
     #[command(flatten)]
     pub work: WorkArguments,

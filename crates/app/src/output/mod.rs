@@ -21,6 +21,8 @@ pub(crate) use exr_part::{PartFile, decode as decode_part};
 pub use format::ImageFormat;
 pub use levels::hint;
 pub(crate) use png::encode_picture;
+#[cfg(feature = "viewer")]
+pub(crate) use png::encode_shown;
 pub(crate) use rows::{Row, Rows, key_of_report, lines, read_rows};
 pub(crate) use save_rays::{SaveTargets, save};
 pub use stamp::{KEY, Standing, image_key, standing};

@@ -27,8 +27,17 @@ pub fn encode(output: &RenderOutput, tone: Tone, key: Option<&str>) -> Result<Ve
 /// # Errors
 /// [`AppError::Refused`] with what the encoder says.
 pub(crate) fn encode_picture(pixels: &[u8], size: [u32; 2]) -> Result<Vec<u8>, AppError> {
+    encode_shown(pixels, size, None)
+}
+
+/// The same, with how linear colours became these, where they did.
+///
+/// # Errors
+/// As [`encode_picture`].
+pub(crate) fn encode_shown(pixels: &[u8], size: [u32; 2], tone: Option<Tone>) -> Result<Vec<u8>, AppError> {
     let rows = pixels.chunks(3 * size[0].max(1) as usize);
-    encode_rows(rows, size, [])
+    let shown = tone.map(tone_text);
+    encode_rows(rows, size, shown.as_deref().map(|shown| (TONE, shown)))
         .map_err(|error| AppError::refused(format!("the picture could not be encoded: {error}"), ""))
 }
 

@@ -8,6 +8,9 @@ pub const TIME_SLIDER: [i32; 3] = [335, 453, 337];
 /// The list of what is shown, of a scene with or without clips.
 const SHOWN: [i32; 2] = [438, 119];
 
+/// That of tones.
+const TONE: [i32; 2] = [580, 119];
+
 /// The list of systems, what opens the options of `bvh`, and its list of builders, of a scene that does not move.
 const SYSTEM: [i32; 2] = [430, 314];
 const OPTIONS: [i32; 2] = [390, 360];
@@ -37,9 +40,15 @@ fn systems_options_and_maps_are_chosen_with_the_mouse() {
     let (first, _) = window.save();
     let first = pixels(&first);
 
+    choose(&window, TONE, 1);
+    let (toned, line) = window.save_when(|line| line.contains(" --tone agx "));
+    let toned = pixels(&toned);
+    assert!(made_by(folder.path(), &line) == toned && toned != first, "{line}");
+    choose(&window, TONE, 0);
+
     window.click(OPTIONS);
     choose(&window, BUILDER, 1);
-    let (built, line) = window.save_when(|line| line.contains(" --builder="));
+    let (built, line) = window.save_when(|line| line.contains(" --builder=") && !line.contains(" --tone "));
     let built = pixels(&built);
     assert!(made_by(folder.path(), &line) == built && built == first, "a tree is exact: {line}");
 

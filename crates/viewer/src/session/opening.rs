@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use glam::DVec3;
+use rasray_metrics::Tone;
 use rasray_scene::Camera;
 use rasray_scene_source::LoadedScene;
 
@@ -32,8 +33,8 @@ pub struct Opening {
     pub other_words: Vec<String>,
     /// What is shown at first.
     pub settings: Settings,
-    /// Stops of exposure.
-    pub exposure: f32,
+    /// How colours are shown.
+    pub tone: Tone,
     /// Length of the longest clip, seconds.
     pub duration: f64,
     /// The least and greatest corner of the scene, world, metres.

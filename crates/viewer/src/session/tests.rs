@@ -24,7 +24,7 @@ fn opening(scene: &str) -> Opening {
         time_words: vec!["--clip".to_owned(), "walk".to_owned()],
         other_words: vec!["--alpha".to_owned(), "off".to_owned()],
         settings: some(),
-        exposure: 0.0,
+        tone: Tone::default(),
         duration: 2.0,
         bounds: (DVec3::splat(-1.0), DVec3::splat(1.0)),
         output: PathBuf::from("out/a.###.png"),
@@ -154,9 +154,12 @@ fn the_command_line_names_everything() {
          --sampler sobol --system bricks --preset robust --alpha off --output p.png"
     );
     settings.seconds = Some(0.25);
-    session.exposure = -1.5;
+    session.tone = Tone { curve: ToneCurve::Agx, exposure: -1.5 };
     let line = session.command_line(&settings, Path::new("p.png"));
-    assert!(line.contains(" --time 0.25 --clip walk ") && line.contains(" --exposure -1.5 "), "{line}");
+    assert!(
+        line.contains(" --time 0.25 --clip walk ") && line.contains(" --exposure -1.5 --tone agx "),
+        "{line}"
+    );
 }
 
 #[test]

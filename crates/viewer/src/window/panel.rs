@@ -304,7 +304,8 @@ impl Panel {
         let saved = SavedPicture {
             place: &place,
             size: [picture.width, picture.height],
-            pixels: &picture.pixels.bytes(session.exposure),
+            pixels: &picture.pixels.bytes(session.tone),
+            tone: matches!(picture.pixels, Pixels::Radiance(_)).then_some(session.tone),
             command_line: line.as_deref(),
             scale: match &picture.pixels {
                 Pixels::Map(_, legend) => Some(legend.described()),

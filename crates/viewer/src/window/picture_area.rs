@@ -4,6 +4,8 @@ use egui::{
     Color32, ColorImage, Key, PointerButton, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Vec2,
 };
 
+use rasray_metrics::Tone;
+
 use super::panel::Moment;
 use crate::picture::Picture;
 use crate::picture_view::{Area, PictureView};
@@ -22,8 +24,8 @@ const STEP: f32 = 1.25;
 #[derive(Default)]
 pub(super) struct PictureArea {
     texture: Option<TextureHandle>,
-    /// Of which picture, by its number, and with which exposure the texture is.
-    of: Option<(u64, u32)>,
+    /// Of which picture, by its number, and how shown the texture is.
+    of: Option<(u64, Tone)>,
     /// The scene that the picture is laid for.
     scene: u32,
     pub(super) view: PictureView,
@@ -52,7 +54,7 @@ impl PictureArea {
                 self.scene = picture.settings.scene;
                 self.view.fit();
             }
-            self.update(ui.ctx(), picture, session.pictures, session.exposure);
+            self.update(ui.ctx(), picture, session.pictures, session.tone);
             if let Some(texture) = &self.texture {
                 let place = points_of(self.view.place(within, full), points);
                 let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
@@ -84,14 +86,14 @@ impl PictureArea {
 
     /// Takes the picture over where it is another. The window's renderer interpolates between pixels; where a pixel of the
     /// picture is one of the window, that changes none.
-    fn update(&mut self, context: &egui::Context, picture: &Picture, number: u64, exposure: f32) {
-        let of = Some((number, exposure.to_bits()));
+    fn update(&mut self, context: &egui::Context, picture: &Picture, number: u64, tone: Tone) {
+        let of = Some((number, tone));
         if self.of == of {
             return;
         }
         self.of = of;
         let size = [picture.width as usize, picture.height as usize];
-        let image = ColorImage::from_rgb(size, &picture.pixels.bytes(exposure));
+        let image = ColorImage::from_rgb(size, &picture.pixels.bytes(tone));
         match &mut self.texture {
             Some(texture) if texture.size() == size => {
                 texture.set_partial([0, 0], image, TextureOptions::LINEAR)

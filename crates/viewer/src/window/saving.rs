@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use rasray_metrics::Tone;
+
 /// A picture to be saved.
 #[derive(Clone, Debug)]
 pub struct SavedPicture<'a> {
@@ -11,6 +13,8 @@ pub struct SavedPicture<'a> {
     pub size: [u32; 2],
     /// Three bytes of sRGB per pixel, rows from the top.
     pub pixels: &'a [u8],
+    /// How its colours are shown; absent for maps.
+    pub tone: Option<Tone>,
     /// The command line that makes it when its refinement has ended; absent for maps, which `rasray compare --html` makes.
     pub command_line: Option<&'a str>,
     /// What the colours of a map mean, in a sentence; absent for pictures.

@@ -2,6 +2,7 @@
 
 use egui::{Color32, DragValue, Slider};
 use rasray_experiment::INTEGRATORS;
+use rasray_metrics::ToneCurve;
 use rasray_report::colour_scale::{Scale, colour};
 
 use super::picture_area::PictureArea;
@@ -15,15 +16,24 @@ use crate::settings::Shown;
 pub(super) fn show_view(ui: &mut egui::Ui, session: &mut Session, area: &mut PictureArea, now: f64) {
     egui::Grid::new("view").num_columns(2).show(ui, |ui| {
         ui.label("Show");
-        egui::ComboBox::from_id_salt("shown").selected_text(session.shown.name()).show_ui(ui, |ui| {
-            for shown in Shown::ALL {
-                ui.selectable_value(&mut session.shown, shown, shown.name()).on_hover_text(shown.doc());
-            }
+        ui.horizontal(|ui| {
+            egui::ComboBox::from_id_salt("shown").selected_text(session.shown.name()).show_ui(ui, |ui| {
+                for shown in Shown::ALL {
+                    ui.selectable_value(&mut session.shown, shown, shown.name()).on_hover_text(shown.doc());
+                }
+            });
+            ui.label("tone");
+            let tone = &mut session.tone.curve;
+            egui::ComboBox::from_id_salt("tone").width(70.0).selected_text(tone.name()).show_ui(ui, |ui| {
+                for curve in ToneCurve::ALL {
+                    ui.selectable_value(tone, curve, curve.name()).on_hover_text(curve.doc());
+                }
+            });
         });
         ui.end_row();
         show_legend(ui, session);
         ui.label("Exposure");
-        ui.add(Slider::new(&mut session.exposure, -8.0..=8.0).step_by(0.25).suffix(" stops"));
+        ui.add(Slider::new(&mut session.tone.exposure, -8.0..=8.0).step_by(0.25).suffix(" stops"));
         ui.end_row();
         ui.label("Light");
         show_integrator(ui, session);

@@ -32,7 +32,7 @@ fn opened(scene: &OsStr) -> Result<Opened, Failure> {
         time_words: Vec::new(),
         other_words: Vec::new(),
         settings: settings(),
-        exposure: 0.0,
+        tone: Default::default(),
         duration: loaded.scene.animation.duration.into(),
         bounds: bounds(&loaded.scene).unwrap_or_default(),
         output: "test.###.png".into(),
@@ -184,6 +184,25 @@ fn cameras_of_the_scene_are_looked_through() {
         Err(error) => error,
     };
     assert!(error.to_string().contains("no camera 2"), "{error}");
+}
+
+/// Settings that change before every step, as those of a scene that plays on a slow device.
+#[test]
+fn pictures_come_however_often_settings_change() {
+    let mut settings = settings();
+    settings.frame.integrator = integrator("path");
+    settings.moving = true;
+    let mut engine = engine_of(OsStr::new("cornell"), &settings);
+    let mut pictures = 0;
+    for seed in 0..4 {
+        settings.frame.seed = seed;
+        engine.apply(settings.clone());
+        if let Step::Picture(picture) = engine.step(&mut |_| ()).expect("a step") {
+            assert_eq!(picture.settings.frame.seed, seed);
+            pictures += 1;
+        }
+    }
+    assert_eq!(pictures, 4);
 }
 
 /// Mean absolute error of values as they are shown.

@@ -9,6 +9,7 @@ use crate::output::{self, Destination, ImageFormat};
 use crate::progress::during;
 use crate::terminal;
 use rasray_experiment::{Frame, SystemConfig, open_device};
+use rasray_metrics::Tone;
 use rasray_scene::default_view;
 use rasray_scene_source::{Chosen, LoadError, LoadedScene};
 use rasray_viewer::{
@@ -31,7 +32,7 @@ pub(crate) fn view(given: &ViewerArguments, interrupt: &Interrupt) -> Result<(),
         reading: given.work.reading.clone(),
         view: given.work.view.clone(),
         output: given.output.clone(),
-        exposure: given.exposure,
+        tone: given.tone.tone(),
         device: given.work.device.device.clone(),
     };
     let Opened { opening, source } = during("scene", "reading", || opener.open(&given.scene))?;
@@ -64,7 +65,7 @@ struct Opener {
     reading: SceneArguments,
     view: ViewArguments,
     output: Option<PathBuf>,
-    exposure: f32,
+    tone: Tone,
     device: Option<String>,
 }
 
@@ -116,7 +117,7 @@ impl Opener {
             time_words: words("--clip", self.reading.clip.clone()),
             other_words: self.other_words(),
             settings,
-            exposure: self.exposure,
+            tone: self.tone,
             duration: if is_moving { loaded.scene.animation.duration.into() } else { 0.0 },
             bounds: default_view::bounds(&loaded.scene).unwrap_or_default(),
             output,
@@ -163,7 +164,7 @@ impl Opener {
 
 /// Writes a picture and says how to make it again.
 fn save(saved: &SavedPicture<'_>, interrupt: &Interrupt) -> Result<(), AppError> {
-    let png = output::encode_picture(saved.pixels, saved.size)?;
+    let png = output::encode_shown(saved.pixels, saved.size, saved.tone)?;
     Destination::check(saved.place)?.write(&png, interrupt)?;
     if let Some(scale) = &saved.scale {
         terminal::note(scale);
