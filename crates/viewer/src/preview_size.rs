@@ -11,7 +11,7 @@ const MOST: u32 = 8;
 const LEAST_PIXELS: u32 = 320 * 180;
 
 /// The size of pictures while something moves, by how long the last ones took: half of the sides or all, and less where
-/// that is still [`LEAST_PIXELS`].
+/// that is still 320x180 pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct PreviewSize {
     /// Milliseconds per pixel; absent before the first picture.
