@@ -1,30 +1,24 @@
-// What: counts the digits of each chunk of keys, a workgroup per chunk and an invocation per key.
+// What: counts the digits of each chunk of keys.
 // Reads: scratch (keys). Writes: scratch (counts).
-// Source: Satish et al. 2009 (radix sort by count, running sum and scatter).
+// Source: Satish et al. 2009 (radix sort by count, running sum and scatter). One invocation counts a chunk
+// alone, so the order of equal keys is kept without atomics or barriers.
 #version 460
 #include "contract/extensions.glsl"
 #include "bvh/sort.glsl"
 
-layout(local_size_x = BVH_SORT_CHUNK) in;
-
-shared uint digits[BVH_DIGIT_VALUES];
+layout(local_size_x = BVH_GROUP_SIZE) in;
 
 void main() {
-    uint chunk = sort_chunk();
-    uint chunks = bvh_chunks(build.structure);
-    if (chunk >= chunks) {
+    uint chunk = bvh_invocation();
+    if (chunk >= bvh_chunks(build.structure)) {
         return;
     }
-    for (uint value = gl_LocalInvocationID.x; value < BVH_DIGIT_VALUES; value += BVH_SORT_CHUNK) {
-        digits[value] = 0u;
+    for (uint value = 0u; value < BVH_DIGIT_VALUES; value++) {
+        bvh_set_scratch(build.structure, sort_count_word(value, chunk), 0u);
     }
-    barrier();
-    uint place = chunk * BVH_SORT_CHUNK + gl_LocalInvocationID.x;
-    if (place < BVH_HEADER(build.structure).triangle_count) {
-        atomicAdd(digits[sort_digit(place)], 1u);
-    }
-    barrier();
-    for (uint value = gl_LocalInvocationID.x; value < BVH_DIGIT_VALUES; value += BVH_SORT_CHUNK) {
-        bvh_set_scratch(build.structure, sort_count_word(value, chunk), digits[value]);
+    uint end = min((chunk + 1u) * BVH_SORT_CHUNK, BVH_HEADER(build.structure).triangle_count);
+    for (uint place = chunk * BVH_SORT_CHUNK; place < end; place++) {
+        uint word = sort_count_word(sort_digit(place), chunk);
+        bvh_set_scratch(build.structure, word, bvh_scratch(build.structure, word) + 1u);
     }
 }

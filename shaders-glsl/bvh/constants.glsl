@@ -30,7 +30,7 @@
 // Bits per axis of a Morton code, and cells per axis.
 #define BVH_CODE_CELLS 1024.0
 
-// Bits of a digit of the radix sort, digits, and keys that one workgroup sorts, which has an invocation per key.
+// Bits of a digit of the radix sort, digits, and keys of a chunk, which an invocation sorts, or a workgroup with one per key.
 #define BVH_DIGIT_BITS 8u
 #define BVH_DIGIT_VALUES 256u
 #define BVH_DIGITS 4u

@@ -5,7 +5,7 @@
 
 #include "bvh/build.glsl"
 
-// The chunk of this workgroup. Workgroups fill two dimensions.
+// The chunk of this workgroup, where one takes a chunk. Workgroups fill two dimensions.
 uint sort_chunk() {
     return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 }

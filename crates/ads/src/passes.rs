@@ -45,6 +45,11 @@ impl<'a> BuildPipelines<'a> {
         Self { raster: RasterOptions { conservative: true, ..self.raster }, ..self.clone() }
     }
 
+    /// Whether the device is a processor, on which a pass takes as long as all its work.
+    pub fn is_software(&self) -> bool {
+        self.device.is_software()
+    }
+
     /// The label of the pass of the module of that name.
     pub fn label(&self, name: &str) -> String {
         format!("{}/{name}", self.modules.prefix)

@@ -8,7 +8,7 @@ use rasray_shaders_glsl::constants::bvh::{
 };
 
 use crate::layout::{most_nodes, union_levels};
-use crate::{Builder, Config, Pool, Width};
+use crate::{Builder, Config, Pool, Sort, Width};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -27,6 +27,7 @@ enum OfBuilder {
 #[derive(Debug)]
 struct LbvhPipelines {
     codes: ComputePipeline,
+    sort: Sort,
     counts: ComputePipeline,
     scan: Scan,
     scatter: ComputePipeline,
@@ -114,13 +115,20 @@ impl Build {
 impl LbvhPipelines {
     fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
         let compute = |name| pipelines.compute(name);
+        let by_device = if pipelines.is_software() { Sort::Serial } else { Sort::Shared };
+        let sort = config.sort.unwrap_or(by_device);
+        let (counts, scatter) = match sort {
+            Sort::Serial => ("build_3_counts", "build_5_scatter"),
+            Sort::Shared => ("build_3_counts.shared", "build_5_scatter.shared"),
+        };
         let treelets = (config.builder == Builder::Trbvh).then(|| TreeletPipelines::new(pipelines));
         let fours = (config.made_width() == Width::Four).then(|| FourPipelines::new(pipelines));
         Ok(Self {
             codes: compute("build_2_codes")?,
-            counts: compute("build_3_counts")?,
+            sort,
+            counts: compute(counts)?,
             scan: Scan::new(pipelines, "build_4_scan")?,
-            scatter: compute("build_5_scatter")?,
+            scatter: compute(scatter)?,
             unions: compute("build_7_unions")?,
             topology: compute("build_8_topology")?,
             refit: (config.builder == Builder::Refit).then(|| compute("build_9_refit")).transpose()?,
@@ -134,8 +142,13 @@ impl LbvhPipelines {
         let triangles = target.geometry.triangle_count();
         let chunks = triangles.div_ceil(BVH_SORT_CHUNK);
         let counts = u64::from(chunks) * u64::from(BVH_DIGIT_VALUES);
+        // Invocations of the serial form, workgroups of the other.
+        let groups = match self.sort {
+            Sort::Serial => groups(chunks),
+            Sort::Shared => chunks.into(),
+        };
         let chunk_pass = |recorder: &mut Recorder<'_>, label, pipeline, digit| {
-            target.compute_pass(recorder, label, pipeline, chunks.into(), digit, Access::COMPUTE);
+            target.compute_pass(recorder, label, pipeline, groups, digit, Access::COMPUTE);
         };
         pass(recorder, target, "bvh/build_2_codes", &self.codes, 0, triangles);
         // Four digits take the keys from the first buffer to the second and back twice.

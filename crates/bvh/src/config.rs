@@ -58,6 +58,15 @@ impl Width {
     }
 }
 
+/// How the device sorts codes. The order is the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sort {
+    /// An invocation moves a chunk of keys alone: the least work.
+    Serial,
+    /// A workgroup moves a chunk, an invocation per key, by sets of bits in shared memory: fills a device.
+    Shared,
+}
+
 /// All options. None of them changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
@@ -69,6 +78,8 @@ pub struct Config {
     /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`], whose heuristic may use fewer, and
     /// 1 by the others, whose leaves hold one.
     pub leaf: Option<u32>,
+    /// How the device sorts; where absent [`Sort::Serial`] on software devices and [`Sort::Shared`] on others.
+    pub sort: Option<Sort>,
     /// How pools are reached.
     pub addressing: Addressing,
     /// How much of their work rays record: nodes read and triangles tested.
@@ -87,6 +98,7 @@ impl Config {
             builder,
             width: None,
             leaf: None,
+            sort: None,
             addressing: Addressing::Descriptor,
             counters: Counters::Off,
             work_budget: None,

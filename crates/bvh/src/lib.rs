@@ -21,7 +21,7 @@ mod structure;
 mod validate;
 mod wide;
 
-pub use config::{Builder, Config, Width};
+pub use config::{Builder, Config, Sort, Width};
 pub use layout::{FormulaBytes, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::Addressing;

@@ -1,6 +1,6 @@
 //! The sort on the device against one of the host.
 
-use rasray_bvh::{Builder, Config};
+use rasray_bvh::{Builder, Config, Sort};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::Triangle;
@@ -37,8 +37,11 @@ fn triangles_are_in_the_order_of_a_stable_sort() {
         let triangles: Vec<Triangle> = cells.iter().enumerate().map(triangle).collect();
         let mut expected: Vec<u32> = (0..cells.len() as u32).collect();
         expected.sort_by_key(|index| code(cells[*index as usize]));
-        let contents = build(&bench, Config::new(Builder::Lbvh), &triangles);
-        let found: Vec<u32> = contents.records.iter().map(|record| record.primitive).collect();
-        assert!(found == expected, "{count} triangles in {side} cells a side");
+        for sort in [Sort::Serial, Sort::Shared] {
+            let config = Config { sort: Some(sort), ..Config::new(Builder::Lbvh) };
+            let contents = build(&bench, config, &triangles);
+            let found: Vec<u32> = contents.records.iter().map(|record| record.primitive).collect();
+            assert!(found == expected, "{sort:?}, {count} triangles in {side} cells a side");
+        }
     }
 }
