@@ -1,5 +1,5 @@
 // What: copies the triangles into the order of the leaves, so that a leaf is one run of memory.
-// Reads: geometry, scratch (order). Writes: records.
+// Reads: geometry, scratch (order), or where the order is kept the records. Writes: records.
 #version 460
 #include "contract/extensions.glsl"
 #include "bvh/build.glsl"
@@ -11,9 +11,15 @@ void main() {
     if (place >= BVH_HEADER(build.structure).triangle_count) {
         return;
     }
-    uint word = BVH_HEADER(build.structure).order_offset + place * BVH_HEADER(build.structure).order_stride;
+    uint stride = BVH_HEADER(build.structure).order_stride;
     BvhRecord record;
-    record.primitive = bvh_scratch(build.structure, word);
+    if (stride == 0u) {
+        uint corrupted = 0u;
+        record = bvh_record(build.structure, place, corrupted);
+        bvh_count_corrupted(build.structure, corrupted);
+    } else {
+        record.primitive = bvh_scratch(build.structure, BVH_HEADER(build.structure).order_offset + place * stride);
+    }
     geometry_vertices(record.primitive, record.a, record.b, record.c);
     bvh_set_record(build.structure, place, record);
 }

@@ -1,19 +1,42 @@
-// What: boxes of all inner nodes of a tree whose children stay, over triangles that have moved. Each is found by itself.
-// Reads: nodes (children, ends of runs), records, scratch (unions). Writes: nodes (boxes).
-// Source: the runs of Karras 2012: a node's number is one end of its run, and its children meet at the number of the first.
+// What: boxes of all nodes over fewer records than a treelet has leaves, of a tree over triangles that have moved. Each is found
+// by itself, from all records below it; and no chains of the nodes above them yet.
+// Reads: nodes (children), records, scratch (sizes). Writes: nodes (boxes), scratch (numbers of chains).
+// Source: none; docs/systems/bvh.md, "Treelets".
 #version 460
 #include "contract/extensions.glsl"
-#include "bvh/unions.glsl"
+#include "bvh/treelets.glsl"
 
 layout(local_size_x = BVH_GROUP_SIZE) in;
 
+// Sets the box of a child of a node to that of all records below it.
+void set_box_of(uint link, uint reference) {
+    vec3 lower = vec3(uintBitsToFloat(0x7F800000u));
+    vec3 upper = -lower;
+    uint waiting[BVH_TREELET];
+    waiting[0] = reference;
+    uint count = 1u;
+    while (count > 0u) {
+        uint next = waiting[--count];
+        if ((next & BVH_LEAF) != 0u) {
+            bvh_include_record(next & ~BVH_LEAF, lower, upper);
+        } else {
+            BvhNode below = bvh_node(build.structure, next);
+            waiting[count++] = below.child_0;
+            waiting[count++] = below.child_1;
+        }
+    }
+    bvh_set_box(build.structure, link, lower, upper);
+}
+
 void main() {
     uint node = bvh_invocation();
-    if (node + 1u >= BVH_HEADER(build.structure).triangle_count) {
+    if (node < BVH_TREELET_CLASSES) {
+        bvh_set_scratch(build.structure, chain_count_word(node), 0u);
+    }
+    if (node + 1u >= BVH_HEADER(build.structure).triangle_count || class_of(size_of(node)) != NO_CLASS) {
         return;
     }
     BvhNode of_two = bvh_node(build.structure, node);
-    // The number of the first child, whether node or record, is the last place of its run.
-    uint last_of_first = of_two.child_0 & ~BVH_LEAF;
-    union_boxes(node, node, of_two.other_end, last_of_first);
+    set_box_of(2u * node, of_two.child_0);
+    set_box_of(2u * node + 1u, of_two.child_1);
 }

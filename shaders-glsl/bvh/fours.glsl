@@ -8,7 +8,7 @@
 
 // Word of the scratch pool with the number that a node of two has as a node of four: that of the next node is larger by one
 // where it is one, else the same. One more word than nodes: the last has the number of nodes of four. They take the place of
-// the second buffer of keys; the first keeps the order of the triangles.
+// the second buffer of keys; sizes and chains take that of the first.
 uint number_word(uint node) {
     return bvh_keys(build.structure, 1u) + node;
 }

@@ -18,7 +18,7 @@ struct BvhHeader {
     uint record_capacity;   // triangle records the pool holds
     uint scratch_capacity;  // words the pool holds
     uint order_offset;      // word of the scratch pool with the primitive of the first record
-    uint order_stride;      // words from one to the next
+    uint order_stride;      // words from one to the next; 0 where the records keep their primitives
     vec3 lower;             // lower corner of the geometry, metres relative to the frame origin
     uint order;             // number of the order that the triangles are in, which the host counts
     vec3 upper;             // upper corner of the geometry

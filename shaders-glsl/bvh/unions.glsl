@@ -18,11 +18,7 @@ uint union_offset(uint level, uint offset, uint count) {
 // Widens a box by one of a level.
 void union_include(uint level, uint offset, uint place, inout vec3 lower, inout vec3 upper) {
     if (level == 0u) {
-        uint corrupted = 0u;
-        BvhRecord record = bvh_record(build.structure, place, corrupted);
-        bvh_count_corrupted(build.structure, corrupted);
-        lower = min(lower, min(record.a, min(record.b, record.c)));
-        upper = max(upper, max(record.a, max(record.b, record.c)));
+        bvh_include_record(place, lower, upper);
         return;
     }
     uint word = offset + 6u * place;

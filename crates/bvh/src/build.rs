@@ -33,10 +33,10 @@ struct LbvhPipelines {
     scatter: ComputePipeline,
     unions: ComputePipeline,
     topology: ComputePipeline,
-    /// Where later builds keep the order of the first.
-    refit: Option<ComputePipeline>,
     /// Where treelets of the tree by Morton codes are restructured.
     treelets: Option<TreeletPipelines>,
+    /// Where later builds keep the tree of the first.
+    refit: Option<RefitPipelines>,
     /// Where nodes of four are made of those of two.
     fours: Option<FourPipelines>,
 }
@@ -46,6 +46,12 @@ struct TreeletPipelines {
     sizes: ComputePipeline,
     chains: ComputePipeline,
     treelets: ComputePipeline,
+}
+
+#[derive(Debug)]
+struct RefitPipelines {
+    small: ComputePipeline,
+    chains: ComputePipeline,
 }
 
 #[derive(Debug)]
@@ -78,35 +84,16 @@ impl Build {
         recorder.end_pass();
     }
 
-    /// Records all passes, but for those that order triangles where `keeps_order`. The host has written the header.
-    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, keeps_order: bool) {
+    /// Records all passes; where the tree is kept, those that find its boxes anew. The host has written the header.
+    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, keeps_tree: bool) {
         record_header(recorder, target);
         let triangles = target.geometry.triangle_count();
-        let refit = match &self.of_builder {
-            OfBuilder::Lbvh(pipelines) => pipelines.refit.as_ref().filter(|_| keeps_order),
-            OfBuilder::Sah { .. } => None,
-        };
-        if let (OfBuilder::Lbvh(pipelines), None) = (&self.of_builder, refit) {
+        if let (OfBuilder::Lbvh(pipelines), false) = (&self.of_builder, keeps_tree) {
             pipelines.record_order(recorder, target);
         }
         pass(recorder, target, "bvh/build_6_records", &self.records, 0, triangles);
         if let OfBuilder::Lbvh(pipelines) = &self.of_builder {
-            let (label, nodes) = match refit {
-                Some(refit) => ("bvh/build_9_refit", refit),
-                None => ("bvh/build_8_topology", &pipelines.topology),
-            };
-            pipelines.record_unions(recorder, target);
-            pass(recorder, target, label, nodes, 0, triangles.saturating_sub(1));
-            if let Some(treelets) = &pipelines.treelets {
-                treelets.record(recorder, target);
-            }
-            if let Some(fours) = &pipelines.fours {
-                if refit.is_none() {
-                    fours.record_choice(recorder, target, &pipelines.scan);
-                }
-                let most = most_nodes(Width::Four, triangles.into()) as u32;
-                pass(recorder, target, "bvh/build_16_fours", &fours.fours, 0, most);
-            }
+            pipelines.record_tree(recorder, target, keeps_tree);
         }
         target.status_pass(recorder, "bvh/build_17_status", &self.status);
     }
@@ -121,7 +108,9 @@ impl LbvhPipelines {
             Sort::Serial => ("build_3_counts", "build_5_scatter"),
             Sort::Shared => ("build_3_counts.shared", "build_5_scatter.shared"),
         };
-        let treelets = (config.builder == Builder::Trbvh).then(|| TreeletPipelines::new(pipelines));
+        let restructures = matches!(config.builder, Builder::Trbvh | Builder::Refit);
+        let treelets = restructures.then(|| TreeletPipelines::new(pipelines));
+        let refit = (config.builder == Builder::Refit).then(|| RefitPipelines::new(pipelines));
         let fours = (config.made_width() == Width::Four).then(|| FourPipelines::new(pipelines));
         Ok(Self {
             codes: compute("build_2_codes")?,
@@ -131,8 +120,8 @@ impl LbvhPipelines {
             scatter: compute(scatter)?,
             unions: compute("build_7_unions")?,
             topology: compute("build_8_topology")?,
-            refit: (config.builder == Builder::Refit).then(|| compute("build_9_refit")).transpose()?,
             treelets: treelets.transpose()?,
+            refit: refit.transpose()?,
             fours: fours.transpose()?,
         })
     }
@@ -159,6 +148,24 @@ impl LbvhPipelines {
         }
     }
 
+    /// Nodes over the records, or where the tree is kept only their boxes.
+    fn record_tree(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, keeps_tree: bool) {
+        match (&self.treelets, &self.refit) {
+            (Some(treelets), Some(refit)) if keeps_tree => refit.record(recorder, target, treelets),
+            (treelets, _) => {
+                let nodes = target.geometry.triangle_count().saturating_sub(1);
+                self.record_unions(recorder, target);
+                pass(recorder, target, "bvh/build_8_topology", &self.topology, 0, nodes);
+                if let Some(treelets) = treelets {
+                    treelets.record(recorder, target);
+                }
+            }
+        }
+        if let Some(fours) = &self.fours {
+            fours.record(recorder, target, &self.scan);
+        }
+    }
+
     /// Unions of the records' boxes.
     fn record_unions(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
@@ -177,23 +184,49 @@ impl TreeletPipelines {
         })
     }
 
-    /// In each round a dispatch per class of subtrees by size: those of a class depend on those of smaller ones.
+    /// In each round classes of subtrees by size one after the other: those of a class depend on those of smaller ones.
     fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
+        let triangles = target.geometry.triangle_count();
+        let counts = BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES;
+        pass(recorder, target, "bvh/build_10_sizes", &self.sizes, 0, triangles.max(counts));
+        for round in 0..BVH_TREELET_ROUNDS {
+            let step = |class| BVH_TREELET_CLASSES * round + class;
+            self.record_round(recorder, target, ("bvh/build_12_treelets", &self.treelets), round, step);
+        }
+    }
+
+    /// A round over the classes from `first` on: a dispatch of the labelled pass for each.
+    fn record_round(
+        &self,
+        recorder: &mut Recorder<'_>,
+        target: BuildTarget<'_>,
+        (label, of_chain): (&str, &ComputePipeline),
+        first: u32,
+        step: impl Fn(u32) -> u32,
+    ) {
         let triangles = target.geometry.triangle_count();
         // A class has half as many chains as the one before, at most.
         let chains = |class: u32| (triangles / BVH_TREELET).checked_shr(class).unwrap_or(0);
-        if chains(0) == 0 {
+        if chains(first) == 0 {
             return;
         }
-        let counts = BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES;
-        pass(recorder, target, "bvh/build_10_sizes", &self.sizes, 0, triangles.max(counts));
-        for round in (0..BVH_TREELET_ROUNDS).take_while(|round| chains(*round) > 0) {
-            pass(recorder, target, "bvh/build_11_chains", &self.chains, round, triangles);
-            for class in (round..BVH_TREELET_CLASSES).take_while(|class| chains(*class) > 0) {
-                let step = BVH_TREELET_CLASSES * round + class;
-                pass(recorder, target, "bvh/build_12_treelets", &self.treelets, step, chains(class));
-            }
+        pass(recorder, target, "bvh/build_11_chains", &self.chains, first, triangles);
+        for class in (first..BVH_TREELET_CLASSES).take_while(|class| chains(*class) > 0) {
+            pass(recorder, target, label, of_chain, step(class), chains(class));
         }
+    }
+}
+
+impl RefitPipelines {
+    fn new(pipelines: &BuildPipelines<'_>) -> Result<Self, AdsError> {
+        Ok(Self { small: pipelines.compute("build_9_refit")?, chains: pipelines.compute("build_12_refit")? })
+    }
+
+    /// Boxes of the nodes of two, from the leaves up.
+    fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, treelets: &TreeletPipelines) {
+        let items = target.geometry.triangle_count().max(BVH_TREELET_CLASSES);
+        pass(recorder, target, "bvh/build_9_refit", &self.small, 0, items);
+        treelets.record_round(recorder, target, ("bvh/build_12_refit", &self.chains), 0, |class| class);
     }
 }
 
@@ -207,13 +240,15 @@ impl FourPipelines {
         })
     }
 
-    /// Which nodes of two become nodes of four, and their numbers.
-    fn record_choice(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, scan: &Scan) {
+    /// Which nodes of two become nodes of four, their numbers, and those nodes.
+    fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, scan: &Scan) {
         let nodes = target.geometry.triangle_count().saturating_sub(1);
         pass(recorder, target, "bvh/build_13_openings", &self.openings, 0, nodes);
         pass(recorder, target, "bvh/build_14_tops", &self.tops, 0, nodes);
         scan.record(recorder, target, "bvh/build_4_scan", nodes.into(), BVH_DIGITS, Access::COMPUTE);
         pass(recorder, target, "bvh/build_15_list", &self.list, 0, nodes);
+        let most = most_nodes(Width::Four, target.geometry.triangle_count().into()) as u32;
+        pass(recorder, target, "bvh/build_16_fours", &self.fours, 0, most);
     }
 }
 

@@ -14,8 +14,8 @@ pub enum Builder {
     Lbvh,
     /// The device: the same, and then treelets of the tree are restructured by surface area: slower to build, faster to trace.
     Trbvh,
-    /// The device: the first tree by Morton codes, after that only its boxes, over the same order of the triangles. Fastest
-    /// to build, and slower to trace the farther the triangles have moved since the first build.
+    /// The device: the first tree as [`Builder::Trbvh`] makes it, after that only its boxes. Fastest to build, and slower to
+    /// trace the farther the triangles have moved since the first build.
     Refit,
 }
 

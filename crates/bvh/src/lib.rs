@@ -6,7 +6,7 @@
 //! (Karras, "Maximizing parallelism in the construction of BVHs, octrees, and k-d trees", HPG 2012),
 //! [`Builder::Trbvh`] then restructures treelets of that tree by surface area (Karras and Aila, "Fast parallel
 //! construction of high-quality bounding volume hierarchies", HPG 2013), and
-//! [`Builder::Refit`] sorts once and then only finds boxes anew. See
+//! [`Builder::Refit`] does that once and then only finds boxes anew. See
 //! `docs/systems/bvh.md` for passes, bytes, options, limits and departures.
 //!
 //! [`Bvh`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.

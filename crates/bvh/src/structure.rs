@@ -33,8 +33,8 @@ pub struct Tree {
     prepared: Option<Prepared>,
     /// The order of the triangles that later builds may keep.
     order: Order,
-    /// Whether the next build recorded keeps it.
-    keeps_order: bool,
+    /// Whether the next build recorded keeps the tree over it.
+    keeps_tree: bool,
 }
 
 /// What a tree takes.
@@ -188,7 +188,7 @@ impl Design for Tree {
             build: Build::new(pipelines, config)?,
             prepared: None,
             order: Order::default(),
-            keeps_order: false,
+            keeps_tree: false,
         })
     }
 
@@ -246,18 +246,20 @@ impl Design for Tree {
         let triangles = parts.geometry.triangle_count();
         // A number of triangles that the device counts may be another one in each build.
         let is_fixed = parts.geometry.desc().count.is_none();
-        self.keeps_order = parts.config.builder == Builder::Refit && is_fixed && self.order.is_kept();
+        self.keeps_tree = parts.config.builder == Builder::Refit && is_fixed && self.order.is_kept();
         let prepared = match parts.config.builder {
             // The triangles may have moved since, so a tree serves one build.
             Builder::Sah => self.prepared.take().ok_or(AdsError::NotPrepared { structure: NAME })?,
-            Builder::Refit if self.keeps_order => refitted(triangles),
+            Builder::Refit if self.keeps_tree => refitted(triangles),
             Builder::Lbvh | Builder::Trbvh | Builder::Refit => on_device(triangles),
         };
-        Ok(Header { order: self.order.number(), ..first_header(parts, prepared) })
+        let header = Header { order: self.order.number(), ..first_header(parts, prepared) };
+        // Records keep their primitives: what else the first build had in its scratch is sizes now.
+        Ok(if self.keeps_tree { Header { order_stride: 0, ..header } } else { header })
     }
 
     fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
-        self.build.record(recorder, parts.target(scene), self.keeps_order);
+        self.build.record(recorder, parts.target(scene), self.keeps_tree);
     }
 
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {

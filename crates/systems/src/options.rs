@@ -369,7 +369,7 @@ pub const OPTIONS: &[StructureOption] = &[
             ("trbvh", "The same, then its treelets are restructured by surface area, on the device"),
             (
                 "refit",
-                "A tree by Morton codes, of which later builds while the triangles stay find only the boxes anew",
+                "The tree of trbvh, of which later builds while the triangles stay find only the boxes anew",
             ),
             ("raster", "Cells, by drawing"),
             ("binning", "Cells, by computing"),
