@@ -219,14 +219,14 @@ impl TreeletPipelines {
 
 impl RefitPipelines {
     fn new(pipelines: &BuildPipelines<'_>) -> Result<Self, AdsError> {
-        Ok(Self { small: pipelines.compute("build_9_refit")?, chains: pipelines.compute("build_12_refit")? })
+        Ok(Self { small: pipelines.compute("build_9_refit")?, chains: pipelines.compute("build_9_refit.chains")? })
     }
 
     /// Boxes of the nodes of two, from the leaves up.
     fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, treelets: &TreeletPipelines) {
         let items = target.geometry.triangle_count().max(BVH_TREELET_CLASSES);
         pass(recorder, target, "bvh/build_9_refit", &self.small, 0, items);
-        treelets.record_round(recorder, target, ("bvh/build_12_refit", &self.chains), 0, |class| class);
+        treelets.record_round(recorder, target, ("bvh/build_9_refit", &self.chains), 0, |class| class);
     }
 }
 
