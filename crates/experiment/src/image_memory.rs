@@ -5,7 +5,7 @@ use rasray_integrators::FilmPixel;
 use rasray_report::{bytes as in_words, grouped};
 
 use crate::error::ExperimentError;
-use crate::jobs::{AovSelection, Frame};
+use crate::jobs::{Aov, AovSelection, Frame};
 
 /// Bytes per pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,23 +20,24 @@ const COLOUR: u64 = size_of::<[f32; 3]>() as u64;
 /// What the pilot of adaptive samples keeps: mean, squares, sum, and two numbers of samples.
 const PILOT: u64 = 5 * NUMBER;
 
+/// What is kept of the samples of a pixel whose variance is measured: of each channel mean, squares, sum and number.
+const MOMENTS: u64 = 3 * 4 * NUMBER;
+
 impl PerPixel {
     /// Of an image with these further images; with sums where it is a share of the samples.
-    fn of(frame: &Frame, aovs: AovSelection, has_sums: bool) -> Self {
-        let AovSelection { depth, normal, primitive, samples } = aovs;
-        let kept = [
-            (true, COLOUR),
-            (has_sums, COLOUR + NUMBER),
-            (samples, NUMBER),
-            (depth, NUMBER),
-            (normal, COLOUR),
-            (primitive, NUMBER),
-            (frame.adaptive.is_some(), PILOT),
-        ];
-        let listed = if frame.adaptive.is_some() { NUMBER } else { 0 };
+    fn of(aovs: AovSelection, is_adaptive: bool, has_sums: bool) -> Self {
+        let total =
+            |kept: &[(bool, u64)]| kept.iter().filter(|(is_kept, _)| *is_kept).map(|(_, bytes)| bytes).sum();
+        let film = size_of::<FilmPixel>() as u64;
         Self {
-            device: size_of::<FilmPixel>() as u64 + listed,
-            host: kept.iter().filter(|(is_kept, _)| *is_kept).map(|(_, bytes)| bytes).sum(),
+            device: total(&[(true, film), (is_adaptive, NUMBER), (aovs.has_direct_light(), film)]),
+            host: total(&[
+                (true, COLOUR),
+                (has_sums, COLOUR + NUMBER),
+                (true, aovs.iter().map(Aov::bytes).sum()),
+                (is_adaptive, PILOT),
+                (aovs.contains(Aov::Variance), MOMENTS),
+            ]),
         }
     }
 }
@@ -96,7 +97,8 @@ pub(crate) fn check(
     aovs: AovSelection,
     has_sums: bool,
 ) -> Result<(), ExperimentError> {
-    There::of(device).check([frame.width, frame.height], PerPixel::of(frame, aovs, has_sums))
+    let per_pixel = PerPixel::of(aovs, frame.adaptive.is_some(), has_sums);
+    There::of(device).check([frame.width, frame.height], per_pixel)
 }
 
 /// Bytes that a process may still take, where the system says so: those that are free or can be made so, and no more than the
@@ -138,6 +140,17 @@ mod tests {
         assert!(matches!(shared, ExperimentError::Usage { .. }) && shared.to_string().contains("1.75 GiB"));
         let host = check(Some(GIBIBYTE), Some(GIBIBYTE / 2)).expect_err("the host is too small");
         assert!(host.to_string().contains("768.00 MiB (12 bytes a pixel)"), "{host}");
+    }
+
+    #[test]
+    fn whatever_is_kept_of_a_pixel_counts() {
+        let of = |aovs: &[Aov]| PerPixel::of(aovs.iter().copied().collect(), false, false);
+        assert_eq!(of(&[]), PLAIN);
+        assert_eq!(of(&[Aov::Normal, Aov::Material, Aov::Uv]), PerPixel { host: 12 + 12 + 4 + 8, ..PLAIN });
+        assert_eq!(of(&[Aov::Indirect]), PerPixel { device: 16 + 16, host: 12 + 12 });
+        assert_eq!(of(&[Aov::Variance]), PerPixel { host: 12 + 12 + 48, ..PLAIN });
+        let share = PerPixel::of(AovSelection::default(), true, true);
+        assert_eq!(share, PerPixel { device: 16 + 4, host: 12 + 16 + 20 });
     }
 
     #[test]

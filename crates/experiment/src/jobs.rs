@@ -1,6 +1,8 @@
 //! Jobs and results as plain data.
 
+pub use crate::aov::{Aov, AovImage, AovSelection};
 pub use crate::frame::{Frame, OccluderKind, Primary, Refresh, Sampler};
+pub use crate::motion::FrameBefore;
 use crate::shard::Shard;
 use crate::system_config::SystemConfig;
 use rasray_ads::{Hit, Ray, StructureKind};
@@ -12,19 +14,6 @@ use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Moment, Scene};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Images in addition to the colours. But for the numbers of samples, they are from rays through pixel centres.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct AovSelection {
-    /// Distance along the ray.
-    pub depth: bool,
-    /// Geometric normal.
-    pub normal: bool,
-    /// Global triangle id.
-    pub primitive: bool,
-    /// Samples of each pixel.
-    pub samples: bool,
-}
 
 /// One image of one system.
 #[derive(Clone, Debug)]
@@ -45,6 +34,8 @@ pub struct RenderJob<'a> {
     pub shard: Option<Shard>,
     /// What else is wanted.
     pub aovs: AovSelection,
+    /// The frame before, where the device poses the scene; for [`Aov::Motion`], which is not there without.
+    pub before: Option<FrameBefore>,
     /// What is uploaded, compiled in and stored; everything with `--needs all`.
     pub needs: Needs,
     /// Builds that are timed after the first; with none there is no [`Times::build_ms`].
@@ -261,14 +252,8 @@ pub struct RenderOutput {
     pub beauty: Vec<[f32; 3]>,
     /// What those samples add up to, where [`RenderJob::shard`] asked for a share of them.
     pub sums: Option<FilmSums>,
-    /// Metres from the eye along the ray; 0 where nothing was hit.
-    pub depth: Option<Vec<f32>>,
-    /// Unit geometric normal in the world, facing the eye; zero where nothing was hit.
-    pub normal: Option<Vec<[f32; 3]>>,
-    /// Global triangle id in scene order; `u32::MAX` where nothing was hit.
-    pub primitive: Option<Vec<u32>>,
-    /// Samples in the mean of each pixel: those that were made and are finite.
-    pub samples: Option<Vec<u32>>,
+    /// Those in addition that [`RenderJob::aovs`] asked for.
+    pub aovs: BTreeMap<Aov, AovImage>,
     /// Samples per pixel in `beauty`, of adaptive samples the most that a pixel could get; fewer than asked for after an early
     /// end.
     pub samples_done: u32,

@@ -26,6 +26,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         frame,
         shard: _,
         aovs,
+        before,
         needs: _,
         repetitions: _,
     } = job;
@@ -40,6 +41,10 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
         .with("frame", format!("{size:?} {spp} {seed} {sampler:?} {primary:?} {occluder:?} {back_faces:?}"))
         .with("adaptive", format!("{adaptive:?}"))
         .with("aovs", format!("{aovs:?}"))
+        .with(
+            "before",
+            format!("{:?}", before.as_ref().map(|it| (it.moment.seconds, camera_text(&it.camera)))),
+        )
         .finish()
 }
 
@@ -65,11 +70,11 @@ pub(crate) fn texts(values: &OptionValues) -> BTreeMap<String, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::jobs::{AovSelection, OccluderKind, Primary, Refresh, Sampler};
+    use crate::jobs::{Aov, AovSelection, FrameBefore, OccluderKind, Primary, Refresh, Sampler};
     use crate::{Adaptive, IntegratorRow, IntegratorSpec, Shard, one_system};
     use rasray_options::Value;
     use rasray_scene::needs::Needs;
-    use rasray_scene::{BackFaces, Lens};
+    use rasray_scene::{BackFaces, Lens, Moment};
     use rasray_scene_source::{default_view, load};
     use rasray_systems::{Preset, SYSTEMS};
     use std::collections::BTreeSet;
@@ -105,9 +110,14 @@ mod tests {
             frame: frame(),
             shard: None,
             aovs: AovSelection::default(),
+            before: None,
             needs: Needs::all(),
             repetitions: 0,
         }
+    }
+
+    fn before(job: &RenderJob<'_>, seconds: f64) -> FrameBefore {
+        FrameBefore { moment: Moment { seconds, clips: Vec::new() }, camera: job.camera.clone() }
     }
 
     #[test]
@@ -122,12 +132,12 @@ mod tests {
         let set = |job: &mut RenderJob<'_>, option, value: Value| {
             job.frame.integrator = job.frame.integrator.with(option, value).expect("valid");
         };
-        let changes: [&dyn Fn(&mut RenderJob<'_>); 22] = [
+        let changes: [&dyn Fn(&mut RenderJob<'_>); 24] = [
             &|job| job.frame.spp = 4,
             &|job| job.frame.adaptive = Some(Adaptive { threshold: 0.1, least: 4 }),
             &|job| job.frame.adaptive = Some(Adaptive { threshold: 0.2, least: 4 }),
             &|job| job.frame.adaptive = Some(Adaptive { threshold: 0.1, least: 5 }),
-            &|job| job.aovs.samples = true,
+            &|job| job.aovs = Aov::Samples.into(),
             &|job| job.frame.seed = 2,
             &|job| job.frame.width = 5,
             &|job| job.frame.sampler = Sampler::Pcg,
@@ -143,7 +153,9 @@ mod tests {
                 job.frame.integrator = integrator("ao");
                 set(job, "ao-distance", 1.0e-30.into());
             },
-            &|job| job.aovs.depth = true,
+            &|job| job.aovs = Aov::Depth.into(),
+            &|job| job.before = Some(before(job, 0.0)),
+            &|job| job.before = Some(before(job, 1.0)),
             &|job| job.camera.world_from_camera.translation.x = 1.0e-300,
             &|job| job.camera.lens = Some(Lens { aperture: 0.1, focus: 1.0 }),
             &|job| job.camera.lens = Some(Lens { aperture: 0.1, focus: 2.0 }),

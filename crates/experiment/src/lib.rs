@@ -14,6 +14,7 @@
 //! # Ok::<(), rasray_experiment::ExperimentError>(())
 //! ```
 
+mod aov;
 mod automatic;
 mod backend;
 mod built;
@@ -26,6 +27,7 @@ mod device_scene;
 mod error;
 mod evaluate;
 mod frame;
+mod further_images;
 mod hard;
 mod hard_file;
 mod hard_verdict;
@@ -35,6 +37,7 @@ mod jobs;
 mod kept_files;
 mod key;
 mod measured;
+mod motion;
 mod moving_scene;
 mod paper_frame;
 mod pass_list;
@@ -69,8 +72,8 @@ pub use error::ExperimentError;
 pub use evaluate::device_hits;
 pub use hard_file::compare_file;
 pub use jobs::{
-    Answers, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, HardJob, Kept, KeptSet,
-    OccluderKind, Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler,
+    Answers, Aov, AovImage, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, FrameBefore,
+    HardJob, Kept, KeptSet, OccluderKind, Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler,
 };
 pub use kept_files::NamedBytes;
 pub use key::picture_key;

@@ -1,19 +1,22 @@
 //! An image: scene to device, structure, waves of samples, readback.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use rasray_frame::Adaptive;
-use rasray_gpu::{Device, Stage};
+use rasray_gpu::{Device, Stage, Timing};
 use rasray_gpu_scene::View;
-use rasray_integrators::{AovPixel, Film, FilmPixel};
+use rasray_integrators::{Film, FilmPixel};
 use rasray_scene::needs::Needs;
 
 use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
-use crate::device_scene::{DeviceScene, device_error, frame_error};
+use crate::device_scene::{DeviceScene, device_error};
 use crate::error::ExperimentError;
+use crate::further_images::further_images;
 use crate::image_memory;
-use crate::jobs::{AovSelection, FilmSums, Frame, Refresh, RenderJob, RenderOutput};
+use crate::jobs::{Aov, FilmSums, Frame, Refresh, RenderJob, RenderOutput};
+use crate::motion::TrianglesBefore;
 use crate::passes::Passes;
 use crate::rendering::Rendering;
 use crate::shard::Shard;
@@ -28,7 +31,7 @@ pub(super) struct Pixels {
     /// Of samples, where they are kept.
     sums: Option<Vec<[f32; 3]>>,
     /// Samples in each pixel's sum, where they are kept.
-    counts: Option<Vec<u32>>,
+    pub(super) counts: Option<Vec<u32>>,
     /// Samples of all pixels.
     samples: u64,
     /// Of the pixel that has most.
@@ -141,12 +144,14 @@ struct MadeFor {
     /// For the image.
     frame: Frame,
     shard: Option<Shard>,
+    measures: bool,
 }
 
 impl MadeFor {
     fn of(job: &RenderJob<'_>) -> Self {
         let (needs, system, frame) = (job.needs.clone(), job.system.clone(), job.frame.clone());
-        Self { needs, refresh: job.refresh, system, frame, shard: job.shard }
+        let measures = job.aovs.contains(Aov::Variance);
+        Self { needs, refresh: job.refresh, system, frame, shard: job.shard, measures }
     }
 
     /// Whether the scene on the device is that of another job.
@@ -155,8 +160,20 @@ impl MadeFor {
     }
 
     fn has_image_of(&self, other: &Self) -> bool {
-        self.frame == other.frame && self.shard == other.shard
+        self.frame == other.frame && self.shard == other.shard && self.measures == other.measures
     }
+}
+
+/// The triangles of the frame before, where the job has one; the scene is posed as it is there after this.
+fn triangles_before(
+    device: &Device,
+    stage: &mut DeviceScene,
+    job: &RenderJob<'_>,
+) -> Result<Option<TrianglesBefore>, ExperimentError> {
+    let Some(before) = &job.before else { return Ok(None) };
+    stage.pose(device, job.scene, &before.moment, Timing::None)?;
+    let (positions, indices) = stage.triangles(device)?;
+    Ok(Some(TrianglesBefore { positions, indices }))
 }
 
 /// Brings a job to the device: what is there stays as far as its eye is not far from that of the job before. With times of
@@ -166,7 +183,7 @@ fn on_device(
     job: &RenderJob<'_>,
     kept: Option<OnDevice>,
     progress: &mut OnProgress<'_>,
-) -> Result<(OnDevice, Passes), ExperimentError> {
+) -> Result<(OnDevice, Passes, Option<TrianglesBefore>), ExperimentError> {
     let spec = job.system.spec()?;
     let mut says = |task, unit| _ = progress(Progress { task, done: 0, total: 0, unit });
     says("scene", "to the device");
@@ -174,16 +191,23 @@ fn on_device(
     let is_kept =
         |kept: &OnDevice| kept.made_for.has_scene_of(&made_for) && kept.stage.suits(job.scene, &job.camera);
     let kept = kept.filter(is_kept);
+    let before;
     let (mut stage, shown, built, rendering) = match job.moment.zip(kept) {
-        Some((moment, OnDevice { mut stage, built, rendering, made_for: before, .. })) => {
+        Some((moment, OnDevice { mut stage, built, rendering, made_for: kept_for, .. })) => {
             let Frame { width, height, seed, .. } = job.frame;
             stage.look(&View { camera: job.camera.clone(), width, height, seed })?;
+            // Times in ascending order may be cheaper.
+            before = triangles_before(device, &mut stage, job)?;
             let shown = stage.pose(device, job.scene, moment, device.best_timing())?;
-            let built = Some(built).filter(|_| before.system == made_for.system);
-            (stage, shown, built, Some(rendering).filter(|_| before.has_image_of(&made_for)))
+            let built = Some(built).filter(|_| kept_for.system == made_for.system);
+            (stage, shown, built, Some(rendering).filter(|_| kept_for.has_image_of(&made_for)))
         }
         None => {
-            let (stage, shown) = DeviceScene::of_job(device, job)?;
+            let (mut stage, shown) = DeviceScene::of_job(device, job)?;
+            before = triangles_before(device, &mut stage, job)?;
+            if let Some(moment) = job.moment.filter(|_| before.is_some()) {
+                stage.pose(device, job.scene, moment, Timing::None)?;
+            }
             (stage, shown, None, None)
         }
     };
@@ -209,9 +233,12 @@ fn on_device(
             rendering.scene_moved();
             rendering
         }
-        None => Rendering::new(device, (&stage, &built), &job.frame, job.shard, &job.needs)?,
+        None => {
+            let rendering = Rendering::new(device, (&stage, &built), &job.frame, job.shard, &job.needs)?;
+            if made_for.measures { rendering.measuring() } else { rendering }
+        }
     };
-    Ok((OnDevice { stage, built, rendering, made_for, is_warm }, shown.times()))
+    Ok((OnDevice { stage, built, rendering, made_for, is_warm }, shown.times(), before))
 }
 
 /// Renders an image with all requested additional images.
@@ -227,7 +254,7 @@ pub(super) fn render(
     if kept.0.is_none() {
         image_memory::check(device, frame, job.aovs, job.shard.is_some())?;
     }
-    let (mut on_device, posing) = on_device(device, job, kept.0.take(), progress)?;
+    let (mut on_device, posing, before) = on_device(device, job, kept.0.take(), progress)?;
     let OnDevice { stage, built, rendering, is_warm, .. } = &mut on_device;
     for _ in 0..job.repetitions {
         if progress(Progress { task: "build", done: 0, total: 0, unit: "timed builds" }).is_break() {
@@ -235,7 +262,8 @@ pub(super) fn render(
         }
         built.build_again(device)?;
     }
-    let kept_of_film = Kept { sums: job.shard.is_some(), counts: job.shard.is_some() || job.aovs.samples };
+    let kept_of_film =
+        Kept { sums: job.shard.is_some(), counts: job.shard.is_some() || job.aovs.contains(Aov::Samples) };
     let mut pixels = render_pixels(device, rendering, built, (!*is_warm, "render", kept_of_film), progress)?;
     let (options, mut paths) = built.resolved()?;
     if job.refresh != Refresh::All {
@@ -257,17 +285,17 @@ pub(super) fn render(
     pixels.write_times(&mut times);
     built.write_times(&mut times);
     let adaptive = frame.adaptive.map(|rule| pixels.adaptive(rule));
-    let samples = job.aovs.samples.then(|| pixels.counts.clone()).flatten();
-    let sums = pixels.sums.take().zip(pixels.counts.take()).map(|(sums, counts)| FilmSums { sums, counts });
+    let mut aovs = BTreeMap::new();
+    if !job.aovs.is_empty() {
+        _ = progress(Progress { task: "render", done: 0, total: 0, unit: "additional images" });
+        aovs = further_images(device, job, (stage, built, rendering), &mut pixels, before.as_ref())?;
+    }
     let mut output = RenderOutput {
         width: frame.width,
         height: frame.height,
         beauty: std::mem::take(&mut pixels.means),
-        sums,
-        depth: None,
-        normal: None,
-        primitive: None,
-        samples,
+        sums: pixels.sums.zip(pixels.counts).map(|(sums, counts)| FilmSums { sums, counts }),
+        aovs,
         samples_done: pixels.samples_done,
         adaptive,
         options,
@@ -279,19 +307,6 @@ pub(super) fn render(
         memory: Some(memory),
         counters: Some(pixels.counters),
     };
-    if (AovSelection { samples: false, ..job.aovs }) != AovSelection::default() {
-        _ = progress(Progress { task: "render", done: 0, total: 0, unit: "additional images" });
-        let AovSelection { depth, normal, primitive, .. } = job.aovs;
-        output.depth = depth.then(Vec::new);
-        output.normal = normal.then(Vec::new);
-        output.primitive = primitive.then(Vec::new);
-        let take = |found: &[AovPixel]| {
-            output.depth.iter_mut().for_each(|all| all.extend(found.iter().map(|pixel| pixel.distance)));
-            output.normal.iter_mut().for_each(|all| all.extend(found.iter().map(|pixel| pixel.normal)));
-            output.primitive.iter_mut().for_each(|all| all.extend(found.iter().map(|pixel| pixel.primitive)));
-        };
-        rendering.image().aovs(&stage.scene, built.structure(), take).map_err(frame_error)?;
-    }
     output.times.frame_ms = Some(started.elapsed().as_secs_f64() * 1.0e3);
     *kept = KeptScene(Some(on_device).filter(|on_device| on_device.stage.is_moving()));
     Ok(output)

@@ -166,6 +166,12 @@ impl Rendering {
         !self.of_hits || built.structure().has_surfaces_of_triangles()
     }
 
+    /// The same with the variance of each pixel measured.
+    #[must_use]
+    pub(super) fn measuring(self) -> Self {
+        Self { image: self.image.measuring(), ..self }
+    }
+
     /// Refuses a structure without the first hits that the frame takes from it.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Whether a result is whole: what is not is refused, since nobody could see it in a picture or a table.
 
 use crate::error::ExperimentError;
-use crate::jobs::{AovSelection, RenderOutput};
+use crate::jobs::{AovImage, AovSelection, RenderOutput};
 use rasray_report::Run;
 
 /// Refuses what was traced through a structure with holes, or with rays left unanswered.
@@ -34,17 +34,12 @@ impl RenderOutput {
     /// [`ExperimentError::Refused`], naming the image that is not whole.
     pub fn check_images(&self, aovs: AovSelection) -> Result<(), ExperimentError> {
         let pixels = self.width as usize * self.height as usize;
-        let lengths = [
-            ("colours", true, Some(self.beauty.len())),
-            ("depth", aovs.depth, self.depth.as_ref().map(Vec::len)),
-            ("normal", aovs.normal, self.normal.as_ref().map(Vec::len)),
-            ("primitive", aovs.primitive, self.primitive.as_ref().map(Vec::len)),
-            ("samples", aovs.samples, self.samples.as_ref().map(Vec::len)),
-        ];
-        for (name, wanted, length) in lengths {
-            if wanted && length != Some(pixels) {
+        let length = |aov| self.aovs.get(&aov).map_or(0, AovImage::pixels);
+        let wanted = aovs.iter().map(|aov| (aov.name(), length(aov)));
+        for (name, length) in wanted.chain([("colours", self.beauty.len())]) {
+            if length != pixels {
                 return Err(ExperimentError::refused(
-                    format!("the image '{name}' has {} of {pixels} pixels", length.unwrap_or(0)),
+                    format!("the image '{name}' has {length} of {pixels} pixels"),
                     "nothing was written; this is a defect of the renderer, please report it with the command line",
                 ));
             }
@@ -61,6 +56,7 @@ impl RenderOutput {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::jobs::Aov;
     use rasray_report::Counters;
 
     #[test]
@@ -83,7 +79,7 @@ mod tests {
         let mut output =
             RenderOutput { width: 2, height: 1, beauty: vec![[0.0; 3]; 2], ..Default::default() };
         assert!(output.check_images(AovSelection::default()).is_ok());
-        assert!(output.check_images(AovSelection { depth: true, ..Default::default() }).is_err());
+        assert!(output.check_images(Aov::Depth.into()).is_err());
         output.beauty[1][2] = f32::NAN;
         assert_eq!(output.non_finite_pixels(), 1);
         output.beauty.pop();

@@ -1,19 +1,23 @@
 //! Experiments as a program of one's own runs them: without a command line.
 
+#[path = "library/further_images.rs"]
+mod further_images;
+
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_experiment::{
-    AovSelection, CompareJob, Comparison, DeviceChoice, ExperimentError, FinishedRun, Frame, HardJob,
-    IntegratorRow, IntegratorSpec, KeptScene, OccluderKind, OptionValues, Primary, RaySet, Refresh,
-    RenderJob, RenderOutput, Sampler, Shard, SystemConfig, open,
+    Aov, AovSelection, CompareJob, Comparison, DeviceChoice, ExperimentError, FinishedRun, Frame,
+    FrameBefore, HardJob, IntegratorRow, IntegratorSpec, KeptScene, OccluderKind, OptionValues, Primary,
+    RaySet, Refresh, RenderJob, RenderOutput, Sampler, Shard, SystemConfig, open,
 };
 use rasray_hard_cases::Scale;
 use rasray_options::Value;
 use rasray_ray_files::HitsFile;
 use rasray_report::{ListRecord, Run};
+use rasray_scene::Moment;
 use rasray_scene::needs::Needs;
 use rasray_scene_source::{LoadedScene, default_view, load};
 use rasray_systems::{Preset, System};
@@ -218,6 +222,7 @@ fn render(name: &str, integrator: (&str, OptionValues), [width, height]: [u32; 2
         frame,
         shard: None,
         aovs: AovSelection::default(),
+        before: None,
         repetitions: 0,
     };
     let mut kept = KeptScene::default();
@@ -311,6 +316,8 @@ fn pictures_do_not_depend_on_what_was_kept() {
         (1.25, "brute-force", &small, None, moving),
     ] {
         loaded.show(seconds, None).expect("it moves");
+        let before =
+            Moment { seconds: seconds - 0.04, clips: loaded.moment.clone().expect("it is posed").clips };
         let job = RenderJob {
             scene: &loaded.scene,
             moment: loaded.moment.as_ref(),
@@ -319,7 +326,8 @@ fn pictures_do_not_depend_on_what_was_kept() {
             refresh,
             frame: frame.clone(),
             shard,
-            aovs: AovSelection { depth: true, ..AovSelection::default() },
+            aovs: AovSelection::from_iter([Aov::Depth, Aov::Motion, Aov::Variance]),
+            before: Some(FrameBefore { moment: before, camera: camera.clone() }),
             needs: Needs::of(&loaded.scene, frame.workload()),
             repetitions: 0,
         };
@@ -330,7 +338,7 @@ fn pictures_do_not_depend_on_what_was_kept() {
         let bits =
             |pixels: &[[f32; 3]]| pixels.iter().map(|pixel| pixel.map(f32::to_bits)).collect::<Vec<_>>();
         assert_eq!(bits(&after.beauty), bits(&fresh.beauty), "{system} at {seconds} s");
-        assert_eq!((&after.sums, &after.depth), (&fresh.sums, &fresh.depth), "{system} at {seconds} s");
+        assert_eq!((&after.sums, &after.aovs), (&fresh.sums, &fresh.aovs), "{system} at {seconds} s");
         assert!(after.beauty.iter().flatten().any(|value| *value > 0.0));
         kept_kernels += u32::from(after.times.first_use_ms.is_none());
         assert!(fresh.times.first_use_ms.is_some());

@@ -9,6 +9,8 @@
 
 use rasray_integrators::FilmPixel;
 
+use crate::moments::Moments;
+
 /// Rec. 709.
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
@@ -25,35 +27,11 @@ pub struct Adaptive {
     pub least: u32,
 }
 
-/// Luminance of the samples of a pixel: mean and summed squares of what differs from it, by Welford's recurrence.
-#[derive(Clone, Copy, Debug, Default)]
-struct Moments {
-    samples: u32,
-    mean: f32,
-    squares: f32,
-    /// Of the film's sum.
-    summed: f32,
-}
-
-impl Moments {
-    fn add(&mut self, value: f64) {
-        self.samples += 1;
-        let before = value - f64::from(self.mean);
-        let mean = f64::from(self.mean) + before / f64::from(self.samples);
-        self.mean = mean as f32;
-        self.squares += (before * (value - mean)) as f32;
-    }
-
-    /// Unbiased variance of a sample; absent where there are fewer than two.
-    fn variance(&self) -> Option<f64> {
-        (self.samples > 1).then(|| f64::from(self.squares) / f64::from(self.samples - 1))
-    }
-}
-
 /// The pilot of an image: what the samples of each pixel say of its neighbours.
 #[derive(Clone, Debug)]
 pub(crate) struct Pilot {
     width: usize,
+    /// Of luminance.
     pixels: Vec<Moments>,
 }
 
@@ -69,10 +47,7 @@ impl Pilot {
         for (moments, pixel) in self.pixels.iter_mut().skip(first as usize).zip(film) {
             let summed: f64 =
                 pixel.sum.iter().zip(LUMINANCE).map(|(sum, weight)| f64::from(*sum) * weight).sum();
-            if pixel.samples > moments.samples {
-                moments.add(summed - f64::from(moments.summed));
-            }
-            moments.summed = summed as f32;
+            moments.follow(summed, pixel.samples);
         }
     }
 

@@ -6,10 +6,11 @@ use std::time::Instant;
 use rasray_ads::{RayQueue, Structure};
 use rasray_gpu::{Device, PassTiming, Timing};
 use rasray_gpu_scene::GpuScene;
-use rasray_integrators::{AovPass, AovPixel, Film, Wave, wave_capacity};
+use rasray_integrators::{AovPass, AovPixel, AovSurface, Film, Wave, wave_capacity};
 
 use crate::adaptive::{Adaptive, Pilot};
 use crate::image_passes::{ImagePasses, unanswered};
+use crate::moments::Variances;
 use crate::{FrameError, Samples};
 
 /// What a call of [`ImageRenderer::advance`] did.
@@ -42,6 +43,7 @@ pub struct ImageRenderer {
     waves_done: u64,
     unfinished: u64,
     sharing: Option<Sharing>,
+    variances: Option<Variances>,
 }
 
 /// How samples are given to pixels where some get more than others.
@@ -81,6 +83,7 @@ impl ImageRenderer {
             waves_done: 0,
             unfinished: 0,
             sharing: None,
+            variances: None,
         };
         made.clear()?;
         Ok(made)
@@ -101,6 +104,14 @@ impl ImageRenderer {
         Ok(self)
     }
 
+    /// The same with the variance of each pixel measured ([`ImageRenderer::variances`]): the film is read after every
+    /// sample, and nothing of it changes.
+    #[must_use]
+    pub fn measuring(self) -> Self {
+        let variances = Some(Variances::new(self.film().pixel_count()));
+        Self { variances, ..self }
+    }
+
     /// Film and counters start at 0 again.
     ///
     /// # Errors
@@ -109,6 +120,9 @@ impl ImageRenderer {
         self.device.submit(|recorder| self.passes.record_reset(recorder))?;
         (self.next_pixel, self.samples_done, self.waves_done, self.unfinished) = (0, 0, 0, 0);
         self.of_sample = self.film().bands().ranges().collect();
+        if self.variances.is_some() {
+            self.variances = Some(Variances::new(self.film().pixel_count()));
+        }
         if let Some(sharing) = &mut self.sharing {
             let film = self.passes.film();
             sharing.pilot = Pilot::new(film.width(), film.pixel_count());
@@ -120,17 +134,26 @@ impl ImageRenderer {
         Ok(())
     }
 
+    /// Takes what a sample added to the film into what is known of its noise.
+    fn measure(&mut self) -> Result<(), FrameError> {
+        let Self { device, passes, samples_done, sharing, variances, .. } = self;
+        let mut pilot = sharing.as_mut().filter(|sharing| *samples_done <= sharing.rule.least);
+        if pilot.is_none() && variances.is_none() {
+            return Ok(());
+        }
+        let mut first = 0;
+        passes.film().read_bands(device, |pixels| {
+            pilot.iter_mut().for_each(|sharing| sharing.pilot.add(first, pixels));
+            variances.iter_mut().for_each(|variances| variances.add(first, pixels));
+            first += pixels.len() as u32;
+        })?;
+        Ok(())
+    }
+
     /// Chooses the pixels of the next sample. Where none has one, no sample is left to be made.
     fn choose_pixels(&mut self) -> Result<(), FrameError> {
         let Some(sharing) = &mut self.sharing else { return Ok(()) };
         let (film, done) = (self.passes.film(), self.samples_done);
-        if done <= sharing.rule.least {
-            let mut first = 0;
-            film.read_bands(&self.device, |pixels| {
-                sharing.pilot.add(first, pixels);
-                first += pixels.len() as u32;
-            })?;
-        }
         if done < sharing.rule.least {
             return Ok(());
         }
@@ -218,6 +241,7 @@ impl ImageRenderer {
         if self.left(self.next_pixel).next().is_none() {
             self.next_pixel = 0;
             self.samples_done += 1;
+            self.measure()?;
             self.choose_pixels()?;
         }
         Ok(Advance::Wave { passes: timings })
@@ -255,13 +279,41 @@ impl ImageRenderer {
         structure: &dyn Structure,
         mut take: impl FnMut(&[AovPixel]),
     ) -> Result<(), FrameError> {
-        let bands = self.film().bands();
-        let capacity = wave_capacity(&self.device).min(bands.pixel_count());
-        let aov = AovPass::new(&self.device, scene, bands, capacity)?;
-        for band in bands.ranges() {
+        let aov = AovPass::new(&self.device, scene, self.film().bands(), self.aov_capacity())?;
+        self.trace_centres(&aov, structure, |pixels, _| take(pixels))
+    }
+
+    /// The same with what materials and meshes say of what they hit. Bands are smaller where a device does not bind the
+    /// larger records of as many pixels.
+    ///
+    /// # Errors
+    /// As [`ImageRenderer::aovs`].
+    pub fn aovs_with_surfaces(
+        &self,
+        scene: &GpuScene,
+        structure: &dyn Structure,
+        take: impl FnMut(&[AovPixel], &[AovSurface]),
+    ) -> Result<(), FrameError> {
+        let (bands, capacity) = (self.film().bands(), self.aov_capacity());
+        let aov = AovPass::with_surfaces(&self.device, scene, bands, capacity)?;
+        self.trace_centres(&aov, structure, take)
+    }
+
+    /// Rays of a wave through pixels' centres.
+    fn aov_capacity(&self) -> u32 {
+        wave_capacity(&self.device).min(self.film().pixel_count())
+    }
+
+    fn trace_centres(
+        &self,
+        aov: &AovPass,
+        structure: &dyn Structure,
+        mut take: impl FnMut(&[AovPixel], &[AovSurface]),
+    ) -> Result<(), FrameError> {
+        for band in aov.bands().ranges() {
             loop {
                 self.device.submit(|recorder| aov.record_reset(recorder))?;
-                for wave in Wave::cut(band.clone(), 0, capacity) {
+                for wave in Wave::cut(band.clone(), 0, aov.queue().capacity()) {
                     let traced = self.passes.traced(structure);
                     self.device.submit(|recorder| aov.record_wave(recorder, traced, wave))?.value?;
                 }
@@ -273,7 +325,8 @@ impl ImageRenderer {
                     return Err(FrameError::Unfinished { rays });
                 }
             }
-            take(&aov.read(&self.device, band.len() as u32)?);
+            let count = band.len() as u32;
+            take(&aov.read(&self.device, count)?, &aov.read_surfaces(&self.device, count)?);
         }
         Ok(())
     }
@@ -317,6 +370,13 @@ impl ImageRenderer {
     /// Whether no pixel has more samples than another.
     pub fn is_between_samples(&self) -> bool {
         self.next_pixel == 0
+    }
+
+    /// Variance of the mean of each pixel, row by row from the top left, as if its samples were independent: that of a
+    /// sample over their number, 0 where there are fewer than two. Nothing unless it is measured
+    /// ([`ImageRenderer::measuring`]).
+    pub fn variances(&self) -> Option<impl Iterator<Item = [f32; 3]>> {
+        self.variances.as_ref().map(Variances::of_means)
     }
 
     /// Rays without an answer: where there are any, the image is not what was asked for.

@@ -18,6 +18,7 @@ mod error;
 mod image_passes;
 mod image_renderer;
 mod in_order;
+mod moments;
 mod readback;
 mod renderer;
 mod samples;

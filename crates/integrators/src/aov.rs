@@ -1,9 +1,13 @@
-//! Auxiliary images: distance, normal and primitive of what lies at the centre of every pixel.
+//! Auxiliary images of what lies at the centre of every pixel: distance, normal and primitive, and where wanted what
+//! materials and meshes say of it.
 
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Device, Recorder};
 use rasray_gpu_scene::GpuScene;
-use rasray_shaders_glsl::{INTEGRATORS_AOV, INTEGRATORS_PRIMARY, records::AovPixel};
+use rasray_shaders_glsl::{
+    INTEGRATORS_AOV, INTEGRATORS_AOV_SURFACE, INTEGRATORS_PRIMARY,
+    records::{AovPixel, AovSurface},
+};
 
 use crate::{
     Bands, IntegratorError, Traced, Wave,
@@ -15,13 +19,19 @@ use crate::{
 /// not used.
 #[derive(Debug)]
 pub struct AovPass {
+    bands: Bands,
     /// Of the band that was traced last.
     pixels: Buffer,
     queue: RayQueue,
     bindings: Bindings,
     primary: Kernel,
     store: Kernel,
+    /// The same of what materials and meshes say, where that is wanted.
+    surfaces: Option<(Buffer, Kernel)>,
 }
+
+/// [`AovSurface`] per pixel of the band, where they are wanted.
+const SURFACES: u32 = 9;
 
 impl AovPass {
     /// Makes queue, image and kernels for the scene's view in these bands, with at most `wave_capacity` rays per wave.
@@ -35,22 +45,57 @@ impl AovPass {
         bands: Bands,
         wave_capacity: u32,
     ) -> Result<Self, IntegratorError> {
+        Self::make(device, scene, (bands, false), wave_capacity)
+    }
+
+    /// The same with what materials and meshes say of each pixel, in bands that are small enough for that.
+    ///
+    /// # Errors
+    /// As [`AovPass::new`].
+    pub fn with_surfaces(
+        device: &Device,
+        scene: &GpuScene,
+        bands: Bands,
+        wave_capacity: u32,
+    ) -> Result<Self, IntegratorError> {
+        let bands = bands.of_records(device, size_of::<AovSurface>() as u64);
+        Self::make(device, scene, (bands, true), wave_capacity)
+    }
+
+    fn make(
+        device: &Device,
+        scene: &GpuScene,
+        (bands, has_surfaces): (Bands, bool),
+        wave_capacity: u32,
+    ) -> Result<Self, IntegratorError> {
         let view = scene.image_size();
         if Bands::one(view)?.pixel_count() != bands.pixel_count() {
             return Err(IntegratorError::SizesDiffer { film: [bands.pixel_count(), 1], view });
         }
         let capacity = check_capacity(wave_capacity)?;
-        let bytes = u64::from(bands.most()) * size_of::<AovPixel>() as u64;
-        let pixels = device_buffer(device, "aov", bytes)?;
+        let buffer = |name, bytes: usize| device_buffer(device, name, u64::from(bands.most()) * bytes as u64);
+        let pixels = buffer("aov", size_of::<AovPixel>())?;
         let queue = RayQueue::new(device, "pixel centre rays", capacity, true)?;
-        let bound = bands.ranges().map(|_| vec![(binding::AOV, &pixels)]).collect();
+        let surfaces = match has_surfaces {
+            true => Some(buffer("aov surfaces", size_of::<AovSurface>())?),
+            false => None,
+        };
+        let of_surfaces = surfaces.iter().map(|buffer| (SURFACES, buffer));
+        let of_band: Vec<_> = [(binding::AOV, &pixels)].into_iter().chain(of_surfaces).collect();
+        let bound = vec![of_band; bands.ranges().count()];
         let bindings = Bindings::new(device, scene, &OfPixels { bands, bound }, &[])?;
+        let surfaces = match surfaces {
+            Some(buffer) => Some((buffer, bindings.kernel(device, &INTEGRATORS_AOV_SURFACE, &[])?.of_film())),
+            None => None,
+        };
         Ok(Self {
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(true))?,
             store: bindings.kernel(device, &INTEGRATORS_AOV, &[])?.of_film(),
+            bands,
             pixels,
             queue,
             bindings,
+            surfaces,
         })
     }
 
@@ -74,7 +119,15 @@ impl AovPass {
         self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
         traced.record_primary(recorder, &self.queue, wave)?;
         self.bindings.record(recorder, &self.store, &self.queue, all, &constants);
+        if let Some((_, kernel)) = &self.surfaces {
+            self.bindings.record(recorder, kernel, &self.queue, all, &constants);
+        }
         Ok(())
+    }
+
+    /// What it traces one after the other: those that were asked for, or smaller ones.
+    pub fn bands(&self) -> Bands {
+        self.bands
     }
 
     /// The queue, for its counters.
@@ -84,7 +137,9 @@ impl AovPass {
 
     /// Bytes of all buffers.
     pub fn bytes(&self) -> u64 {
-        self.pixels.size() + self.queue.bytes()
+        self.pixels.size()
+            + self.surfaces.as_ref().map_or(0, |(buffer, _)| buffer.size())
+            + self.queue.bytes()
     }
 
     /// Downloads the pixels of the band whose waves were traced last, `count` of them: submits and waits.
@@ -93,5 +148,16 @@ impl AovPass {
     /// More pixels than a band has; the device is lost or out of memory.
     pub fn read(&self, device: &Device, count: u32) -> Result<Vec<AovPixel>, IntegratorError> {
         Ok(device.download_as(&self.pixels, 0, count as usize)?)
+    }
+
+    /// Downloads what materials and meshes say of the same pixels; nothing where that was not wanted. Submits and waits.
+    ///
+    /// # Errors
+    /// As [`AovPass::read`].
+    pub fn read_surfaces(&self, device: &Device, count: u32) -> Result<Vec<AovSurface>, IntegratorError> {
+        match &self.surfaces {
+            Some((buffer, _)) => Ok(device.download_as(buffer, 0, count as usize)?),
+            None => Ok(Vec::new()),
+        }
     }
 }

@@ -10,7 +10,7 @@ use crate::{IntegratorError, Wave};
 /// Maximum number of pixels of an image: indices of pixels, and of their three channels, fit in 32 bits.
 pub const PIXEL_LIMIT: u32 = 1 << 30;
 
-/// Bytes of the largest record that a buffer has per pixel.
+/// Bytes of the larger of the records that a film and the images beside it have per pixel.
 const RECORD_BYTES: u64 = size_of::<AovPixel>() as u64;
 
 /// The bands of an image: consecutive pixels whose records are in one buffer, as many as a device binds. All but the last
@@ -28,10 +28,15 @@ impl Bands {
     /// # Errors
     /// `ImageSize` for an image without pixels or with too many.
     pub fn new(device: &Device, [width, height]: [u32; 2]) -> Result<Self, IntegratorError> {
+        Ok(Self::one([width, height])?.of_records(device, RECORD_BYTES))
+    }
+
+    /// Bands with no more pixels than a device binds records with so many bytes, at least 1.
+    #[must_use]
+    pub(crate) fn of_records(self, device: &Device, record_bytes: u64) -> Self {
         let limits = device.limits();
         let bytes = limits.max_storage_buffer_range.min(limits.max_memory_allocation);
-        let most = u32::try_from(bytes / RECORD_BYTES).unwrap_or(u32::MAX);
-        Ok(Self::one([width, height])?.at_most(most))
+        self.at_most(u32::try_from(bytes / record_bytes).unwrap_or(u32::MAX))
     }
 
     /// One for all pixels, whether or not a device binds it.

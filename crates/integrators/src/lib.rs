@@ -57,7 +57,9 @@ pub use fetch::{Fetch, FetchCounts};
 pub use film::Film;
 pub use integrator::{Integrator, IntegratorDesc, check_features};
 pub use rasray_shaders_glsl::constants::scene::PATH_LAYER_LIMIT;
-pub use rasray_shaders_glsl::records::{AovPixel, FilmFaults, FilmPixel, PathState, VisibilityCounts};
+pub use rasray_shaders_glsl::records::{
+    AovPixel, AovSurface, FilmFaults, FilmPixel, PathState, VisibilityCounts,
+};
 pub use registry::*;
 pub use traced::{FirstHits, Traced};
 pub use visibility::Visibility;

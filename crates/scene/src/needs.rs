@@ -56,6 +56,15 @@ impl Needs {
         Self { verdicts: Term::ALL.into_iter().map(verdict).collect() }
     }
 
+    /// The same with a term that is needed; `why` is one sentence without a full stop.
+    #[must_use]
+    pub fn with(mut self, term: Term, why: &str) -> Self {
+        for verdict in self.verdicts.iter_mut().filter(|verdict| verdict.term == term && !verdict.needed) {
+            (verdict.needed, verdict.why) = (true, why.to_owned());
+        }
+        self
+    }
+
     /// Whether a term is needed.
     pub fn requires(&self, term: Term) -> bool {
         self.verdicts.iter().any(|verdict| verdict.term == term && verdict.needed)

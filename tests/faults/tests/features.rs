@@ -7,7 +7,7 @@ use rasray_faults::{
 use rasray_gpu::faults::{with_limits, without};
 use rasray_gpu::{Device, Feature, GpuError, Limits, Requirements, Timing};
 use rasray_gpu_scene::{GpuSceneError, Parts, TexelDemand, TexelRuns, View};
-use rasray_integrators::{Film, Integrator, IntegratorDesc, Raycast};
+use rasray_integrators::{AovPass, Film, Integrator, IntegratorDesc, Raycast, Wave};
 use rasray_scene::{Scene, builtin};
 use rasray_systems::{Preset, Spec};
 use rasray_tests::tier::is_full;
@@ -221,14 +221,26 @@ fn films_beyond_one_binding_lie_in_several() {
             raycast.render_wave(device, Timing::None, structure.as_ref().into(), wave)?;
         }
         let pixels = film.read(device)?.into_iter().map(|pixel| pixel.map(f32::to_bits));
-        Ok::<_, Failure>((film.pixels().len(), pixels.collect::<Vec<_>>()))
+        // Records that are larger than those of films.
+        let aov = AovPass::with_surfaces(device, &gpu, film.bands(), 1024)?;
+        let mut surfaces = Vec::new();
+        for band in aov.bands().ranges() {
+            device.submit(|recorder| aov.record_reset(recorder))?;
+            for wave in Wave::cut(band.clone(), 0, 1024) {
+                device.submit(|recorder| aov.record_wave(recorder, structure.as_ref().into(), wave))?.value?;
+            }
+            surfaces.extend(aov.read_surfaces(device, band.len() as u32)?);
+        }
+        let bands = [film.pixels().len(), aov.bands().ranges().count()];
+        Ok::<_, Failure>((bands, (pixels.collect::<Vec<_>>(), surfaces)))
     };
     let whole = device().expect("a device");
     let (one, expected) = picture(&whole).expect("a picture");
     let small = with_limits(|limits| limits.max_storage_buffer_range = 1 << 18, device).expect("a device");
     let (several, found) = picture(&small).expect("a picture");
-    assert_eq!((one, several), (1, 3));
-    assert!(found == expected && found.iter().any(|pixel| *pixel != [0; 3]));
+    assert_eq!((one, several), ([1; 2], [3, 7]));
+    assert!(found == expected && found.0.iter().any(|pixel| *pixel != [0; 3]));
+    assert!(found.1.iter().any(|surface| surface.albedo != [0.0; 3]));
     assert_eq!(finish(small), Vec::<String>::new());
     assert_eq!(finish(whole), Vec::<String>::new());
 }

@@ -6,7 +6,8 @@ use rasray_frame::{Adaptive, FrameRenderer, ImagePasses, ImageRenderer};
 use rasray_gpu::Timing;
 use rasray_gpu_scene::{GpuScene, PosePass};
 use rasray_integrators::{
-    AovPixel, Film, FilmFaults, FilmPixel, INTEGRATORS, IntegratorDesc, IntegratorSpec, Path, Visibility,
+    AovPixel, AovSurface, Film, FilmFaults, FilmPixel, INTEGRATORS, IntegratorDesc, IntegratorSpec, Path,
+    Visibility,
 };
 use rasray_scene::{Light, Scene};
 use rasray_shadow_maps::Config;
@@ -119,14 +120,23 @@ fn further_images_are_those_of_one_band() {
             sizes.push(pixels.len());
         };
         image.aovs(&stage.shown.scene, stage.built.structure(), take).expect("the rays finish");
-        (found, sizes)
+        let (mut again, mut surfaces): (Vec<AovPixel>, Vec<AovSurface>) = Default::default();
+        let take = |pixels: &[AovPixel], of_band: &[AovSurface]| {
+            again.extend_from_slice(pixels);
+            surfaces.extend_from_slice(of_band);
+            sizes.push(of_band.len());
+        };
+        image.aovs_with_surfaces(&stage.shown.scene, stage.built.structure(), take).expect("the rays finish");
+        assert!(found == again, "raster: {raster}");
+        ((found, surfaces), sizes)
     };
     let (expected, sizes) = aovs(u32::MAX, false);
-    assert_eq!(sizes, [384]);
-    assert!(expected.iter().any(|pixel| pixel.distance > 0.0));
+    assert_eq!(sizes, [384; 2]);
+    assert!(expected.0.iter().any(|pixel| pixel.distance > 0.0));
+    assert!(expected.1.iter().any(|surface| surface.albedo != [0.0; 3]));
     for raster in [false, true] {
         let (found, sizes) = aovs(100, raster);
-        assert_eq!(sizes, [100, 100, 100, 84]);
+        assert_eq!(sizes, [100, 100, 100, 84, 100, 100, 100, 84]);
         assert!(found == expected, "raster: {raster}");
     }
 }
@@ -155,6 +165,26 @@ fn frames_are_those_of_one_band() {
     let [one, many] = &mut films;
     assert_eq!(one.len(), 3);
     assert!(one == many && one[0] != one[1]);
+}
+
+/// Each is of the samples of its pixel alone; reading films for them changes no picture.
+#[test]
+fn variances_are_those_of_one_band() {
+    let bench = Bench::new();
+    let mut stage = Stage::new(bench.device(), &cornell());
+    for adaptive in [None, Some(rule(0.1))] {
+        let spec = &every_integrator()[0];
+        let mut measured = [u32::MAX, BANDS[0]].map(|band| {
+            stage.band = band;
+            let mut image = image(&stage, spec, With { adaptive, ..PLAIN }).measuring();
+            let pixels = bits(&stage.render(&mut image, |_| false));
+            (pixels, image.variances().expect("measured").collect::<Vec<_>>())
+        });
+        let [one, many] = &mut measured;
+        assert!(one == many && one.1.iter().flatten().any(|variance| *variance > 0.0));
+        stage.band = BANDS[0];
+        assert!(one.0 == made(&stage, spec, With { adaptive, ..PLAIN }).0, "the picture stays");
+    }
 }
 
 /// An image that is given up ends between samples, also in bands.

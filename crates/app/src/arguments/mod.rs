@@ -22,7 +22,7 @@ pub use documents::{CompletionsArguments, ManArguments};
 pub use info::InfoArguments;
 pub use merge::MergeArguments;
 pub use ray_files::{NamedFile, RayFileArguments};
-pub use render::{Aov, RenderArguments};
+pub use render::RenderArguments;
 pub use shared::{
     DeviceArguments, FrameArguments, NeedsName, SceneArguments, TalkArguments, ViewArguments, WorkArguments,
 };

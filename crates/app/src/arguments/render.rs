@@ -1,14 +1,16 @@
 //! Options of `rasray render`.
 
+use super::options::choice;
 use super::shared::WorkArguments;
 use super::structure::{preset_parser, refresh_parser, system_request_parser};
 use super::tone::ToneArguments;
 use super::values;
 use crate::error::AppError;
 use crate::output::ImageFormat;
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::TypedValueParser;
 use rasray_experiment::{
-    Adaptive, AovSelection, Frame, Primary, Refresh, Shard, SystemConfig, SystemRequest,
+    Adaptive, Aov, AovSelection, Frame, Primary, Refresh, Shard, SystemConfig, SystemRequest,
 };
 use rasray_scene::builtin::{Picture, picture};
 use rasray_systems::Preset;
@@ -31,8 +33,7 @@ Examples:
 
 PNG holds 8-bit sRGB: colours times 2^exposure, clamped to 0 to 1, then the sRGB curve, so that other programs
 reproduce it; with --tone agx or aces a curve in place of the clamp. EXR holds linear 32-bit floats: R, G, B, and with --aov
-Z (metres along the ray, 0: miss), N.X N.Y N.Z (geometric normal, world), id (triangle, 4294967295:
-miss) and samples (of each pixel). Files are written next to their place and renamed, so a file there is always whole; of a link it is
+the channels that it names; where nothing was hit they are 0, and indices 4294967295. Files are written next to their place and renamed, so a file there is always whole; of a link it is
 the file that the link leads to. The camera that was used is printed as options that put one there.
 
 SIGINT (Ctrl-C), SIGTERM or SIGHUP: the samples done so far are written, exit code 130; where none is, the command
@@ -41,6 +42,9 @@ of --shard only whole images are written; run again with --resume.";
 
 const FRAMES: &str = "Frames and shares";
 const IMAGE: &str = "Image";
+
+/// What to do about options that do not go together.
+const LEAVE_ONE: &str = "leave one of the two out";
 
 /// Samples of the pilot unless told.
 const LEAST_SAMPLES: u32 = 16;
@@ -66,7 +70,7 @@ pub struct RenderArguments {
     #[arg(long, value_enum, requires = "output")]
     pub format: Option<ImageFormat>,
     /// Images in addition to the colours, kept in the .exr
-    #[arg(long, value_enum, value_delimiter = ',', requires = "output")]
+    #[arg(long, value_parser = aov_parser(), value_delimiter = ',', requires = "output")]
     pub aov: Vec<Aov>,
     /// How a .png shows colours.
     #[command(flatten)]
@@ -105,17 +109,9 @@ pub struct RenderArguments {
     pub least_samples: Option<u32>,
 }
 
-/// Images in addition to the colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Aov {
-    /// Z: metres from the eye along the ray
-    Depth,
-    /// N.X N.Y N.Z: geometric normal
-    Normal,
-    /// id: global triangle id
-    Primitive,
-    /// samples: how many are in each pixel's mean
-    Samples,
+/// Reads the name of an image in addition to the colours.
+fn aov_parser() -> impl TypedValueParser<Value = Aov> {
+    choice(Aov::ALL, |aov| (aov.name(), aov.doc()))
 }
 
 impl RenderArguments {
@@ -146,14 +142,41 @@ impl RenderArguments {
         Ok(Frame { adaptive: self.adaptive(&frame)?, ..frame })
     }
 
-    /// The images wanted in addition to the colours.
-    pub fn aovs(&self) -> AovSelection {
-        AovSelection {
-            depth: self.aov.contains(&Aov::Depth),
-            normal: self.aov.contains(&Aov::Normal),
-            primitive: self.aov.contains(&Aov::Primitive),
-            samples: self.aov.contains(&Aov::Samples),
+    /// The images wanted in addition to the colours of a frame.
+    ///
+    /// # Errors
+    /// One that the frame, or what is made of it, does not have.
+    pub fn aovs(&self, frame: &Frame) -> Result<AovSelection, AppError> {
+        let aovs = AovSelection::from_iter(self.aov.iter().copied());
+        for aov in aovs.iter() {
+            let name = aov.name();
+            let of_paths = matches!(aov, Aov::Direct | Aov::Indirect);
+            let (why, fix) = if of_paths && frame.integrator.row().option("bounces").is_none() {
+                let own = frame.integrator.name();
+                (
+                    format!("--aov {name} is of paths, and --integrator {own} has none"),
+                    "write --integrator path",
+                )
+            } else if of_paths && self.adaptive.is_some() {
+                let why = "shares samples by the noise of the picture, not by that of a part of its light";
+                (
+                    format!("--aov {name} is of as many samples as the picture, and --adaptive {why}"),
+                    LEAVE_ONE,
+                )
+            } else if aov.is_of_samples() && self.shard.is_some() && self.frames.is_none() {
+                let why = "is of a whole image, and a --shard has samples of its own";
+                (format!("--aov {name} {why}"), LEAVE_ONE)
+            } else if aov == Aov::Motion && self.frames.is_none() {
+                (
+                    format!("--aov {name} leads to the frame before, and there are no frames"),
+                    "ask for --frames",
+                )
+            } else {
+                continue;
+            };
+            return Err(AppError::usage(why, fix));
         }
+        Ok(aovs)
     }
 
     /// How many samples each pixel of a frame gets; absent: all.
@@ -164,7 +187,7 @@ impl RenderArguments {
             return refused(
                 "--primary raster draws camera rays of all pixels, and --adaptive asks for those of some"
                     .to_owned(),
-                "leave one of the two out",
+                LEAVE_ONE,
             );
         }
         if self.shard.is_some() && self.frames.is_none() {

@@ -8,7 +8,9 @@ use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
 use glam::DVec3;
-use rasray_experiment::{DeviceChoice, Frame, FrameDefaults, IntegratorRow, OccluderKind, Primary, Sampler};
+use rasray_experiment::{
+    AovSelection, DeviceChoice, Frame, FrameDefaults, IntegratorRow, OccluderKind, Primary, Sampler,
+};
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{BackFaces, Environment, Scene, SceneError};
 use rasray_scene_files::{LoadOptions, load_environment};
@@ -227,9 +229,9 @@ impl SceneArguments {
     }
 
     /// What of the scene the work needs.
-    pub fn needs(&self, scene: &Scene, workload: Workload) -> Needs {
+    pub fn needs(&self, scene: &Scene, workload: Workload, aovs: AovSelection) -> Needs {
         match self.needs {
-            NeedsName::Observed => Needs::of(scene, workload),
+            NeedsName::Observed => aovs.needs(scene, workload),
             NeedsName::All => Needs::all(),
         }
     }

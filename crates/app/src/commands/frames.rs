@@ -5,7 +5,7 @@ use super::pictures::Pictures;
 use crate::error::AppError;
 use crate::output::Standing;
 use crate::terminal;
-use rasray_experiment::Shard;
+use rasray_experiment::{Aov, FrameBefore, Shard};
 use std::ops::RangeInclusive;
 
 /// When a frame is shown.
@@ -43,6 +43,25 @@ impl Pictures<'_> {
         Ok(())
     }
 
+    /// The frame before one, where anything of it is wanted: also of the first, so that no frame depends on which others
+    /// are made. The scene is shown as it is then.
+    fn frame_before(&mut self, number: u32) -> Result<Option<FrameBefore>, AppError> {
+        if !self.aovs.contains(Aov::Motion) {
+            return Ok(None);
+        }
+        let reading = &self.given.work.reading;
+        let seconds = (f64::from(number) - 1.0) / reading.frames_per_second();
+        self.loaded.show(seconds, reading.clip.as_deref())?;
+        let Some(moment) = self.loaded.moment.clone() else {
+            return Err(AppError::usage(
+                "--aov motion follows triangles, and this scene has others in each frame",
+                "leave it out",
+            ));
+        };
+        let moved = self.chosen.index.and_then(|index| self.loaded.camera(index));
+        Ok(Some(FrameBefore { moment, camera: moved.unwrap_or_else(|| self.chosen.camera.clone()) }))
+    }
+
     /// Renders a frame, unless it is there. Returns what there was of it.
     fn render_frame(&mut self, number: u32) -> Result<Standing, AppError> {
         let targets = Targets::of(self.given, self.aovs, Some(number))?;
@@ -51,6 +70,7 @@ impl Pictures<'_> {
         {
             return Err(AppError::usage("--output and --report name the same file", "name two files"));
         }
+        self.before = self.frame_before(number)?;
         let reading = &self.given.work.reading;
         let said = self.loaded.scene.animation.deformer_warnings.clone();
         self.loaded.show(seconds(number, reading.frames_per_second()), reading.clip.as_deref())?;

@@ -40,8 +40,7 @@ pub(crate) fn merge(given: &MergeArguments, interrupt: &Interrupt) -> Result<(),
     let parts = in_order(&given.parts)?;
     let (mut output, metadata) = add(&parts)?;
     let tone = given.tone.tone();
-    let has_aovs = output.depth.is_some() || output.normal.is_some() || output.primitive.is_some();
-    check_format(&given.out, format, has_aovs, given.tone)?;
+    check_format(&given.out, format, !output.aovs.is_empty(), given.tone)?;
     output.samples_done = metadata.spp;
     let key = metadata.part.as_ref().map(|part| image_key(&part.picture, format, tone, None));
     let metadata = Metadata { key, part: None, samples: metadata.spp, ..metadata };

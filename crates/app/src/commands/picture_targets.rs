@@ -111,13 +111,7 @@ fn image_target(
             "send standard output to a file or to a program that shows images",
         ));
     }
-    check_format(path, format, aovs != AovSelection::default(), given.tone)?;
-    if aovs.samples && given.shard.is_some() && given.frames.is_none() {
-        return Err(AppError::usage(
-            "--aov samples is of a whole image, and a --shard has counts of its own",
-            "leave one of the two out",
-        ));
-    }
+    check_format(path, format, !aovs.is_empty(), given.tone)?;
     if format == ImageFormat::Png && given.shard.is_some() && given.frames.is_none() {
         return Err(AppError::input(
             path,

@@ -10,8 +10,8 @@ use crate::output::{Destination, Metadata, PartOf, Row, Rows, image_key};
 use crate::terminal::{self, Talk};
 use crate::version::{origin, version_text};
 use rasray_experiment::{
-    AovSelection, Backend, Frame, KeptScene, Progress, RenderJob, RenderOutput, Shard, SystemConfig,
-    check_run, count_not_uploaded, picture_key,
+    AovSelection, Backend, Frame, FrameBefore, KeptScene, Progress, RenderJob, RenderOutput, Shard,
+    SystemConfig, check_run, count_not_uploaded, picture_key,
 };
 use rasray_report::{FramesRecord, Report, json_shown, table_within};
 use rasray_scene_source::{Chosen, LoadedScene};
@@ -35,6 +35,8 @@ pub(super) struct Pictures<'a> {
     pub(super) backend: Box<dyn Backend>,
     /// What the device has of the picture of the scene at another time.
     pub(super) kept: KeptScene,
+    /// The frame before the one that is shown, where anything of it is wanted.
+    pub(super) before: Option<FrameBefore>,
 }
 
 impl Pictures<'_> {
@@ -50,7 +52,8 @@ impl Pictures<'_> {
             frame: frame.clone(),
             shard: *shard,
             aovs: *aovs,
-            needs: given.work.reading.needs(&loaded.scene, frame.workload()),
+            before: self.before.clone(),
+            needs: given.work.reading.needs(&loaded.scene, frame.workload(), *aovs),
             repetitions: given.repetitions.unwrap_or(0),
         }
     }
@@ -70,7 +73,7 @@ impl Pictures<'_> {
     ) -> Result<(), AppError> {
         let Self { given, line, interrupt, shard, .. } = *self;
         let frame = self.frame.clone();
-        let needs = given.work.reading.needs(&self.loaded.scene, frame.workload());
+        let needs = given.work.reading.needs(&self.loaded.scene, frame.workload(), self.aovs);
         count_not_uploaded(&mut self.loaded, &self.chosen.camera, &needs);
         let mut job = self.job(&self.loaded);
         if shard.is_some_and(|shard| !shard.holds(0)) {

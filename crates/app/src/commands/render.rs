@@ -23,7 +23,7 @@ pub(crate) fn render(
     interrupt: &Interrupt,
 ) -> Result<(), AppError> {
     let frame = given.frame()?;
-    let aovs = given.aovs();
+    let aovs = given.aovs(&frame)?;
     let system = given.system()?.serving(frame.workload());
     let shard = samples_shard(given)?;
     // All shares of the frames begin alike: a camera that nothing moves stays where it is for the first of all.
@@ -48,7 +48,7 @@ pub(crate) fn render(
     let backend = open_device(open, &given.work.device)?;
     stop_if_requested(interrupt)?;
     // Images stay as they are at all times.
-    let needs = given.work.reading.needs(&loaded.scene, frame.workload());
+    let needs = given.work.reading.needs(&loaded.scene, frame.workload(), aovs);
     fit_images(&mut loaded, &needs, backend.as_ref())?;
     let mut pictures = Pictures {
         given,
@@ -64,6 +64,7 @@ pub(crate) fn render(
         chosen,
         backend,
         kept: KeptScene::default(),
+        before: None,
     };
     match numbers {
         None => pictures.render_one(&targets),

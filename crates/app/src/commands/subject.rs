@@ -6,7 +6,7 @@ use crate::error::AppError;
 use crate::terminal;
 use crate::version::version_text;
 use rasray_experiment::{
-    Backend, CellList, CompareJob, Frame, FrameDefaults, RaySet, SystemConfig, compare_cells,
+    AovSelection, Backend, CellList, CompareJob, Frame, FrameDefaults, RaySet, SystemConfig, compare_cells,
     count_not_uploaded,
 };
 use rasray_ray_files::{HitsFile, RaysFile, load_hits, load_rays};
@@ -71,7 +71,7 @@ impl<'a> Asked<'a> {
         let (loaded, chosen) = read_scene(&self.given.scene, &work.reading, shown.as_ref(), &work.view)?;
         self.systems =
             self.systems.into_iter().map(|system| system.seen_by(&chosen.camera, &self.frame)).collect();
-        let needs = work.reading.needs(&loaded.scene, self.frame.workload());
+        let needs = work.reading.needs(&loaded.scene, self.frame.workload(), AovSelection::default());
         Ok(Subject { asked: self, loaded, chosen, needs })
     }
 }

@@ -1,13 +1,14 @@
-//! OpenEXR: linear 32-bit floats in one part, losslessly compressed. Channels: R, G, B; Z distance
-//! from the eye along the ray in metres (0: miss); N.X, N.Y, N.Z unit geometric normal in the world,
-//! facing the eye; id 32-bit unsigned global triangle id (4294967295: miss); samples how many are in the pixel's mean. A
-//! share of the samples has sums in R, G, B, and in samples how many each sum holds.
+//! OpenEXR: linear 32-bit floats in one part, losslessly compressed. Channels: R, G, B, and those that [`Aov::channels`]
+//! names, of which a layer is what precedes the last dot; whole numbers have 32 bits without a sign. A share of the samples
+//! has sums in R, G, B, and in samples how many each sum holds.
+//!
+//! [`Aov::channels`]: rasray_experiment::Aov::channels
 
 use super::exr_channels::{Channels, Values};
 use super::exr_header::{CHECKSUM, NO_CHECKSUM, finish};
 use super::stamp::KEY;
 use exr::prelude::*;
-use rasray_experiment::{RenderOutput, Shard};
+use rasray_experiment::{Aov, AovImage, RenderOutput, Shard};
 use std::io::Cursor;
 
 /// What is written into the header of an image.
@@ -66,17 +67,16 @@ pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result
     let sums = output.sums.as_ref().filter(|_| metadata.part.is_some());
     let colours = sums.map_or(&output.beauty, |film| &film.sums);
     channels.add_axes(["R", "G", "B"], colours);
-    if let Some(counts) = sums.map(|film| &film.counts).or(output.samples.as_ref()) {
-        channels.add(SAMPLES, Values::Whole(counts));
+    if let Some(film) = sums {
+        channels.add(SAMPLES, Values::Whole(&film.counts));
     }
-    if let Some(depth) = &output.depth {
-        channels.add("Z", Values::Floats(depth));
-    }
-    if let Some(normal) = &output.normal {
-        channels.add_axes(["N.X", "N.Y", "N.Z"], normal);
-    }
-    if let Some(primitive) = &output.primitive {
-        channels.add("id", Values::Whole(primitive));
+    // Of parts the counts are those of the sums.
+    for (aov, image) in output.aovs.iter().filter(|(aov, _)| sums.is_none() || **aov != Aov::Samples) {
+        let values: Vec<_> = match image {
+            AovImage::Floats(channels) => channels.iter().map(|channel| Values::Floats(channel)).collect(),
+            AovImage::Whole(values) => vec![Values::Whole(values)],
+        };
+        channels.0.extend(aov.channels().iter().copied().zip(values));
     }
     channels.0.sort_unstable_by_key(|(name, _)| *name);
 
@@ -143,9 +143,12 @@ mod tests {
             width: 3,
             height: 2,
             beauty: (0..6).map(|i| [i as f32, -0.5, 1.0e30]).collect(),
-            depth: Some((0..6).map(|i| 0.25 * i as f32).collect()),
-            normal: Some(vec![[0.0, 1.0, -1.0]; 6]),
-            primitive: Some(vec![0, 1, 2, 0x7fff_ffff, 0xffff_fffe, u32::MAX]),
+            aovs: [
+                (Aov::Depth, AovImage::of((0..6).map(|i| [0.25 * i as f32]))),
+                (Aov::Normal, AovImage::of([[0.0, 1.0, -1.0]; 6])),
+                (Aov::Primitive, AovImage::Whole(vec![0, 1, 2, 0x7fff_ffff, 0xffff_fffe, u32::MAX])),
+            ]
+            .into(),
             ..Default::default()
         }
     }
@@ -211,7 +214,7 @@ mod tests {
 
     #[test]
     fn without_further_images_there_are_three_channels() {
-        let plain = RenderOutput { depth: None, normal: None, primitive: None, ..output() };
+        let plain = RenderOutput { aovs: Default::default(), ..output() };
         let image = read(&encode(&plain, &metadata()).expect("a small image"));
         assert_eq!(image.layer_data[0].channel_data.list.len(), 3);
     }

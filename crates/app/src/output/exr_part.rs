@@ -4,7 +4,7 @@ use super::exr::{Metadata, PICTURE, PartOf, SAMPLES, SHARD, VERSION};
 use super::exr_header::{is_readable, is_whole, number, text};
 use super::stamp::KEY;
 use exr::prelude::*;
-use rasray_experiment::{FilmSums, RenderOutput, Shard};
+use rasray_experiment::{Aov, AovImage, FilmSums, RenderOutput, Shard};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
@@ -86,16 +86,22 @@ impl PartFile {
         };
         let mut taken = |name: &str| channels.remove(name);
         let missing = || "it lacks the sums or the counts of its samples".to_owned();
+        let sums = FilmSums {
+            sums: triples(["R", "G", "B"].map(&mut taken)).ok_or_else(missing)?,
+            counts: whole(taken(SAMPLES)).ok_or_else(missing)?,
+        };
+        let mut further = |aov: Aov| {
+            let mut values = aov.channels().iter().map(|name| taken(name));
+            match aov.is_whole() {
+                true => whole(values.next()?).map(AovImage::Whole),
+                false => values.map(floats).collect::<Option<_>>().map(AovImage::Floats),
+            }
+        };
         Ok(RenderOutput {
             width: layer.size.x() as u32,
             height: layer.size.y() as u32,
-            sums: Some(FilmSums {
-                sums: triples(["R", "G", "B"].map(&mut taken)).ok_or_else(missing)?,
-                counts: whole(taken(SAMPLES)).ok_or_else(missing)?,
-            }),
-            depth: floats(taken("Z")),
-            normal: triples(["N.X", "N.Y", "N.Z"].map(&mut taken)),
-            primitive: whole(taken("id")),
+            sums: Some(sums),
+            aovs: Aov::ALL.into_iter().filter_map(|aov| Some((aov, further(aov)?))).collect(),
             samples_done: self.metadata.samples,
             ..RenderOutput::default()
         })
@@ -125,9 +131,13 @@ mod tests {
             width: 1,
             height: 2,
             sums: Some(FilmSums { sums, counts: vec![3, 2] }),
-            depth: Some(vec![1.5, 0.0]),
-            normal: Some(vec![[0.0, 1.0, 0.0], [0.0; 3]]),
-            primitive: Some(vec![7, u32::MAX]),
+            aovs: [
+                (Aov::Depth, AovImage::of([[1.5], [0.0]])),
+                (Aov::Normal, AovImage::of([[0.0, 1.0, 0.0], [0.0; 3]])),
+                (Aov::Primitive, AovImage::Whole(vec![7, u32::MAX])),
+                (Aov::Uv, AovImage::of([[0.25, 0.75], [0.0; 2]])),
+            ]
+            .into(),
             ..RenderOutput::default()
         };
         let bytes = encode_exr(&output, &metadata).expect("a small image");
@@ -135,8 +145,7 @@ mod tests {
         assert_eq!((&file.metadata, &file.part), (&metadata, &part));
         let read = file.pixels().expect("whole");
         assert_eq!((read.width, read.height, read.samples_done), (1, 2, 3));
-        assert_eq!((&read.sums, &read.depth), (&output.sums, &output.depth));
-        assert_eq!((read.normal, read.primitive), (output.normal.clone(), output.primitive.clone()));
+        assert_eq!((&read.sums, &read.aovs), (&output.sums, &output.aovs));
 
         let mut changed = bytes;
         *changed.last_mut().expect("bytes") ^= 1;

@@ -4,7 +4,7 @@
 use crate::scripted::{command, entries, stderr};
 use rasray_app::Interrupt;
 use rasray_app::output::{Destination, Metadata, encode_exr, encode_png};
-use rasray_experiment::RenderOutput;
+use rasray_experiment::{Aov, AovImage, RenderOutput};
 use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
@@ -112,7 +112,7 @@ fn output() -> RenderOutput {
         width: 32,
         height: 24,
         beauty: (0..pixels).map(|i| [i as f32 / 700.0, 0.5, 1.0 - i as f32 / 900.0]).collect(),
-        depth: Some((0..pixels).map(|i| i as f32).collect()),
+        aovs: [(Aov::Depth, AovImage::of((0..pixels).map(|i| [i as f32])))].into(),
         ..Default::default()
     }
 }

@@ -1,6 +1,8 @@
 //! What the command leaves behind: images, reports, exit codes.
 
 use crate::scripted::{command, entries, stderr};
+use exr::prelude::FlatSamples;
+use rasray_experiment::Aov;
 use rasray_metrics::{Tone, ToneCurve};
 use rasray_report::{Report, SCHEMA};
 use std::path::Path;
@@ -61,6 +63,24 @@ fn an_exr_holds_every_wanted_channel() {
     let image = exr::prelude::read_all_flat_layers_from_file(folder.path().join("a.exr")).expect("an image");
     let names: Vec<_> = image.layer_data[0].channel_data.list.iter().map(|c| c.name.to_string()).collect();
     assert_eq!(names, ["B", "G", "N.X", "N.Y", "N.Z", "R", "Z", "id"]);
+
+    let all: Vec<_> = Aov::ALL.iter().map(|aov| aov.name()).collect();
+    let line = format!("render walker --frames 3 --size 4x3 --spp 2 --aov {} -o a.#.exr", all.join(","));
+    let output = rasray(folder.path(), &line);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let image =
+        exr::prelude::read_all_flat_layers_from_file(folder.path().join("a.3.exr")).expect("an image");
+    let channels = &image.layer_data[0].channel_data.list;
+    for aov in Aov::ALL {
+        for (number, name) in aov.channels().iter().enumerate() {
+            let found = channels.iter().find(|channel| channel.name.to_string() == *name).expect(name);
+            let expected = match aov.is_whole() {
+                true => FlatSamples::U32(vec![7; 12]),
+                false => FlatSamples::F32(vec![number as f32 + 1.0; 12]),
+            };
+            assert_eq!(found.sample_data, expected, "{name}");
+        }
+    }
 }
 
 #[test]

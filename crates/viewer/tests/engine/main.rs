@@ -145,6 +145,7 @@ fn rendered_with(mut loaded: LoadedScene, backend: &mut dyn Backend, settings: &
         refresh: Refresh::All,
         frame: settings.frame.clone(),
         aovs: AovSelection::default(),
+        before: None,
         needs: Needs::of(&loaded.scene, settings.frame.workload()),
         repetitions: 0,
     };

@@ -71,6 +71,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
                 frame,
                 shard: None,
                 aovs: AovSelection::default(),
+                before: None,
                 needs,
                 repetitions: 0,
             };

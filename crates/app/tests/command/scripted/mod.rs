@@ -4,9 +4,9 @@
 //! environment says so, and passes otherwise.
 
 use rasray_experiment::{
-    Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, ExperimentError, Feature,
-    FilmSums, FinishedRun, HardJob, KeptScene, OnProgress, OnRun, PassCommands, Progress, RenderJob,
-    RenderOutput, Stage, TexelCapacity,
+    Aov, AovImage, Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription,
+    ExperimentError, Feature, FilmSums, FinishedRun, HardJob, KeptScene, OnProgress, OnRun, PassCommands,
+    Progress, RenderJob, RenderOutput, Stage, TexelCapacity,
 };
 use rasray_report::{Counters, Device, HardRecord, ImageError, ListRecord, Run, Times};
 use std::path::Path;
@@ -24,6 +24,17 @@ pub const READY: &str = "RASRAY_TEST_READY";
 /// `stuck` takes a minute before the first, `broken` fails (of hard cases, G3), `unfinished` leaves a ray unanswered, `small` holds 2000 texels, `absent` cannot be opened.
 pub struct Scripted {
     device: String,
+}
+
+/// Channel number k holds k + 1, indices are 7.
+fn aov_image(aov: Aov, pixels: usize) -> AovImage {
+    match aov.is_whole() {
+        true => AovImage::Whole(vec![7; pixels]),
+        false => {
+            let channels = (0..aov.channels().len()).map(|channel| vec![channel as f32 + 1.0; pixels]);
+            AovImage::Floats(channels.collect())
+        }
+    }
 }
 
 impl Backend for Scripted {
@@ -73,9 +84,7 @@ impl Backend for Scripted {
                 counts: vec![samples_done; pixels],
             }),
             beauty,
-            depth: job.aovs.depth.then(|| vec![2.0; pixels]),
-            normal: job.aovs.normal.then(|| vec![[0.0, 0.0, 1.0]; pixels]),
-            primitive: job.aovs.primitive.then(|| vec![7; pixels]),
+            aovs: job.aovs.iter().map(|aov| (aov, aov_image(aov, pixels))).collect(),
             samples_done,
             times: Times { trace_ms: Some(2.0), rays: Some(1000), ..Default::default() },
             counters: Some(Counters {
