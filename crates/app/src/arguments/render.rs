@@ -100,6 +100,9 @@ pub struct RenderArguments {
     /// The image, the camera, the scene, the structure and the device.
     #[command(flatten)]
     pub work: WorkArguments,
+    /// Take what noise is left out of the picture, with the library Open Image Denoise where it is installed
+    #[arg(long, requires = "output", help_heading = IMAGE)]
+    pub denoise: bool,
     /// More samples where there is more noise: each pixel gets as many, up to --spp, as the first samples of the pixels around
     /// it need for this standard error, as a share of their radiance, such as 0.02. The image is as unbiased as without
     #[arg(long, value_name = "SHARE", value_parser = values::noise, help_heading = IMAGE)]
@@ -148,6 +151,12 @@ impl RenderArguments {
     /// One that the frame, or what is made of it, does not have.
     pub fn aovs(&self, frame: &Frame) -> Result<AovSelection, AppError> {
         let aovs = AovSelection::from_iter(self.aov.iter().copied());
+        if self.denoise && self.shard.is_some() && self.frames.is_none() {
+            return Err(AppError::usage(
+                "--denoise is of a whole picture, and a --shard has some samples of it",
+                LEAVE_ONE,
+            ));
+        }
         for aov in aovs.iter() {
             let name = aov.name();
             let of_paths = matches!(aov, Aov::Direct | Aov::Indirect);
@@ -156,6 +165,11 @@ impl RenderArguments {
                 (
                     format!("--aov {name} is of paths, and --integrator {own} has none"),
                     "write --integrator path",
+                )
+            } else if of_paths && self.denoise {
+                (
+                    format!("--aov {name} is of the picture with its noise, and --denoise takes that out"),
+                    LEAVE_ONE,
                 )
             } else if of_paths && self.adaptive.is_some() {
                 let why = "shares samples by the noise of the picture, not by that of a part of its light";

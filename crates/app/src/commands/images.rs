@@ -27,7 +27,7 @@ pub(super) fn write_image(
         ));
     }
     let encoded = match format {
-        ImageFormat::Png => output::encode_png(output, tone, metadata.key.as_deref()),
+        ImageFormat::Png => output::encode_png(output, tone, metadata),
         ImageFormat::Exr => output::encode_exr(output, metadata),
     };
     let bytes = encoded.map_err(|error| {

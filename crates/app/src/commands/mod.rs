@@ -3,6 +3,7 @@
 mod ablate;
 mod campaign;
 mod compare;
+mod denoise;
 mod documents;
 mod frames;
 mod hard;

@@ -1,5 +1,6 @@
 //! Pictures of one command: what they have in common, and how one is made and written.
 
+use super::denoise::{FED, denoise};
 use super::images::{named, write_image};
 use super::picture_targets::Targets;
 use super::steps::with_progress;
@@ -9,12 +10,13 @@ use crate::interrupt::Interrupt;
 use crate::output::{Destination, Metadata, PartOf, Row, Rows, image_key};
 use crate::terminal::{self, Talk};
 use crate::version::{origin, version_text};
+use rasray_denoise::Denoiser;
 use rasray_experiment::{
     AovSelection, Backend, Frame, FrameBefore, KeptScene, Progress, RenderJob, RenderOutput, Shard,
     SystemConfig, check_run, count_not_uploaded, picture_key,
 };
 use rasray_report::{FramesRecord, Report, json_shown, table_within};
-use rasray_scene_source::{Chosen, LoadedScene};
+use rasray_scene_source::{Chosen, KeyHash, LoadedScene};
 
 /// What the pictures of a command have in common.
 pub(super) struct Pictures<'a> {
@@ -37,12 +39,15 @@ pub(super) struct Pictures<'a> {
     pub(super) kept: KeptScene,
     /// The frame before the one that is shown, where anything of it is wanted.
     pub(super) before: Option<FrameBefore>,
+    /// What takes the noise out of the pictures, where that is wanted.
+    pub(super) denoiser: Option<Denoiser>,
 }
 
 impl Pictures<'_> {
     /// The job of the scene as it is shown.
     fn job<'a>(&self, loaded: &'a LoadedScene) -> RenderJob<'a> {
-        let Self { given, frame, aovs, shard, chosen, .. } = self;
+        let Self { given, frame, shard, chosen, .. } = self;
+        let aovs = self.rendered_aovs();
         RenderJob {
             scene: &loaded.scene,
             moment: loaded.moment.as_ref(),
@@ -51,16 +56,27 @@ impl Pictures<'_> {
             refresh: given.refresh,
             frame: frame.clone(),
             shard: *shard,
-            aovs: *aovs,
+            aovs,
             before: self.before.clone(),
-            needs: given.work.reading.needs(&loaded.scene, frame.workload(), *aovs),
+            needs: given.work.reading.needs(&loaded.scene, frame.workload(), aovs),
             repetitions: given.repetitions.unwrap_or(0),
         }
     }
 
+    /// The images that are rendered in addition to the colours: those that were asked for, and what a denoiser needs.
+    fn rendered_aovs(&self) -> AovSelection {
+        self.aovs.with(self.denoiser.iter().flat_map(|_| FED))
+    }
+
     /// The key of the picture of the scene as it is shown.
     pub(super) fn key(&self) -> String {
-        picture_key(version_text(), &self.loaded, &self.job(&self.loaded))
+        let key = picture_key(version_text(), &self.loaded, &self.job(&self.loaded));
+        match &self.denoiser {
+            Some(denoiser) => {
+                KeyHash::default().with("picture", key).with("denoised", denoiser.version()).finish()
+            }
+            None => key,
+        }
     }
 
     /// Renders the scene as it is and writes what was asked for; `key` is the picture's. `keeps_part`: a signal keeps
@@ -73,7 +89,7 @@ impl Pictures<'_> {
     ) -> Result<(), AppError> {
         let Self { given, line, interrupt, shard, .. } = *self;
         let frame = self.frame.clone();
-        let needs = given.work.reading.needs(&self.loaded.scene, frame.workload(), self.aovs);
+        let needs = given.work.reading.needs(&self.loaded.scene, frame.workload(), self.rendered_aovs());
         count_not_uploaded(&mut self.loaded, &self.chosen.camera, &needs);
         let mut job = self.job(&self.loaded);
         if shard.is_some_and(|shard| !shard.holds(0)) {
@@ -86,7 +102,7 @@ impl Pictures<'_> {
             keeps_part && progress.total > 0 && progress.done.saturating_mul(samples.into()) >= progress.total
         };
         let (backend, kept) = (&mut self.backend, &mut self.kept);
-        let output = with_progress(interrupt, is_kept, |progress| backend.render(&job, kept, progress))?;
+        let mut output = with_progress(interrupt, is_kept, |progress| backend.render(&job, kept, progress))?;
         check_samples(&output, samples, keeps_part)?;
 
         let mut run = output.run(&job.system, &frame);
@@ -105,6 +121,10 @@ impl Pictures<'_> {
         }
         whole?;
         output.check_images(job.aovs)?;
+        if let Some(denoiser) = &self.denoiser {
+            denoise(denoiser, &mut output)?;
+            output.aovs.retain(|aov, _| self.aovs.contains(*aov));
+        }
         if let Some((place, format)) = &targets.image {
             let tone = given.tone.tone();
             let metadata = Metadata {
@@ -116,6 +136,7 @@ impl Pictures<'_> {
                 samples: output.samples_done,
                 seed: frame.seed,
                 version: version_text().to_owned(),
+                denoised: self.denoiser.as_ref().map(|denoiser| denoiser.version().to_owned()),
                 key: key.as_ref().map(|key| image_key(key, *format, tone, shard)),
                 part: shard.zip(key).map(|(shard, picture)| PartOf { picture, shard }),
             };

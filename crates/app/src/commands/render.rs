@@ -1,5 +1,6 @@
 //! `rasray render`.
 
+use super::denoise::{FED, denoiser};
 use super::frames::{dealt, seconds};
 use super::picture_targets::{Targets, rows, samples_shard};
 use super::pictures::Pictures;
@@ -25,6 +26,7 @@ pub(crate) fn render(
     let frame = given.frame()?;
     let aovs = given.aovs(&frame)?;
     let system = given.system()?.serving(frame.workload());
+    let denoiser = denoiser(given)?;
     let shard = samples_shard(given)?;
     // All shares of the frames begin alike: a camera that nothing moves stays where it is for the first of all.
     let first = given.frames.as_ref().map(|range| *range.start());
@@ -48,7 +50,8 @@ pub(crate) fn render(
     let backend = open_device(open, &given.work.device)?;
     stop_if_requested(interrupt)?;
     // Images stay as they are at all times.
-    let needs = given.work.reading.needs(&loaded.scene, frame.workload(), aovs);
+    let rendered = aovs.with(denoiser.iter().flat_map(|_| FED));
+    let needs = given.work.reading.needs(&loaded.scene, frame.workload(), rendered);
     fit_images(&mut loaded, &needs, backend.as_ref())?;
     let mut pictures = Pictures {
         given,
@@ -65,6 +68,7 @@ pub(crate) fn render(
         backend,
         kept: KeptScene::default(),
         before: None,
+        denoiser,
     };
     match numbers {
         None => pictures.render_one(&targets),

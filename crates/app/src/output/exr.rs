@@ -6,7 +6,7 @@
 
 use super::exr_channels::{Channels, Values};
 use super::exr_header::{CHECKSUM, NO_CHECKSUM, finish};
-use super::stamp::KEY;
+use super::stamp::{DENOISED, KEY};
 use exr::prelude::*;
 use rasray_experiment::{Aov, AovImage, RenderOutput, Shard};
 use std::io::Cursor;
@@ -32,6 +32,8 @@ pub struct Metadata {
     pub version: String,
     /// The key of the file; absent where it holds less than was asked for.
     pub key: Option<String>,
+    /// What took the noise out of it; absent: nothing did.
+    pub denoised: Option<String>,
     /// Which share of the samples of which picture it holds; absent: all.
     pub part: Option<PartOf>,
 }
@@ -89,6 +91,7 @@ pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result
         ("integrator", Some(metadata.integrator.clone())),
         (VERSION, Some(metadata.version.clone())),
         (KEY, metadata.key.clone()),
+        (DENOISED, metadata.denoised.clone()),
         (PICTURE, part.map(|part| part.picture.clone())),
         (SHARD, part.map(|part| part.shard.to_string())),
         (CHECKSUM, Some(NO_CHECKSUM.to_owned())),

@@ -45,6 +45,7 @@ pub(crate) fn decode(bytes: Vec<u8>) -> std::result::Result<PartFile, &'static s
             seed: text(&bytes, "seed")?.parse().ok()?,
             version: word(VERSION)?,
             key: word(KEY),
+            denoised: None,
             part: Some(part.clone()),
         };
         Some((metadata, part))

@@ -1,25 +1,24 @@
 //! PNG: 8-bit sRGB. Colours times 2^exposure, clamped to [0, 1] or through the curve that was asked for, then the sRGB
 //! curve, rounded to the nearest step. No dithering: other programs can reproduce every value.
 
-use super::stamp::{KEY, TONE, tone_text};
+use super::exr::Metadata;
+use super::stamp::{DENOISED, KEY, TONE, tone_text};
 use crate::error::AppError;
 use rasray_experiment::RenderOutput;
 use rasray_metrics::{Tone, tone_map};
 use std::io::Write;
 
-/// The bytes of a PNG file of the colours, with how they are shown, and a key where it has one.
+/// The bytes of a PNG file of the colours, with how they are shown, and with a key and what denoised them where there is.
 ///
 /// # Errors
 /// What the encoder says, in words.
-pub fn encode(output: &RenderOutput, tone: Tone, key: Option<&str>) -> Result<Vec<u8>, String> {
+pub fn encode(output: &RenderOutput, tone: Tone, metadata: &Metadata) -> Result<Vec<u8>, String> {
     let rows = output.beauty.chunks(output.width.max(1) as usize);
     let shown = tone_text(tone);
-    let texts = [key.map(|key| (KEY, key)), Some((TONE, &shown))];
-    encode_rows(
-        rows.map(|row| tone_map(row, tone)),
-        [output.width, output.height],
-        texts.into_iter().flatten(),
-    )
+    let texts =
+        [(KEY, metadata.key.as_deref()), (TONE, Some(&shown)), (DENOISED, metadata.denoised.as_deref())];
+    let texts = texts.into_iter().filter_map(|(name, text)| Some((name, text?)));
+    encode_rows(rows.map(|row| tone_map(row, tone)), [output.width, output.height], texts)
 }
 
 /// The bytes of a PNG file of pixels of three bytes each, rows from the top; the size in pixels.
@@ -86,7 +85,7 @@ mod tests {
             beauty: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.5; 3]],
             ..Default::default()
         };
-        let bytes = encode(&output, 0.0.into(), None).expect("a small image");
+        let bytes = encode(&output, 0.0.into(), &Metadata::default()).expect("a small image");
         let read = image::load_from_memory(&bytes).expect("a valid file").to_rgb8();
         assert_eq!((read.width(), read.height()), (2, 2));
         assert_eq!(read.into_raw(), [255, 0, 0, 0, 255, 0, 0, 0, 255, 188, 188, 188]);

@@ -135,7 +135,7 @@ fn images_that_were_cut_short_are_refused() {
     for cut in cuts(whole.len()) {
         assert!(read(&whole[..cut]).is_err(), "{cut} of {} bytes of an EXR are read", whole.len());
     }
-    let whole = encode_png(&output(), 0.0.into(), None).expect("a small image");
+    let whole = encode_png(&output(), 0.0.into(), &Metadata::default()).expect("a small image");
     let expected = image::load_from_memory(&whole).expect("a valid file").to_rgb8();
     for cut in cuts(whole.len()) {
         // Only the mark of the end may be missing: then every pixel is there.

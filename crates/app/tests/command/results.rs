@@ -55,6 +55,45 @@ fn a_png_has_the_curve_that_was_asked_for_and_says_so() {
 }
 
 #[test]
+fn a_denoiser_that_is_missing_is_named_before_anything_is_rendered() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = command(folder.path(), "render cornell --size 16x16 --denoise -o a.exr --device stuck");
+    let output = command.env("RASRAY_OIDN", "/nowhere/libOpenImageDenoise.so.2").output().expect("it starts");
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    for word in
+        ["--denoise", "/nowhere/libOpenImageDenoise.so.2", "help: ", "RASRAY_OIDN", "pip install pyoidn"]
+    {
+        assert!(stderr(&output).contains(word), "{word}: {}", stderr(&output));
+    }
+    assert!(entries(folder.path()).is_empty());
+}
+
+#[test]
+fn files_say_what_denoised_them() {
+    if let Err(error) = rasray_denoise::Denoiser::find() {
+        return eprintln!("skipped: {error}");
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |line: &str| {
+        let output = rasray(folder.path(), &format!("render cornell --size 16x16 {line}"));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stderr(&output)
+    };
+    run("--denoise --aov depth -o a.exr");
+    let image = exr::prelude::read_all_flat_layers_from_file(folder.path().join("a.exr")).expect("an image");
+    let layer = &image.layer_data[0];
+    let said = layer.attributes.other.get(&exr::prelude::Text::from("rasrayDenoised")).expect("it says so");
+    assert!(format!("{said:?}").contains("Open Image Denoise 2."), "{said:?}");
+    let names: Vec<_> = layer.channel_data.list.iter().map(|c| c.name.to_string()).collect();
+    assert_eq!(names, ["B", "G", "R", "Z"], "what the denoiser was fed with was not asked for");
+    assert!(run("--denoise --aov depth -o a.exr --resume").contains("there already"));
+    assert!(run("--aov depth -o a.exr --resume").contains("something else"));
+    run("--denoise -o a.png");
+    let bytes = std::fs::read(folder.path().join("a.png")).expect("an image");
+    assert!(bytes.windows(18).any(|text| text == b"Open Image Denoise"), "it says so");
+}
+
+#[test]
 fn an_exr_holds_every_wanted_channel() {
     let folder = tempfile::tempdir().expect("a folder");
     let line = "render cornell --size 4x3 --spp 2 --aov depth,normal,primitive -o a.exr";

@@ -22,6 +22,8 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         ("render cornell -o a.exr --aov indirect --adaptive 0.1", "--aov indirect", "leave one"),
         ("render cornell -o a.exr --aov variance --shard 1/2", "--aov variance", "leave one"),
         ("render cornell -o a.exr --aov colour", "colour", "--help"),
+        ("render cornell -o a.exr --denoise --shard 1/2", "--denoise", "leave one"),
+        ("render cornell -o a.exr --denoise --aov direct", "--denoise", "leave one"),
         ("render cornell -o a.exr --exposure 1", "--exposure", ".png"),
         ("render cornell -o a.exr --tone agx", "--tone", ".png"),
         ("render cornell -o a.png --tone filmic", "filmic", "--help"),

@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
+use rasray_denoise::{Denoiser, NoisyPicture};
 use rasray_experiment::{
     Aov, AovImage, AovSelection, Backend, DeviceChoice, Frame, FrameBefore, IntegratorRow, KeptScene,
     OptionValues, Refresh, RenderJob, RenderOutput, Sampler, open,
@@ -257,4 +258,33 @@ fn motion_leads_to_where_points_were_one_frame_before() {
         println!("{name}: {far} pixels from the processor's at most, {moved} pixels moved by themselves");
         assert!(far < 0.02 && moved > 20, "{name}: {far} {moved}");
     }
+}
+
+/// Where the library is installed: noise goes, and what is lit stays.
+#[test]
+fn a_denoised_picture_is_nearer_to_the_converged_one() {
+    let denoiser = match Denoiser::find() {
+        Ok(denoiser) => denoiser,
+        Err(error) => return eprintln!("skipped: {error}"),
+    };
+    let (loaded, mut backend) = (scene("cornell"), device());
+    let aovs = AovSelection::from_iter([Aov::Albedo, Aov::Normal]);
+    let mut picture = |spp, seed| {
+        let frame = Frame { width: 64, height: 64, spp, seed, ..frame(&loaded, 5) };
+        render(&mut *backend, &job(&loaded, "bvh", &frame, aovs))
+    };
+    let (noisy, converged) = (picture(8, 1), picture(512, 2));
+    let [albedo, normal] =
+        [Aov::Albedo, Aov::Normal].map(|aov| noisy.aovs[&aov].triples().expect("three channels"));
+    let images = NoisyPicture { size: [64, 64], colour: &noisy.beauty, albedo: &albedo, normal: &normal };
+    let clean = denoiser.denoise(&images).expect("it works");
+    let error = |pixels: &[[f32; 3]]| {
+        // Relative, so that the lamp does not count for all.
+        let pairs = pixels.as_flattened().iter().zip(converged.beauty.as_flattened());
+        let squared = pairs.map(|(one, other)| ((one - other) / (other + 0.01)).powi(2)).sum::<f32>();
+        (squared / (3 * pixels.len()) as f32).sqrt()
+    };
+    let (before, after) = (error(&noisy.beauty), error(&clean));
+    println!("relative error against 512 samples: {before} of 8 samples, {after} denoised");
+    assert!(after < 0.6 * before, "{after} of {before}");
 }

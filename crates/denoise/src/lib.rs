@@ -1,0 +1,178 @@
+//! Takes the noise out of pictures with [Open Image Denoise](https://www.openimagedenoise.org), a library that is found
+//! when it is asked for: nothing is linked, and programs run without it.
+
+mod library;
+
+use library::Functions;
+use std::ffi::OsString;
+use std::path::Path;
+
+/// Names a file of the library that is taken in place of the one that is installed.
+pub const LIBRARY_VARIABLE: &str = "RASRAY_OIDN";
+
+/// Names of the library where it is looked up as all libraries are, on this system.
+const NAMES: &[&str] = if cfg!(target_os = "windows") {
+    &["OpenImageDenoise.dll"]
+} else if cfg!(target_os = "macos") {
+    &["libOpenImageDenoise.2.dylib", "libOpenImageDenoise.dylib"]
+} else {
+    &["libOpenImageDenoise.so.2", "libOpenImageDenoise.so"]
+};
+
+/// Why there is no picture without noise.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum DenoiseError {
+    /// There is no library of that name, or it needs others that are not there.
+    #[error("Open Image Denoise is not installed: {reason}")]
+    Missing {
+        /// What the system says.
+        reason: String,
+    },
+    /// It is of another version than 2, whose functions are other ones.
+    #[error("{} is not version 2 of Open Image Denoise: {reason}", name.display())]
+    Unsuitable {
+        /// The library.
+        name: OsString,
+        /// What it lacks.
+        reason: String,
+    },
+    /// It refused the picture or this processor.
+    #[error("Open Image Denoise failed: {0}")]
+    Failed(String),
+    /// Images do not have as many pixels as the picture.
+    #[error("{name} has {pixels} pixels in place of {expected}")]
+    Size {
+        /// Which image.
+        name: &'static str,
+        /// What it has.
+        pixels: usize,
+        /// What the picture's size asks for.
+        expected: usize,
+    },
+}
+
+/// What is known of a picture: one entry per pixel, rows from the top.
+#[derive(Clone, Copy, Debug)]
+pub struct NoisyPicture<'a> {
+    /// Pixels a row, and rows.
+    pub size: [usize; 2],
+    /// Linear, without an upper limit.
+    pub colour: &'a [[f32; 3]],
+    /// Base colours, 0 to 1 each.
+    pub albedo: &'a [[f32; 3]],
+    /// Unit normals, of any axes; zero where there is none.
+    pub normal: &'a [[f32; 3]],
+}
+
+/// The library, ready for pictures.
+#[derive(Debug)]
+pub struct Denoiser {
+    functions: Functions,
+    version: String,
+}
+
+impl Denoiser {
+    /// Loads the library that [`LIBRARY_VARIABLE`] names, or else the one that is installed.
+    ///
+    /// # Errors
+    /// [`DenoiseError::Missing`], or [`DenoiseError::Unsuitable`].
+    pub fn find() -> Result<Self, DenoiseError> {
+        match std::env::var_os(LIBRARY_VARIABLE).filter(|name| !name.is_empty()) {
+            Some(name) => Self::load(Path::new(&name)),
+            None => {
+                let first = Self::load(Path::new(NAMES[0]));
+                let others = NAMES[1..].iter().map(|name| Self::load(Path::new(name)));
+                // The name with a version says most of what is missing.
+                others.fold(first, |found, other| found.or_else(|error| other.map_err(|_| error)))
+            }
+        }
+    }
+
+    /// Loads a library by its file, or by its name where it is looked up as all libraries are.
+    ///
+    /// # Errors
+    /// [`DenoiseError::Missing`], or [`DenoiseError::Unsuitable`].
+    pub fn load(name: &Path) -> Result<Self, DenoiseError> {
+        let functions = Functions::load(name.as_os_str())?;
+        let device = functions.device()?;
+        let version = device.number(c"version");
+        let [major, minor, patch] = [version / 10_000, version / 100 % 100, version % 100];
+        drop(device);
+        if major != 2 {
+            let reason = format!("it says that it is {major}.{minor}.{patch}");
+            return Err(DenoiseError::Unsuitable { name: name.into(), reason });
+        }
+        Ok(Self { functions, version: format!("Open Image Denoise {major}.{minor}.{patch}") })
+    }
+
+    /// Name and version: `Open Image Denoise 2.5.1`.
+    pub fn version(&self) -> &str {
+        &self.version
+    }
+
+    /// The picture without noise, as linear as it was.
+    ///
+    /// # Errors
+    /// [`DenoiseError::Size`], or [`DenoiseError::Failed`] with what the library says.
+    pub fn denoise(&self, picture: &NoisyPicture<'_>) -> Result<Vec<[f32; 3]>, DenoiseError> {
+        let NoisyPicture { size: [width, height], colour, albedo, normal } = *picture;
+        let expected = width.saturating_mul(height);
+        for (name, image) in [("the picture", colour), ("its albedo", albedo), ("its normal", normal)] {
+            if image.len() != expected {
+                return Err(DenoiseError::Size { name, pixels: image.len(), expected });
+            }
+        }
+        if expected == 0 {
+            return Ok(Vec::new());
+        }
+        self.functions.device()?.filtered([width, height], [colour, albedo, normal])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_library_is_missing_and_named() {
+        for name in ["/nowhere/libOpenImageDenoise.so.2", "libNoSuchLibrary.so.7"] {
+            let error = Denoiser::load(Path::new(name)).expect_err("there is none");
+            assert!(
+                matches!(error, DenoiseError::Missing { .. }) && error.to_string().contains(name),
+                "{error}"
+            );
+        }
+    }
+
+    /// Any other library will do: this test's C library.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn another_library_is_unsuitable() {
+        let error = Denoiser::load(Path::new("libc.so.6")).expect_err("not a denoiser");
+        assert!(matches!(error, DenoiseError::Unsuitable { .. }), "{error}");
+    }
+
+    #[test]
+    fn noise_is_taken_out_and_sizes_are_checked() {
+        let denoiser = match Denoiser::find() {
+            Ok(denoiser) => denoiser,
+            Err(error) => return eprintln!("skipped: {error}"),
+        };
+        assert!(denoiser.version().starts_with("Open Image Denoise 2."), "{}", denoiser.version());
+        let size = [48, 32];
+        // A grey wall twice as bright as a screen, with noise of known numbers.
+        let noisy: Vec<_> = (0..48 * 32_u32)
+            .map(|pixel| [2.0 + ((pixel.wrapping_mul(2_654_435_761) >> 16) as f32 / 32_768.0 - 1.0); 3])
+            .collect();
+        let (albedo, normal) = (vec![[0.5; 3]; noisy.len()], vec![[0.0, 0.0, 1.0]; noisy.len()]);
+        let picture = NoisyPicture { size, colour: &noisy, albedo: &albedo, normal: &normal };
+        let clean = denoiser.denoise(&picture).expect("it works");
+        let error = |pixels: &[[f32; 3]]| pixels.iter().map(|pixel| (pixel[0] - 2.0).abs()).sum::<f32>();
+        assert!(error(&clean) < 0.2 * error(&noisy), "{} of {}", error(&clean), error(&noisy));
+        let short = NoisyPicture { albedo: &albedo[1..], ..picture };
+        assert!(matches!(denoiser.denoise(&short), Err(DenoiseError::Size { name: "its albedo", .. })));
+        let empty = NoisyPicture { size: [0, 5], colour: &[], albedo: &[], normal: &[] };
+        assert!(denoiser.denoise(&empty).expect("nothing to do").is_empty());
+    }
+}

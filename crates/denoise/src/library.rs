@@ -1,0 +1,208 @@
+//! The C interface of Open Image Denoise 2 as far as it is used, by the names and types of its header `oidn.h`.
+
+use crate::DenoiseError;
+use libloading::Library;
+use std::ffi::{CStr, OsStr, c_char, c_int, c_void};
+use std::ptr::null;
+
+/// A device or a filter of the library, which nobody looks into.
+type Handle = *mut c_void;
+
+/// `OIDN_DEVICE_TYPE_CPU`: it reads and writes memory of this process wherever it is.
+const CPU: c_int = 1;
+/// `OIDN_ERROR_NONE`.
+const NO_ERROR: c_int = 0;
+/// `OIDN_FORMAT_FLOAT3`: three floats, one after the other.
+const FLOAT3: c_int = 3;
+
+type NewDevice = unsafe extern "C" fn(c_int) -> Handle;
+type NewFilter = unsafe extern "C" fn(Handle, *const c_char) -> Handle;
+type OfHandle = unsafe extern "C" fn(Handle);
+type GetInt = unsafe extern "C" fn(Handle, *const c_char) -> c_int;
+type GetError = unsafe extern "C" fn(Handle, *mut *const c_char) -> c_int;
+type SetBool = unsafe extern "C" fn(Handle, *const c_char, bool);
+type SetImage =
+    unsafe extern "C" fn(Handle, *const c_char, *mut c_void, c_int, usize, usize, usize, usize, usize);
+
+/// The functions of a loaded library.
+#[derive(Debug)]
+pub(crate) struct Functions {
+    new_device: NewDevice,
+    commit_device: OfHandle,
+    device_number: GetInt,
+    device_error: GetError,
+    release_device: OfHandle,
+    new_filter: NewFilter,
+    set_image: SetImage,
+    set_bool: SetBool,
+    commit_filter: OfHandle,
+    execute_filter: OfHandle,
+    release_filter: OfHandle,
+    /// Last, so that it is closed when nothing calls into it any more.
+    _library: Library,
+}
+
+impl Functions {
+    /// Loads a library by file or by name.
+    pub fn load(name: &OsStr) -> Result<Self, DenoiseError> {
+        // SAFETY: what a library does when it is loaded is its own. The user named it, or it is the one that is
+        // installed under this name; its initialisers have no conditions.
+        let library = unsafe { Library::new(name) }
+            .map_err(|error| DenoiseError::Missing { reason: described(&error) })?;
+        let lacks = |error: libloading::Error| DenoiseError::Unsuitable {
+            name: name.to_owned(),
+            reason: described(&error),
+        };
+        /// A function by its name in the header, with the type that it has there.
+        macro_rules! function {
+            ($name:literal) => {
+                // SAFETY: `oidn.h` of version 2 declares the function with the type of the field that it goes to, and
+                // functions keep their types within a version: a library with other ones has another file name. The
+                // pointer is used no longer than the library is loaded, since both are in the same struct.
+                *unsafe { library.get($name) }.map_err(lacks)?
+            };
+        }
+        Ok(Self {
+            new_device: function!(b"oidnNewDevice\0"),
+            commit_device: function!(b"oidnCommitDevice\0"),
+            device_number: function!(b"oidnGetDeviceInt\0"),
+            device_error: function!(b"oidnGetDeviceError\0"),
+            release_device: function!(b"oidnReleaseDevice\0"),
+            new_filter: function!(b"oidnNewFilter\0"),
+            set_image: function!(b"oidnSetSharedFilterImage\0"),
+            set_bool: function!(b"oidnSetFilterBool\0"),
+            commit_filter: function!(b"oidnCommitFilter\0"),
+            execute_filter: function!(b"oidnExecuteFilter\0"),
+            release_filter: function!(b"oidnReleaseFilter\0"),
+            _library: library,
+        })
+    }
+
+    /// A device on this processor.
+    pub fn device(&self) -> Result<Device<'_>, DenoiseError> {
+        // SAFETY: the type is one that the header lists.
+        let handle = unsafe { (self.new_device)(CPU) };
+        let device = Device { functions: self, handle };
+        if handle.is_null() {
+            return Err(device.failed());
+        }
+        // SAFETY: the handle is a device that is not committed yet.
+        unsafe { (self.commit_device)(handle) };
+        device.check()?;
+        Ok(device)
+    }
+}
+
+/// An error of the loader with what the system says.
+fn described(error: &libloading::Error) -> String {
+    use std::error::Error;
+    error.source().map_or_else(|| error.to_string(), ToString::to_string)
+}
+
+/// A device; released when it goes.
+pub(crate) struct Device<'a> {
+    functions: &'a Functions,
+    /// Null where none could be made: only its error is asked for.
+    handle: Handle,
+}
+
+impl Drop for Device<'_> {
+    fn drop(&mut self) {
+        if !self.handle.is_null() {
+            // SAFETY: the handle is a device, and this is the only reference that is counted.
+            unsafe { (self.functions.release_device)(self.handle) };
+        }
+    }
+}
+
+/// A filter; released when it goes, before its device.
+struct Filter<'a> {
+    device: &'a Device<'a>,
+    handle: Handle,
+}
+
+impl Drop for Filter<'_> {
+    fn drop(&mut self) {
+        // SAFETY: the handle is a filter, and this is the only reference that is counted.
+        unsafe { (self.device.functions.release_filter)(self.handle) };
+    }
+}
+
+impl Device<'_> {
+    /// A number that the device knows by name; 0 where it does not.
+    pub fn number(&self, name: &CStr) -> i32 {
+        // SAFETY: the handle is a committed device, and the name ends in 0.
+        unsafe { (self.functions.device_number)(self.handle, name.as_ptr()) }
+    }
+
+    /// What went wrong since this was asked last.
+    fn check(&self) -> Result<(), DenoiseError> {
+        let mut message = null();
+        // SAFETY: the handle is a device, or null, for which the error of this thread is meant; the message is written.
+        let code = unsafe { (self.functions.device_error)(self.handle, &raw mut message) };
+        if code == NO_ERROR {
+            return Ok(());
+        }
+        let message = match message.is_null() {
+            true => format!("error {code}"),
+            // SAFETY: a message ends in 0 and stays until the next call for this device, which is after this copy.
+            false => unsafe { CStr::from_ptr(message) }.to_string_lossy().into_owned(),
+        };
+        Err(DenoiseError::Failed(message))
+    }
+
+    /// What went wrong where something did.
+    fn failed(&self) -> DenoiseError {
+        let unknown = || DenoiseError::Failed("it does not say why".to_owned());
+        self.check().err().unwrap_or_else(unknown)
+    }
+
+    /// The first image, which is linear, without noise; the others are albedo and normal. All have as many pixels as the
+    /// size says, above 0.
+    pub fn filtered(
+        &self,
+        [width, height]: [usize; 2],
+        images: [&[[f32; 3]]; 3],
+    ) -> Result<Vec<[f32; 3]>, DenoiseError> {
+        assert!(images.iter().all(|image| image.len() == width * height), "sizes were checked");
+        let functions = self.functions;
+        let mut output = vec![[0.0_f32; 3]; width * height];
+        // SAFETY: the handle is a committed device, the name is of a filter that the header lists and ends in 0.
+        let handle = unsafe { (functions.new_filter)(self.handle, c"RT".as_ptr()) };
+        if handle.is_null() {
+            return Err(self.failed());
+        }
+        let filter = Filter { device: self, handle };
+        let inputs = [c"color", c"albedo", c"normal"].into_iter().zip(images);
+        // The library does not write to inputs; the header has one function for inputs and outputs.
+        let inputs = inputs.map(|(name, image)| (name, image.as_ptr().cast_mut()));
+        for (name, pixels) in inputs.chain([(c"output", output.as_mut_ptr())]) {
+            // SAFETY: the filter is live, the name ends in 0; the pixels are width * height of three floats without gaps,
+            // which strides of 0 stand for, and stay where they are until the filter is released below: inputs are borrowed,
+            // and `output` is neither moved nor looked at before.
+            unsafe {
+                (functions.set_image)(
+                    filter.handle,
+                    name.as_ptr(),
+                    pixels.cast(),
+                    FLOAT3,
+                    width,
+                    height,
+                    0,
+                    0,
+                    0,
+                );
+            }
+        }
+        // SAFETY: the filter is live, its device is on this processor and so reads and writes memory of this process; a
+        // filter is executed before the call returns.
+        unsafe {
+            (functions.set_bool)(filter.handle, c"hdr".as_ptr(), true);
+            (functions.commit_filter)(filter.handle);
+            (functions.execute_filter)(filter.handle);
+        }
+        drop(filter);
+        self.check()?;
+        Ok(output)
+    }
+}
