@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use rasray_ads::GeometryParts;
 use rasray_gpu::{Device, PassTiming, Stage, Timing};
-use rasray_gpu_scene::{PosePass, SceneTables};
+use rasray_gpu_scene::{FramePose, PosePass, SceneTables};
 use rasray_report::Pass;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Moment, Scene};
@@ -102,6 +102,36 @@ impl DeviceScene {
         moment: &Moment,
         timing: Timing,
     ) -> Result<PoseTimes, ExperimentError> {
+        let (pose, times) = self.place(device, scene, moment, timing)?;
+        let before = self.posed.take().zip(self.pose.as_ref());
+        self.moved = before.map_or_else(Vec::new, |(before, pass)| pass.moved_parts(&before, &pose));
+        self.posed = Some(pose);
+        Ok(times)
+    }
+
+    /// Positions, metres relative to the frame origin, and indices of the triangles at another moment. They stay there until
+    /// [`DeviceScene::pose`] shows a moment, which has to follow; what has moved by then is said of the moment shown before.
+    ///
+    /// # Errors
+    /// As [`DeviceScene::pose`].
+    pub(super) fn triangles_at(
+        &self,
+        device: &Device,
+        scene: &Scene,
+        moment: &Moment,
+    ) -> Result<(Vec<[f32; 3]>, Vec<u32>), ExperimentError> {
+        self.place(device, scene, moment, Timing::None)?;
+        self.triangles(device)
+    }
+
+    /// Puts what moves where it is at a moment.
+    fn place(
+        &self,
+        device: &Device,
+        scene: &Scene,
+        moment: &Moment,
+        timing: Timing,
+    ) -> Result<(FramePose, PoseTimes), ExperimentError> {
         let Some(pass) = &self.pose else {
             return Err(device_error("a scene is to be posed that was not made to move"));
         };
@@ -110,9 +140,7 @@ impl DeviceScene {
         let host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
         let submitted =
             device.submit_passes(timing, |recorder| pass.record(recorder, 0, &pose)).map_err(device_error)?;
-        self.moved = self.posed.take().map_or_else(Vec::new, |before| pass.moved_parts(&before, &pose));
-        self.posed = Some(pose);
-        Ok(PoseTimes { host_milliseconds, passes: submitted.passes })
+        Ok((pose, PoseTimes { host_milliseconds, passes: submitted.passes }))
     }
 }
 

@@ -164,15 +164,14 @@ impl MadeFor {
     }
 }
 
-/// The triangles of the frame before, where the job has one; the scene is posed as it is there after this.
+/// The triangles of the frame before, where the job has one; a pose has to follow.
 fn triangles_before(
     device: &Device,
-    stage: &mut DeviceScene,
+    stage: &DeviceScene,
     job: &RenderJob<'_>,
 ) -> Result<Option<TrianglesBefore>, ExperimentError> {
     let Some(before) = &job.before else { return Ok(None) };
-    stage.pose(device, job.scene, &before.moment, Timing::None)?;
-    let (positions, indices) = stage.triangles(device)?;
+    let (positions, indices) = stage.triangles_at(device, job.scene, &before.moment)?;
     Ok(Some(TrianglesBefore { positions, indices }))
 }
 
@@ -197,14 +196,14 @@ fn on_device(
             let Frame { width, height, seed, .. } = job.frame;
             stage.look(&View { camera: job.camera.clone(), width, height, seed })?;
             // Times in ascending order may be cheaper.
-            before = triangles_before(device, &mut stage, job)?;
+            before = triangles_before(device, &stage, job)?;
             let shown = stage.pose(device, job.scene, moment, device.best_timing())?;
             let built = Some(built).filter(|_| kept_for.system == made_for.system);
             (stage, shown, built, Some(rendering).filter(|_| kept_for.has_image_of(&made_for)))
         }
         None => {
             let (mut stage, shown) = DeviceScene::of_job(device, job)?;
-            before = triangles_before(device, &mut stage, job)?;
+            before = triangles_before(device, &stage, job)?;
             if let Some(moment) = job.moment.filter(|_| before.is_some()) {
                 stage.pose(device, job.scene, moment, Timing::None)?;
             }

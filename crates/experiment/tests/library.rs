@@ -302,7 +302,7 @@ fn pictures_do_not_depend_on_what_was_kept() {
     let small = Frame { width: 24, height: 16, ..frame.clone() };
     let reseeded = Frame { seed: 3, ..small.clone() };
     let second = Shard::new(2, 2);
-    let (all, moving) = (Refresh::All, Refresh::Moving);
+    let (all, moving, objects) = (Refresh::All, Refresh::Moving, Refresh::Objects);
     let mut kept = KeptScene::default();
     let mut kept_kernels = 0;
     for (seconds, system, frame, shard, refresh) in [
@@ -314,10 +314,14 @@ fn pictures_do_not_depend_on_what_was_kept() {
         (1.0, "bvh", &small, None, moving),
         (1.25, "bvh", &small, None, moving),
         (1.25, "brute-force", &small, None, moving),
+        (1.5, "bvh", &small, None, objects),
+        (1.75, "bvh", &small, None, objects),
     ] {
         loaded.show(seconds, None).expect("it moves");
+        // Nothing has moved since the frame before: what was built is of another one.
+        let step = if refresh == objects { 0.0 } else { 0.04 };
         let before =
-            Moment { seconds: seconds - 0.04, clips: loaded.moment.clone().expect("it is posed").clips };
+            Moment { seconds: seconds - step, clips: loaded.moment.clone().expect("it is posed").clips };
         let job = RenderJob {
             scene: &loaded.scene,
             moment: loaded.moment.as_ref(),
@@ -343,8 +347,8 @@ fn pictures_do_not_depend_on_what_was_kept() {
         kept_kernels += u32::from(after.times.first_use_ms.is_none());
         assert!(fresh.times.first_use_ms.is_some());
     }
-    // At 0.5 s and at 1.25 s.
-    assert_eq!(kept_kernels, 2);
+    // At 0.5 s, at 1.25 s and at 1.75 s.
+    assert_eq!(kept_kernels, 3);
 }
 
 /// What an option asks for and the device lacks is an error of the job, which names the option.
