@@ -226,7 +226,7 @@ fn on_device(
         }
     };
     Rendering::check(&job.frame, &built)?;
-    let rendering = match rendering {
+    let rendering = match rendering.filter(|rendering| rendering.serves(&built)) {
         Some(mut rendering) => {
             rendering.clear()?;
             rendering.scene_moved();

@@ -314,6 +314,8 @@ fn pictures_do_not_depend_on_what_was_kept() {
         (1.0, "bvh", &small, None, moving),
         (1.25, "bvh", &small, None, moving),
         (1.25, "brute-force", &small, None, moving),
+        // Its hits are of fragments.
+        (1.25, "hu", &small, None, moving),
         (1.5, "bvh", &small, None, objects),
         (1.75, "bvh", &small, None, objects),
     ] {
