@@ -389,6 +389,24 @@ def variance(scene, renderers, folder, seeds):
             row(scene.name, side.name, sampler, f"{value:.6f}")
 
 
+def speed(scene, renderers, folder, size, samples):
+    """Processor time of a picture of 4 bounces, the least of five in turn: of the whole process of rasray, also for one ray;
+    of Mitsuba loading the scene, rendering and writing. Compiled kernels are in the driver's cache after the first."""
+    scene, times = scene._replace(bounces=4), {}
+    for side in renderers * 5:
+        for pixels, count in ((size, samples), (1, 1)):
+            begun = os.times()
+            side.render(scene, folder / "s.exr", pixels, count, sampler=side.samplers[0])
+            ended = os.times()
+            of_children = isinstance(side, Rasray)
+            fields = (2, 3) if of_children else (0, 1)
+            times.setdefault((side.name, pixels), []).append(sum(ended[i] - begun[i] for i in fields))
+    ours = min(times["rasray", size])
+    for side in renderers:
+        least = min(times[side.name, size])
+        row(scene.name, side.name, f"{least:.2f} s", f"{min(times[side.name, 1]):.2f} s", f"{ours / least:.2f}")
+
+
 def furnace(renderers, folder, kinds):
     """Share of a white sky that a white ball sends to the camera, mean over its disk but for the edge."""
     disk = np.hypot(*np.mgrid[-31.5:32, -31.5:32]) * math.tan(math.radians(10)) / 32 < 0.97 / math.sqrt(63)
@@ -448,7 +466,7 @@ def main():
     parser.add_argument("--scenes", required=True, type=Path, help="folder of the real scenes")
     parser.add_argument("--output", type=Path, default=Path("comparison"), help="folder for pictures [%(default)s]")
     tables = "measure,variance,furnace,leaning,slabs,plates"
-    parser.add_argument("--tables", default=tables, help="which to make [%(default)s]")
+    parser.add_argument("--tables", default=tables, help="which to make, also speed [%(default)s]")
     parser.add_argument("--against", default="cycles,mitsuba", help="which renderers [%(default)s]")
     parser.add_argument("--only", help="names of scenes and kinds of balls, with commas between them [all]")
     parser.add_argument("--size", type=int, default=128, help="pixels along each side [%(default)s]")
@@ -489,6 +507,8 @@ def main():
         able = [side for side in able if is_plain or not isinstance(side, Cycles)]
         if "measure" in options.tables:
             measure(scene, able, folder, options.size, options.samples)
+        if "speed" in options.tables:
+            speed(scene, [side for side in able if not isinstance(side, Cycles)], folder, options.size, options.samples)
         if "variance" in options.tables:
             variance(scene, able, folder, options.seeds)
     for make in [make for make in (furnace, leaning, slabs, plates) if make.__name__ in options.tables]:

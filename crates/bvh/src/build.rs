@@ -219,7 +219,10 @@ impl TreeletPipelines {
 
 impl RefitPipelines {
     fn new(pipelines: &BuildPipelines<'_>) -> Result<Self, AdsError> {
-        Ok(Self { small: pipelines.compute("build_9_refit")?, chains: pipelines.compute("build_9_refit.chains")? })
+        Ok(Self {
+            small: pipelines.compute("build_9_refit")?,
+            chains: pipelines.compute("build_9_refit.chains")?,
+        })
     }
 
     /// Boxes of the nodes of two, from the leaves up.

@@ -90,7 +90,8 @@ fn frames_are_images_of_their_times_and_go_on_where_they_stopped() {
         let run = &report["runs"][0];
         let stages: Vec<_> =
             run["stages"].as_array().expect("a list").iter().map(|time| time["stage"].clone()).collect();
-        let all = ["pose", "build", "trace-closest", "trace-occluded", "surfaces", "shade", "film"];
+        // Surfaces of triangles are looked up where they are shaded.
+        let all = ["pose", "build", "trace-closest", "trace-occluded", "shade", "film"];
         let expected: Vec<_> = all.into_iter().filter(|stage| build || *stage != "build").collect();
         assert_eq!(stages, expected);
         assert_eq!(run["pose_ms"], run["stages"][0]["ms"]);
