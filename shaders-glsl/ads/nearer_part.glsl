@@ -14,7 +14,7 @@
 Hit nearer_part(Hit before, Hit hit) {
     bool was_stored = stored_hit_is(before);
     if (was_stored) {
-        stored_hit_ages(before);
+        before.b = uintBitsToFloat(HIT_EARLIER - stored_hit_age(before.b));
     }
     bool is_nearer = before.primitive == PRIMITIVE_NONE || hit.t < before.t;
     if (hit.t == before.t && !stored_hit_is(hit)) {

@@ -25,7 +25,7 @@ void main() {
     }
     bool stored = stored_hit_is(hit);
     uint part = trace.part % PART_AFTER;
-    if (stored && part != PART_WHOLE && stored_hit_age(hit) != trace.part / PART_AFTER) {
+    if (stored && part != PART_WHOLE && stored_hit_age(hit.b) != trace.part / PART_AFTER) {
         return;
     }
     Surface surface = surface_at(trace.structure, queue_ray(slot), hit);

@@ -15,22 +15,19 @@ void stored_hit_name(inout Hit hit, uint id) {
     hit.b = uintBitsToFloat(HIT_STORED);
 }
 
-// How many parts were traced after the one whose fragment is hit: where there are any, a is no place in the pools of the
-// last one.
-uint stored_hit_age(Hit hit) {
-    uint less = HIT_EARLIER - floatBitsToUint(hit.b);
+// How many parts were traced after the one whose fragment is hit, by the hit's b: where there are any, a is no place in the
+// pools of the last one. Once one more is traced, HIT_EARLIER less this is the hit's b.
+uint stored_hit_age(float b) {
+    uint less = HIT_EARLIER - floatBitsToUint(b);
     return less < PARTS_MOST ? less + 1u : 0u;
-}
-
-// Marks that one more part is traced.
-void stored_hit_ages(inout Hit hit) {
-    hit.b = uintBitsToFloat(HIT_EARLIER - stored_hit_age(hit));
 }
 
 // Whether the surface at a hit is that of the fragment with link hit.a. Where fragments carry surfaces, hits on
 // triangles of the near-region list and of conservative lists still have none.
 bool stored_hit_is(Hit hit) {
-    return hit.primitive == PRIMITIVE_UNKNOWN || floatBitsToUint(hit.b) == HIT_STORED || stored_hit_age(hit) > 0u;
+    // Counted down from HIT_STORED, which is 0, HIT_NOT_READY is 1, and what has an age follows; exchanged in pairs, all but
+    // HIT_NOT_READY are above 0.
+    return hit.primitive == PRIMITIVE_UNKNOWN || ((HIT_STORED - floatBitsToUint(hit.b)) ^ 1u) - 1u <= PARTS_MOST;
 }
 
 #endif

@@ -37,12 +37,12 @@ uint random_sobol_second(uint first) {
     return bitfieldReverse(first ^ ((first & 0x55555555u) << 1));
 }
 
-// In each field of 2 * degree * block bits, a polynomial over GF(2): divides it by
-// x^(degree * block) + x^block + 1 and leaves the quotient above the remainder. The masks are the uppermost block of the
-// fields, their upper halves, and their lower halves without the lowest block.
-uint random_sobol_divide(uint fields, uint degree, uint block, uint top, uint upper, uint lower) {
-    fields ^= (fields & top) >> ((degree - 1u) * block);
-    uint quotient = (fields & upper) >> (degree * block);
+// In each field of 2 * s * block bits, a polynomial over GF(2), of which s is 2 and 3: divides it by
+// x^(s * block) + x^block + 1 and leaves the quotient above the remainder. The masks are the uppermost block of the fields,
+// their upper halves, and their lower halves without the lowest block.
+uvec2 random_sobol_divide(uvec2 fields, uint block, uvec2 top, uvec2 upper, uvec2 lower) {
+    fields ^= (fields & top) >> (uvec2(1u, 2u) * block);
+    uvec2 quotient = (fields & upper) >> (uvec2(2u, 3u) * block);
     return fields ^ quotient ^ ((quotient << block) & lower);
 }
 
@@ -50,20 +50,17 @@ uint random_sobol_divide(uint fields, uint degree, uint block, uint top, uint up
 // recurrence of the directions V is that of the powers of x where p = y^s and y halves. So the index, as a polynomial in
 // x, is written in base p, by dividing by p^8, p^4, p^2 and p, which have three terms like p; then digit j is worth
 // y^(s j) times its sum of V_0 ... V_(s-1), which are 1, 1 + y and y^2.
-uint random_sobol_third(uint index) {
-    index = random_sobol_divide(index, 2u, 8u, 0xFF000000u, 0xFFFF0000u, 0x0000FF00u);
-    index = random_sobol_divide(index, 2u, 4u, 0xF000F000u, 0xFF00FF00u, 0x00F000F0u);
-    index = random_sobol_divide(index, 2u, 2u, 0xC0C0C0C0u, 0xF0F0F0F0u, 0x0C0C0C0Cu);
-    index = random_sobol_divide(index, 2u, 1u, 0x88888888u, 0xCCCCCCCCu, 0x22222222u);
-    return index ^ ((index >> 1) & 0x55555555u);
-}
-
-uint random_sobol_fourth(uint index) {
-    index = random_sobol_divide(index, 3u, 8u, 0x00000000u, 0xFF000000u, 0x00FFFF00u);
-    index = random_sobol_divide(index, 3u, 4u, 0x00F00000u, 0x00FFF000u, 0xF0000FF0u);
-    index = random_sobol_divide(index, 3u, 2u, 0x00C00C00u, 0xC0FC0FC0u, 0x3C03C03Cu);
-    index = random_sobol_divide(index, 3u, 1u, 0x20820820u, 0x38E38E38u, 0x86186186u);
-    return index ^ ((index >> 1) & 0x49249249u);
+uvec2 random_sobol_others(uint index) {
+    uvec2 digits = uvec2(index);
+    digits = random_sobol_divide(digits, 8u, uvec2(0xFF000000u, 0u), uvec2(0xFFFF0000u, 0xFF000000u),
+                                 uvec2(0x0000FF00u, 0x00FFFF00u));
+    digits = random_sobol_divide(digits, 4u, uvec2(0xF000F000u, 0x00F00000u), uvec2(0xFF00FF00u, 0x00FFF000u),
+                                 uvec2(0x00F000F0u, 0xF0000FF0u));
+    digits = random_sobol_divide(digits, 2u, uvec2(0xC0C0C0C0u, 0x00C00C00u), uvec2(0xF0F0F0F0u, 0xC0FC0FC0u),
+                                 uvec2(0x0C0C0C0Cu, 0x3C03C03Cu));
+    digits = random_sobol_divide(digits, 1u, uvec2(0x88888888u, 0x20820820u), uvec2(0xCCCCCCCCu, 0x38E38E38u),
+                                 uvec2(0x22222222u, 0x86186186u));
+    return digits ^ ((digits >> 1) & uvec2(0x55555555u, 0x49249249u));
 }
 
 // The four numbers of a group of dimensions: Sobol points in an order of their own, each dimension scrambled.
@@ -72,8 +69,9 @@ uvec4 random_group(uint pixel, uint sample_index, uint group) {
     uint order = words.x ^ (words.z * 0x9e3779b9u);
     uint reversed = random_scramble_reversed(bitfieldReverse(sample_index), order);
     uint index = bitfieldReverse(reversed);
-    return bitfieldReverse(uvec4(random_scramble_reversed(random_sobol_third(index), words.x),
-                                 random_scramble_reversed(random_sobol_fourth(index), words.y),
+    uvec2 others = random_sobol_others(index);
+    return bitfieldReverse(uvec4(random_scramble_reversed(others.x, words.x),
+                                 random_scramble_reversed(others.y, words.y),
                                  random_scramble_reversed(index, words.z),
                                  random_scramble_reversed(random_sobol_second(reversed), words.w)));
 }

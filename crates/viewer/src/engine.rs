@@ -290,18 +290,20 @@ impl Engine {
                 Preview::new(device, stage, &settings.frame, size, needs, &traced.built)?
             }
         });
-        // A sample of all films in one step: settings change faster than waves end, and would start them over for ever.
-        let started = Instant::now();
-        while !(advance(device, films.next(), traced, &mut self.sample_ms)? && films.is_whole()) {}
-        self.preview_ms += started.elapsed().as_secs_f64() * 1.0e3;
-        let samples = films.light().image().samples_done();
-        self.done = samples >= settings.frame.spp;
-        let of_a_sample = self.preview_ms / f64::from(samples);
         let full = [settings.frame.width, settings.frame.height];
-        // Where all samples so far were quick, there is time for one more.
-        if !self.done && size == full && self.preview_ms + of_a_sample < TARGET_MS {
-            return Ok(Step::Working);
-        }
+        // Settings change faster than waves end, and would start them over for ever: a step ends with a picture. Where all
+        // samples so far were quick, there is time for one more.
+        let (samples, of_a_sample) = loop {
+            let started = Instant::now();
+            while !(advance(device, films.next(), traced, &mut self.sample_ms)? && films.is_whole()) {}
+            self.preview_ms += started.elapsed().as_secs_f64() * 1.0e3;
+            let samples = films.light().image().samples_done();
+            self.done = samples >= settings.frame.spp;
+            let of_a_sample = self.preview_ms / f64::from(samples);
+            if self.done || size != full || self.preview_ms + of_a_sample >= TARGET_MS {
+                break (samples, of_a_sample);
+            }
+        };
         let pixels = Pixels::Radiance(films.read(device)?);
         let passes = films.light().pass_times();
         self.sample_ms = of_a_sample;
