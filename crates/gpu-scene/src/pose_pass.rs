@@ -229,11 +229,10 @@ impl PosePass {
             false => (self.emitters.power_at_rest(), Vec::new()),
         };
         let (cameras, shapes) = (pose.cameras(rig, &scene.cameras), shapes.words);
-        let objects = self.parts.iter().flat_map(|division| &division.objects);
         let map = |object: &Option<RigidObject>| {
             object.as_ref().map_or(NO_MAP, |object| object.map(&pose, self.frame_origin))
         };
-        let maps = objects.map(map).collect();
+        let maps = self.objects_in_spaces().iter().map(map).collect();
         Ok(FramePose { maps, placements, joints, targets, shapes, lights, emissive, emissive_power, cameras })
     }
 
@@ -245,10 +244,10 @@ impl PosePass {
         let is_own = pose.placements.len() == self.places.len()
             && pose.joints.len() == self.joint_count
             && pose.shapes.len() == self.shapes.word_count()
-            && pose.maps.len() == self.parts.as_ref().map_or(0, |division| division.objects.len());
+            && pose.maps.len() == self.objects_in_spaces().len();
         if !is_own {
             return recorder
-                .refuse("the pose of a frame was made for another scene, or before it was in parts");
+                .refuse("the pose of a frame was made for another scene, or for other objects in it");
         }
         if !self.moves() {
             return;
@@ -389,6 +388,12 @@ impl PosePass {
             moved[part.unwrap_or(0)] |= is_moved;
         }
         moved
+    }
+
+    /// What each part that moves has of a space of its own; empty where none has, so that poses are the same as without parts.
+    fn objects_in_spaces(&self) -> &[Option<RigidObject>] {
+        let objects = self.parts.as_ref().map_or(&[][..], |division| &division.objects);
+        if objects.iter().any(Option::is_some) { objects } else { &[] }
     }
 
     /// For each draw of the geometry whether any clip can move it or a deformer changes it. All others stay where the tables
