@@ -71,6 +71,22 @@ impl BruteForce {
 const MODULES: Modules =
     Modules { structure: "brute-force", prefix: "brute", addressing: Addressing::Descriptor };
 
+impl BruteForce {
+    /// Records a trace of all triangles, or of those of a part.
+    fn trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        domain: Domain,
+        mode: TraceMode,
+        rounds: u32,
+        part: TracedPart,
+    ) {
+        let Self { kernels, geometry, .. } = self;
+        kernels.record_trace(recorder, geometry, None, 0, queue, domain, mode, rounds, part);
+    }
+}
+
 impl Structure for BruteForce {
     fn name(&self) -> &'static str {
         "brute-force"
@@ -158,18 +174,7 @@ impl Structure for BruteForce {
         mode: TraceMode,
         rounds: u32,
     ) {
-        let geometry = &self.geometry;
-        self.kernels.record_trace(
-            recorder,
-            geometry,
-            None,
-            0,
-            queue,
-            domain,
-            mode,
-            rounds,
-            TracedPart::Whole,
-        );
+        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Whole);
     }
 
     fn record_continued_trace(
@@ -180,18 +185,7 @@ impl Structure for BruteForce {
         mode: TraceMode,
         rounds: u32,
     ) {
-        let geometry = &self.geometry;
-        self.kernels.record_trace(
-            recorder,
-            geometry,
-            None,
-            0,
-            queue,
-            domain,
-            mode,
-            rounds,
-            TracedPart::Next { after: 0 },
-        );
+        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Next { after: 0 });
     }
 
     fn record_surfaces(

@@ -225,9 +225,9 @@ fn on_device(
             Built::refreshed(device, &spec, &mut stage, (job.scene, job.refresh))?
         }
     };
-    Rendering::check(&job.frame, &built)?;
     let rendering = match rendering.filter(|rendering| rendering.serves(&built)) {
         Some(mut rendering) => {
+            Rendering::check(&job.frame, &built)?;
             rendering.clear()?;
             rendering.scene_moved();
             rendering
