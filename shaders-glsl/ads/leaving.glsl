@@ -6,17 +6,10 @@
 
 #include "ads/geometry.glsl"
 
-// The ray from a point that lies, along the normal of the triangle that it excludes and to the side that it goes to, beyond
-// everything within `reach` metres of the plane along each axis. It is moved beside itself and begins later, so that t stays
-// that of the ray as it was. Unchanged where it excludes no triangle.
-Ray leaving_ray(Ray ray, float reach) {
-    if (ray.exclude_primitive >= geometry_triangle_count()) {
-        return ray;
-    }
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    geometry_vertices(ray.exclude_primitive, a, b, c);
+// The ray from a point that lies, along the normal of a triangle and to the side that it goes to, beyond everything within
+// `reach` metres of the plane along each axis. It is moved beside itself and begins later, so that t stays that of the ray as
+// it was.
+Ray leaving_triangle(Ray ray, float reach, vec3 a, vec3 b, vec3 c) {
     vec3 normal = cross(b - a, c - a);
     float size = length(normal);
     if (size > 0.0) {
@@ -27,6 +20,18 @@ Ray leaving_ray(Ray ray, float reach) {
         ray.t_min = max(ray.t_min, later);
     }
     return ray;
+}
+
+// The same of the triangle that the ray excludes. Unchanged where it excludes none.
+Ray leaving_ray(Ray ray, float reach) {
+    if (ray.exclude_primitive >= geometry_triangle_count()) {
+        return ray;
+    }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(ray.exclude_primitive, a, b, c);
+    return leaving_triangle(ray, reach, a, b, c);
 }
 
 #endif

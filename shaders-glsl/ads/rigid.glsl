@@ -33,12 +33,17 @@ GeometryRigid rigid_map() {
     return geometry_rigids[(end + GEOMETRY_RIGID_BYTES - 1u) / GEOMETRY_RIGID_BYTES];
 }
 
+// Where a posed point was built.
+vec3 rigid_point(GeometryRigid map, vec3 point) {
+    vec3 from_centre = point - map.centre;
+    return (map.x * from_centre.x + map.y * from_centre.y + map.z * from_centre.z) + map.offset;
+}
+
 // A ray where the structure was built, and how far it may be from where it should be, until it has left the part.
 Ray rigid_ray(GeometryRigid map, Ray ray, out float spread) {
-    vec3 from_centre = ray.origin - map.centre;
-    ray.origin = (map.x * from_centre.x + map.y * from_centre.y + map.z * from_centre.z) + map.offset;
+    vec3 away = abs(ray.origin - map.centre);
+    ray.origin = rigid_point(map, ray.origin);
     ray.direction = map.x * ray.direction.x + map.y * ray.direction.y + map.z * ray.direction.z;
-    vec3 away = abs(from_centre);
     spread = RIGID_ROUNDING * (map.stretch * (away.x + away.y + away.z) + map.reach);
     return ray;
 }

@@ -1,9 +1,12 @@
 // What: replaces the triangle of each fragment by colour and normal, as seen along the triangle's
 // normal. Sorting, peeling and conservative lists need triangles, so it comes last. Payload attributes only.
+// Normals of a cube in a space of its own are turned to there from where the scene is posed. Where there is no map fragments
+// keep their triangles, as those that emit do.
 // Reads: geometry, header, lists, payload, the scene. Writes: payload.
 // Source: Bürger et al. section 1.2.1, where a second target of each layer holds colour and texture.
 #version 460
 #include "contract/extensions.glsl"
+#include "ads/rigid.glsl"
 #include "scene/stored_surface.glsl"
 #include "ldc/accessors.glsl"
 #include "ldc/covered.glsl"
@@ -15,6 +18,27 @@ uint list_end(uint list) {
 }
 
 #include "ads/list_of_place.glsl"
+
+// Colour and normal of a triangle that was moved to a space of its own.
+uvec2 rigid_attributes(uint primitive, vec2 barycentrics) {
+    GeometryRigid map = rigid_map();
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    if (isinf(map.error)) {
+        return stored_pack_triangle(stored_source_at(primitive, barycentrics, a, b, c));
+    }
+    // Of unit size, for determinants within range.
+    mat3 posed_from_built = inverse(mat3(map.x, map.y, map.z) / map.stretch);
+    float grown = 1.0 / map.stretch;
+    a = posed_from_built * (grown * (a - map.offset)) + map.centre;
+    b = posed_from_built * (grown * (b - map.offset)) + map.centre;
+    c = posed_from_built * (grown * (c - map.offset)) + map.centre;
+    Surface surface = stored_source_at(primitive, barycentrics, a, b, c);
+    surface.normal = normalize(surface.normal * posed_from_built);
+    return stored_pack(surface);
+}
 
 void main() {
     uint place = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * LDC_GROUP_SIZE + gl_GlobalInvocationID.x;
@@ -35,6 +59,8 @@ void main() {
     float z;
     vec2 barycentrics;
     if (ldc_fragment(ldc_built_view(list / (resolution * resolution)), primitive, cell, z, barycentrics)) {
-        ldc_set_attributes(build.structure, place, stored_pack(stored_source(primitive, barycentrics)));
+        uvec2 words = LDC_RIGID == 0u ? stored_pack(stored_source(primitive, barycentrics))
+            : rigid_attributes(primitive, barycentrics);
+        ldc_set_attributes(build.structure, place, words);
     }
 }

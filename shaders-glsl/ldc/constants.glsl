@@ -49,8 +49,10 @@
 // Margin for the rounding of what is subtracted from corner and ray, over the largest coordinate of the geometry.
 #define LDC_ROUNDING 4.8e-7
 
-// How much farther cells take triangles in where the cube is in a space of its own, in cells.
+// How much farther cells take triangles in where the cube is in a space of its own, in cells: as far may rounding move where
+// they are posed. Fragments are where cells have their centres, and may be off by more.
 #define LDC_RIGID_REACH 0.001
+#define LDC_RIGID_REACH_FRAGMENTS 0.05
 
 // Threads in a workgroup of the build's compute passes.
 #define LDC_GROUP_SIZE 64u

@@ -10,6 +10,9 @@
 #include "ads/reached.glsl"
 #include "ads/stored_words.glsl"
 #include "ldc/conservative.glsl"
+#ifdef RIGID
+#include "ads/rigid.glsl"
+#endif
 
 // Lists at least this long are entered by bisection.
 #define LDC_BISECTION_LENGTH 8u
@@ -31,6 +34,7 @@ struct LdcSearch {
     ivec2 cell;
     float t_low;          // the ray's segment in the cell, widened by its rounding
     float t_high;
+    vec3 direction;       // of the ray where the cube was built
     float z_origin;       // metres from the view's near side
     float z_direction;
     bool begun;
@@ -92,13 +96,24 @@ void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout T
     }
 }
 
+// The corners of a triangle where the cube was built.
+void ldc_built_corners(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
+    geometry_vertices(primitive, a, b, c);
+#ifdef RIGID
+    GeometryRigid map = rigid_map();
+    a = rigid_point(map, a);
+    b = rigid_point(map, b);
+    c = rigid_point(map, c);
+#endif
+}
+
 // How far a fragment may be from the ray, by its triangle's own slope: its rise over half a cell, but no less than two
 // units in the last place of its depth.
 float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     vec3 a;
     vec3 b;
     vec3 c;
-    geometry_vertices(primitive, a, b, c);
+    ldc_built_corners(primitive, a, b, c);
     vec3 normal = triangle_permute(cross(b - a, c - a), search.axis);
     float rise = 0.5 * (abs(normal.x) + abs(normal.y)) / max(abs(normal.z), 1.0e-30);
     float last_place = LDC_DEPTH_BITS == 16u ? ldc_depth_rounding(s) : 1.2e-7 * z;
@@ -124,7 +139,15 @@ bool ldc_is_at_end(LdcRef s, Ray ray, LdcSearch search, float z, float t) {
     }
     float reach = ldc_reach(s);
     float z_end = search.z_origin + ray.t_max * search.z_direction;
-    return abs(z - z_end) <= reach && (ray.t_max - t) * length(ray.direction) <= LDC_ENDING * reach;
+    return abs(z - z_end) <= reach && (ray.t_max - t) * length(search.direction) <= LDC_ENDING * reach;
+}
+
+// Whether the ray passes a fragment that keeps its normal, because it meets the back. The normal is that where the cube was
+// built.
+bool ldc_is_passed(LdcRef s, Ray ray, LdcSearch search, uint place) {
+    uvec2 words = ldc_attributes(s, place);
+    ray.direction = stored_emits(words) ? ray.direction : search.direction;
+    return stored_is_passed(ray, words);
 }
 
 // Tests a fragment by its depth: the hit is where the ray passes it, within the cell.
@@ -149,7 +172,7 @@ void ldc_evaluate_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint p
         verdict = ldc_replaces_as_near(s, state.best, place) ? TEST_ACCEPTED : TEST_NOT_BETTER;
     }
     if (verdict == TEST_ACCEPTED && (known ? back_face_is_passed_by_plane(ray, primitive)
-        : ray_culls_back_faces(ray) && stored_is_passed(ray, ldc_attributes(s, place)))) {
+        : ray_culls_back_faces(ray) && ldc_is_passed(s, ray, search, place))) {
         verdict = TEST_BACK_FACE;
     }
     trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, z);

@@ -1,6 +1,6 @@
 // What: the surface at a hit of a layered depth cube: of a triangle with the barycentrics of a point on its
 // plane, or of a fragment's own words.
-// Reads: the scene (payload index, and fragments that emit), payload (attributes). Writes: header.corrupted.
+// Reads: header, the scene (payload index, and fragments that emit), payload (attributes). Writes: header.corrupted.
 #ifndef LDC_SURFACE_GLSL
 #define LDC_SURFACE_GLSL
 
@@ -8,14 +8,28 @@
 #include "scene/stored_surface.glsl"
 #include "ldc/accessors.glsl"
 
+// How much longer a length may be where the part is posed than where its cube was built, and a normal where it is posed. Turned
+// by the transpose of the map, which takes the front to the front.
+float ldc_posed(LdcRef s, inout vec3 normal) {
+    if (LDC_RIGID == 0u) {
+        return 1.0;
+    }
+    mat3 built_from_posed = mat3(LDC_HEADER(s).rigid_x, LDC_HEADER(s).rigid_y, LDC_HEADER(s).rigid_z);
+    normal = normalize(normal * built_from_posed);
+    mat3 posed_from_built = inverse(built_from_posed);
+    return length(vec3(length(posed_from_built[0]), length(posed_from_built[1]), length(posed_from_built[2])));
+}
+
 Surface ldc_surface_at(LdcRef s, Ray ray, Hit hit) {
     bool stored = stored_hit_is(hit);
     float error = ldc_reach(s);
     uvec2 words = uvec2(0u);
     if (stored) {
         words = ldc_attributes(s, floatBitsToUint(hit.a));
+        vec3 normal = stored_unpack_normal(words.y);
+        error *= ldc_posed(s, normal);
         if (!stored_emits(words)) {
-            return stored_surface(words, ray, hit.t, error);
+            return stored_surface_along(normal, words, ray, hit.t, error);
         }
         hit = stored_triangle_hit(words.y, ray, hit.t);
     }

@@ -9,9 +9,6 @@
 #include "contract/trace_log.glsl"
 #include "contract/trace_functions.glsl"
 #include "ldc/pause.glsl"
-#ifdef RIGID
-#include "ads/rigid.glsl"
-#endif
 
 // The part of [t_min, t_max] in which the ray is inside the bounds of the geometry.
 vec2 ldc_clip(LdcRef s, Ray ray) {
@@ -163,24 +160,37 @@ uint ldc_trace_all(Ray ray, inout TraceState state, bool any_hit) {
 }
 #endif
 
-// Views, blocks and cells are crossed by the ray where the cube was built, triangles tested by the ray itself.
-uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
-    if (LDC_ENDS == ENDS_CLEAR) {
-        ray = leaving_ray(ray, ldc_reach(s));
+// A ray, as where the cube was built, from beyond the fragments of the triangle that it leaves.
+Ray ldc_leave(LdcRef s, Ray ray) {
+    if (LDC_ENDS != ENDS_CLEAR || ray.exclude_primitive >= geometry_triangle_count()) {
+        return ray;
     }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    ldc_built_corners(ray.exclude_primitive, a, b, c);
+    return leaving_triangle(ray, ldc_reach(s), a, b, c);
+}
+
+// Views, blocks and cells are crossed, and depths of fragments met, by the ray where the cube was built; triangles are tested
+// by the ray itself.
+uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     bool ordered = LDC_HEADER(s).unsorted == 0u;
     LdcSizes sizes = ldc_sizes(s, ray);
 #ifdef RIGID
     GeometryRigid map = rigid_map();
     float spread;
     Ray marched = rigid_ray(map, ray, spread);
-    if (!(map.error <= LDC_RIGID_REACH * sizes.cell)) {
+    if (!(map.error <= LDC_REACH_RIGID * sizes.cell)) {
         return ldc_trace_all(ray, state, any_hit);
     }
     ldc_spread = spread / sizes.cell;
     // A plane rises by a cell along each side at most.
     sizes.margin += 4.0 * spread;
+    marched = ldc_leave(s, marched);
+    ray.t_min = marched.t_min;
 #else
+    ray = ldc_leave(s, ray);
 #define marched ray
 #endif
     vec2 clip = ldc_clip(s, marched);
@@ -198,6 +208,7 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
         LdcSearch search;
         search.sizes = sizes;
         search.axis = axis;
+        search.direction = marched.direction;
         search.z_origin = traversal.z_origin;
         search.z_direction = traversal.z_direction;
         search.begun = false;

@@ -30,10 +30,11 @@ layout(constant_id = 62) const uint LDC_BLOCK_ROWS = 8u;
 layout(constant_id = 63) const uint LDC_RIGID = 0u;
 
 // How much farther cells take triangles in then, in cells: that much may rounding move where they are posed.
-#define LDC_REACH_MORE (LDC_RIGID == 0u ? 0.0 : LDC_RIGID_REACH)
+#define LDC_REACH_RIGID (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE ? LDC_RIGID_REACH : LDC_RIGID_REACH_FRAGMENTS)
+#define LDC_REACH_MORE (LDC_RIGID == 0u ? 0.0 : LDC_REACH_RIGID)
 #define AXIS_REACH_MORE LDC_REACH_MORE
 
-// State and sizes of a layered depth cube. 188 bytes.
+// State and sizes of a layered depth cube. 224 bytes.
 struct LdcHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // places of fragments in all lists, also those beyond the capacity
@@ -67,6 +68,10 @@ struct LdcHeader {
     uint large_demand;           // triangles with many cells of their view, also those beyond the capacity; binning only
     uint large_capacity;   // triangles that the large-triangle queue holds
     uint groups[3];       // workgroups for those triangles
+    // first column of the linear map from where a part is posed to where its cube was built; LDC_RIGID only
+    vec3 rigid_x;
+    vec3 rigid_y;         // second column
+    vec3 rigid_z;         // third column
 };
 
 // Depths of the fragments and triangles in a block of cells.

@@ -13,19 +13,23 @@
 #include "scene/plane_surface.glsl"
 
 // What is shaded at a point of a triangle of the geometry that is bound, as seen from straight ahead of its front; textures
-// at their finest level.
-Surface stored_source(uint primitive, vec2 barycentrics) {
+// at their finest level. a, b and c are its corners where the scene is posed.
+Surface stored_source_at(uint primitive, vec2 barycentrics, vec3 a, vec3 b, vec3 c) {
     uint id = geometry_id(primitive);
-    uvec3 triangle = geometry_triangle(primitive);
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    geometry_corners(triangle, a, b, c);
     float twice_area;
     vec3 normal = triangle_normal(b - a, c - a, twice_area);
     bool mirrored = (scene_draw_shading(scene_draw_of(id)).flags & DRAW_MIRRORED) != 0u;
     Ray ray = Ray(a, 0.0, mirrored ? normal : -normal, uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE, 0u, 0.0, 0.0);
-    return scene_surface_of(ray, 1.0, id, triangle, barycentrics);
+    return scene_surface_at(ray, 1.0, id, geometry_triangle(primitive), a, b, c, barycentrics);
+}
+
+// The same of a geometry that is where the scene is posed.
+Surface stored_source(uint primitive, vec2 barycentrics) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    return stored_source_at(primitive, barycentrics, a, b, c);
 }
 
 // The least opacity that is stored of what does not emit.
@@ -36,9 +40,14 @@ uint stored_pack_front(Surface s) {
     return stored_pack_normal(s.normal, (back_face_draw_flags_of_id(s.primitive) & DRAW_SINGLE_SIDED) != 0u);
 }
 
+// Words by which the surface is looked up from its triangle.
+uvec2 stored_pack_triangle(Surface s) {
+    return uvec2(packUnorm4x8(vec4(s.base_color, 0.0)), s.primitive);
+}
+
 uvec2 stored_pack(Surface s) {
     if (any(greaterThan(s.emission, vec3(0.0)))) {
-        return uvec2(packUnorm4x8(vec4(s.base_color, 0.0)), s.primitive);
+        return stored_pack_triangle(s);
     }
     return uvec2(packUnorm4x8(vec4(s.base_color, max(s.opacity, STORED_OPACITY))), stored_pack_front(s));
 }
@@ -106,15 +115,20 @@ bool stored_triangle_emits(uint primitive) {
     return draw.first_emissive != EMISSIVE_NONE || (scene_material(draw.material).flags & MATERIAL_UNLIT) != 0u;
 }
 
-// The surface of a fragment that does not emit, with its colour and opacity. Terms that these words lack take their
-// defaults.
-Surface stored_surface(uvec2 words, Ray ray, float t, float position_error) {
-    Surface s = stored_shape(stored_unpack_normal(words.y), ray, t, position_error);
+// The surface of a fragment that does not emit, with its colour and opacity and a normal of its front. Terms that these words
+// lack take their defaults.
+Surface stored_surface_along(vec3 normal, uvec2 words, Ray ray, float t, float position_error) {
+    Surface s = stored_shape(normal, ray, t, position_error);
     vec4 albedo = unpackUnorm4x8(words.x);
     s.valid |= SURFACE_MATERIAL;
     s.base_color = albedo.rgb;
     s.opacity = albedo.a;
     return s;
+}
+
+// The same with the normal of the words.
+Surface stored_surface(uvec2 words, Ray ray, float t, float position_error) {
+    return stored_surface_along(stored_unpack_normal(words.y), words, ray, t, position_error);
 }
 
 #endif

@@ -117,15 +117,14 @@ vec3 surface_shading_normal(vec3 interpolated, vec3 geometric_normal) {
     return normal;
 }
 
-// `triangle` are the vertices of the triangle with an id, `barycentrics` the weights of vertices 1 and 2. Fills every
-// field.
-Surface scene_surface_of(Ray ray, float t, uint id, uvec3 triangle, vec2 barycentrics) {
+// `triangle` are the vertices of the triangle with an id, a, b and c where they are posed, `barycentrics` the weights of
+// vertices 1 and 2. Fills every field.
+Surface scene_surface_at(
+    Ray ray, float t, uint id, uvec3 triangle, vec3 a, vec3 b, vec3 c, vec2 barycentrics) {
     Surface s = surface_miss(ray);
     DrawShading draw = scene_draw_shading(scene_draw_of(id));
     Material material = scene_material(draw.material);
     vec3 weights = barycentric_weights(barycentrics);
-    vec3 a, b, c;
-    geometry_corners(triangle, a, b, c);
 
     s.position = triangle_point(weights, a, b, c, s.position_error);
 
@@ -183,7 +182,10 @@ Surface scene_surface_of(Ray ray, float t, uint id, uvec3 triangle, vec2 barycen
 
 // The same of a triangle of the whole geometry, which is bound.
 Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
-    return scene_surface_of(ray, t, primitive, geometry_triangle(primitive), barycentrics);
+    uvec3 triangle = geometry_triangle(primitive);
+    vec3 a, b, c;
+    geometry_corners(triangle, a, b, c);
+    return scene_surface_at(ray, t, primitive, triangle, a, b, c, barycentrics);
 }
 
 #endif

@@ -141,6 +141,10 @@ pub trait Design: fmt::Debug + Sized {
     /// Specialisation constants of a part that is built in a space of its own.
     const FOLLOWING: &'static [(u32, u32)] = &[];
 
+    /// Where a header keeps the linear map of such a part, for surfaces of stored fragments: 36 bytes, the first of
+    /// [`GeometryRigid`](crate::GeometryRigid), which each lookup copies.
+    const RIGID: Option<usize> = None;
+
     /// Changes a configuration for a part that is built in a space of its own, so that a build stays while an affine map moves
     /// the part ([`Geometry::record_map`]): traces are those of the variant `.rigid`. False, and no change, where traces
     /// cannot follow.

@@ -48,8 +48,18 @@ pub struct Geometry {
     gather: Option<Gather>,
     /// What it is a part of.
     whole: Option<Box<Self>>,
-    /// The same triangles in a space of their own, where they have one.
-    rest: Option<Box<Self>>,
+    space: Space,
+}
+
+/// Where the triangles of a geometry are.
+#[derive(Clone, Debug)]
+pub(crate) enum Space {
+    /// Where they are posed.
+    World,
+    /// A space of their own, to which a map takes them.
+    Own,
+    /// Where they are posed, and the same triangles in a space of their own.
+    Mapped(Box<Geometry>),
 }
 
 /// From one stamp to the next: flags of a status lie below.
@@ -115,7 +125,7 @@ impl Geometry {
     /// Ranges beyond their buffers, offsets or a stride that are not aligned, bounds that are not finite or the wrong way
     /// round; out of memory, or a range exceeds what one binding can hold.
     pub fn new(device: &Device, desc: GeometryDesc) -> Result<Self, AdsError> {
-        Self::made(device, desc, None, None)
+        Self::made(device, desc, None, Space::World)
     }
 
     /// The triangles of `runs` of `whole`, which reads absolute indices: in place where they are one run, else gathered.
@@ -124,7 +134,7 @@ impl Geometry {
         whole: &Self,
         (runs, triangle_count): (&[Run], u32),
         bounds: [[f32; 3]; 2],
-        rest: Option<Self>,
+        space: Space,
     ) -> Result<Self, AdsError> {
         let mut indices = match &whole.gather {
             Some(gather) => IndexRange::from(gather.indices.clone()),
@@ -134,23 +144,25 @@ impl Geometry {
             indices.offset += u64::from(run.id) * TRIANGLE_INDEX_BYTES;
         }
         let desc = GeometryDesc { indices, triangle_count, bounds, ..whole.desc.clone() };
-        Self::made(device, desc, Some((whole, runs)), rest)
+        Self::made(device, desc, Some((whole, runs)), space)
     }
 
     fn made(
         device: &Device,
         desc: GeometryDesc,
         part: Option<(&Self, &[Run])>,
-        rest: Option<Self>,
+        space: Space,
     ) -> Result<Self, AdsError> {
         desc.check(device)?;
         let runs = part.map_or(&[][..], |(_, runs)| runs);
         let bound_runs = if runs.len() > 1 { runs.len() } else { 1 };
         let header = device.create_buffer(&BufferDesc {
             name: "geometry header",
-            size: match rest {
-                Some(_) => (rigid_place(bound_runs) + size_of::<GeometryRigid>()) as u64,
-                None => (size_of::<GeometryHeader>() + bound_runs * size_of::<Run>()) as u64,
+            size: match space {
+                Space::World => (size_of::<GeometryHeader>() + bound_runs * size_of::<Run>()) as u64,
+                Space::Own | Space::Mapped(_) => {
+                    (rigid_place(bound_runs) + size_of::<GeometryRigid>()) as u64
+                }
             },
             usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
             location: MemoryLocation::Upload,
@@ -174,8 +186,12 @@ impl Geometry {
             _ => None,
         };
         // What is built for the triangles in a space of their own is traced with these.
-        let new = || new_stamps(if desc.count.is_some() { GEOMETRY_COUNT_STAMPS } else { 1 });
-        let stamp = rest.as_ref().map_or_else(new, |rest| rest.stamp);
+        let stamp = match &space {
+            Space::Mapped(rest) => rest.stamp,
+            Space::World | Space::Own => {
+                new_stamps(if desc.count.is_some() { GEOMETRY_COUNT_STAMPS } else { 1 })
+            }
+        };
         let count = match bindings.get(3) {
             Some((range, before)) => {
                 Some(Count::new(device, &layout, &desc, (*range, *before), stamp, gather.is_some())?)
@@ -209,7 +225,7 @@ impl Geometry {
         if runs.len() > 1 {
             header.write(size_of::<GeometryHeader>() as u64, cast_slice(runs))?;
         }
-        if rest.is_some() {
+        if !matches!(space, Space::World) {
             header.write(rigid_place(bound_runs) as u64, bytes_of(&NO_MAP))?;
         }
         let read = gather.as_ref().map_or(indices, |gather| whole(&gather.indices));
@@ -217,21 +233,29 @@ impl Geometry {
         let set = device.create_binding_set_of_ranges(&layout, "geometry", &ranges)?;
         let check = pipeline(device, &rasray_shaders_glsl::ADS_GEOMETRY_CHECK, &[&layout], 0)?;
         let whole = part.map(|(whole, _)| Box::new(whole.clone()));
-        Ok(Self { desc, header, check, layout, set, stamp, count, gather, whole, rest: rest.map(Box::new) })
+        Ok(Self { desc, header, check, layout, set, stamp, count, gather, whole, space })
     }
 
     /// The same triangles in a space of their own, where they do not move: what is built for these is traced with the part.
     pub(crate) fn rest(&self) -> Option<&Self> {
-        self.rest.as_deref()
+        match &self.space {
+            Space::Mapped(rest) => Some(rest),
+            Space::World | Space::Own => None,
+        }
     }
 
     /// Records where a part with a space of its own is posed from here on; the caller sees to barriers around this write of a
     /// transfer. Nothing for any other geometry.
     pub fn record_map(&self, recorder: &mut Recorder<'_>, map: &GeometryRigid) {
-        if self.rest.is_some() {
-            let place = self.header.size() - size_of::<GeometryRigid>() as u64;
-            recorder.update(&self.header, place, bytes_of(map));
+        for (header, place) in [Some(self), self.rest()].into_iter().flatten().filter_map(Self::map_place) {
+            recorder.update(header, place, bytes_of(map));
         }
+    }
+
+    /// Where the map of a part with a space of its own is, also among the triangles there.
+    pub(crate) fn map_place(&self) -> Option<(&Buffer, u64)> {
+        let place = || (&self.header, self.header.size() - size_of::<GeometryRigid>() as u64);
+        (!matches!(self.space, Space::World)).then(place)
     }
 
     /// Records what shaders do not read in place: the number of triangles where only the device knows it, and

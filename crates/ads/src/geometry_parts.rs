@@ -12,7 +12,7 @@ use rasray_shaders_glsl::constants::contract::PARTS_MOST;
 use rasray_shaders_glsl::records::QueueMeetConstants;
 use rasray_shaders_glsl::{ADS_QUEUE_MEET, ADS_QUEUE_NOTE};
 
-use crate::geometry::Run;
+use crate::geometry::{Run, Space};
 use crate::geometry_gather::pipeline;
 use crate::kernels::record_first_round;
 use crate::{
@@ -243,12 +243,15 @@ impl Geometry {
                 first += ids.end - ids.start;
             }
             let runs = (&runs[..], first);
-            let at_rest = |rest: &Rest| {
-                let Rest { positions, bounds } = rest.clone();
-                let whole = Self::new(device, GeometryDesc { positions, bounds, ..self.desc().clone() })?;
-                Self::part_of(device, &whole, runs, bounds, None)
+            let space = match rest.cloned() {
+                None => Space::World,
+                Some(Rest { positions, bounds }) => {
+                    let desc = GeometryDesc { positions, bounds, ..self.desc().clone() };
+                    let whole = Self::new(device, desc)?;
+                    Space::Mapped(Box::new(Self::part_of(device, &whole, runs, bounds, Space::Own)?))
+                }
             };
-            Self::part_of(device, self, runs, bounds, rest.map(at_rest).transpose()?)
+            Self::part_of(device, self, runs, bounds, space)
         };
         let parts = joined.iter().zip(stated).map(part).collect::<Result<Vec<_>, _>>()?;
         let headers = device.create_buffer(&BufferDesc {

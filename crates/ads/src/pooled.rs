@@ -3,19 +3,22 @@
 use std::sync::{Mutex, PoisonError};
 
 use bytemuck::{bytes_of, pod_read_unaligned};
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{Access, BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Counters, Demand, Dependencies, Design,
-    Domain, Geometry, InlineTrace, ListCounts, Modules, PartRays, Parts, PoolName, PoolSize, PoolStatus,
-    Pools, RayQueue, RecordLayout, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
-    TraceKernels, TraceKernelsDesc, TraceMode, TracedPart, Viewpoint, default_work_budget,
+    Domain, Geometry, GeometryRigid, InlineTrace, ListCounts, Modules, PartRays, Parts, PoolName, PoolSize,
+    PoolStatus, Pools, RayQueue, RecordLayout, SceneBinding, Sizes, Structure, StructureKind,
+    StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, TracedPart, Viewpoint, default_work_budget,
 };
 
 /// A demand that [varies](Design::varies) is met with capacity for one in so many more. Pages of a small scene differ by up to
 /// one in 33 from build to build where tens of thousands of threads run at a time.
 pub const VARYING_SHARE: u64 = 16;
+
+/// The linear part of a [`GeometryRigid`], which begins with it.
+const LINEAR_BYTES: u64 = std::mem::offset_of!(GeometryRigid, centre) as u64;
 
 /// A structure of a header, pools and the passes of its design.
 #[derive(Debug)]
@@ -398,6 +401,13 @@ impl<D: Design> Structure for Pooled<D> {
     ) -> Result<(), AdsError> {
         let (Parts { pools, .. }, geometry) = (&self.parts, &self.traced);
         let lookup = self.kernels.surfaces(part).ok_or(AdsError::NoScene { structure: self.name() })?;
+        if let Some((header, place)) = geometry.map_place().filter(|_| self.follows)
+            && let Some(at) = D::RIGID
+        {
+            recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::TRANSFER);
+            recorder.copy(header, place, pools.header_buffer(), at as u64, LINEAR_BYTES);
+            recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
+        }
         pools.record_lookup(recorder, lookup, geometry.whole(), queue, domain, D::CORRUPTED);
         Ok(())
     }

@@ -135,7 +135,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         fragments: payload * fragments + depths,
         ids: if config.ids { 4 * fragments } else { 0 },
         conservative: if kept { 12 * conservative } else { 0 },
-        rest: 188
+        rest: 224
             + 4 * cells.div_ceil(1024)
             + match (config.making, config.builder) {
                 (Making::Peel, _) => 4 * layers,
