@@ -58,12 +58,12 @@ impl Hits {
         }
     }
 
-    /// In words.
+    /// In a few words, which the page of options explains.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Same => "never",
-            Self::SameWithoutLoss => "where rules lose hits",
-            Self::SameForTriangles => "of fragments, and where rules lose hits",
+            Self::SameWithoutLoss => "lossy",
+            Self::SameForTriangles => "fragments, lossy",
             Self::MayChange => "always",
         }
     }

@@ -19,8 +19,9 @@ fn page() -> String {
         "# Options of structures\n\n\
          Every option of the command's `--system`, from the rows of `crates/systems/src/options.rs`; defaults are on the\n\
          pages of the [systems](systems/). A system takes the values that have a meaning for it, and names them where\n\
-         another is given. The last column says when an option may change a hit; where it does not, hits are\n\
-         bit-identical whatever its value ([how this is held](accuracy.md)). This page is made by\n\
+         another is given. Hits are bit-identical whatever an option's value ([how this is held](accuracy.md)), unless the\n\
+         last column says where it may change one: *lossy*, where the rules of a paper lose hits; *fragments*, where\n\
+         fragments are stored. This page is made by\n\
          `RASRAY_WRITE_PAGES=1 cargo test -p rasray-systems --test pages`.\n",
     );
     for group in Group::ALL {
@@ -35,12 +36,14 @@ fn page() -> String {
             let row = &option.row;
             let systems: Vec<_> =
                 SYSTEMS.iter().filter(|system| system.has(row.name)).map(|system| system.name).collect();
+            let values =
+                if row.values.is_switch() { "`on`, `off`".to_owned() } else { row.values.in_markdown() };
             let _ = writeln!(
                 page,
                 "| `{}` | {} | {} | {} | {} |",
                 row.name,
                 row.doc,
-                row.values.in_markdown(),
+                values,
                 systems.join(", "),
                 option.hits.describe()
             );
