@@ -4,13 +4,12 @@
 //! in frames with one to three in flight. Ways take turns; medians over rounds of the milliseconds per frame, with
 //! quartiles. Pictures of all ways must be equal bit for bit. Times of software devices are for ratios on that device.
 
-mod moving;
-
 use std::error::Error;
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use rasray_benches::moving::Arguments;
 use rasray_experiment::{DeviceChoice, open_device};
 use rasray_frame::{FrameInput, FrameRenderer, ImageRenderer, render_in_order};
 use rasray_gpu::{Device, Timing};
@@ -22,8 +21,6 @@ use rasray_scene::{Moment, default_view};
 use rasray_scene_source::{LoadedScene, load};
 use rasray_systems::Spec;
 use rasray_tracer::{FrameStructure, Keeping, refresh_until_complete};
-
-use moving::Arguments;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 

@@ -7,13 +7,12 @@
 //! camera; `cells`, `entries` and `tests` are what one of them reads on average, counted in a trace that is not timed. Times
 //! of software devices are for ratios on that device.
 
-mod moving;
-
 use std::error::Error;
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 
 use rasray_ads::{Combined, Counters, Geometry, QueueCounters, Structure};
+use rasray_benches::moving::Arguments;
 use rasray_experiment::{DeviceScene, requirements};
 use rasray_frame::{Advance, ImageRenderer};
 use rasray_gpu::{Device, DeviceDesc, PassTiming, Stage};
@@ -24,8 +23,6 @@ use rasray_scene::{Camera, Moment, default_view};
 use rasray_scene_source::{LoadedScene, load};
 use rasray_systems::Spec;
 use rasray_tracer::{FrameStructure, Keeping, Refresh, refresh_until_complete};
-
-use moving::Arguments;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 

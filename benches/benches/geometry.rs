@@ -4,8 +4,6 @@
 //! default systems of triangles, alternated between layouts in one process, and their ratios to packed buffers. Hits are the
 //! same for all layouts, and are compared. Times of software devices are for ratios on that device.
 
-mod setting;
-
 use std::collections::HashMap;
 use std::error::Error;
 
@@ -13,12 +11,12 @@ use rasray_ads::{
     BufferOffset, Draw, Geometry, GeometryDesc, Hit, IndexFormat, IndexRange, Indexing, PositionRange,
     Structure, TraceMode,
 };
+use rasray_benches::setting::{SEED, Setting};
 use rasray_experiment::incoherent_rays;
 use rasray_gpu::{BufferUsage, Device};
 use rasray_metrics::median;
 use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, build_until_complete};
-use setting::{SEED, Setting};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -134,7 +132,7 @@ struct Measured {
 }
 
 fn main() -> Result<()> {
-    let Setting { name, rays: count, device, stage } =
+    let Setting { name, rays: count, device, stage, .. } =
         Setting::read("cargo bench --bench geometry", "spheres:100k", 50_000)?;
     let (positions, indices) = stage.triangles(&device)?;
     let bounds = stage.scene.geometry().bounds();

@@ -4,19 +4,17 @@
 //! alternated between systems in one process. Times of software devices are for ratios on that device. For errors
 //! beside speed use `rasray compare`.
 
-mod setting;
-
 use std::ops::ControlFlow;
 
+use rasray_benches::setting::{SEED, Setting};
 use rasray_experiment::{Contestant, OptionValues, SystemConfig, incoherent_rays, trace_in_turns};
 use rasray_metrics::median;
 use rasray_systems::SYSTEMS;
-use setting::{SEED, Setting};
 
 const REPETITIONS: u32 = 5;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let Setting { name, rays, device, stage } = Setting::read("cargo bench", "spheres:10k", 4096)?;
+    let Setting { name, rays, device, stage, .. } = Setting::read("cargo bench", "spheres:10k", 4096)?;
     println!("{}, {name}, {rays} incoherent rays, medians of {REPETITIONS}", device.name());
     let systems: Vec<SystemConfig> = SYSTEMS
         .iter()

@@ -16,6 +16,9 @@ pub struct Arguments {
 
 impl Arguments {
     /// Reads them; `frames` are made unless told.
+    ///
+    /// # Errors
+    /// What is there is no size, or no number of frames above 0.
     pub fn read(frames: u32) -> Result<Self, Box<dyn Error>> {
         let mut words = std::env::args().skip(1).filter(|word| !word.starts_with("--"));
         let scene = words.next().unwrap_or_else(|| "walker".to_owned());

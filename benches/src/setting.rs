@@ -1,26 +1,37 @@
-//! What benches of structures have in common: a built-in scene and a number of rays, as the command line has them.
+//! A built-in scene and a number of rays, as the command lines of benches of structures have them.
 
 use std::error::Error;
 
 use rasray_experiment::{DeviceChoice, DeviceScene, open_device};
 use rasray_gpu::Device;
 use rasray_scene::needs::{Needs, Workload};
-use rasray_scene::{builtin, default_view};
+use rasray_scene::{Camera, builtin, default_view};
 
 /// Of all random numbers.
 pub const SEED: u32 = 1;
+
+/// Pixels of the image that the camera's rays are shaped by.
+pub const SIZE: [u32; 2] = [64, 64];
 
 /// A scene on a device, and how many rays are traced.
 pub struct Setting {
     /// Name of the scene.
     pub name: String,
+    /// How many rays.
     pub rays: u32,
+    /// From where it is seen.
+    pub camera: Camera,
+    /// What traces.
     pub device: Device,
+    /// The scene there.
     pub stage: DeviceScene,
 }
 
 impl Setting {
     /// Reads `[SCENE] [RAYS]` behind the words of the command, with what stands for them where they are left out.
+    ///
+    /// # Errors
+    /// There is no such scene, no device, or RAYS is no number above 0.
     pub fn read(command: &str, scene: &str, rays: u32) -> Result<Self, Box<dyn Error>> {
         let mut arguments = std::env::args().skip(1).filter(|argument| !argument.starts_with("--"));
         let name = arguments.next().unwrap_or_else(|| scene.to_owned());
@@ -35,7 +46,7 @@ impl Setting {
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(&scene));
         let device = open_device(&DeviceChoice::default())?;
         let needs = Needs::of(&scene, Workload { emission: true, shades: true, ..Workload::VISIBILITY });
-        let stage = DeviceScene::new(&device, &scene, &camera, [64, 64], SEED, &needs)?;
-        Ok(Self { name, rays, device, stage })
+        let stage = DeviceScene::new(&device, &scene, &camera, SIZE, SEED, &needs)?;
+        Ok(Self { name, rays, camera, device, stage })
     }
 }

@@ -1,0 +1,138 @@
+//! Rays as Embree 4 takes them, by the names of its headers `embree4/rtcore_ray.h` and `rtcore_common.h`.
+
+use rasray_ads::Ray;
+use rasray_metrics::DeviceHit;
+use std::ffi::{c_int, c_uint, c_void};
+use std::ptr::null_mut;
+
+/// `RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER`: the filter of the arguments is called for every geometry.
+const FILTER: c_int = 1 << 1;
+/// `RTC_FEATURE_FLAG_ALL`.
+const ALL_FEATURES: c_int = -1;
+/// `RTC_INVALID_GEOMETRY_ID`.
+const NOTHING: u32 = u32::MAX;
+
+/// `RTCFilterFunctionN`.
+type Filter = unsafe extern "C" fn(*const FilterArguments);
+
+/// `RTCIntersectArguments` and `RTCOccludedArguments`.
+#[repr(C)]
+pub(super) struct Arguments {
+    flags: c_int,
+    features: c_int,
+    context: *mut c_void,
+    filter: Option<Filter>,
+    /// Of geometries that are no triangles.
+    function: *mut c_void,
+    /// Of curves; libraries that are built without it read no further than `function`.
+    width: f32,
+}
+
+impl Arguments {
+    /// Of triangles without a context; with the filter that refuses what rays exclude, where any of them does.
+    pub fn new(excludes: bool) -> Self {
+        let filter: Filter = refuse_excluded;
+        Self {
+            flags: if excludes { FILTER } else { 0 },
+            features: ALL_FEATURES,
+            context: null_mut(),
+            filter: excludes.then_some(filter),
+            function: null_mut(),
+            width: 0.0,
+        }
+    }
+}
+
+/// `RTCFilterFunctionNArguments`.
+#[repr(C)]
+pub(super) struct FilterArguments {
+    valid: *mut c_int,
+    user: *mut c_void,
+    context: *mut c_void,
+    ray: *mut c_void,
+    hit: *mut c_void,
+    count: c_uint,
+}
+
+/// `RTCRayHitN` for N rays and, of which it is the beginning, `RTCRayN`; then which lanes are rays. The members are those of the
+/// header, which aligns packets to up to 64 bytes.
+#[repr(C, align(64))]
+pub(super) struct Packet<const N: usize> {
+    origin: [[f32; N]; 3],
+    near: [f32; N],
+    direction: [[f32; N]; 3],
+    time: [f32; N],
+    far: [f32; N],
+    mask: [u32; N],
+    /// The library does not look at ids: here it is the triangle that the ray excludes.
+    id: [u32; N],
+    flags: [u32; N],
+    normal: [[f32; N]; 3],
+    barycentrics: [[f32; N]; 2],
+    primitive: [u32; N],
+    geometry: [u32; N],
+    /// Ids that the library fills in but nobody looks at: two a level of instances where it has arrays of them, else one. It is
+    /// built for one level unless somebody chose another number (`RTC_MAX_INSTANCE_LEVEL_COUNT`); there is room for four.
+    instances: [[u32; N]; 8],
+    /// All ones where a lane is a ray.
+    pub valid: [c_int; N],
+}
+
+/// The place of `id` in a ray, in arrays of as many words as there are rays.
+const ID: usize = 10;
+/// The place of `primitive` in a hit.
+const PRIMITIVE: usize = 5;
+
+impl<const N: usize> Packet<N> {
+    /// Of up to N rays; what is missing is no ray.
+    pub fn new(rays: &[Ray]) -> Self {
+        // Lanes without a ray are valid numbers all the same.
+        let ray =
+            |lane: usize| rays.get(lane).copied().unwrap_or_else(|| Ray::new([0.0; 3], [0.0, 0.0, 1.0]));
+        let lanes = |value: &dyn Fn(Ray) -> f32| std::array::from_fn(|lane| value(ray(lane)));
+        Self {
+            origin: std::array::from_fn(|axis| lanes(&|ray| ray.origin[axis])),
+            near: lanes(&|ray| ray.t_min),
+            direction: std::array::from_fn(|axis| lanes(&|ray| ray.direction[axis])),
+            time: [0.0; N],
+            far: lanes(&|ray| ray.t_max),
+            mask: [u32::MAX; N],
+            id: std::array::from_fn(|lane| ray(lane).exclude_primitive),
+            flags: [0; N],
+            normal: [[0.0; N]; 3],
+            barycentrics: [[0.0; N]; 2],
+            primitive: [NOTHING; N],
+            geometry: [NOTHING; N],
+            instances: [[NOTHING; N]; 8],
+            valid: std::array::from_fn(|lane| if lane < rays.len() { -1 } else { 0 }),
+        }
+    }
+
+    /// What a lane hit after nearest hits were searched for.
+    pub fn hit(&self, lane: usize) -> Option<DeviceHit> {
+        (self.geometry[lane] != NOTHING)
+            .then(|| DeviceHit { t: self.far[lane], primitive: Some(self.primitive[lane]) })
+    }
+
+    /// Whether a lane hit anything, after any hit was searched for: then its end is at minus infinity.
+    pub fn occlusion(&self, lane: usize) -> Option<DeviceHit> {
+        (self.far[lane] == f32::NEG_INFINITY).then_some(DeviceHit { t: 0.0, primitive: None })
+    }
+}
+
+/// Refuses the triangle that a ray excludes.
+unsafe extern "C" fn refuse_excluded(arguments: *const FilterArguments) {
+    // SAFETY: the library calls this with its arguments, which live until it returns: arrays of `count` flags, and packets of
+    // `count` rays and hits, each member of which is an array of `count` words.
+    unsafe {
+        let FilterArguments { valid, ray, hit, count, .. } = *arguments;
+        let count = count as usize;
+        let (excluded, primitives) =
+            (ray.cast::<u32>().add(ID * count), hit.cast::<u32>().add(PRIMITIVE * count));
+        for lane in 0..count {
+            if *valid.add(lane) != 0 && *excluded.add(lane) == *primitives.add(lane) {
+                *valid.add(lane) = 0;
+            }
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! What benches have in common: the words of their command lines, tracers of others to be measured beside, clocks.
+
+pub mod clock;
+pub mod embree;
+pub mod moving;
+pub mod setting;
