@@ -16,6 +16,7 @@ use rasray_experiment::{DeviceScene, RaySet, RaySource, device_hits, oracle_ray}
 use rasray_gpu::Device;
 use rasray_metrics::{DeviceHit, HitConfusion, Truth, median};
 use rasray_reference::oracle::{Oracle, Verdict};
+use rasray_reference::shading::random::RandomStream;
 use rasray_reference::shading::{Sampler, View};
 use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, build_until_complete};
@@ -148,6 +149,7 @@ fn sets(source: &RaySource<'_>, count: u32) -> Vec<Rays> {
     let sets = [
         ("camera", TraceMode::Closest, source.rays(RaySet::Camera, count)),
         ("bounce", TraceMode::Closest, bounce),
+        ("edge", TraceMode::Closest, edge_rays(source, count)),
         ("shadow", TraceMode::Occluded, shadow),
     ];
     let with_truth = |(name, mode, rays): (_, _, Vec<Ray>)| {
@@ -155,6 +157,24 @@ fn sets(source: &RaySource<'_>, count: u32) -> Vec<Rays> {
         Rays { name, mode, rays, verdicts }
     };
     sets.into_iter().map(with_truth).collect()
+}
+
+/// Rays from the eye towards points on edges of triangles, as near as rounding lets them be: where meshes are closed, a test that
+/// does not treat both sides of an edge alike loses some.
+fn edge_rays(source: &RaySource<'_>, count: u32) -> Vec<Ray> {
+    let triangles = source.indices.as_chunks::<3>().0;
+    let ray = |index| {
+        let stream = RandomStream { seed: SEED, pixel: index, sample: 0 };
+        let below = |dimension, limit: usize| {
+            ((f64::from(stream.float(dimension)) * limit as f64) as usize).min(limit - 1)
+        };
+        let (triangle, edge, share) = (triangles[below(16, triangles.len())], below(17, 3), stream.float(18));
+        let [a, b] = [edge, (edge + 1) % 3].map(|corner| source.positions[triangle[corner] as usize]);
+        let direction = |axis| a[axis] + (b[axis] - a[axis]) * share - source.center[axis];
+        Ray::new(source.center, std::array::from_fn(direction))
+    };
+    let count = if triangles.is_empty() { 0 } else { count };
+    (0..count).map(ray).collect()
 }
 
 /// All tracers, each built once to warm up and then in turns.
