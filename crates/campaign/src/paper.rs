@@ -1,10 +1,6 @@
-//! Tables and figures of the papers: a plan for each, and the page that lays ours beside what was published.
+//! Tables and figures of the papers, and a plan for each.
 
-use crate::claim::{Claim, Finding};
 use crate::plan::{Plan, PlanError};
-use crate::sheet::Sheet;
-use rasray_report::{Campaign, Experiment, experiment_markdown, in_line, number};
-use std::fmt::Write;
 
 /// A paper whose tables and figures are made again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,93 +81,9 @@ impl Item {
     }
 }
 
-/// The page of a paper: of each item that was made, what differs from the paper, the paper's numbers beside ours, and all
-/// that was measured; and the sheets of pictures that it shows. Experiments of `campaign` are those of [`Plan::joined`]
-/// with [`word`].
-pub fn paper_page(paper: &Paper, items: &[(&Item, Plan)], campaign: &Campaign) -> (String, Vec<Sheet>) {
-    let mut sheets = Vec::new();
-    let device = &campaign.device;
-    let software = if device.software { ", a software driver" } else { "" };
-    let mut text = format!("# Replication of {}\n\n{}.\n\n", paper.name, paper.cited);
-    _ = writeln!(
-        text,
-        "Made by rasray {} on {}{software}:\n",
-        in_line(&campaign.program),
-        in_line(&device.name)
-    );
-    let names: Vec<_> = items.iter().map(|(item, _)| item.name).collect();
-    _ = writeln!(text, "```\nrasray replicate {} {}\n```\n", paper.name, names.join(" "));
-    text += "Of a ratio, *ours* is the geometric mean over all pairs of runs that differ in nothing else, with the least and \
-             the greatest; of other numbers the median. It *holds* within a factor of two on the same side of 1. Times of \
-             other numbers depend on device, scene and size. *Wrong hits* of fragments without a triangle, as mmrt, hu and ldc \
-             have them in their published form, are hits that are missed or false; how far off the others are is *dt/t*.\n";
-    for (item, plan) in items {
-        _ = writeln!(text, "\n## {}: {}\n", item.name, in_line(&plan.title));
-        if !plan.about.is_empty() {
-            _ = writeln!(text, "{}\n", plan.about);
-        }
-        if !plan.discussion.is_empty() {
-            _ = writeln!(text, "**On two processor cores, in small size.** {}\n", plan.discussion);
-        }
-        for (number, experiment) in plan.experiments.iter().enumerate() {
-            let name = format!("{}: {}", word(paper, item), experiment.name);
-            let made = campaign.experiments.iter().find(|made| made.name == name);
-            _ = writeln!(text, "### {}\n", in_line(&experiment.name));
-            let Some(made) = made else {
-                text += "Nothing was made.\n";
-                continue;
-            };
-            if let Some(sheet) = Sheet::of(paper, item, number, made) {
-                text += &sheet.markdown();
-                sheets.push(sheet);
-            }
-            text += &section(&experiment.claims, made);
-        }
-    }
-    (text, sheets)
-}
-
 /// What stands before the names of an item's experiments.
 pub fn word(paper: &Paper, item: &Item) -> String {
     format!("{} {}", paper.name, item.name)
-}
-
-fn section(claims: &[Claim], made: &Experiment) -> String {
-    let mut text = String::new();
-    if !claims.is_empty() {
-        text += "| the paper says | published | ours | ours / published | |\n| --- | ---: | ---: | ---: | --- |\n";
-        for claim in claims {
-            let found = claim.find(made);
-            let (ours, relation, verdict) = match &found {
-                Some(found) => (found.words(), number(found.relation), verdict(found)),
-                None => (String::new(), String::new(), "not measured"),
-            };
-            let published = number(claim.published);
-            _ = writeln!(
-                text,
-                "| {} | {published} | {ours} | {relation} | {verdict} |",
-                claim.says.replace('|', "\\|")
-            );
-        }
-        text.push('\n');
-        for claim in claims.iter().filter(|claim| !claim.note.is_empty()) {
-            _ = writeln!(text, "- *{}*: {}", claim.says, claim.note);
-        }
-        if claims.iter().any(|claim| !claim.note.is_empty()) {
-            text.push('\n');
-        }
-    }
-    text + &experiment_markdown(made)
-}
-
-/// Whether a claim holds, in words; nothing of numbers that depend on the machine.
-fn verdict(found: &Finding) -> &'static str {
-    match found.same_side {
-        None => "",
-        Some(false) => "does not hold",
-        Some(true) if (0.5..=2.0).contains(&found.relation) => "holds",
-        Some(true) => "same direction",
-    }
 }
 
 #[cfg(test)]

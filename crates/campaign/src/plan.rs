@@ -1,6 +1,7 @@
 //! A plan in TOML: experiments, each a list of comparisons.
 
 use crate::claim::Claim;
+use rasray_report::COLUMNS;
 use std::collections::BTreeMap;
 use toml::{Table, Value};
 
@@ -47,6 +48,8 @@ pub struct ExperimentPlan {
     pub exclusions: Vec<Exclusion>,
     /// What was published of them.
     pub claims: Vec<Claim>,
+    /// Names of the results that the page of a paper shows; empty for those of every page.
+    pub columns: Vec<String>,
 }
 
 /// One comparison: systems side by side on a scene.
@@ -82,7 +85,7 @@ impl std::fmt::Display for Exclusion {
 }
 
 /// Keys of an experiment that are no options.
-const OWN: [&str; 5] = ["name", "exclude", "small", "claim", "with"];
+const OWN: [&str; 6] = ["name", "exclude", "small", "claim", "columns", "with"];
 
 /// Options that take several values at once: what they name takes turns in one comparison.
 const TOGETHER: [&str; 3] = ["systems", "presets", "ray-set"];
@@ -219,6 +222,7 @@ impl ExperimentPlan {
                 return Err(wrong(error));
             }
         };
+        let columns = columns(keys.remove("columns")).map_err(wrong)?;
         let sets = tables("with", keys.remove("with")).map_err(wrong)?;
         let mut comparisons = Vec::new();
         for own in if sets.is_empty() { vec![Table::new()] } else { sets } {
@@ -226,7 +230,20 @@ impl ExperimentPlan {
             keys.extend(own);
             comparisons.extend(combinations(&keys).map_err(wrong)?);
         }
-        Ok(Self { name, comparisons, exclusions, claims })
+        Ok(Self { name, comparisons, exclusions, claims, columns })
+    }
+}
+
+fn columns(value: Option<Value>) -> Result<Vec<String>, PlanError> {
+    let Some(value) = value else { return Ok(Vec::new()) };
+    let names = words_of("columns", &value)?;
+    let known = COLUMNS.map(|column| column.name);
+    match names.iter().find(|name| !known.contains(&name.as_str())) {
+        None => Ok(names),
+        Some(name) => {
+            let message = format!("'{name}' is none of the results that 'columns' can name");
+            Err(PlanError::new(message, format!("they are {}", known.join(", "))))
+        }
     }
 }
 
@@ -451,6 +468,8 @@ mod tests {
             (with("exclude = 3"), "'exclude'"),
             (with("exclude = [{}]"), "everything"),
             (with("small = 3"), "'small'"),
+            (with("columns = \"rays\""), "'rays'"),
+            (with("columns = []"), "'columns'"),
             (with("with = 3"), "'with'"),
             (with("with = [3]"), "'with'"),
             (with("claim = 3"), "'claim'"),

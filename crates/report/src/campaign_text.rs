@@ -133,22 +133,41 @@ pub fn campaign_markdown(campaign: &Campaign) -> String {
 }
 
 /// Of the sets of rays of an experiment, and of its images, what the rows have in common, and their table.
-pub fn experiment_markdown(experiment: &Experiment) -> String {
+fn experiment_markdown(experiment: &Experiment) -> String {
     experiment.parts().iter().map(part_markdown).collect::<Vec<_>>().join("\n")
 }
 
 fn part_markdown(experiment: &Experiment) -> String {
-    let (varied, columns) = (experiment.varied(), experiment.columns());
-    let heads = varied.iter().copied().chain(columns.iter().map(|column| column.head));
-    let rules = varied.iter().map(|_| "---").chain(columns.iter().map(|_| "---:"));
-    let mut text = format!("{}\n\n", in_line(&experiment.common()));
-    text += &line(heads.map(str::to_owned));
-    text += &line(rules.map(str::to_owned));
-    for row in &experiment.rows {
-        let settings = varied.iter().map(|name| row.setting(name).to_owned());
-        text += &line(settings.chain(columns.iter().map(|column| column.of(row))));
+    let rows = rows_markdown(experiment, &experiment.varied(), &experiment.columns());
+    format!("{}\n\n{rows}", in_line(&experiment.common()))
+}
+
+/// A row per run: these settings, and of its results these columns. A unit that all numbers of a column have stands in its
+/// head.
+pub fn rows_markdown(experiment: &Experiment, settings: &[&str], columns: &[Column]) -> String {
+    let mut heads: Vec<_> = settings.iter().map(|&name| name.to_owned()).collect();
+    let rules = settings.iter().map(|_| "---").chain(columns.iter().map(|_| "---:"));
+    let settings = |row: &Row| settings.iter().map(|name| row.setting(name).to_owned()).collect::<Vec<_>>();
+    let mut rows: Vec<_> = experiment.rows.iter().map(settings).collect();
+    for column in columns {
+        let cells: Vec<_> = experiment.rows.iter().map(|row| column.of(row)).collect();
+        let unit = common_unit(&cells).map(|unit| format!(" {unit}"));
+        heads.push(
+            unit.as_ref().map_or_else(|| column.head.to_owned(), |unit| format!("{},{unit}", column.head)),
+        );
+        for (row, cell) in rows.iter_mut().zip(&cells) {
+            let number = unit.as_ref().and_then(|unit| cell.strip_suffix(unit.as_str()));
+            row.push(number.unwrap_or(cell).to_owned());
+        }
     }
-    text
+    line(heads) + &line(rules.map(str::to_owned)) + &rows.into_iter().map(line).collect::<String>()
+}
+
+/// The word behind every number of a column that has one.
+fn common_unit(cells: &[String]) -> Option<&str> {
+    let mut units = cells.iter().filter(|cell| !cell.is_empty()).map(|cell| cell.split_once(' '));
+    let (_, first) = units.next()??;
+    units.all(|unit| unit.is_some_and(|(_, unit)| unit == first)).then_some(first)
 }
 
 fn line(cells: impl IntoIterator<Item = String>) -> String {
@@ -171,6 +190,18 @@ mod tests {
     }
 
     #[test]
+    fn a_unit_stands_in_the_head_where_all_numbers_have_it() {
+        let of = |cells: &[&str]| {
+            common_unit(&cells.iter().map(|&cell| cell.to_owned()).collect::<Vec<_>>()).map(str::to_owned)
+        };
+        assert_eq!(of(&["1.50 MiB", "", "2.00 MiB"]).as_deref(), Some("MiB"));
+        assert_eq!(
+            (of(&["1.50 MiB", "2.00 KiB"]), of(&["1.50 MiB", "2"]), of(&["", ""])),
+            (None, None, None)
+        );
+    }
+
+    #[test]
     fn tables_show_what_rows_differ_in_and_say_the_rest_once() {
         let lines = [
             cell_line(0, &[(0, "Samples")], cell("mmrt", Some("50"), false)),
@@ -179,8 +210,8 @@ mod tests {
         ];
         let text = campaign_markdown(&Campaign::of(&lines).expect("of a campaign"));
         let table: Vec<_> = text.lines().filter(|line| line.starts_with('|')).collect();
-        assert_eq!(table[0], "| samples | trace ms | bytes | fragments | wrong hits | missed |");
-        assert_eq!(table[2], "| 50 | 2.50 | 64 B | 9 | 10.0 % | 4 |");
+        assert_eq!(table[0], "| samples | trace ms | bytes, B | fragments | wrong hits, % | missed |");
+        assert_eq!(table[2], "| 50 | 2.50 | 64 | 9 | 10.0 | 4 |");
         assert!(
             text.contains("scene cornell, size 4x3") && text.contains("system mmrt, preset robust"),
             "{text}"

@@ -20,7 +20,7 @@ mod words;
 
 pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
 pub use campaign::{Campaign, Experiment, Row, cell_settings, in_order};
-pub use campaign_text::{COLUMNS, Column, campaign_markdown, experiment_markdown, number};
+pub use campaign_text::{COLUMNS, Column, campaign_markdown, number, rows_markdown};
 pub use cell::{CampaignRecord, Cell, CellImage, CellRays, CellRecord, CellView, ExperimentRecord};
 pub use cost::{Counters, ListRecord, Memory, Pass, PassOf, Spread, StageTime, Timer, Times};
 pub use schema::{

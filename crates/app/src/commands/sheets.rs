@@ -23,7 +23,7 @@ const WIDTH: u32 = 300;
 pub(super) fn write_sheet(sheet: &Sheet, folder: &Path, interrupt: &Interrupt) -> Result<(), AppError> {
     let mut pictures = Vec::new();
     let mut missing = 0;
-    for (key, _) in &sheet.pictures {
+    for key in &sheet.pictures {
         let place = picture_place(folder, key);
         if !place.is_file() {
             missing += 1;
