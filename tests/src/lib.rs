@@ -7,6 +7,7 @@ pub mod image_truth;
 pub mod invariance;
 pub mod pictures;
 pub mod random;
+pub mod rays;
 pub mod shapes;
 pub mod tier;
 pub mod views;

@@ -1,6 +1,9 @@
 //! Numbers for tests: the same on every machine.
 
+use rasray_ads::Ray;
 use rasray_hard_cases::Stream;
+
+use crate::shapes::Triangle;
 
 /// The generator of the hard cases, started from a seed alone.
 #[derive(Clone, Debug)]
@@ -30,6 +33,30 @@ impl Random {
         [self.between(low, high), self.between(low, high), self.between(low, high)]
     }
 
+    /// A point within bounds.
+    pub fn within(&mut self, [lower, upper]: [[f32; 3]; 2]) -> [f32; 3] {
+        std::array::from_fn(|axis| self.between(lower[axis], upper[axis]))
+    }
+
+    /// A point no farther from another than `reach` along an axis.
+    pub fn near(&mut self, middle: [f32; 3], reach: f32) -> [f32; 3] {
+        middle.map(|x| x + self.between(-reach, reach))
+    }
+
+    /// A triangle whose corners are [`near`](Self::near) a point.
+    pub fn triangle(&mut self, middle: [f32; 3], reach: f32) -> Triangle {
+        [(); 3].map(|()| self.near(middle, reach))
+    }
+
+    /// Weights of a point of a triangle.
+    pub fn weights(&mut self) -> [f32; 3] {
+        let (mut u, mut v) = (self.between(0.0, 1.0), self.between(0.0, 1.0));
+        if u + v > 1.0 {
+            (u, v) = (1.0 - u, 1.0 - v);
+        }
+        [1.0 - u - v, u, v]
+    }
+
     /// A unit direction.
     pub fn direction(&mut self) -> [f32; 3] {
         loop {
@@ -40,5 +67,24 @@ impl Random {
                 return p.map(|x| x / length);
             }
         }
+    }
+
+    /// A ray from a point in a box in any direction.
+    pub fn ray(&mut self, low: f32, high: f32) -> Ray {
+        Ray::new(self.point(low, high), self.direction())
+    }
+
+    /// Rays from points in a box in any direction.
+    pub fn rays(&mut self, count: usize, low: f32, high: f32) -> Vec<Ray> {
+        (0..count).map(|_| self.ray(low, high)).collect()
+    }
+
+    /// The numbers from 0 to `count` - 1 in an order of chance.
+    pub fn shuffled(&mut self, count: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..count).collect();
+        for last in (1..count).rev() {
+            order.swap(last, (self.bits() % (last as u64 + 1)) as usize);
+        }
+        order
     }
 }

@@ -6,6 +6,12 @@ use crate::random::Random;
 /// A triangle.
 pub type Triangle = [[f32; 3]; 3];
 
+/// A rectangle across z.
+pub fn quad(x: [f32; 2], y: [f32; 2], z: f32) -> [Triangle; 2] {
+    let corner = |i: usize, j: usize| [x[i], y[j], z];
+    [[corner(0, 0), corner(1, 0), corner(1, 1)], [corner(0, 0), corner(1, 1), corner(0, 1)]]
+}
+
 /// The closed box between two corners: 12 triangles.
 pub fn closed_box(low: [f32; 3], high: [f32; 3]) -> Vec<Triangle> {
     let corner =
@@ -40,18 +46,71 @@ pub fn sphere(center: [f32; 3], radius: f32, rows: usize) -> Vec<Triangle> {
     triangles
 }
 
+/// Lower and upper corner of the bounds of triangles.
+pub fn bounds(triangles: &[Triangle]) -> [[f32; 3]; 2] {
+    let corners = || triangles.as_flattened();
+    let lower = std::array::from_fn(|axis| corners().iter().fold(f32::MAX, |m, p| m.min(p[axis])));
+    let upper = std::array::from_fn(|axis| corners().iter().fold(f32::MIN, |m, p| m.max(p[axis])));
+    [lower, upper]
+}
+
+/// Scattered layers within 10 of the origin.
+pub fn layers() -> Vec<Triangle> {
+    hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles
+}
+
+/// Those, and a room around them between two corners.
+pub fn layers_in_a_room(low: [f32; 3], high: [f32; 3]) -> Vec<Triangle> {
+    let mut triangles = layers();
+    triangles.extend(closed_box(low, high));
+    triangles
+}
+
+/// Triangles around the origin in [`layers_around_the_eye`].
+pub const NEAR_TRIANGLES: u64 = 5;
+
+/// Layers, a room, and triangles around the eye in the origin for the near-region list.
+pub fn layers_around_the_eye() -> Vec<Triangle> {
+    let mut triangles = layers_in_a_room([-10.0; 3], [10.0; 3]);
+    for k in 0..NEAR_TRIANGLES {
+        let z = 1.0e-5 * (k as f32 - 2.0) + 1.0e-6;
+        triangles.push([[-0.02, -0.02, z], [0.02, -0.02, z], [0.0, 0.03, z]]);
+    }
+    triangles
+}
+
+/// Layers, a sphere of that many rows, and a room around them.
+pub fn layers_and_sphere(rows: usize) -> Vec<Triangle> {
+    let mut triangles = layers();
+    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, rows));
+    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
+    triangles
+}
+
+/// The same triangles with every third of them once more.
+pub fn with_twins(mut triangles: Vec<Triangle>) -> Vec<Triangle> {
+    triangles.extend(triangles.clone().into_iter().step_by(3));
+    triangles
+}
+
+/// A sphere in a room of 8 metres.
+pub fn ball_in_a_room() -> Vec<Triangle> {
+    let mut triangles = closed_box([-4.0; 3], [4.0; 3]);
+    triangles.extend(sphere([1.0, 0.5, -1.5], 0.75, 24));
+    triangles
+}
+
 /// Triangles of all sizes within 10 of the origin: scattered layers, spheres of small and of tiny triangles, slivers
 /// that are long and thin and often pass close to the eye, and a room around them.
 pub fn all_sizes() -> Vec<Triangle> {
-    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
+    let mut triangles = layers();
     triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 10));
     triangles.extend(sphere([1.0, 0.25, 0.5], 0.03, 8));
     triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
     let mut random = Random::new(7);
     for _ in 0..100 {
         let (from, to) = (random.point(-9.0, 9.0), random.point(-9.0, 9.0));
-        let nearby = std::array::from_fn(|axis| from[axis] + random.between(-1.0e-3, 1.0e-3));
-        triangles.push([from, to, nearby]);
+        triangles.push([from, to, random.near(from, 1.0e-3)]);
     }
     triangles
 }

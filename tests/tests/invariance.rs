@@ -202,10 +202,7 @@ fn the_order_of_triangles_changes_no_hit() {
     let (triangles, rays) = (scene(false), rays(ray_count()));
     let mut random = Random::new(5);
     // Place k of the new list holds triangle order[k] of the old one.
-    let mut order: Vec<usize> = (0..triangles.len()).collect();
-    for last in (1..order.len()).rev() {
-        order.swap(last, (random.bits() % (last as u64 + 1)) as usize);
-    }
+    let order = random.shuffled(triangles.len());
     let shuffled: Vec<Triangle> = order.iter().map(|&index| triangles[index]).collect();
     for subject in Subject::all() {
         let expected = subject.answers(&bench, EYE, &triangles, &rays);

@@ -15,6 +15,6 @@ pub use closed_forms::{
 pub use estimate::{CHECK_LIMIT, Estimate, SIGMAS, assert_refused, assert_truth};
 pub use scenes::{
     box_around, box_faces, diffuse, glass, glowing, looking, octahedron_sphere, parallel, scene_of, square,
-    unlit,
+    triangles, unlit,
 };
 pub use studio::{Picture, Studio, System};

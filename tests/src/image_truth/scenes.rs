@@ -96,9 +96,8 @@ pub fn octahedron_sphere(centre: DVec3, radius: f64, level: u32, material: usize
     }
 }
 
-/// Corners of a mesh, three per triangle.
-#[cfg(test)]
-pub(super) fn triangles(mesh: &Mesh) -> Vec<[DVec3; 3]> {
+/// Corners of the triangles of a mesh, as they are uploaded.
+pub fn triangles(mesh: &Mesh) -> Vec<[DVec3; 3]> {
     let corner = |index: u32| DVec3::from(mesh.positions[index as usize].map(f64::from));
     mesh.indices.chunks_exact(3).map(|t| [corner(t[0]), corner(t[1]), corner(t[2])]).collect()
 }

@@ -3,9 +3,9 @@
 use rasray_ads::Ray;
 
 use super::{Answers, first_difference};
-use crate::hard_cases::{Scale, case};
 use crate::random::Random;
-use crate::shapes::{Triangle, closed_box, sphere};
+use crate::rays::along_axis;
+use crate::shapes::{Triangle, layers_and_sphere, with_twins};
 use crate::tier::is_full;
 
 /// Where views are centred.
@@ -18,13 +18,8 @@ pub fn ray_count() -> usize {
 
 /// Scattered layers, a sphere, and a room around them. `twins` adds triangles that coincide with others.
 pub fn scene(twins: bool) -> Vec<Triangle> {
-    let mut triangles = case("C4", Scale::QUICK).expect("the case exists").triangles;
-    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 6));
-    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
-    if twins {
-        triangles.extend(triangles.clone().into_iter().step_by(3));
-    }
-    triangles
+    let triangles = layers_and_sphere(6);
+    if twins { with_twins(triangles) } else { triangles }
 }
 
 /// Rays of every sort.
@@ -35,11 +30,7 @@ pub fn rays(count: usize) -> Vec<Ray> {
             let origin = random.point(-6.0, 6.0);
             match index % 8 {
                 // Along an axis, with a limited range, from the views' centre.
-                0 => {
-                    let mut direction = [0.0; 3];
-                    direction[index / 8 % 3] = if index / 24 % 2 == 0 { 1.0 } else { -1.0 };
-                    Ray::new(origin, direction)
-                }
+                0 => Ray::new(origin, along_axis(index / 8)),
                 1 => Ray { t_max: 2.0, t_min: 0.5, ..Ray::new(origin, random.direction()) },
                 2 => Ray::new(EYE, random.direction()),
                 _ => Ray::new(origin, random.direction()),
@@ -50,8 +41,7 @@ pub fn rays(count: usize) -> Vec<Ray> {
 
 /// Rays in general position, for scenes that are moved about.
 pub fn general_rays(count: usize) -> Vec<Ray> {
-    let mut random = Random::new(23);
-    (0..count).map(|_| Ray::new(random.point(-6.0, 6.0), random.direction())).collect()
+    Random::new(23).rays(count, -6.0, 6.0)
 }
 
 /// Asserts that two answers to the same rays are the same to the bit.

@@ -35,11 +35,6 @@ fn objects() -> Vec<Vec<Triangle>> {
     objects
 }
 
-fn rays(count: usize) -> Vec<Ray> {
-    let mut random = Random::new(0x7261);
-    (0..count).map(|_| Ray::new(random.point(-3.0, 3.0), random.direction())).collect()
-}
-
 struct Built {
     contents: Contents,
     hits: Vec<[u32; 4]>,
@@ -98,7 +93,7 @@ fn compare(bench: &Bench, config: Config, objects: &[Vec<Triangle>], eye: [f32; 
 #[test]
 fn boxes_enclose_every_fragment_and_change_no_hit() {
     let bench = Bench::new();
-    let (objects, rays) = (objects(), rays(1500));
+    let (objects, rays) = (objects(), Random::new(0x7261).rays(1500, -3.0, 3.0));
     let tried = [
         (Storage::Dllb, Coverage::Exact, Accept::Interval, Views::CubeCamera, March::Exact),
         (Storage::Llb, Coverage::Conservative, Accept::Plane, Views::Cube, March::Pyramid),
@@ -126,10 +121,7 @@ fn boxes_enclose_every_fragment_and_change_no_hit() {
     let mut random = Random::new(0x6d61_6e79);
     let mut triangle = || -> Triangle {
         let centre = random.point(-6.0, 6.0);
-        [(); 3].map(|()| {
-            let offset = random.point(-0.4, 0.4);
-            std::array::from_fn(|axis| centre[axis] + offset[axis])
-        })
+        random.triangle(centre, 0.4)
     };
     let many: Vec<Vec<Triangle>> = (0..4_200).map(|_| vec![triangle()]).collect();
     let config = Config {

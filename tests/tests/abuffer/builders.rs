@@ -23,11 +23,6 @@ fn scene() -> Vec<Triangle> {
     triangles
 }
 
-fn rays(count: usize) -> Vec<Ray> {
-    let mut random = Random::new(0x6c64);
-    (0..count).map(|_| Ray::new(random.point(-2.0, 2.0), random.direction())).collect()
-}
-
 fn viewpoint(config: &Config, eye: [f32; 3]) -> Viewpoint {
     Viewpoint { eye, camera: config.views.has_camera().then_some(LEANING) }
 }
@@ -54,7 +49,7 @@ fn built(bench: &Bench, triangles: &[Triangle], config: Config, eye: [f32; 3], r
 #[test]
 fn both_builders_store_the_same_fragments() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays(2000));
+    let (triangles, rays) = (scene(), Random::new(0x6c64).rays(2000, -2.0, 2.0));
     let mut compared = 0;
     for (index, storage) in Storage::ALL.into_iter().enumerate() {
         let tried = [
@@ -100,7 +95,7 @@ fn both_builders_store_the_same_fragments() {
 #[test]
 fn every_edge_capacity_of_large_triangles() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays(500));
+    let (triangles, rays) = (scene(), Random::new(0x6c64).rays(500, -2.0, 2.0));
     let geometry = bench.geometry(&triangles);
     let config = Config { builder: Builder::Binning, ..Config::at_centres(48) };
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");

@@ -300,10 +300,7 @@ fn order_of_triangles_does_not_matter(base: Config) {
     let mut random = Random::new(5);
     for _ in 0..2 {
         // Place k of the new list holds triangle order[k] of the old one.
-        let mut order: Vec<usize> = (0..triangles.len()).collect();
-        for last in (1..order.len()).rev() {
-            order.swap(last, (random.bits() % (last as u64 + 1)) as usize);
-        }
+        let order = random.shuffled(triangles.len());
         let shuffled: Vec<Triangle> = order.iter().map(|&index| triangles[index]).collect();
         let mut found = answers(&bench, base, &shuffled, &rays);
         for answer in &mut found.closest {

@@ -150,9 +150,7 @@ fn through_centres_a_single_layer_is_enough() {
     let center = |cell: u32| (2 * cell + 1) as f32 / SIDE as f32 - 1.0;
     let centers = (0..SIDE * SIDE).map(|cell| [center(cell % SIDE), center(cell / SIDE), 1.0]);
     let from_eye: Vec<Ray> = centers.map(|direction| Ray::new(EYE, direction)).collect();
-    let mut random = Random::new(0x6c61);
-    let anywhere: Vec<Ray> =
-        (0..2000).map(|_| Ray::new(random.point(-6.0, 6.0), random.direction())).collect();
+    let anywhere = Random::new(0x6c61).rays(2000, -6.0, 6.0);
     let mut expected: Option<Vec<[u32; 4]>> = None;
     let tried = [
         (Storage::Ll, March::Exact),

@@ -6,7 +6,8 @@ use rasray_gpu::Timing;
 use rasray_shaders_glsl::constants::ads::{NODE_SORT_LIMIT, NODE_SORT_LONG_LIMIT};
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::rays::towards;
+use rasray_tests::shapes::{Triangle, closed_box, quad, sphere};
 use rasray_tests::tier::first;
 use rasray_tracer::build_until_complete;
 
@@ -23,19 +24,10 @@ fn brute_force(bench: &Bench, triangles: &[Triangle], rays: &[Ray]) -> Vec<Hit> 
     bench.trace(&structure, rays).hits
 }
 
-fn quad(x: [f32; 2], y: [f32; 2], z: f32) -> [Triangle; 2] {
-    let corner = |i: usize, j: usize| [x[i], y[j], z];
-    [[corner(0, 0), corner(1, 0), corner(1, 1)], [corner(0, 0), corner(1, 1), corner(0, 1)]]
-}
-
 /// Layers in cell 8 of 16, which spans 0 to 1/8 in x/z, drawn in a scrambled order; they leave its border free. The
 /// two triangles of a layer share the cell's centre and have a fragment each.
 fn layers(count: usize) -> Vec<Triangle> {
-    let mut order: Vec<usize> = (0..count).collect();
-    let mut random = Random::new(7);
-    for last in (1..count).rev() {
-        order.swap(last, (random.bits() % (last as u64 + 1)) as usize);
-    }
+    let order = Random::new(7).shuffled(count);
     order.into_iter().flat_map(|layer| quad(side(layer), side(layer), layer_depth(layer))).collect()
 }
 
@@ -166,7 +158,7 @@ fn triangles_around_the_eye_are_found() {
             .map(|_| {
                 let target = shifted([random.between(-reach, reach), random.between(-reach, reach), close]);
                 let origin = shifted([random.between(-1.0, 1.0), random.between(-1.0, 1.0), -1.0]);
-                Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
+                towards(origin, target)
             })
             .collect();
         let expected = brute_force(&bench, &triangles, &rays);
@@ -188,8 +180,7 @@ fn triangles_around_the_eye_are_found() {
 fn a_room_is_exact_at_every_resolution() {
     let bench = Bench::new();
     let triangles = closed_box([-2.0, -2.0, -2.0], [2.0, 2.0, 2.0]);
-    let mut random = Random::new(4);
-    let rays: Vec<Ray> = (0..1000).map(|_| Ray::new(random.point(-1.9, 1.9), random.direction())).collect();
+    let rays = Random::new(4).rays(1000, -1.9, 1.9);
     let expected = brute_force(&bench, &triangles, &rays);
     for resolution in [1, 2, 3, 5, 7, 33, 100, 255] {
         let structure = abuffer(&bench, Config::at_centres(resolution), &triangles, [0.0; 3]);
@@ -214,8 +205,7 @@ fn an_eye_far_outside_sees_a_coarse_scene() {
     let bench = Bench::new();
     let mut triangles = sphere([0.0; 3], 2.0, 8);
     triangles.extend(quad([-4.0, 4.0], [-4.0, 4.0], 3.0));
-    let mut random = Random::new(6);
-    let rays: Vec<Ray> = (0..3000).map(|_| Ray::new(random.point(-3.0, 2.9), random.direction())).collect();
+    let rays = Random::new(6).rays(3000, -3.0, 2.9);
     let oracle = oracle_of(&triangles);
     let verdicts: Vec<_> = rays.iter().map(|ray| oracle.closest(&oracle_ray(ray))).collect();
     for distance in [20.0, 1.0e3, 1.0e6] {

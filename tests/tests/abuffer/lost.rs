@@ -7,6 +7,7 @@ use rasray_ads::{BruteForce, Hit, Ray, Structure, StructureKind, Viewpoint};
 use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
+use rasray_tests::rays::towards;
 use rasray_tests::shapes::{Triangle, closed_box};
 use rasray_tests::tier::is_full;
 use rasray_tests::views::LEANING;
@@ -33,11 +34,7 @@ fn scene() -> Vec<Triangle> {
     for index in 0..600 {
         let middle = random.point(-6.0, 6.0);
         let size = [0.02, 0.1, 0.6][index % 3];
-        let mut corner = || {
-            let offset = random.point(-size, size);
-            std::array::from_fn(|axis| middle[axis] + offset[axis])
-        };
-        triangles.push([corner(), corner(), corner()]);
+        triangles.push(random.triangle(middle, size));
     }
     for _ in 0..20 {
         triangles.push([random.point(-5.0, 5.0); 3]);
@@ -84,15 +81,10 @@ fn rays(triangles: &[Triangle]) -> Vec<Ray> {
     for triangle in &triangles[..WITH_AREA as usize] {
         for _ in 0..10 {
             let origin = random.point(-6.0, 6.0);
-            let (mut u, mut v) = (random.between(0.0, 1.0), random.between(0.0, 1.0));
-            if u + v > 1.0 {
-                (u, v) = (1.0 - u, 1.0 - v);
-            }
+            let [w, u, v] = random.weights();
             let [a, b, c] = triangle;
-            let direction = std::array::from_fn(|axis| {
-                (1.0 - u - v) * a[axis] + u * b[axis] + v * c[axis] - origin[axis]
-            });
-            rays.push(Ray::new(origin, direction));
+            let target = std::array::from_fn(|axis| w * a[axis] + u * b[axis] + v * c[axis]);
+            rays.push(towards(origin, target));
         }
     }
     rays
@@ -241,8 +233,8 @@ fn conservative_lists_are_searched_to_their_end() {
     let mut rays = rays(&triangles);
     let mut random = Random::new(43);
     rays.extend((0..2000).map(|_| {
-        let (origin, offset) = (random.point(-20.0, 20.0), random.point(-0.2, 0.2));
-        Ray::new(origin, std::array::from_fn(|axis| 40.0 + offset[axis] - origin[axis]))
+        let (origin, target) = (random.point(-20.0, 20.0), random.near([40.0; 3], 0.2));
+        towards(origin, target)
     }));
     let brute = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
     let expected: Vec<_> = bench.trace(&brute, &rays).hits.iter().map(bits).collect();

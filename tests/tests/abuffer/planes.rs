@@ -27,11 +27,6 @@ fn built(bench: &Bench, config: Config, triangles: &[Triangle]) -> ABuffer {
     structure
 }
 
-fn rays(count: usize, within: f32) -> Vec<Ray> {
-    let mut random = Random::new(0x706c);
-    (0..count).map(|_| Ray::new(random.point(-within, within), random.direction())).collect()
-}
-
 fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|axis| a[axis] - b[axis])
 }
@@ -102,7 +97,7 @@ fn stored_planes_are_met_where_those_of_triangles_are() {
     let bench = Bench::new();
     let mut triangles: Vec<Triangle> = closed_box([-10.0; 3], [10.0; 3]).to_vec();
     triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 10));
-    let rays = rays(4000, 6.0);
+    let rays = Random::new(0x706c).rays(4000, -6.0, 6.0);
     let named = bench.trace(&built(&bench, Config::at_centres(128), &triangles), &rays).hits;
     let stored = bench.trace(&built(&bench, planes(128), &triangles), &rays).hits;
     let agrees = |named: &Hit, stored: &Hit| match (named.is_hit(), stored.is_hit()) {
@@ -122,7 +117,7 @@ fn keys(hits: &[Hit]) -> Vec<(u32, u32)> {
 #[test]
 fn storages_and_builders_change_no_hit() {
     let bench = Bench::new();
-    let (triangles, rays) = (all_sizes(), rays(1500, 6.0));
+    let (triangles, rays) = (all_sizes(), Random::new(0x706c).rays(1500, -6.0, 6.0));
     let first = planes(32);
     let expected = keys(&bench.trace(&built(&bench, first, &triangles), &rays).hits);
     assert!(expected.iter().filter(|key| key.1 == PRIMITIVE_UNKNOWN).count() > rays.len() / 2);
@@ -203,7 +198,7 @@ fn ties_are_broken_by_all_words() {
 fn rays_do_not_ask_for_triangles() {
     let bench = Bench::new();
     let triangles: Vec<Triangle> = closed_box([-10.0; 3], [10.0; 3]).to_vec();
-    let rays = rays(500, 6.0);
+    let rays = Random::new(0x706c).rays(500, -6.0, 6.0);
     for payload in [Payload::Plane, Payload::Index] {
         let geometry = bench.geometry(&triangles);
         let config = Config { payload, ..planes(32) };

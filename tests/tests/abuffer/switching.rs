@@ -7,6 +7,7 @@ use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::Bench;
 use rasray_tests::invariance::{EYE, general_rays, rays, scene};
 use rasray_tests::random::Random;
+use rasray_tests::rays::segment;
 use rasray_tests::shapes::Triangle;
 use rasray_tests::views::ALONG_Z;
 use rasray_tracer::build_until_complete;
@@ -103,10 +104,7 @@ fn rays_that_the_camera_sees_are_searched_in_its_view_alone() {
         let depth = 5.0 + 4.5 * z;
         [EYE[0] + 0.8 * x * depth, EYE[1] + 0.8 * y * depth, EYE[2] + depth]
     };
-    let rays: Vec<Ray> = (0..1000)
-        .map(|_| (point(), point()))
-        .map(|(from, to)| Ray { t_max: 1.0, ..Ray::new(from, std::array::from_fn(|i| to[i] - from[i])) })
-        .collect();
+    let rays: Vec<Ray> = (0..1000).map(|_| segment(point(), point())).collect();
     let config = Config { camera_resolution: [24; 2], ..Config::at_centres(48) };
     let of = |config| hits_of(&bench, config, &triangles, Some(ALONG_Z), &rays);
     let camera = of(Config { views: Views::Camera, ..config });

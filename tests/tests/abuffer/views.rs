@@ -7,6 +7,7 @@ use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
 use rasray_tests::invariance::scene;
 use rasray_tests::random::Random;
+use rasray_tests::rays::segment;
 use rasray_tests::shapes::{Triangle, sphere};
 use rasray_tests::views::{ALONG_Z, TURNED};
 use rasray_tracer::{TracerError, build_until_complete};
@@ -31,7 +32,7 @@ fn seen_rays(camera: CameraView, count: usize) -> Vec<Ray> {
     (0..count)
         .map(|index| {
             let (from, to) = (if index % 4 == 0 { EYE } else { point() }, point());
-            Ray { t_max: 1.0, ..Ray::new(from, std::array::from_fn(|i| to[i] - from[i])) }
+            segment(from, to)
         })
         .collect()
 }
@@ -87,8 +88,7 @@ fn a_camera_alone_knows_what_it_sees_and_nothing_else() {
     // Of an even and an odd number, the smaller one is increased by one.
     assert_eq!(cell_count(&config), 42 * 22);
     assert_eq!(contents.lists.len() as u64, 2 * 4 * 42 * 22);
-    let mut random = Random::new(13);
-    let rays: Vec<Ray> = (0..2000).map(|_| Ray::new(random.point(-6.0, 6.0), random.direction())).collect();
+    let rays = Random::new(13).rays(2000, -6.0, 6.0);
     let hits = bench.trace(&structure, &rays).hits;
     let mut found = 0;
     for (ray, hit) in rays.iter().zip(&hits).filter(|(_, hit)| hit.is_hit()) {

@@ -3,12 +3,11 @@
 use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, Structure, TraceMode};
 use rasray_bvh::{Addressing, Builder, Bvh, Config, Width};
 use rasray_gpu::Timing;
-use rasray_hard_cases as hard_cases;
-use rasray_hard_cases::Scale;
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::rays::{along_axis, towards};
+use rasray_tests::shapes::{Triangle, layers_and_sphere, with_twins};
 use rasray_tracer::{BatchTracer, build_until_complete};
 
 const RAYS: usize = 3000;
@@ -23,37 +22,22 @@ const KINDS: [(Builder, Width); 6] = [
     (Builder::Trbvh, Width::Four),
 ];
 
-/// Scattered layers, a sphere, a room, and triangles that coincide.
-fn scene() -> Vec<Triangle> {
-    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
-    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 8));
-    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
-    triangles.extend(triangles.clone().into_iter().step_by(3));
-    triangles
-}
-
 /// Rays of all kinds: along axes and face diagonals, from corners of triangles, at corners and edges, with
 /// ranges and with an excluded triangle.
 fn rays(triangles: &[Triangle]) -> Vec<Ray> {
     let mut random = Random::new(23);
-    let toward =
-        |from: [f32; 3], to: [f32; 3]| Ray::new(from, std::array::from_fn(|axis| to[axis] - from[axis]));
     (0..RAYS)
         .map(|index| {
             let origin = random.point(-6.0, 6.0);
             let triangle = triangles[(random.bits() % triangles.len() as u64) as usize];
             let corner = triangle[index % 3];
             match index % 10 {
-                0 => {
-                    let mut direction = [0.0; 3];
-                    direction[index / 10 % 3] = if index / 30 % 2 == 0 { 1.0 } else { -1.0 };
-                    Ray::new(if index % 20 == 0 { origin } else { corner }, direction)
-                }
+                0 => Ray::new(if index % 20 == 0 { origin } else { corner }, along_axis(index / 10)),
                 1 => Ray { t_max: 2.0, t_min: 0.5, ..Ray::new(origin, random.direction()) },
-                2 => toward(origin, corner),
+                2 => towards(origin, corner),
                 3 => {
                     let next = triangle[(index + 1) % 3];
-                    toward(origin, std::array::from_fn(|axis| 0.5 * corner[axis] + 0.5 * next[axis]))
+                    towards(origin, std::array::from_fn(|axis| 0.5 * corner[axis] + 0.5 * next[axis]))
                 }
                 4 => Ray::new(corner, random.direction()),
                 5 => Ray {
@@ -151,7 +135,7 @@ fn configurations(builder: Builder) -> Vec<(String, Config, Option<u32>)> {
 
 fn options_change_no_hit(builder: Builder) {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = with_twins(layers_and_sphere(8));
     let (geometry, rays) = (bench.geometry(&triangles), rays(&triangles));
     let expected = reference_answers(&bench, &geometry, &rays);
     let hit = expected.occluded.iter().filter(|occluded| **occluded).count();
@@ -252,7 +236,7 @@ fn scales(mirror: [f32; 3]) -> Vec<Triangle> {
 fn rays_that_remember_more_than_their_stack_lose_nothing() {
     let bench = Bench::new();
     let mut random = Random::new(7);
-    let within: Vec<_> = (0..500).map(|_| Ray::new(random.point(0.4, 0.6), random.direction())).collect();
+    let within = random.rays(500, 0.4, 0.6);
     let mut scenes = vec![(chain(), within)];
     for mirror in [[1.0; 3], [-1.0; 3]] {
         let mut outwards = || -> Ray {
@@ -279,7 +263,7 @@ fn rays_that_remember_more_than_their_stack_lose_nothing() {
 #[test]
 fn another_scene_has_other_hits() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = with_twins(layers_and_sphere(8));
     let rays = rays(&triangles);
     let expected = reference_answers(&bench, &bench.geometry(&triangles), &rays);
     let mut moved = triangles;

@@ -7,6 +7,7 @@ use rasray_tests::conformance::{Prepared, measure};
 use rasray_tests::hard_cases::{self, Expectation, HardCase, Scale, Triangle};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
+use rasray_tests::shapes::bounds;
 use rasray_tests::tier::is_full;
 
 use super::scenes::built_in;
@@ -20,13 +21,8 @@ fn batches() -> usize {
 
 fn batch(triangles: &[Triangle], seed: u64) -> HardCase {
     let mut random = Random::new(seed);
-    let corners = || triangles.as_flattened();
-    let lower: [f32; 3] = std::array::from_fn(|axis| corners().iter().fold(f32::MAX, |m, p| m.min(p[axis])));
-    let upper: [f32; 3] = std::array::from_fn(|axis| corners().iter().fold(f32::MIN, |m, p| m.max(p[axis])));
-    let mut ray = || {
-        let origin = std::array::from_fn(|axis| random.between(lower[axis], upper[axis]));
-        oracle::Ray::new(origin, random.direction())
-    };
+    let bounds = bounds(triangles);
+    let mut ray = || oracle::Ray::new(random.within(bounds), random.direction());
     HardCase {
         id: "spheres",
         title: "random rays through spheres in a box",

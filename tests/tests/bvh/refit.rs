@@ -9,7 +9,8 @@ use rasray_shaders_glsl::constants::bvh::BVH_LEAF;
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::rays::towards;
+use rasray_tests::shapes::{Triangle, bounds, closed_box, sphere};
 use rasray_tests::tier::first;
 use rasray_tracer::build_until_complete;
 
@@ -33,11 +34,6 @@ fn moved(triangles: &[Triangle], step: usize) -> Vec<Triangle> {
     let s = step as f32;
     let place = |[x, y, z]: [f32; 3]| [x + 0.7 * s * y, y * (1.0 + 0.4 * s), z - s * x * x * 0.3];
     triangles.iter().map(|triangle| triangle.map(place)).collect()
-}
-
-fn rays() -> Vec<Ray> {
-    let mut random = Random::new(77);
-    (0..RAYS).map(|_| Ray::new(random.point(-3.5, 3.5), random.direction())).collect()
 }
 
 /// Triangles on the device, with what moves them.
@@ -100,7 +96,7 @@ impl Setup {
         let device = self.bench.device();
         let mut fresh = Bvh::new(device, Config::new(Builder::Lbvh), &geometry, None).expect("valid");
         build_until_complete(device, &mut fresh, [0.0; 3], Timing::None).expect("a build");
-        let rays = rays();
+        let rays = Random::new(77).rays(RAYS, -3.5, 3.5);
         for mode in [TraceMode::Closest, TraceMode::Occluded] {
             let of = |tree: &Bvh| {
                 let rounds = if tree.config().work_budget.is_some() { 600 } else { tree.rounds() };
@@ -339,14 +335,12 @@ fn a_tree_that_is_refitted_stays_better_than_those_by_codes() {
 /// Rays from around triangles to points on them.
 fn rays_into(triangles: &[Triangle]) -> Vec<Ray> {
     let mut random = Random::new(5);
-    let corners = || triangles.as_flattened();
-    let lower: [f32; 3] = std::array::from_fn(|axis| corners().iter().fold(f32::MAX, |m, p| m.min(p[axis])));
-    let upper: [f32; 3] = std::array::from_fn(|axis| corners().iter().fold(f32::MIN, |m, p| m.max(p[axis])));
+    let bounds = bounds(triangles);
     (0..2000)
         .map(|_| {
-            let origin: [f32; 3] = std::array::from_fn(|axis| random.between(lower[axis], upper[axis]));
+            let origin = random.within(bounds);
             let target = triangles[(random.bits() % triangles.len() as u64) as usize][0];
-            Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
+            towards(origin, target)
         })
         .collect()
 }

@@ -1,6 +1,6 @@
 //! Every tree that is built is downloaded and checked node by node.
 
-use rasray_ads::{Check, Ray, Structure, TraceMode};
+use rasray_ads::{Check, Structure, TraceMode};
 use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Fault, Shape, Width, plan, well_formed};
 use rasray_experiment::Placed;
 use rasray_gpu::Timing;
@@ -28,10 +28,7 @@ fn scattered(count: usize, seed: u64, size: f32) -> Vec<Triangle> {
     (0..count)
         .map(|_| {
             let center = random.point(-5.0, 5.0);
-            std::array::from_fn(|_| {
-                let offset = random.point(-size, size);
-                std::array::from_fn(|axis| center[axis] + offset[axis])
-            })
+            random.triangle(center, size)
         })
         .collect()
 }
@@ -296,8 +293,7 @@ fn every_edge_capacity() {
     let device = bench.device();
     let triangles = scattered(700, 9, 0.5);
     let geometry = bench.geometry(&triangles);
-    let mut random = Random::new(10);
-    let rays: Vec<_> = (0..500).map(|_| Ray::new(random.point(-6.0, 6.0), random.direction())).collect();
+    let rays = Random::new(10).rays(500, -6.0, 6.0);
     for config in kinds() {
         let full = plan(&config, triangles.len() as u64).expect("in range");
         let mut bvh = Bvh::new(device, config, &geometry, None).expect("the options are valid");

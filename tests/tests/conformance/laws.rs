@@ -1,7 +1,7 @@
 //! Closed forms and laws that the hits of fragment structures follow.
 
 use rasray_abuffer::{ABuffer, Accept, Config, Coverage, March};
-use rasray_ads::{PRIMITIVE_NONE, Ray};
+use rasray_ads::PRIMITIVE_NONE;
 use rasray_gpu::Timing;
 use rasray_metrics::{Percentiles, Rate};
 use rasray_tests::conformance::{Measured, Prepared, measure};
@@ -153,8 +153,7 @@ fn inside_a_sphere(bench: &Bench, triangles: &[Triangle], resolution: u32, count
         ABuffer::new(bench.device(), Config::at_centres(resolution), &geometry, None).expect("valid");
     build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
         .expect("the build completes");
-    let mut random = Random::new(21);
-    let rays: Vec<Ray> = (0..count).map(|_| Ray::new(random.point(-0.8, 0.8), random.direction())).collect();
+    let rays = Random::new(21).rays(count, -0.8, 0.8);
     let hits = bench.trace(&structure, &rays).hits;
     let oracle = oracle_of(triangles);
     let truths = oracle.closest_batch(&rays.iter().map(oracle_ray).collect::<Vec<_>>());

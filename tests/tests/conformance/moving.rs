@@ -18,6 +18,7 @@ use rasray_tests::conformance::{
 use rasray_tests::hard_cases::{self, Expectation, HardCase, Scale, Target, Targets, Triangle};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
+use rasray_tests::rays::towards;
 use rasray_tests::shapes::sphere;
 use rasray_tests::tier::{Counts, is_full};
 use rasray_tracer::build_until_complete;
@@ -210,7 +211,7 @@ fn rays(
             let size = if sizes[axis] > 0.0 { sizes[axis] } else { longest };
             random.between(lower[axis] - 0.5 * size, upper[axis] + 0.5 * size)
         });
-        rays.push(rasray_ads::Ray::new(origin, std::array::from_fn(|axis| at(axis) - origin[axis])));
+        rays.push(towards(origin, std::array::from_fn(at)));
     }
     rays
 }

@@ -57,19 +57,12 @@ fn the_hierarchy_changes_no_verdict_of_random_scenes() {
         for _ in 0..500 {
             // From slivers to triangles larger than the sphere.
             let size = 10.0_f32.powf(random.between(-5.0, 1.0));
-            let a: [f32; 3] = random.point(-4.0, 4.0);
-            let mut corner = || {
-                let shift = random.point(-size, size);
-                std::array::from_fn(|axis| center[axis] + a[axis] + shift[axis])
-            };
-            triangles.push([corner(), corner(), corner()]);
+            let middle = random.near(center, 4.0);
+            triangles.push(random.triangle(middle, size));
         }
         let rays: Vec<oracle::Ray> = (0..1500)
             .map(|index| {
-                let origin: [f32; 3] = {
-                    let shift = random.point(-6.0, 6.0);
-                    std::array::from_fn(|axis| center[axis] + shift[axis])
-                };
+                let origin = random.near(center, 6.0);
                 let target = triangles[random.bits() as usize % triangles.len()][index % 3];
                 match index % 3 {
                     0 => oracle::Ray::towards(origin, target),
@@ -117,7 +110,7 @@ fn exact_cells_are_those_that_marches_are_held_to() {
     let mut checked = 0;
     for resolution in [1, 8, 64] {
         for _ in 0..200 {
-            let mut ray = Ray::new(random.point(-2.0, 2.0), random.direction());
+            let mut ray = random.ray(-2.0, 2.0);
             ray.t_max = 50.0;
             let (origin, direction) = (ray.origin.map(f64::from), ray.direction.map(f64::from));
             let exact = cells_along(origin, direction, [0.0, 50.0], resolution);

@@ -10,6 +10,7 @@ use rasray_tests::conformance::{Prepared, measure};
 use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
+use rasray_tests::rays::towards;
 use rasray_tests::shapes::Triangle;
 use rasray_voxel::Voxels;
 
@@ -179,7 +180,7 @@ fn aimed(random: &mut Random, triangles: &[Triangle]) -> Vec<Ray> {
             std::array::from_fn(|axis| a[axis] + u * (b[axis] - a[axis]) + v * (c[axis] - a[axis]));
         let origin = if rays.len().is_multiple_of(2) { [0.0; 3] } else { random.point(-1.0, 1.0) };
         if target.iter().all(|x| x.abs() <= 5.0) {
-            rays.push(Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis])));
+            rays.push(towards(origin, target));
         }
     }
     rays

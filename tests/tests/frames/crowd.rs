@@ -22,20 +22,13 @@ impl Shown {
     pub fn random(random: &mut Random, count: usize, rays: usize) -> Self {
         let centre = random.point(-300.0, 300.0);
         let size = random.between(-2.0, 2.0).exp2();
-        let near = |random: &mut Random, scale: f32| -> [f32; 3] {
-            let offset = random.point(-scale, scale);
-            std::array::from_fn(|axis| centre[axis] + offset[axis])
-        };
         let triangles = (0..count)
             .map(|_| {
-                let corner = near(random, size);
-                [0, 1, 2].map(|_| {
-                    let offset = random.point(-0.2 * size, 0.2 * size);
-                    std::array::from_fn(|axis| corner[axis] + offset[axis])
-                })
+                let corner = random.near(centre, size);
+                random.triangle(corner, 0.2 * size)
             })
             .collect();
-        let rays = (0..rays).map(|_| Ray::new(near(random, 1.5 * size), random.direction())).collect();
+        let rays = (0..rays).map(|_| Ray::new(random.near(centre, 1.5 * size), random.direction())).collect();
         Self { eye: centre, triangles, rays }
     }
 

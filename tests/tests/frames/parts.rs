@@ -9,6 +9,7 @@ use rasray_ads::{
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::invariance::{Subject, first_difference};
 use rasray_tests::random::Random;
+use rasray_tests::rays::towards;
 use rasray_tests::shapes::Triangle;
 
 const RAYS: usize = 400;
@@ -18,10 +19,7 @@ pub fn doubled(random: &mut Random) -> Vec<Triangle> {
     let mut triangles: Vec<Triangle> = (0..120)
         .map(|_| {
             let corner = random.point(-4.0, 4.0);
-            [0, 1, 2].map(|_| {
-                let offset = random.point(-1.0, 1.0);
-                std::array::from_fn(|axis| corner[axis] + offset[axis])
-            })
+            random.triangle(corner, 1.0)
         })
         .collect();
     // Coplanar ones that overlap, in front of everything else from most sides.
@@ -44,7 +42,7 @@ pub fn rays(random: &mut Random, triangles: &[Triangle]) -> Vec<Ray> {
             let triangle = triangles[random.bits() as usize % triangles.len()];
             let middle: [f32; 3] =
                 std::array::from_fn(|axis| triangle.iter().map(|corner| corner[axis]).sum::<f32>() / 3.0);
-            let mut ray = Ray::new(origin, std::array::from_fn(|axis| middle[axis] - origin[axis]));
+            let mut ray = towards(origin, middle);
             if number % 10 == 1 {
                 ray.exclude_primitive = random.bits() as u32 % triangles.len() as u32;
             }

@@ -16,6 +16,7 @@ use rasray_scene_files::LoadOptions;
 use rasray_systems::Spec;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
+use rasray_tests::rays::towards;
 use rasray_tests::tier::{first, is_full};
 use rasray_tracer::{BatchTracer, FrameOutcome, Frames, Keeping, Refresh, TracerError};
 
@@ -38,19 +39,15 @@ fn moment(seconds: f64) -> Moment {
     Moment { seconds, clips: vec![0] }
 }
 
-pub fn rays(random: &mut Random, [lower, upper]: [[f32; 3]; 2], towards: [[f32; 3]; 2]) -> Vec<Ray> {
-    let within = |random: &mut Random, [lower, upper]: [[f32; 3]; 2]| -> [f32; 3] {
-        std::array::from_fn(|axis| random.between(lower[axis], upper[axis]))
-    };
+pub fn rays(random: &mut Random, bounds: [[f32; 3]; 2], targets: [[f32; 3]; 2]) -> Vec<Ray> {
     (0..RAYS)
         .map(|number| {
-            let origin = within(random, [lower, upper]);
+            let origin = random.within(bounds);
             if number % 2 == 0 {
                 return Ray::new(origin, random.direction());
             }
             // Towards what moves.
-            let target = within(random, towards);
-            Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
+            towards(origin, random.within(targets))
         })
         .collect()
 }

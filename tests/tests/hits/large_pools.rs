@@ -17,8 +17,7 @@ use rasray_tracer::build_until_complete;
 const FRAGMENTS_OFF: f64 = 0.05;
 
 fn rays(count: usize) -> Vec<Ray> {
-    let mut random = Random::new(402);
-    (0..count).map(|_| Ray::new(random.point(-3.5, 3.5), random.direction())).collect()
+    Random::new(402).rays(count, -3.5, 3.5)
 }
 
 fn all_bits(hits: &[Hit]) -> Vec<[u32; 4]> {

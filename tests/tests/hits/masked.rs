@@ -48,14 +48,9 @@ fn stage(bench: &Bench, scene: &Scene) -> GpuScene {
 }
 
 fn rays(scene: &GpuScene) -> Vec<Ray> {
-    let [lower, upper] = scene.geometry().bounds();
+    let bounds = scene.geometry().bounds();
     let mut random = Random::new(97);
-    (0..RAYS)
-        .map(|_| {
-            let origin = std::array::from_fn(|axis| random.between(lower[axis], upper[axis]));
-            Ray::new(origin, random.direction())
-        })
-        .collect()
+    (0..RAYS).map(|_| Ray::new(random.within(bounds), random.direction())).collect()
 }
 
 fn hits(bench: &Bench, structure: &dyn Structure, rays: &[Ray]) -> Vec<Hit> {

@@ -9,6 +9,7 @@ use rasray_reference::oracle::Oracle;
 use rasray_tests::harness::{Bench, oracle_ray};
 use rasray_tests::invariance::{EYE, Subject, assert_same, general_rays, ray_count, scene};
 use rasray_tests::random::Random;
+use rasray_tests::rays::segment;
 use rasray_tests::shapes::Triangle;
 
 /// Only structures that find triangles: their hits do not know where the scene lies, if that is exact.
@@ -99,10 +100,6 @@ fn a_segment_is_occluded_from_both_ends_or_from_none() {
     // Ends on a coarse grid, so that direction and far end are exact.
     let mut random = Random::new(31);
     let mut end = || random.point(-6.0, 6.0).map(|x| (x * 64.0).round() / 64.0);
-    let segment = |from: [f32; 3], to: [f32; 3]| Ray {
-        t_max: 1.0,
-        ..Ray::new(from, std::array::from_fn(|axis| to[axis] - from[axis]))
-    };
     let ends: Vec<_> = (0..ray_count()).map(|_| (end(), end())).collect();
     let there: Vec<Ray> = ends.iter().map(|&(a, b)| segment(a, b)).collect();
     let back: Vec<Ray> = ends.iter().map(|&(a, b)| segment(b, a)).collect();

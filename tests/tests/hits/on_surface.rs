@@ -27,11 +27,7 @@ fn on(triangles: &[Triangle], count: usize) -> Vec<Ray> {
         .map(|_| {
             let share = f64::from(random.between(0.0, 1.0)) * total;
             let triangle = triangles[areas.partition_point(|area| *area < share).min(triangles.len() - 1)];
-            let (mut u, mut v) = (random.between(0.0, 1.0), random.between(0.0, 1.0));
-            if u + v > 1.0 {
-                (u, v) = (1.0 - u, 1.0 - v);
-            }
-            let weights = [1.0 - u - v, u, v];
+            let weights = random.weights();
             let origin = std::array::from_fn(|axis| {
                 let terms = triangle.iter().zip(weights).map(|(p, w)| f64::from(p[axis]) * f64::from(w));
                 terms.sum::<f64>() as f32

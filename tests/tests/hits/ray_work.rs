@@ -5,7 +5,7 @@ use rasray_gpu::Timing;
 use rasray_tests::harness::Bench;
 use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::shapes::ball_in_a_room;
 use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
 
 const EYE: [f32; 3] = [0.25, -0.125, 0.5];
@@ -17,16 +17,8 @@ fn budget(kind: StructureKind) -> u32 {
     if kind == StructureKind::Fragment { 40 } else { 5 }
 }
 
-fn scene() -> Vec<Triangle> {
-    let mut triangles = closed_box([-4.0; 3], [4.0; 3]);
-    triangles.extend(sphere([1.0, 0.5, -1.5], 0.75, 24));
-    triangles
-}
-
 fn rays(count: usize) -> Vec<Ray> {
-    let mut random = Random::new(0x0077_6F72_6B00);
-    let mut rays: Vec<Ray> =
-        (0..count).map(|_| Ray::new(random.point(-3.0, 3.0), random.direction())).collect();
+    let mut rays = Random::new(0x0077_6F72_6B00).rays(count, -3.0, 3.0);
     // Inactive slots are written too.
     rays[7].t_max = -1.0;
     rays[8].direction = [0.0; 3];
@@ -35,7 +27,7 @@ fn rays(count: usize) -> Vec<Ray> {
 
 /// Both modes.
 fn trace(bench: &Bench, subject: &Subject, counters: Counters, rays: &[Ray]) -> [TraceOutcome; 2] {
-    let geometry = bench.geometry(&scene());
+    let geometry = bench.geometry(&ball_in_a_room());
     let spec = subject.spec.clone().with_counters(counters).with_work_budget(budget(subject.kind));
     let mut structure = spec.create(bench.device(), &geometry, None).expect("the options are valid");
     build_until_complete(bench.device(), structure.as_mut(), EYE, Timing::None).expect("the build completes");
@@ -157,7 +149,7 @@ fn cells_are_rejected_by_their_bounds_and_by_nothing_else() {
 fn a_queue_without_a_buffer_for_work_is_left_alone() {
     let bench = Bench::new();
     let rays = rays(200);
-    let geometry = bench.geometry(&scene());
+    let geometry = bench.geometry(&ball_in_a_room());
     let structure =
         BruteForce::new(bench.device(), &geometry, None, Counters::PerRay).expect("pipelines can be made");
     let (hits, counters) =

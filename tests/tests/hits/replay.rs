@@ -11,24 +11,13 @@ use rasray_systems::Spec;
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
 use rasray_tests::invariance::{Row, Subject};
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::shapes::{ball_in_a_room, sphere};
 use rasray_tests::tier::{first, is_full, is_pair};
 use rasray_tests::visits::{face_from_world, point};
 use rasray_tracer::{BatchTracer, Replay, TracerError, build_until_complete};
 
 const EYE: [f32; 3] = [0.25, -0.125, 0.5];
 const RESOLUTION: u32 = 64;
-
-fn scene() -> Vec<Triangle> {
-    let mut triangles = closed_box([-4.0; 3], [4.0; 3]);
-    triangles.extend(sphere([1.0, 0.5, -1.5], 0.75, 24));
-    triangles
-}
-
-fn rays(seed: u64, count: usize) -> Vec<Ray> {
-    let mut random = Random::new(seed);
-    (0..count).map(|_| Ray::new(random.point(-3.0, 3.0), random.direction())).collect()
-}
 
 fn published() -> Config {
     // The quantised attributes need a scene and do not say which triangle a fragment is of.
@@ -86,8 +75,8 @@ fn key(hit: &Hit) -> (u32, u32) {
 #[test]
 fn the_steps_are_the_work_and_end_in_the_hit() {
     let bench = Bench::new();
-    let geometry = bench.geometry(&scene());
-    let mut rays = rays(0x7265_706C_6179, if is_full() { 40 } else { 20 });
+    let geometry = bench.geometry(&ball_in_a_room());
+    let mut rays = Random::new(0x7265_706C_6179).rays(if is_full() { 40 } else { 20 }, -3.0, 3.0);
     // Some end before they hit anything.
     rays.iter_mut().step_by(2).for_each(|ray| ray.t_max = 2.0);
     let tracer = tracer(&bench);
@@ -189,10 +178,10 @@ fn loss(replay: &Replay, truth: &Verdict) -> Option<Loss> {
 #[test]
 fn the_replay_of_a_lost_hit_shows_the_cell_that_lost_it() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = ball_in_a_room();
     let geometry = bench.geometry(&triangles);
     let tracer = tracer(&bench);
-    let rays = rays(0x6C6F_7373, 3000);
+    let rays = Random::new(0x6C6F_7373).rays(3000, -3.0, 3.0);
     let oracle = oracle_of(&triangles);
     let truths: Vec<Verdict> = rays.iter().map(|ray| oracle.closest(&oracle_ray(ray))).collect();
     let robust =
@@ -270,7 +259,7 @@ fn a_long_traversal_is_logged_in_full() {
 #[test]
 fn a_structure_that_logs_nothing_says_so() {
     let bench = Bench::new();
-    let geometry = bench.geometry(&scene());
+    let geometry = bench.geometry(&ball_in_a_room());
     let ray = Ray::new([0.0; 3], [0.0, 0.0, 1.0]);
     for structure in structures(&bench, &geometry, Counters::PerRay) {
         let refused =

@@ -15,24 +15,13 @@ use rasray_scene::{BackFaces, Environment, Instance, Material, Mesh, Scene};
 use rasray_scene_files::{LoadOptions, load};
 use rasray_systems::Spec;
 use rasray_tests::harness::{Bench, bits, oracle_ray};
+use rasray_tests::image_truth::square;
 use rasray_tests::invariance::Subject;
 use rasray_tests::pictures::rendered;
 use rasray_tests::random::Random;
 use rasray_tracer::{BatchTracer, build_until_complete};
 
 const RAYS: usize = 4000;
-
-/// A square about `middle` whose counter-clockwise side faces along u x v.
-fn square(middle: DVec3, u: DVec3, v: DVec3, material: usize) -> Mesh {
-    let corners = [middle - u - v, middle + u - v, middle + u + v, middle - u + v];
-    Mesh {
-        name: "square".to_owned(),
-        positions: corners.iter().map(|corner| corner.as_vec3().to_array()).collect(),
-        indices: vec![0, 1, 2, 0, 2, 3],
-        material,
-        ..Mesh::default()
-    }
-}
 
 /// A ball of triangles that are counter-clockwise from outside.
 fn ball(middle: DVec3, radius: f64, material: usize) -> Mesh {
@@ -75,9 +64,8 @@ fn room() -> Scene {
     let mut random = Random::new(5);
     let mut heap = Mesh { name: "heap".to_owned(), ..Mesh::default() };
     for _ in 0..200 {
-        let mut near = |middle: [f32; 3], reach: f32| middle.map(|x| x + random.between(-reach, reach));
-        let a = near([0.5, -0.6, 0.3], 0.35);
-        heap.positions.extend([a, near(a, 0.2), near(a, 0.02)]);
+        let a = random.near([0.5, -0.6, 0.3], 0.35);
+        heap.positions.extend([a, random.near(a, 0.2), random.near(a, 0.02)]);
     }
     heap.indices = (0..heap.positions.len() as u32).collect();
     meshes.push((heap, false));
@@ -110,7 +98,7 @@ fn rays(bench: &Bench, scene: &GpuScene) -> Vec<Ray> {
     let mut random = Random::new(31);
     (0..RAYS)
         .map(|index| {
-            let inside: [f32; 3] = std::array::from_fn(|axis| random.between(lower[axis], upper[axis]));
+            let inside = random.within([lower, upper]);
             let corner = (random.bits() % indices.len() as u64) as usize;
             let next = corner - corner % 3 + (corner + 1) % 3;
             let [a, b] = [corner, next].map(|corner| positions[indices[corner] as usize]);

@@ -8,27 +8,14 @@ use rasray_ldc::{
     Occupancy, Payload, formula_bytes, plan, well_formed,
 };
 use rasray_tests::conformance::trace_in_rounds;
-use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box};
+use rasray_tests::shapes::Triangle;
 use rasray_tracer::build_until_complete;
 
-use crate::ldc::planes;
+use crate::ldc::{layers_between_views, planes};
 
 const EYE: [f32; 3] = [0.0; 3];
-
-/// Layers, and a room whose edges lie between views.
-fn scene() -> Vec<Triangle> {
-    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
-    triangles.extend(closed_box([-10.0, -9.9, -9.7], [10.0, 9.8, 9.6]));
-    triangles
-}
-
-fn rays() -> Vec<Ray> {
-    let mut random = Random::new(3);
-    (0..500).map(|_| Ray::new(random.point(-5.0, 5.0), random.direction())).collect()
-}
 
 fn trace(bench: &Bench, structure: &LayeredDepthCube, rays: &[Ray]) -> Vec<Hit> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
@@ -57,7 +44,7 @@ fn check_well_formed(bench: &Bench, structure: &LayeredDepthCube, triangles: &[T
 
 fn every_edge_capacity(config: Config) {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays());
+    let (triangles, rays) = (layers_between_views(), Random::new(3).rays(500, -5.0, 5.0));
     let mut structure = made(&bench, config, &triangles);
 
     // Ample capacity: what the demand and the hits are.
@@ -162,7 +149,7 @@ fn every_edge_capacity_by_address_with_short_depths() {
 #[test]
 fn bytes_are_those_of_the_formula() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = layers_between_views();
     for (resolution, block, levels, occupancy, depth, coverage) in [
         (16, [8; 2], 2, Occupancy::Slices, Depth::Bits32, Coverage::Conservative),
         (50, [16, 4], 1, Occupancy::Slices, Depth::Bits16, Coverage::Exact),
@@ -189,7 +176,7 @@ fn bytes_are_those_of_the_formula() {
 #[test]
 fn every_fault_of_a_list_is_noticed() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = layers_between_views();
     let count = triangles.len() as u32;
     for depth in [Depth::Bits32, Depth::Bits16] {
         let config = Config { depth, ..planes(16) };

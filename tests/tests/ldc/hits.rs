@@ -9,7 +9,7 @@ use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
 use rasray_tests::pictures::stage;
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::shapes::{Triangle, closed_box, quad, sphere};
 use rasray_tracer::build_until_complete;
 
 use crate::ldc::planes;
@@ -29,16 +29,6 @@ fn brute_force(bench: &Bench, triangles: &[Triangle], rays: &[Ray]) -> Vec<Hit> 
     bench.trace(&structure, rays).hits
 }
 
-fn random_rays(seed: u64, count: usize, lower: f32, upper: f32) -> Vec<Ray> {
-    let mut random = Random::new(seed);
-    (0..count).map(|_| Ray::new(random.point(lower, upper), random.direction())).collect()
-}
-
-fn quad(x: [f32; 2], y: [f32; 2], z: f32) -> [Triangle; 2] {
-    let corner = |i: usize, j: usize| [x[i], y[j], z];
-    [[corner(0, 0), corner(1, 0), corner(1, 1)], [corner(0, 0), corner(1, 1), corner(0, 1)]]
-}
-
 /// A tilted box, so that walls cross cells: from inside there is a wall in every direction.
 fn tilted_box() -> Vec<Triangle> {
     let (sine, cosine) = (0.28_f32, 0.96_f32);
@@ -56,7 +46,7 @@ fn tilted_box() -> Vec<Triangle> {
 fn no_ray_leaves_a_closed_room_through_its_edges() {
     let bench = Bench::new();
     let triangles = tilted_box();
-    let rays = random_rays(4, 2000, -0.5, 0.5);
+    let rays = Random::new(4).rays(2000, -0.5, 0.5);
     let expected = brute_force(&bench, &triangles, &rays);
     assert!(expected.iter().all(Hit::is_hit));
     let escaped = |config: Config| {
@@ -134,7 +124,7 @@ fn a_lamp_is_not_taken_for_its_ceiling() {
 fn depth_on_walls_is_that_of_the_triangles() {
     let bench = Bench::new();
     let triangles = closed_box([-2.0, -1.0, -1.5], [2.0, 1.0, 1.5]);
-    let rays = random_rays(5, 2000, -0.4, 0.4);
+    let rays = Random::new(5).rays(2000, -0.4, 0.4);
     let expected = brute_force(&bench, &triangles, &rays);
     for (resolution, depth) in [(16, Depth::Bits32), (64, Depth::Bits32), (64, Depth::Bits16)] {
         let structure = made(&bench, Config { depth, ..planes(resolution) }, &triangles);
@@ -150,7 +140,7 @@ fn depth_on_walls_is_that_of_the_triangles() {
 fn errors_on_a_closed_mesh_fall_with_the_size_of_a_cell() {
     let bench = Bench::new();
     let triangles = sphere([0.1, -0.2, 0.3], 2.0, 10);
-    let rays = random_rays(21, 6000, -0.8, 0.8);
+    let rays = Random::new(21).rays(6000, -0.8, 0.8);
     let oracle = oracle_of(&triangles);
     let truths = oracle.closest_batch(&rays.iter().map(oracle_ray).collect::<Vec<_>>());
     let mut shares = Vec::new();
@@ -291,7 +281,7 @@ fn pauses_change_no_hit() {
     let bench = Bench::new();
     let mut triangles = tilted_box();
     triangles.extend(sphere([0.3, 0.2, -0.1], 0.6, 8));
-    let rays = random_rays(9, 200, -1.5, 1.5);
+    let rays = Random::new(9).rays(200, -1.5, 1.5);
     let robust = Config::robust(24);
     for config in [
         robust,

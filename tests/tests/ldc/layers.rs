@@ -6,18 +6,16 @@ use rasray_ldc::{
     Accept, Addressing, Config, Contents, Coverage, Depth, LayeredDepthCube, Making, well_formed,
 };
 use rasray_tests::conformance::trace_in_rounds;
-use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box};
+use rasray_tests::shapes::Triangle;
 use rasray_tracer::build_until_complete;
 
-use crate::ldc::planes;
+use crate::ldc::{layers_between_views, planes};
 
 /// Layers, a room, and a stack of plates in which every third is there three times.
 fn scene() -> Vec<Triangle> {
-    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
-    triangles.extend(closed_box([-10.0, -9.9, -9.7], [10.0, 9.8, 9.6]));
+    let mut triangles = layers_between_views();
     for k in 0..24 {
         let z = 1.0 + 0.3 * k as f32;
         let plate = [[-4.0, -4.0, z], [4.0, -4.0, z], [0.0, 4.0, z + 0.1]];
@@ -66,8 +64,7 @@ fn peeled_layers_are_those_of_a_single_pass() {
     let bench = Bench::new();
     let triangles = scene();
     let geometry = bench.geometry(&triangles);
-    let mut random = Random::new(5);
-    let rays: Vec<Ray> = (0..400).map(|_| Ray::new(random.point(-5.0, 5.0), random.direction())).collect();
+    let rays = Random::new(5).rays(400, -5.0, 5.0);
     for (depth, coverage, accept, addressing) in [
         (Depth::Bits32, Coverage::Conservative, Accept::Plane, Addressing::Descriptor),
         (Depth::Bits32, Coverage::Conservative, Accept::Triangle, Addressing::Descriptor),
@@ -117,8 +114,7 @@ fn three_passes_draw_three_times_the_triangles_and_store_the_same() {
     let bench = Bench::new();
     let triangles = scene();
     let geometry = bench.geometry(&triangles);
-    let mut random = Random::new(6);
-    let rays: Vec<Ray> = (0..400).map(|_| Ray::new(random.point(-5.0, 5.0), random.direction())).collect();
+    let rays = Random::new(6).rays(400, -5.0, 5.0);
     for (making, depth, coverage) in [
         (Making::Single, Depth::Bits32, Coverage::Conservative),
         (Making::Single, Depth::Bits16, Coverage::Hardware),

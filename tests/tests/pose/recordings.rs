@@ -12,6 +12,7 @@ use rasray_scene::animation::{ChannelValues, Rig};
 use rasray_tests::harness::{Bench, oracle_ray};
 use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
+use rasray_tests::rays::towards;
 use rasray_tracer::build_until_complete;
 
 use crate::pose::deformed::deforming;
@@ -134,8 +135,7 @@ fn structures_are_built_from_what_was_posed() {
     let rays: Vec<Ray> = (0..400)
         .map(|_| {
             let from = random.point(-6.0, 9.0);
-            let to = random.point(-2.0, 4.0);
-            Ray::new(from, std::array::from_fn(|axis| to[axis] - from[axis]))
+            towards(from, random.point(-2.0, 4.0))
         })
         .collect();
     let subjects = Subject::all();

@@ -27,11 +27,7 @@ pub fn linear(node: usize, values: ChannelValues) -> Channel {
 pub fn cloud(triangles: usize, centre: [f32; 3], seed: u64) -> Mesh {
     let mut random = Random::new(seed);
     let vertices = 3 * triangles;
-    let corner = |random: &mut Random| {
-        let offset = random.point(-1.0, 1.0);
-        std::array::from_fn(|axis| centre[axis] + offset[axis])
-    };
-    let positions = (0..vertices).map(|_| corner(&mut random)).collect();
+    let positions = (0..vertices).map(|_| random.near(centre, 1.0)).collect();
     let normals = (0..vertices).map(|_| random.direction()).collect();
     let tangents = (0..vertices).map(|vertex| {
         let [x, y, z] = random.direction();

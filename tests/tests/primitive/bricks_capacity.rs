@@ -10,12 +10,12 @@ use rasray_gpu::Timing;
 use rasray_shaders_glsl::constants::bricks::BRICK_EMPTY;
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::Bench;
-use rasray_tests::shapes::{Triangle, sphere};
+use rasray_tests::rays::around_the_eye;
+use rasray_tests::shapes::{NEAR_TRIANGLES, Triangle, layers_around_the_eye, sphere};
 use rasray_tracer::build_until_complete;
 
 use crate::primitive::edges::{
-    Capacity, EYE, NEAR_TRIANGLES, demand, every_edge_capacity, made, missing_capacity_for_triangles, rays,
-    scene, trace,
+    Capacity, EYE, demand, every_edge_capacity, made, missing_capacity_for_triangles, trace,
 };
 
 /// Cells along each side of the scene, which is a cube.
@@ -68,7 +68,7 @@ fn bricks_grow_from_any_capacity_to_what_they_need() {
 
 fn bricks_grow(config: Config) {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays());
+    let (triangles, rays) = (layers_around_the_eye(), around_the_eye());
     let mut structure: Bricks = made(&bench, config, &bench.geometry(&triangles));
     let ample = Demand::capacity(1 << 20, 1 << 10, &triangles);
     structure.resize(bench.device(), &plan(&config, &ample).expect("in range")).expect("it fits");
@@ -133,7 +133,7 @@ fn missing_capacity_for_triangles_is_noticed() {
 #[test]
 fn bricks_take_another_geometry() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays());
+    let (triangles, rays) = (layers_around_the_eye(), around_the_eye());
     let geometry = bench.geometry(&triangles);
     let config = Config::new(Views::Cube);
     let mut structure: Bricks = made(&bench, config, &bench.geometry(&triangles[..3]));
@@ -148,7 +148,7 @@ fn bricks_take_another_geometry() {
 #[test]
 fn bytes_are_those_of_the_formula() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = layers_around_the_eye();
     let geometry = bench.geometry(&triangles);
     for config in configs() {
         let mut structure: Bricks = made(&bench, config, &geometry);
@@ -194,7 +194,7 @@ fn bytes_are_those_of_the_formula() {
 #[test]
 fn every_fault_of_a_brick_is_noticed() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = layers_around_the_eye();
     let count = triangles.len() as u32;
     let config = config(Views::Cube);
     let mut structure: Bricks = made(&bench, config, &bench.geometry(&triangles));
@@ -250,7 +250,7 @@ fn below_a_full_one(contents: &Contents) -> usize {
 #[test]
 fn every_fault_of_a_divided_cell_is_noticed() {
     let bench = Bench::new();
-    let mut triangles = scene();
+    let mut triangles = layers_around_the_eye();
     // More small ones than a cell may list undivided.
     triangles.extend(sphere([0.1, 0.3, 0.5], 0.2, 24));
     let count = triangles.len() as u32;

@@ -8,6 +8,7 @@ use rasray_bricks::{Bricks, Builder, Config, Demand, Views, plan, well_formed};
 use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
+use rasray_tests::rays::towards;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tracer::build_until_complete;
 
@@ -240,7 +241,7 @@ fn rays_at(random: &mut Random, [lower, upper]: [[f32; 3]; 2], count: usize) -> 
                     std::array::from_fn(|axis| target[axis] + distance * away[axis])
                 }
             };
-            Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
+            towards(origin, target)
         })
         .filter(|ray| ray.direction != [0.0; 3])
         .collect()
@@ -335,8 +336,7 @@ fn missing_capacity_for_bricks_is_noticed() {
     structure.set_geometry(bench.device(), &bench.geometry(&room)).expect("it fits");
     build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
         .expect("the build completes");
-    let mut random = Random::new(5);
-    let rays: Vec<Ray> = (0..500).map(|_| Ray::new(random.point(-9.0, 9.0), random.direction())).collect();
+    let rays = Random::new(5).rays(500, -9.0, 9.0);
     let expected = bench.trace(&structure, &rays).hits;
     assert!(expected.iter().all(Hit::is_hit));
 

@@ -6,6 +6,7 @@ use rasray_ads_primitive::{Addressing, Builder, Config, PrimitiveLists, Storage,
 use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
+use rasray_tests::rays::towards;
 use rasray_tests::shapes::{Triangle, all_sizes};
 use rasray_tracer::{TracerError, build_until_complete};
 
@@ -40,8 +41,6 @@ fn sees(view: &CameraView, eye: [f32; 3], point: [f32; 3]) -> bool {
 
 /// Rays from the eye, between points of the view, from such points to anywhere, and from anywhere.
 fn rays(eye: [f32; 3], view: &CameraView, random: &mut Random) -> Vec<Ray> {
-    let towards =
-        |origin: [f32; 3], target: [f32; 3]| Ray::new(origin, [0, 1, 2].map(|i| target[i] - origin[i]));
     (0..4000)
         .map(|index| {
             let depth = 10.0_f32.powf(random.between(-2.0, 1.0));
@@ -50,7 +49,7 @@ fn rays(eye: [f32; 3], view: &CameraView, random: &mut Random) -> Vec<Ray> {
                 0 => towards(eye, target),
                 1 => towards(origin, target),
                 2 => Ray::new(origin, random.direction()),
-                _ => Ray::new(random.point(-9.0, 9.0), random.direction()),
+                _ => random.ray(-9.0, 9.0),
             }
         })
         .collect()

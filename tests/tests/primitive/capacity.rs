@@ -7,10 +7,10 @@ use rasray_ads_primitive::{
     plan, well_formed,
 };
 use rasray_tests::harness::Bench;
-use rasray_tests::shapes::Triangle;
+use rasray_tests::shapes::{NEAR_TRIANGLES, Triangle, layers_around_the_eye};
 
 use crate::primitive::edges::{
-    Capacity, EYE, NEAR_TRIANGLES, demand, every_edge_capacity, made, missing_capacity_for_triangles, scene,
+    Capacity, EYE, demand, every_edge_capacity, made, missing_capacity_for_triangles,
 };
 
 impl Capacity for Demand {
@@ -61,7 +61,7 @@ fn missing_capacity_for_triangles_is_noticed() {
 #[test]
 fn bytes_are_those_of_the_formula() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = layers_around_the_eye();
     let geometry = bench.geometry(&triangles);
     for (resolution, tile, buckets, storage) in [
         (16, 1, 1, Storage::Linked),
@@ -102,7 +102,7 @@ fn bytes_are_those_of_the_formula() {
 #[test]
 fn every_fault_of_a_list_is_noticed() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = layers_around_the_eye();
     let geometry = bench.geometry(&triangles);
     let count = triangles.len() as u32;
     for storage in [Storage::Linked, Storage::Contiguous] {

@@ -3,29 +3,11 @@
 
 use rasray_ads::{BuildStatus, Check, Design, Geometry, Hit, Pooled, Ray, Structure, TraceMode};
 use rasray_tests::conformance::trace_in_rounds;
-use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
-use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box};
+use rasray_tests::rays::around_the_eye;
+use rasray_tests::shapes::{Triangle, layers_around_the_eye};
 
 pub const EYE: [f32; 3] = [0.0; 3];
-pub const NEAR_TRIANGLES: u64 = 5;
-
-/// Layers, a room, and triangles around the eye for the near-region list.
-pub fn scene() -> Vec<Triangle> {
-    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
-    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
-    for k in 0..NEAR_TRIANGLES {
-        let z = 1.0e-5 * (k as f32 - 2.0) + 1.0e-6;
-        triangles.push([[-0.02, -0.02, z], [0.02, -0.02, z], [0.0, 0.03, z]]);
-    }
-    triangles
-}
-
-pub fn rays() -> Vec<Ray> {
-    let mut random = Random::new(3);
-    (0..500).map(|_| Ray::new(random.point(-0.5, 0.5), random.direction())).collect()
-}
 
 pub fn trace(bench: &Bench, structure: &dyn Structure, rays: &[Ray]) -> Vec<Hit> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
@@ -55,7 +37,7 @@ where
     D::Demand: Capacity,
 {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays());
+    let (triangles, rays) = (layers_around_the_eye(), around_the_eye());
     let geometry = bench.geometry(&triangles);
     let mut structure = made::<D>(&bench, config, &geometry);
     let check = |structure: &Pooled<D>| {
@@ -118,7 +100,7 @@ where
     D::Demand: Capacity,
 {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays());
+    let (triangles, rays) = (layers_around_the_eye(), around_the_eye());
     let geometry = bench.geometry(&triangles);
     let mut structure = made::<D>(&bench, config, &geometry);
     let few = D::Demand::capacity(1 << 20, 1 << 10, &triangles[..3]);

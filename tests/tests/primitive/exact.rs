@@ -10,16 +10,12 @@ use rasray_gpu::{Feature, Timing};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
+use rasray_tests::rays::towards;
 use rasray_tests::shapes::{Triangle, all_sizes, closed_box, sphere};
 use rasray_tests::tier::is_full;
 use rasray_tracer::build_until_complete;
 
 const EYES: [[f32; 3]; 3] = [[0.0; 3], [0.125, -0.25, 0.375], [-3.0, 2.0, 1.5]];
-
-fn rays(seed: u64, count: usize, reach: f32) -> Vec<Ray> {
-    let mut random = Random::new(seed);
-    (0..count).map(|_| Ray::new(random.point(-reach, reach), random.direction())).collect()
-}
 
 /// What is made.
 #[derive(Clone, Copy, Debug)]
@@ -117,7 +113,7 @@ fn hits_are_those_of_brute_force() {
     let triangles = all_sizes();
     let (rounds, count) = if is_full() { (100, 100_000) } else { (1, 20_000) };
     for round in 0..rounds {
-        let rays = rays(round, count, 9.0);
+        let rays = Random::new(round).rays(count, -9.0, 9.0);
         let expected = brute_force(&bench, &triangles, &rays);
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
         assert!(hit > rays.len() * 9 / 10, "{hit} rays hit");
@@ -132,7 +128,7 @@ fn hits_are_those_of_brute_force() {
 #[test]
 fn no_size_changes_a_hit() {
     let bench = Bench::new();
-    let (triangles, rays) = (all_sizes(), rays(3, 4000, 9.0));
+    let (triangles, rays) = (all_sizes(), Random::new(3).rays(4000, -9.0, 9.0));
     let expected = brute_force(&bench, &triangles, &rays);
     let sizes = [
         (1, 1, 1),
@@ -219,7 +215,7 @@ fn crossing() -> Vec<Triangle> {
 #[test]
 fn every_published_rule_loses_hits() {
     let bench = Bench::new();
-    let (triangles, rays) = (crossing(), rays(5, 20_000, 9.0));
+    let (triangles, rays) = (crossing(), Random::new(5).rays(20_000, -9.0, 9.0));
     let expected = brute_force(&bench, &triangles, &rays);
     let lists_of = |resolution, buckets| {
         let storage = Storage::Contiguous;
@@ -263,7 +259,7 @@ fn every_published_rule_loses_hits() {
 #[test]
 fn what_the_extension_touches_is_part_of_conservative_lists() {
     let bench = Bench::new();
-    let (triangles, rays) = (crossing(), rays(5, 20_000, 9.0));
+    let (triangles, rays) = (crossing(), Random::new(5).rays(20_000, -9.0, 9.0));
     let conservative = Config { tile: 1, buckets: 1, ..Config::robust(64) };
     let extension = Config { coverage: Coverage::ConservativeExtension, ..conservative };
     assert!(conservative.is_exact() && !extension.is_exact());
@@ -295,7 +291,7 @@ fn what_the_extension_touches_is_part_of_conservative_lists() {
 #[test]
 fn the_pyramid_skips_the_same_from_either_end() {
     let bench = Bench::new();
-    let (triangles, rays) = (sphere([0.0; 3], 6.0, 24), rays(41, 4000, 9.0));
+    let (triangles, rays) = (sphere([0.0; 3], 6.0, 24), Random::new(41).rays(4000, -9.0, 9.0));
     let expected = brute_force(&bench, &triangles, &rays);
     let own = Config { counters: Counters::Sums, tile: 1, ..Config::robust(64) };
     let coarsest = Config { pyramid_start: PyramidStart::Coarsest, ..own };
@@ -353,7 +349,7 @@ fn triangles_around_the_eye_are_found() {
             .map(|index| {
                 let target = shifted(random.point(-1.0e-3, 1.0e-3));
                 let origin = if index % 2 == 0 { eye } else { random.point(-2.0, 2.0) };
-                Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
+                towards(origin, target)
             })
             .collect();
         let expected = brute_force(&bench, &triangles, &rays);
@@ -377,7 +373,7 @@ fn limits_and_exclusion_are_kept() {
     let bench = Bench::new();
     let triangles = all_sizes();
     let mut random = Random::new(21);
-    let mut rays = rays(22, 3000, 9.0);
+    let mut rays = Random::new(22).rays(3000, -9.0, 9.0);
     for (ray, first) in rays.clone().iter().zip(brute_force(&bench, &triangles, &rays)) {
         rays.extend([
             Ray { t_max: first.t, ..*ray },
@@ -403,7 +399,7 @@ fn no_budget_changes_a_hit() {
     let bench = Bench::new();
     let mut triangles = closed_box([-10.0; 3], [10.0; 3]);
     triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 8));
-    let mut rays = rays(9, 300, 9.0);
+    let mut rays = Random::new(9).rays(300, -9.0, 9.0);
     // Some are tested against every triangle, and some against the near-region list.
     rays.extend((0..20).map(|k| Ray::new([0.0, 50.0, k as f32 / 20.0], [0.0, -1.0, 0.0])));
     let expected = brute_force(&bench, &triangles, &rays);

@@ -13,8 +13,7 @@ use rasray_voxel::Voxels;
 const RAYS: usize = 2000;
 
 fn rays() -> Vec<Ray> {
-    let mut random = Random::new(0x6178);
-    (0..RAYS).map(|_| Ray::new(random.point(-9.0, 9.0), random.direction())).collect()
+    Random::new(0x6178).rays(RAYS, -9.0, 9.0)
 }
 
 /// Builds, and checks that the bytes are those of the formula: hits, and the demand for the large-triangle queue.

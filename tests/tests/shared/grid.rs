@@ -9,6 +9,7 @@ use rasray_shaders_glsl::records::test_kernels::GridMarchTestConstants;
 use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
+use rasray_tests::rays::segment;
 use rasray_tests::visits::{exact_grid_chords, point, run_kernel, runs, unresolved_length};
 
 type Cell = [i32; 3];
@@ -93,10 +94,6 @@ fn check(name: &str, rays: &[Ray], size: u32) -> Vec<Vec<Cell>> {
     traversals
 }
 
-fn towards(origin: [f32; 3], target: [f32; 3]) -> Ray {
-    Ray { t_max: 1.0, ..Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis])) }
-}
-
 /// All sign and axis variants of a ray within a grid.
 fn variants(ray: Ray, size: f32) -> Vec<Ray> {
     (0..48)
@@ -154,8 +151,8 @@ fn random_rays() {
 /// X1 and X2: ties of two and three axes at every step.
 #[test]
 fn diagonals_step_and_end() {
-    let corner = towards([0.5; 3], [63.5; 3]);
-    let edge = towards([0.5; 3], [63.5, 63.5, 0.5]);
+    let corner = segment([0.5; 3], [63.5; 3]);
+    let edge = segment([0.5; 3], [63.5, 63.5, 0.5]);
     for (ray, name) in [(corner, "X1"), (edge, "X2")] {
         for visits in check(name, &variants(ray, 64.0), 64) {
             // Cells that only touch the ray are visited as well; each cell of the diagonal is.
@@ -167,9 +164,9 @@ fn diagonals_step_and_end() {
 /// X3 and X13: in a plane between cells, both sides are visited.
 #[test]
 fn rays_in_a_plane_of_the_grid_visit_both_sides() {
-    let in_plane = towards([0.0, 32.0, 0.5], [64.0, 32.0, 0.5]);
-    let in_edge = towards([0.0, 32.0, 16.0], [64.0, 32.0, 16.0]);
-    let skew = towards([0.0, 32.0, 0.25], [64.0, 32.0, 50.0]);
+    let in_plane = segment([0.0, 32.0, 0.5], [64.0, 32.0, 0.5]);
+    let in_edge = segment([0.0, 32.0, 16.0], [64.0, 32.0, 16.0]);
+    let skew = segment([0.0, 32.0, 0.25], [64.0, 32.0, 50.0]);
     for (name, ray) in [("X3", in_plane), ("X3 edge", in_edge), ("X3 skew", skew)] {
         check(name, &variants(ray, 64.0), 64);
     }
@@ -178,10 +175,10 @@ fn rays_in_a_plane_of_the_grid_visit_both_sides() {
         assert!(visits.contains(&[x, 31, 0]) && visits.contains(&[x, 32, 0]), "column {x}");
     }
     // X13: a wall at x = 32 is in the cells on either side; a ray that ends on it has visited both.
-    for visits in check("X13", &variants(towards([3.5, 10.25, 20.5], [32.0, 10.25, 20.5]), 64.0), 64) {
+    for visits in check("X13", &variants(segment([3.5, 10.25, 20.5], [32.0, 10.25, 20.5]), 64.0), 64) {
         assert!(visits.len() >= 30);
     }
-    let visits = check("X13", &[towards([3.5, 10.25, 20.5], [32.0, 10.25, 20.5])], 64).concat();
+    let visits = check("X13", &[segment([3.5, 10.25, 20.5], [32.0, 10.25, 20.5])], 64).concat();
     assert!(visits.contains(&[31, 10, 20]) && visits.contains(&[32, 10, 20]), "{visits:?}");
 }
 
@@ -238,7 +235,7 @@ fn rays_from_outside_and_along_the_border() {
 fn the_published_endless_loop_ends() {
     let place = |p: [f32; 3]| p.map(|x| x / 16.0 + 50.0);
     let (from, to) = (place([-668.0, -340.0, 77.0]), place([404.0, -64.0, -784.0]));
-    for ray in [towards(from, to), towards(to, from)] {
+    for ray in [segment(from, to), segment(to, from)] {
         let visits = check("X7", &[ray], 128).concat();
         let end: Cell = std::array::from_fn(|axis| (ray.origin[axis] + ray.direction[axis]).floor() as i32);
         assert!(visits.contains(&end), "{end:?} is not reached");
@@ -278,7 +275,7 @@ fn rays_through_a_corner_visit_all_cells_around_it() {
 #[test]
 fn a_lost_cell_and_a_stray_one_are_noticed() {
     let bench = Bench::new();
-    let ray = towards([1.3, 2.2, 0.9], [6.6, 3.1, 5.2]);
+    let ray = segment([1.3, 2.2, 0.9], [6.6, 3.1, 5.2]);
     let visits = traverse(&bench, &[ray], 8).remove(0);
     assert_eq!(fault(&ray, &visits, 8), None);
     for chord in exact_grid_chords(&ray, 8) {

@@ -7,6 +7,7 @@ use rasray_shaders_glsl::ADS_TEST_MARCH_CELLS;
 use rasray_shaders_glsl::records::test_kernels::CellMarchTestConstants;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
+use rasray_tests::rays::towards;
 use rasray_tests::visits::{
     FACE_NEAR, FaceCell, Visit, exact_face_chords, near_size, run_kernel, runs, unresolved, visit_holds,
 };
@@ -225,8 +226,7 @@ fn every_ray_that_crosses_the_near_region_visits_it() {
     let rays: Vec<Ray> = (0..2_000)
         .map(|_| {
             let target = random.point(-0.2, 0.2);
-            let origin = random.point(-1.0, 1.0);
-            Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
+            towards(random.point(-1.0, 1.0), target)
         })
         .collect();
     let mut inside = 0;

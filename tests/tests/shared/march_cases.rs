@@ -2,11 +2,8 @@
 
 use rasray_ads::Ray;
 use rasray_tests::random::Random;
+use rasray_tests::rays::towards;
 use rasray_tests::visits::{cell_boundary, world_from_face};
-
-fn towards(origin: [f32; 3], target: [f32; 3]) -> Ray {
-    Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
-}
 
 fn until(ray: Ray, t_max: f32) -> Ray {
     Ray { t_max, ..ray }

@@ -24,9 +24,8 @@ fn scene() -> Vec<Triangle> {
 }
 
 fn rays() -> Vec<Ray> {
-    let mut random = Random::new(401);
     // Some start outside and miss.
-    (0..RAYS).map(|_| Ray::new(random.point(-6.0, 6.0), random.direction())).collect()
+    Random::new(401).rays(RAYS, -6.0, 6.0)
 }
 
 /// The answers of both structures to every ray; where none was stored, a hit that no trace answers.

@@ -4,28 +4,15 @@
 use rasray_ads::{Check, Hit, Ray, Structure, TraceMode, VARYING_SHARE};
 use rasray_tests::capacity::{complete_grown, spread_of_pages};
 use rasray_tests::conformance::trace_in_rounds;
-use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box};
+use rasray_tests::shapes::{Triangle, layers_in_a_room};
 use rasray_tests::tier::in_turn;
 use rasray_tests::voxels::{hu, made, selective};
 use rasray_voxel::{
     Accept, Addressing, Axes, Config, Contents, Coverage, Demand, Fault, March, Storage, Voxels,
     formula_bytes, plan, well_formed,
 };
-
-/// Layers, and a room around them.
-fn scene() -> Vec<Triangle> {
-    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
-    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
-    triangles
-}
-
-fn rays() -> Vec<Ray> {
-    let mut random = Random::new(3);
-    (0..400).map(|_| Ray::new(random.point(-5.0, 5.0), random.direction())).collect()
-}
 
 fn trace(bench: &Bench, structure: &Voxels, rays: &[Ray]) -> Vec<Hit> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
@@ -40,7 +27,7 @@ fn capacity(entries: u64) -> Demand {
 
 fn every_edge_capacity(config: Config) {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays());
+    let (triangles, rays) = (layers_in_a_room([-10.0; 3], [10.0; 3]), Random::new(3).rays(400, -5.0, 5.0));
     let mut structure = made(&bench, config, &triangles);
 
     // Ample capacity: what the demand and the hits are.
@@ -132,7 +119,7 @@ fn every_edge_capacity_by_address() {
 #[test]
 fn bytes_are_those_of_the_formula() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = layers_in_a_room([-10.0; 3], [10.0; 3]);
     for config in [
         Config { sort: false, ..Config::at_centres(16) },
         Config { grid: Some(9), ..hu(33) },
@@ -234,7 +221,7 @@ fn lists_of_ten_thousand_are_searched() {
 #[test]
 fn every_fault_of_a_list_is_noticed() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = layers_in_a_room([-10.0; 3], [10.0; 3]);
     let count = triangles.len() as u32;
     for config in [Config::at_centres(16), selective(16), hu(16)] {
         let storage = config.storage;

@@ -5,6 +5,7 @@ use rasray_ads::{BruteForce, Ray, Structure, StructureKind};
 use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
+use rasray_tests::rays::along_axis;
 use rasray_tests::shapes::{all_sizes, needles};
 use rasray_tracer::build_until_complete;
 use rasray_voxel::{Addressing, Config, Coverage, Storage, Voxels, well_formed};
@@ -17,8 +18,7 @@ fn rays(count: usize) -> Vec<Ray> {
             let origin = random.point(-9.0, 9.0);
             let mut direction = random.direction();
             if index % 4 == 0 {
-                direction = [0.0; 3];
-                direction[index / 4 % 3] = if index / 12 % 2 == 0 { 1.0 } else { -1.0 };
+                direction = along_axis(index / 4);
             }
             if index % 4 == 1 {
                 let target = random.point(-0.02, 0.02);

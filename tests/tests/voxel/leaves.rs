@@ -4,6 +4,7 @@ use rasray_ads::{Addressing, BruteForce, Hit, PRIMITIVE_NONE, Ray};
 use rasray_metrics::Percentiles;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
+use rasray_tests::rays::{along_axis, towards};
 use rasray_tests::shapes::{Triangle, all_sizes, sphere};
 use rasray_tests::voxels::{built, contents};
 use rasray_voxel::{Builder, Config, Contents, Ends, Leaves, well_formed};
@@ -19,7 +20,7 @@ fn from_outside(count: usize, reach: f32) -> Vec<Ray> {
         let away = random.direction();
         let origin = away.map(|x| 4.0 * reach * x);
         let target = random.point(-reach, reach);
-        Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
+        towards(origin, target)
     };
     (0..count).map(ray).collect()
 }
@@ -30,8 +31,7 @@ fn from_within(count: usize, reach: f32) -> Vec<Ray> {
     let ray = |index| {
         let mut direction = random.direction();
         if index % 4 == 0 {
-            direction = [0.0; 3];
-            direction[index / 4 % 3] = if index / 12 % 2 == 0 { 1.0 } else { -1.0 };
+            direction = along_axis(index / 4);
         }
         Ray::new(random.point(-reach, reach), direction)
     };

@@ -6,6 +6,7 @@ use rasray_gpu::Timing;
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits_of_any_build};
 use rasray_tests::random::Random;
+use rasray_tests::rays::along_axis;
 use rasray_tests::shapes::{Triangle, all_sizes, sphere};
 use rasray_tests::tier::is_pair;
 use rasray_tests::voxels::{built, contents, hu, made};
@@ -28,8 +29,7 @@ fn sparse() -> Vec<Triangle> {
         let from = random.point(-8.0, 8.0);
         let to =
             if triangles.len().is_multiple_of(2) { random.point(-8.0, 8.0) } else { from.map(|x| x + 0.05) };
-        let nearby = std::array::from_fn(|axis| from[axis] + random.between(-1.0e-2, 1.0e-2));
-        triangles.push([from, to, nearby]);
+        triangles.push([from, to, random.near(from, 1.0e-2)]);
     }
     triangles
 }
@@ -48,8 +48,7 @@ fn rays(structure: &Voxels, count: usize) -> Vec<Ray> {
         match index % 6 {
             0 => {
                 let axis = index / 6 % 3;
-                direction = [0.0; 3];
-                direction[axis] = if (index / 18).is_multiple_of(2) { 1.0 } else { -1.0 };
+                direction = along_axis(index / 6);
                 for (other, x) in origin.iter_mut().enumerate() {
                     if other != axis && index / 36 % 4 > other {
                         *x = side(&mut random, other);

@@ -5,7 +5,8 @@ use rasray_ads::{Hit, Ray, Structure};
 use rasray_scene::facing::Facing;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::rays::along_axis;
+use rasray_tests::shapes::{Triangle, closed_box, sphere, with_twins};
 use rasray_tests::tier::{first, in_turn};
 use rasray_tests::voxels::{built, contents, hu, selective};
 use rasray_voxel::{Accept, Axes, Config, Contents, Coverage, Fragment, March, Marking, Storage};
@@ -113,8 +114,7 @@ fn rays(count: usize) -> Vec<Ray> {
             // Every fourth along an axis.
             let mut direction = random.direction();
             if index % 4 == 0 {
-                direction = [0.0; 3];
-                direction[index / 4 % 3] = if index / 12 % 2 == 0 { 1.0 } else { -1.0 };
+                direction = along_axis(index / 4);
             }
             Ray::new(origin, direction)
         })
@@ -134,8 +134,7 @@ fn layered() -> Vec<Triangle> {
         let z = -3.0 + 0.05 * k as f32;
         [[-3.0, -3.0, z], [2.0, -3.0, z], [-3.0, 2.0, z + 0.01]]
     }));
-    triangles.extend(triangles.clone().into_iter().step_by(3));
-    triangles
+    with_twins(triangles)
 }
 
 /// A ray that pauses anywhere goes on where it was: in the midst of a list as well.
@@ -202,8 +201,7 @@ fn storages_change_no_hit() {
 fn a_room_is_exact_at_every_resolution() {
     let bench = Bench::new();
     let triangles = closed_box([-2.0; 3], [2.0; 3]);
-    let mut random = Random::new(4);
-    let rays: Vec<Ray> = (0..1000).map(|_| Ray::new(random.point(-1.9, 1.9), random.direction())).collect();
+    let rays = Random::new(4).rays(1000, -1.9, 1.9);
     for (resolution, grid) in [(1, 1), (2, 5), (3, 3), (7, 2), (33, 64), (100, 17), (255, 28)] {
         let config = Config { grid: Some(grid), ..Config::at_centres(resolution) };
         let structure = built(&bench, config, &triangles);

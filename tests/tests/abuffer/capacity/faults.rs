@@ -5,13 +5,14 @@ use rasray_ads::{Ray, Structure, TraceMode};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
+use rasray_tests::shapes::layers_around_the_eye;
 
-use super::{EYE, capacity, check_well_formed, config, nearby, scene};
+use super::{EYE, capacity, check_well_formed, config, nearby};
 
 #[test]
 fn every_fault_of_a_conservative_list_is_noticed() {
     let bench = Bench::new();
-    let (geometry, config) = (bench.geometry(&scene()), nearby(Storage::Dllb));
+    let (geometry, config) = (bench.geometry(&layers_around_the_eye()), nearby(Storage::Dllb));
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     let sizes = plan(&config, Demand { conservative: 1 << 16, ..capacity(50_000, 64) }).expect("in range");
     structure.resize(bench.device(), &sizes).expect("it fits");
@@ -66,7 +67,7 @@ fn long_list(contents: &Contents) -> (usize, Vec<usize>) {
 #[test]
 fn every_fault_of_a_list_is_noticed() {
     let bench = Bench::new();
-    let geometry = bench.geometry(&scene());
+    let geometry = bench.geometry(&layers_around_the_eye());
     let config = Config { buckets: 2, ..Config::at_centres(16) };
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     structure
@@ -126,7 +127,7 @@ fn every_fault_of_a_list_is_noticed() {
 #[test]
 fn every_fault_of_a_contiguous_list_is_noticed() {
     let bench = Bench::new();
-    let geometry = bench.geometry(&scene());
+    let geometry = bench.geometry(&layers_around_the_eye());
     let config = config(Storage::Sb);
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     structure
@@ -172,7 +173,7 @@ fn every_fault_of_a_contiguous_list_is_noticed() {
 #[test]
 fn every_fault_of_a_page_is_noticed() {
     let bench = Bench::new();
-    let geometry = bench.geometry(&scene());
+    let geometry = bench.geometry(&layers_around_the_eye());
     let config = Config { page: 4, buckets: 1, ..config(Storage::Paged) };
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     structure

@@ -10,30 +10,12 @@ use rasray_abuffer::{
 use rasray_ads::{BuildStatus, Check, Ray, Structure, TraceMode, VARYING_SHARE};
 use rasray_tests::capacity::{complete_grown, spread_of_pages};
 use rasray_tests::conformance::trace_in_rounds;
-use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::{Bench, bits_of_any_build};
-use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box};
+use rasray_tests::rays::around_the_eye;
+use rasray_tests::shapes::{NEAR_TRIANGLES, layers_around_the_eye};
 use rasray_tests::tier::{first, in_turn};
 
 const EYE: [f32; 3] = [0.0; 3];
-const NEAR_TRIANGLES: u64 = 5;
-
-/// Layers, a room, and triangles around the eye for the near-region list.
-fn scene() -> Vec<Triangle> {
-    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
-    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
-    for k in 0..NEAR_TRIANGLES {
-        let z = 1.0e-5 * (k as f32 - 2.0) + 1.0e-6;
-        triangles.push([[-0.02, -0.02, z], [0.02, -0.02, z], [0.0, 0.03, z]]);
-    }
-    triangles
-}
-
-fn rays() -> Vec<Ray> {
-    let mut random = Random::new(3);
-    (0..500).map(|_| Ray::new(random.point(-0.5, 0.5), random.direction())).collect()
-}
 
 fn config(storage: Storage) -> Config {
     Config { storage, ..Config::at_centres(16) }
@@ -46,7 +28,12 @@ fn nearby(storage: Storage) -> Config {
 
 /// Capacity for that many fragments and triangles around the eye.
 fn capacity(fragments: u64, near_triangles: u64) -> Demand {
-    Demand { nodes: fragments, near_triangles, triangles: scene().len() as u64, ..Demand::default() }
+    Demand {
+        nodes: fragments,
+        near_triangles,
+        triangles: layers_around_the_eye().len() as u64,
+        ..Demand::default()
+    }
 }
 
 /// What rays hit, bit for bit but for the numbers of nodes.
@@ -68,7 +55,7 @@ fn check_well_formed(bench: &Bench, structure: &ABuffer) -> Contents {
 
 fn every_edge_capacity(config: Config) {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays());
+    let (triangles, rays) = (layers_around_the_eye(), around_the_eye());
     let geometry = bench.geometry(&triangles);
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
 
@@ -173,7 +160,7 @@ fn every_edge_capacity_of_the_conservative_lists() {
     let storages = [Storage::Ll, Storage::Sb, Storage::Paged, Storage::Dll, Storage::Llb, Storage::Dllb];
     for config in first(&storages, 3).iter().copied().map(nearby).chain([edge_on]) {
         let bench = Bench::new();
-        let (triangles, rays, storage) = (scene(), rays(), config.storage);
+        let (triangles, rays, storage) = (layers_around_the_eye(), around_the_eye(), config.storage);
         let geometry = bench.geometry(&triangles);
         let mut structure =
             ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
@@ -223,10 +210,10 @@ fn every_edge_capacity_of_the_conservative_lists() {
 #[test]
 fn a_structure_that_was_never_built_is_not_ready() {
     let bench = Bench::new();
-    let geometry = bench.geometry(&scene());
+    let geometry = bench.geometry(&layers_around_the_eye());
     let config = config(Storage::Dllb);
     let structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    let rays = rays();
+    let rays = around_the_eye();
     let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 2);
     assert_eq!(counters.not_ready as usize, rays.len());
     assert!(hits.iter().all(|hit| !hit.is_hit()));
@@ -235,7 +222,7 @@ fn a_structure_that_was_never_built_is_not_ready() {
 #[test]
 fn formula_equals_allocations_without_slack() {
     let bench = Bench::new();
-    let geometry = bench.geometry(&scene());
+    let geometry = bench.geometry(&layers_around_the_eye());
     let robust = Config::at_centres;
     let mut configs: Vec<Config> = Storage::ALL.map(config).into();
     let storages = [Storage::Ll, Storage::Sb, Storage::Paged, Storage::Dll, Storage::Llb, Storage::Dllb];

@@ -8,7 +8,7 @@ use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
     Estimate, Studio, System, assert_refused, assert_truth, convex_occlusion, diffuse, glowing,
     next_to_sphere, octahedron_sphere, parallel, parallel_rectangles, perpendicular_rectangles,
-    polygon_irradiance, scene_of, square,
+    polygon_irradiance, scene_of, square, triangles,
 };
 
 use super::{RESOLUTION, SYSTEMS, by_system, grey, law, samples};
@@ -60,12 +60,6 @@ fn floor() -> Mesh {
 
 fn occlusion(bench: &Bench, stage: &Studio<'_>) -> Estimate {
     stage.estimate(&stage.occlusion(f32::INFINITY), samples(bench, 8))
-}
-
-/// The corners of a mesh as they are uploaded.
-fn triangles(mesh: &Mesh) -> Vec<[DVec3; 3]> {
-    let corner = |index: u32| DVec3::from(mesh.positions[index as usize].map(f64::from));
-    mesh.indices.chunks_exact(3).map(|t| [corner(t[0]), corner(t[1]), corner(t[2])]).collect()
 }
 
 #[test]
