@@ -3,6 +3,7 @@
 use std::fmt;
 
 use rasray_frame::Samples;
+use rasray_options::text::numbers;
 
 /// One of several shares, dealt out in turns: things are counted from 0, and share i of n gets those whose number leaves
 /// i - 1 when it is divided by n.
@@ -27,8 +28,8 @@ impl Shard {
 
     /// Reads what [`fmt::Display`] writes: `2/8`.
     pub fn parse(text: &str) -> Option<Self> {
-        let (number, of) = text.split_once('/')?;
-        Self::new(number.trim().parse().ok()?, of.trim().parse().ok()?)
+        let [number, of] = numbers(text, &['/'])?;
+        Self::new(number, of)
     }
 
     /// Shares in all.

@@ -72,7 +72,7 @@ impl OptionRow {
     /// # Errors
     /// The option does not take it.
     pub fn parse(&self, text: &str) -> Result<Value, ValueError> {
-        self.values.parse(text).map_err(|expected| self.refused(text, expected))
+        self.values.parse(text).map_err(|error| self.refused(text, error.to_string()))
     }
 
     /// The value, where the option takes it.

@@ -1,6 +1,7 @@
 //! What an option takes, and how it is read.
 
 use crate::Value;
+use crate::text::{number, numbers, sides};
 
 /// A word that an option takes, and what it means.
 pub type Word = (&'static str, &'static str);
@@ -38,6 +39,14 @@ pub enum Values {
     Point,
 }
 
+/// Text that is none of the values that are taken.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{}", .0.expected())]
+pub struct NotTaken(
+    /// What is taken.
+    pub Values,
+);
+
 impl Values {
     /// `on` and `off`.
     pub const SWITCH: Self = Self::Words(&[("on", "Yes"), ("off", "No")]);
@@ -46,25 +55,17 @@ impl Values {
     ///
     /// # Errors
     /// Says what is taken.
-    pub fn parse(self, text: &str) -> Result<Value, String> {
+    pub fn parse(self, text: &str) -> Result<Value, NotTaken> {
         let value = match self {
             Self::Words(words) => {
                 words.iter().find(|(word, _)| *word == text).map(|(word, _)| Value::Word(word))
             }
-            Self::Whole(..) => text.trim().parse().ok().map(Value::Whole),
-            Self::Number(..) => text.trim().parse().ok().map(Value::Number),
-            Self::Cells(_) => {
-                let (columns, rows) = text.split_once(['x', 'X']).unwrap_or((text, text));
-                let side = |text: &str| text.trim().parse().ok();
-                side(columns).zip(side(rows)).map(|(columns, rows)| Value::Cells([columns, rows]))
-            }
-            Self::Point => {
-                let numbers: Option<Vec<f32>> =
-                    text.split(',').map(|text| text.trim().parse().ok()).collect();
-                numbers.and_then(|numbers| numbers.try_into().ok()).map(Value::Point)
-            }
+            Self::Whole(..) => number(text).map(Value::Whole),
+            Self::Number(..) => number(text).map(Value::Number),
+            Self::Cells(_) => sides(text).or_else(|| number(text).map(|side| [side, side])).map(Value::Cells),
+            Self::Point => numbers(text, &[',']).map(Value::Point),
         };
-        value.filter(|value| self.takes(*value)).ok_or_else(|| self.expected())
+        value.filter(|value| self.takes(*value)).ok_or(NotTaken(self))
     }
 
     /// Whether a value is one of these.
@@ -196,7 +197,8 @@ mod tests {
             ),
         ] {
             for text in refused {
-                assert_eq!(values.parse(text), Err(expected.to_owned()), "{text}");
+                assert_eq!(values.parse(text), Err(NotTaken(values)), "{text}");
+                assert_eq!(NotTaken(values).to_string(), expected);
             }
         }
     }

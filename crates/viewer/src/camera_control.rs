@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DVec3};
 use rasray_experiment::ExperimentError;
+use rasray_options::text::{number, numbers};
 use rasray_scene::{Camera, Lens, Projection};
 use rasray_scene_source::placed_view;
 
@@ -29,12 +30,9 @@ impl Rounded {
     pub fn camera(&self) -> Result<Camera, ExperimentError> {
         let wrong =
             || ExperimentError::usage("the camera is not at a place that numbers can say", "reset it");
-        let point = |text: &str| -> Option<[f64; 3]> {
-            let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.parse().ok()).collect();
-            numbers?.try_into().ok()
-        };
+        let point = |text| numbers(text, &[',']);
         let (eye, target) = point(&self.eye).zip(point(&self.target)).ok_or_else(wrong)?;
-        let fov = self.fov.parse().map_err(|_| wrong())?;
+        let fov = number(&self.fov).ok_or_else(wrong)?;
         Ok(Camera { lens: self.lens, ..placed_view(eye, target, Some(fov))?.camera })
     }
 }

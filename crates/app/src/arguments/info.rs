@@ -3,7 +3,7 @@
 use super::integrator::integrator_parser;
 use super::shared::DeviceArguments;
 use super::structure::{StructureArguments, preset_parser, system_request_parser};
-use super::values;
+use super::values::Quantity;
 use crate::error::AppError;
 use clap::{ArgGroup, Args};
 use rasray_experiment::{INTEGRATORS, IntegratorRow, SystemConfig, SystemRequest};
@@ -34,10 +34,10 @@ pub struct InfoArguments {
     #[arg(value_name = "SCENE")]
     pub scene: Option<OsString>,
     /// With numbered files: frames per second [default: 25]
-    #[arg(long, value_name = "N", value_parser = values::frames_per_second, requires = "scene")]
+    #[arg(long, value_name = "N", value_parser = Quantity::FRAMES_PER_SECOND.parser::<f64>(), requires = "scene")]
     pub fps: Option<f64>,
     /// With a scene: what it is like at this time of its animation, seconds [default: at rest]
-    #[arg(long, value_name = "SECONDS", value_parser = values::seconds, allow_hyphen_values = true, requires = "scene")]
+    #[arg(long, value_name = "SECONDS", value_parser = Quantity::SECONDS.parser::<f64>(), allow_hyphen_values = true, requires = "scene")]
     pub time: Option<f64>,
     /// With --time: the clip that moves the scene, by name or by position from 0 [default: all that do not move the same
     /// thing]

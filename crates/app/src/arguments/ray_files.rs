@@ -1,5 +1,6 @@
 //! Options about files of rays and hits.
 
+use super::values::ValueError;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -31,15 +32,14 @@ pub struct NamedFile {
 }
 
 /// Reads `NAME=FILE`.
-fn named_file(text: &str) -> Result<NamedFile, String> {
-    let form = "write NAME=FILE.npy, such as embree=hits.npy";
-    let (name, path) = text.split_once('=').ok_or(form)?;
+fn named_file(text: &str) -> Result<NamedFile, ValueError> {
+    let (name, path) = text.split_once('=').ok_or(ValueError::NamedFile)?;
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '_' | '-');
     if name.is_empty() || !name.chars().all(plain) {
-        return Err("the name before = has letters, digits, '.', '_' and '-' only".to_owned());
+        return Err(ValueError::Name);
     }
     if path.is_empty() {
-        return Err(form.to_owned());
+        return Err(ValueError::NamedFile);
     }
     Ok(NamedFile { name: name.to_owned(), path: path.into() })
 }

@@ -4,7 +4,7 @@ use super::options::choice;
 use super::shared::WorkArguments;
 use super::structure::{preset_parser, refresh_parser, system_request_parser};
 use super::tone::ToneArguments;
-use super::values;
+use super::values::{self, Quantity};
 use crate::error::AppError;
 use crate::output::ImageFormat;
 use clap::Args;
@@ -105,7 +105,7 @@ pub struct RenderArguments {
     pub denoise: bool,
     /// More samples where there is more noise: each pixel gets as many, up to --spp, as the first samples of the pixels around
     /// it need for this standard error, as a share of their radiance, such as 0.02. The image is as unbiased as without
-    #[arg(long, value_name = "SHARE", value_parser = values::noise, help_heading = IMAGE)]
+    #[arg(long, value_name = "SHARE", value_parser = Quantity::NOISE.parser::<f64>(), help_heading = IMAGE)]
     pub adaptive: Option<f64>,
     /// Samples that every pixel gets and that say how many more are needed, 2 to 1048576 [default: 16, at most --spp]
     #[arg(long, value_name = "N", value_parser = values::whole(2, 1_048_576), requires = "adaptive", help_heading = IMAGE)]

@@ -4,7 +4,7 @@ use super::integrator::{IntegratorArguments, integrator_parser};
 use super::structure::{
     StructureArguments, back_faces_parser, occluder_parser, primary_parser, sampler_parser,
 };
-use super::values::{self, Size, Switch};
+use super::values::{self, Quantity, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
 use glam::DVec3;
@@ -131,14 +131,14 @@ pub struct ViewArguments {
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true, requires = "eye")]
     pub target: Option<[f64; 3]>,
     /// Full vertical angle of view, with --eye and --target [default: 45]
-    #[arg(long, value_name = "DEGREES", value_parser = values::angle_of_view, requires = "eye")]
+    #[arg(long, value_name = "DEGREES", value_parser = Quantity::ANGLE_OF_VIEW.parser::<f64>(), requires = "eye")]
     pub fov: Option<f64>,
     /// Diameter of the lens's opening, metres: what is not in focus is blurred. A lens of 50 mm at f/1.8 has 0.05 / 1.8
     /// [default: 0, a pinhole]
-    #[arg(long, value_name = "METRES", value_parser = values::length)]
+    #[arg(long, value_name = "METRES", value_parser = Quantity::LENGTH.parser::<f64>())]
     pub aperture: Option<f64>,
     /// With an aperture: distance of the plane in focus, metres along the view, above 0 [default: that of --target]
-    #[arg(long, value_name = "METRES", value_parser = values::distance, requires = "aperture")]
+    #[arg(long, value_name = "METRES", value_parser = Quantity::DISTANCE.parser::<f64>(), requires = "aperture")]
     pub focus: Option<f64>,
 }
 
@@ -182,14 +182,14 @@ pub struct SceneArguments {
     pub alpha: Switch,
     /// Show the scene at this time of its animation, seconds from -1e9 to 1e9; before the first and after the last key it
     /// stands still. Of numbered files, the last that has begun is shown [default: at rest, as the file places everything]
-    #[arg(long, value_name = "SECONDS", value_parser = values::seconds, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = Quantity::SECONDS.parser::<f64>(), allow_hyphen_values = true)]
     pub time: Option<f64>,
     /// With a time: the clip that moves the scene, by name or by position from 0 [default: all that do not move the same
     /// thing]
     #[arg(long, value_name = "NAME")]
     pub clip: Option<String>,
     /// Frames per second: number n of --frames, or of a scene in numbered files, is shown at n / this [default: 25]
-    #[arg(long, value_name = "N", value_parser = values::frames_per_second)]
+    #[arg(long, value_name = "N", value_parser = Quantity::FRAMES_PER_SECOND.parser::<f64>())]
     pub fps: Option<f64>,
     /// What is uploaded, compiled in and stored
     #[arg(long, value_enum, default_value_t = NeedsName::Observed)]

@@ -1,7 +1,7 @@
 //! How pictures of 8 bits are shown.
 
 use super::options::choice;
-use super::values;
+use super::values::Quantity;
 use clap::Args;
 use clap::builder::TypedValueParser;
 use rasray_metrics::{Tone, ToneCurve};
@@ -15,7 +15,7 @@ pub fn tone_parser() -> impl TypedValueParser<Value = ToneCurve> {
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct ToneArguments {
     /// Stops of exposure for .png
-    #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true)]
+    #[arg(long, value_name = "STOPS", value_parser = Quantity::STOPS.parser::<f32>(), allow_hyphen_values = true)]
     pub exposure: Option<f32>,
     /// Curve for .png, after the exposure [default: exposure]
     #[arg(long, value_parser = tone_parser())]

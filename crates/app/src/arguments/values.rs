@@ -2,8 +2,11 @@
 
 use clap::ValueEnum;
 use rasray_experiment::Shard;
-use rasray_options::Values;
+use rasray_options::text::{number, numbers, sides};
+use rasray_options::{NotTaken, Values};
+use std::fmt;
 use std::ops::RangeInclusive;
+use std::str::FromStr;
 
 /// A switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -29,53 +32,81 @@ const MOST_FRAMES: u32 = 9_999_999;
 /// Largest side of an image, in pixels.
 const SIDE_LIMIT: u32 = 16_384;
 
+/// Largest distance of a point from the origin of the world along an axis, metres: farther away squares of distances
+/// exceed single precision.
+const FARTHEST: f64 = 1.0e18;
+
+/// Text that is no value of an argument.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ValueError {
+    /// No size.
+    #[error("write WIDTHxHEIGHT, such as 640x360")]
+    Size,
+    /// A size that is empty or too large.
+    #[error("each side must be from 1 to {SIDE_LIMIT} pixels")]
+    Side,
+    /// No point.
+    #[error("write three numbers, such as 0,1.5,-4")]
+    Point,
+    /// A point that is too far away.
+    #[error("each number must be from -{FARTHEST:e} to {FARTHEST:e} metres")]
+    Far,
+    /// No numbers of frames.
+    #[error("must be a frame or a range such as 0-99, up to {MOST_FRAMES}")]
+    Frames,
+    /// No share of the work.
+    #[error("must be a share such as 2/8, the second of eight")]
+    Shard,
+    /// No number, or one out of range.
+    #[error("must be {0}")]
+    Number(Quantity),
+    /// No file with a name.
+    #[error("write NAME=FILE.npy, such as embree=hits.npy")]
+    NamedFile,
+    /// A name that reports do not show as it is.
+    #[error("the name before = has letters, digits, '.', '_' and '-' only")]
+    Name,
+    /// No value of an option.
+    #[error(transparent)]
+    NotTaken(#[from] NotTaken),
+}
+
 /// Reads `640x360`.
 ///
 /// # Errors
-/// Says what the form is, or which side is out of range.
-pub fn size(text: &str) -> Result<Size, String> {
-    let form = || "write WIDTHxHEIGHT, such as 640x360".to_owned();
-    let (width, height) = text.split_once(['x', 'X']).ok_or_else(form)?;
-    let side = |text: &str| -> Result<u32, String> {
-        let value: u32 = text.trim().parse().map_err(|_| form())?;
-        if value == 0 || value > SIDE_LIMIT {
-            return Err(format!("each side must be from 1 to {SIDE_LIMIT} pixels"));
-        }
-        Ok(value)
-    };
-    Ok(Size { width: side(width)?, height: side(height)? })
+/// Says what the form is, or which sides are possible.
+pub fn size(text: &str) -> Result<Size, ValueError> {
+    let sides = sides(text).ok_or(ValueError::Size)?;
+    if !sides.iter().all(|side| (1..=SIDE_LIMIT).contains(side)) {
+        return Err(ValueError::Side);
+    }
+    let [width, height] = sides;
+    Ok(Size { width, height })
 }
 
 /// A parser of whole numbers from `least` to `most`.
 ///
 /// # Errors
 /// Of the parser: says what is allowed.
-pub fn whole(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
+pub fn whole(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, ValueError> + Clone + Send + Sync {
     let values = Values::Whole(least, most);
-    move |text| values.parse(text)?.whole().ok_or_else(|| values.expected())
+    move |text| Ok(values.parse(text)?.whole().ok_or(NotTaken(values))?)
 }
 
 /// Reads three numbers, `1,-2.5,0`; those that are not finite are left to the caller.
 pub fn three(text: &str) -> Option<[f64; 3]> {
-    let mut parts = text.split(',');
-    let mut next = || -> Option<f64> { parts.next()?.trim().parse().ok() };
-    let values = [next()?, next()?, next()?];
-    parts.next().is_none().then_some(values)
+    numbers(text, &[','])
 }
-
-/// Largest distance of a point from the origin of the world along an axis, metres: farther away squares of distances
-/// exceed single precision.
-const FARTHEST: f64 = 1.0e18;
 
 /// Reads a point of the world, `1,-2.5,0`.
 ///
 /// # Errors
 /// Says what the form and the range are.
-pub fn point(text: &str) -> Result<[f64; 3], String> {
-    let values = three(text).ok_or("write three numbers, such as 0,1.5,-4")?;
+pub fn point(text: &str) -> Result<[f64; 3], ValueError> {
+    let values = three(text).ok_or(ValueError::Point)?;
     // Written so that NaN is refused.
     if !values.iter().all(|value| value.abs() <= FARTHEST) {
-        return Err("each number must be from -1e18 to 1e18 metres".to_owned());
+        return Err(ValueError::Far);
     }
     Ok(values)
 }
@@ -84,22 +115,11 @@ pub fn point(text: &str) -> Result<[f64; 3], String> {
 ///
 /// # Errors
 /// Says what the form is.
-pub fn frames(text: &str) -> Result<RangeInclusive<u32>, String> {
-    let (first, last) = text.split_once('-').unwrap_or((text, text));
-    match (first.trim().parse(), last.trim().parse()) {
-        (Ok(first), Ok(last)) if first <= last && last <= MOST_FRAMES => Ok(first..=last),
-        _ => Err(format!("must be a frame or a range such as 0-99, up to {MOST_FRAMES}")),
-    }
-}
-
-/// Reads frames per second.
-///
-/// # Errors
-/// Says what is allowed.
-pub fn frames_per_second(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if (0.001..=100_000.0).contains(&value) => Ok(value),
-        _ => Err("must be a number from 0.001 to 100000".to_owned()),
+pub fn frames(text: &str) -> Result<RangeInclusive<u32>, ValueError> {
+    let ends = numbers(text, &['-']).or_else(|| number(text).map(|frame| [frame, frame]));
+    match ends {
+        Some([first, last]) if first <= last && last <= MOST_FRAMES => Ok(first..=last),
+        _ => Err(ValueError::Frames),
     }
 }
 
@@ -107,77 +127,62 @@ pub fn frames_per_second(text: &str) -> Result<f64, String> {
 ///
 /// # Errors
 /// Says what the form is.
-pub fn shard(text: &str) -> Result<Shard, String> {
-    Shard::parse(text).ok_or_else(|| "must be a share such as 2/8, the second of eight".to_owned())
+pub fn shard(text: &str) -> Result<Shard, ValueError> {
+    Shard::parse(text).ok_or(ValueError::Shard)
 }
 
-/// Latest time and, negative, the earliest, seconds: about thirty years.
-const LATEST: f64 = 1.0e9;
+/// A number with a range, both ends included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// What it counts, for messages.
+    of: &'static str,
+    lowest: f64,
+    highest: f64,
+}
 
-/// Reads a time.
-///
-/// # Errors
-/// Says what is allowed.
-pub fn seconds(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if value.abs() <= LATEST => Ok(value),
-        _ => Err("must be a finite number of seconds from -1e9 to 1e9".to_owned()),
+impl Quantity {
+    /// Frames per second.
+    pub const FRAMES_PER_SECOND: Self = Self { of: "a number", lowest: 0.001, highest: 100_000.0 };
+    /// A time, up to about thirty years from the origin.
+    pub const SECONDS: Self = Self { of: "a finite number of seconds", lowest: -1.0e9, highest: 1.0e9 };
+    /// A standard error that is allowed, as a share of what is measured.
+    pub const NOISE: Self = Self { of: "a share", lowest: 1.0e-6, highest: 1.0 };
+    /// Stops of exposure.
+    pub const STOPS: Self = Self { of: "a number", lowest: -64.0, highest: 64.0 };
+    /// A full angle of view.
+    pub const ANGLE_OF_VIEW: Self = Self { of: "a number of degrees", lowest: 0.01, highest: 175.0 };
+    /// A length in metres.
+    pub const LENGTH: Self = Self { of: "a number of metres", lowest: 0.0, highest: FARTHEST };
+    /// A distance in metres that is not 0, nor so small that it is 0 in single precision.
+    pub const DISTANCE: Self = Self { lowest: 1.0e-30, ..Self::LENGTH };
+
+    /// Reads a number.
+    ///
+    /// # Errors
+    /// Says what is allowed.
+    fn parse<T: FromStr + Into<f64> + Copy>(self, text: &str) -> Result<T, ValueError> {
+        let read: Option<T> = number(text);
+        // Of NaN it is false.
+        let is_within = |value: &T| (self.lowest..=self.highest).contains(&(*value).into());
+        read.filter(is_within).ok_or(ValueError::Number(self))
+    }
+
+    /// A parser of such numbers.
+    ///
+    /// # Errors
+    /// Of the parser: says what is allowed.
+    pub fn parser<T: FromStr + Into<f64> + Copy>(
+        self,
+    ) -> impl Fn(&str) -> Result<T, ValueError> + Clone + Send + Sync {
+        move |text| self.parse(text)
     }
 }
 
-/// Reads a standard error that is allowed, as a share of what is measured.
-///
-/// # Errors
-/// Says what is allowed.
-pub fn noise(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if (1.0e-6..=1.0).contains(&value) => Ok(value),
-        _ => Err("must be a share from 0.000001 to 1, such as 0.02".to_owned()),
-    }
-}
-
-/// Reads stops of exposure.
-///
-/// # Errors
-/// Says what is allowed.
-pub fn stops(text: &str) -> Result<f32, String> {
-    match text.trim().parse::<f32>() {
-        Ok(value) if value.abs() <= 64.0 => Ok(value),
-        _ => Err("must be a number from -64 to 64".to_owned()),
-    }
-}
-
-/// Reads a full angle of view in degrees.
-///
-/// # Errors
-/// Says what is allowed.
-pub fn angle_of_view(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if (0.01..=175.0).contains(&value) => Ok(value),
-        _ => Err("must be from 0.01 to 175 degrees".to_owned()),
-    }
-}
-
-/// Reads a length in metres.
-///
-/// # Errors
-/// Says what is allowed.
-pub fn length(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if (0.0..=FARTHEST).contains(&value) => Ok(value),
-        _ => Err("must be from 0 to 1e18 metres".to_owned()),
-    }
-}
-
-/// Reads a distance in metres, which is not 0.
-///
-/// # Errors
-/// Says what is allowed.
-pub fn distance(text: &str) -> Result<f64, String> {
-    match length(text) {
-        // What is smaller is 0 in single precision.
-        Ok(value) if value >= 1.0e-30 => Ok(value),
-        _ => Err("must be from 1e-30 to 1e18 metres".to_owned()),
+impl fmt::Display for Quantity {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let is_short = |number: f64| number == 0.0 || (1.0e-3..1.0e6).contains(&number.abs());
+        let text = |number| if is_short(number) { format!("{number}") } else { format!("{number:e}") };
+        write!(formatter, "{} from {} to {}", self.of, text(self.lowest), text(self.highest))
     }
 }
 
@@ -198,7 +203,8 @@ mod tests {
         let parse = whole(2, 65_535);
         assert_eq!((parse("2"), parse(" 65535 ")), (Ok(2), Ok(65_535)));
         for bad in ["1", "65536", "-2", "2.5", "", "4294967298", "two"] {
-            assert_eq!(parse(bad), Err("must be a whole number from 2 to 65535".to_owned()), "{bad}");
+            let error = parse(bad).expect_err(bad);
+            assert_eq!(error.to_string(), "must be a whole number from 2 to 65535", "{bad}");
         }
     }
 
@@ -208,14 +214,16 @@ mod tests {
         for bad in ["", "-", "9-3", "-1-2", "1-", "0-10000000", "1.5", "1-2-3"] {
             assert!(frames(bad).is_err(), "{bad}");
         }
-        assert_eq!((frames_per_second("25"), frames_per_second("23.976")), (Ok(25.0), Ok(23.976)));
+        let parse = Quantity::FRAMES_PER_SECOND.parser::<f64>();
+        assert_eq!((parse("25"), parse("23.976")), (Ok(25.0), Ok(23.976)));
         for bad in ["0", "-1", "nan", "inf", "x"] {
-            assert!(frames_per_second(bad).is_err(), "{bad}");
+            assert!(parse(bad).is_err(), "{bad}");
         }
     }
 
     #[test]
     fn times() {
+        let seconds = Quantity::SECONDS.parser::<f64>();
         assert_eq!((seconds("1.5"), seconds(" -2 ")), (Ok(1.5), Ok(-2.0)));
         for bad in ["", "x", "nan", "inf", "1s", "1e39", "-1e10"] {
             assert!(seconds(bad).is_err(), "{bad}");
@@ -224,6 +232,7 @@ mod tests {
 
     #[test]
     fn lengths() {
+        let (length, distance) = (Quantity::LENGTH.parser::<f64>(), Quantity::DISTANCE.parser::<f64>());
         assert_eq!((length("0"), length(" 2.5e-2 "), distance("1e18")), (Ok(0.0), Ok(0.025), Ok(1.0e18)));
         for bad in ["", "-1", "nan", "inf", "2e18", "1m"] {
             assert!(length(bad).is_err() && distance(bad).is_err(), "{bad}");
@@ -241,10 +250,29 @@ mod tests {
 
     #[test]
     fn ranges_refuse_what_lies_outside() {
+        let angle_of_view = Quantity::ANGLE_OF_VIEW.parser::<f64>();
         assert!(angle_of_view("45").is_ok() && angle_of_view("0").is_err() && angle_of_view("180").is_err());
+        let stops = Quantity::STOPS.parser::<f32>();
         assert!(stops("-2").is_ok() && stops("65").is_err() && stops("nan").is_err());
+        let noise = Quantity::NOISE.parser::<f64>();
         assert!(
             noise("0.02").is_ok() && noise("0").is_err() && noise("1.5").is_err() && noise("nan").is_err()
         );
+    }
+
+    #[test]
+    fn errors_say_the_range() {
+        for (quantity, expected) in [
+            (Quantity::FRAMES_PER_SECOND, "must be a number from 0.001 to 100000"),
+            (Quantity::SECONDS, "must be a finite number of seconds from -1e9 to 1e9"),
+            (Quantity::NOISE, "must be a share from 1e-6 to 1"),
+            (Quantity::STOPS, "must be a number from -64 to 64"),
+            (Quantity::ANGLE_OF_VIEW, "must be a number of degrees from 0.01 to 175"),
+            (Quantity::LENGTH, "must be a number of metres from 0 to 1e18"),
+            (Quantity::DISTANCE, "must be a number of metres from 1e-30 to 1e18"),
+        ] {
+            assert_eq!(ValueError::Number(quantity).to_string(), expected);
+        }
+        assert_eq!(ValueError::Far.to_string(), "each number must be from -1e18 to 1e18 metres");
     }
 }
