@@ -7,10 +7,11 @@
 use crate::error::EXIT_INTERRUPTED;
 use crate::terminal;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
 use std::time::{Duration, Instant};
+use tempfile::NamedTempFile;
 
 /// From the first signal to the end, where nothing is finished by then.
 const GRACE: Duration = Duration::from_secs(1);
@@ -105,10 +106,20 @@ impl Interrupt {
         self.requested.load(Ordering::SeqCst)
     }
 
-    /// Marks a file as unfinished until the guard is dropped: an end at once removes it.
-    pub(crate) fn unfinished(&self, path: &Path) -> Unfinished<'_> {
-        locked(&self.unfinished).push(path.to_owned());
-        Unfinished { interrupt: self, path: path.to_owned() }
+    /// Makes a file that is unfinished until the guard is dropped: an end at once removes it. No end comes between the file
+    /// and its guard.
+    ///
+    /// # Errors
+    /// Of `make`.
+    pub(crate) fn unfinished(
+        &self,
+        make: impl FnOnce() -> std::io::Result<NamedTempFile>,
+    ) -> std::io::Result<(Unfinished<'_>, NamedTempFile)> {
+        let mut files = locked(&self.unfinished);
+        let file = make()?;
+        let path = file.path().to_owned();
+        files.push(path.clone());
+        Ok((Unfinished { interrupt: self, path }, file))
     }
 
     /// Ends the process without destructors, which would wait for the device. The lock is kept to the end, so that no

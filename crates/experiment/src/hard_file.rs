@@ -13,26 +13,22 @@ pub(super) const LOADER: (&str, &str) = ("loader", "file");
 /// # Errors
 /// The folder for temporary files takes none.
 pub fn compare_file(file: &HardFile) -> Result<Run, ExperimentError> {
-    let folder = std::env::temp_dir().join(format!("rasray-{}-{}", std::process::id(), file.id));
-    let place = folder.join(file.name);
     let failed = |error: std::io::Error| {
         ExperimentError::input(
-            &place,
-            format!("cannot be written: {error}"),
+            &std::env::temp_dir(),
+            format!("a file cannot be written there: {error}"),
             "set TMPDIR to a folder for temporary files",
         )
     };
-    std::fs::create_dir_all(&folder).map_err(failed)?;
-    let loaded = std::fs::write(&place, &file.bytes)
-        .map(|()| rasray_scene_files::load(&place, &LoadOptions::default()));
-    // What is left behind there does no harm.
-    _ = std::fs::remove_dir_all(&folder);
-    let loaded = loaded.map_err(failed)?;
+    let folder = tempfile::Builder::new().prefix("rasray-").tempdir().map_err(failed)?;
+    let place = folder.path().join(file.name);
+    std::fs::write(&place, &file.bytes).map_err(failed)?;
+    let loaded = rasray_scene_files::load(&place, &LoadOptions::default());
     let reason = match &loaded {
         // The folder's name says nothing to anybody.
         Err(error) => format!(
             "refused: {}",
-            error.to_string().replace(&*folder.to_string_lossy(), "").trim_start_matches('/')
+            error.to_string().replace(&*folder.path().to_string_lossy(), "").trim_start_matches('/')
         ),
         Ok(scene) => format!("read, with {} warnings", scene.warnings.len()),
     };

@@ -7,9 +7,13 @@ use std::ffi::OsString;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
-/// How the names of unfinished files end.
-const TEMPORARY_SUFFIX: &str = ".tmp";
+/// How the names of unfinished files end: as no file of anybody else does, since what is left of them is removed.
+const UNFINISHED: &str = ".rasray-tmp";
+
+/// Random letters and digits in their names.
+const RANDOM: usize = 6;
 
 /// Where a file will be put. Checked when it is made, before any work is done for the file.
 #[derive(Clone, Debug)]
@@ -79,10 +83,7 @@ impl Destination {
         destination.sweep();
         // Only making a file tells whether a file can be made: permissions, read-only file systems
         // and name lengths all show here, before hours of rendering.
-        let probe = destination.temporary();
-        let made = OpenOptions::new().write(true).create_new(true).open(&probe);
-        _ = std::fs::remove_file(&probe);
-        match made {
+        match destination.begin() {
             Ok(_) => Ok(destination),
             Err(error) => Err(AppError::input(
                 path,
@@ -153,32 +154,30 @@ impl Destination {
     }
 
     fn replace(&self, bytes: &[u8], interrupt: &Interrupt) -> io::Result<()> {
-        let temporary = self.temporary();
-        let _unfinished = interrupt.unfinished(&temporary);
-        let result = self.write_and_rename(&temporary, bytes);
-        if result.is_err() {
-            // The first error is the one to report.
-            _ = std::fs::remove_file(&temporary);
-        }
-        result
-    }
-
-    fn write_and_rename(&self, temporary: &Path, bytes: &[u8]) -> io::Result<()> {
-        let mut file = OpenOptions::new().write(true).create_new(true).open(temporary)?;
+        let (_unfinished, mut file) = interrupt.unfinished(|| self.begin())?;
         // Tells other runs that somebody is writing; where a file system has no locks, none of them sweeps.
-        _ = file.try_lock();
+        _ = file.as_file().try_lock();
         if let Ok(existing) = std::fs::metadata(&self.path) {
-            file.set_permissions(existing.permissions())?;
+            file.as_file().set_permissions(existing.permissions())?;
         }
-        file.write_all(bytes)?;
-        file.sync_all()?;
-        drop(file);
-        std::fs::rename(temporary, &self.path)?;
+        // Through the file itself, as errors of the pair name a path that says nothing to anybody.
+        file.as_file_mut().write_all(bytes)?;
+        file.as_file().sync_all()?;
+        file.persist(&self.path)?;
         // The rename itself is safe only once the folder is; not every file system can do this.
         if let Ok(folder) = File::open(self.folder()) {
             _ = folder.sync_all();
         }
         Ok(())
+    }
+
+    /// A file in the same folder under a name of its own, with the permissions of any new file; removed when it is dropped.
+    fn begin(&self) -> io::Result<NamedTempFile> {
+        tempfile::Builder::new()
+            .prefix(&self.unfinished_prefix())
+            .suffix(UNFINISHED)
+            .rand_bytes(RANDOM)
+            .make_in(self.folder(), |path| File::create_new(path))
     }
 
     fn folder(&self) -> &Path {
@@ -188,14 +187,7 @@ impl Destination {
         }
     }
 
-    /// A name in the same folder that no other run uses.
-    fn temporary(&self) -> PathBuf {
-        let mut name = self.temporary_prefix();
-        name.push(format!("{}{TEMPORARY_SUFFIX}", std::process::id()));
-        self.folder().join(name)
-    }
-
-    fn temporary_prefix(&self) -> OsString {
+    fn unfinished_prefix(&self) -> OsString {
         let mut name = OsString::from(".");
         name.push(self.path.file_name().unwrap_or_default());
         name.push(".");
@@ -205,15 +197,16 @@ impl Destination {
     /// Removes what runs that were killed while they wrote this very file have left. A file that somebody still
     /// writes is locked and stays.
     fn sweep(&self) {
-        let prefix = self.temporary_prefix();
+        let prefix = self.unfinished_prefix();
         let Ok(entries) = std::fs::read_dir(self.folder()) else { return };
         for entry in entries.flatten() {
             let name = entry.file_name();
             let middle = name
                 .as_encoded_bytes()
                 .strip_prefix(prefix.as_encoded_bytes())
-                .and_then(|rest| rest.strip_suffix(TEMPORARY_SUFFIX.as_bytes()));
-            if !middle.is_some_and(|number| !number.is_empty() && number.iter().all(u8::is_ascii_digit)) {
+                .and_then(|rest| rest.strip_suffix(UNFINISHED.as_bytes()));
+            if !middle.is_some_and(|word| word.len() == RANDOM && word.iter().all(u8::is_ascii_alphanumeric))
+            {
                 continue;
             }
             let Ok(file) = OpenOptions::new().write(true).open(entry.path()) else { continue };
@@ -291,6 +284,19 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
+    fn a_new_file_has_the_permissions_of_any_new_file() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().expect("a folder");
+        let (plain, written) = (folder.path().join("plain"), folder.path().join("a.png"));
+        std::fs::write(&plain, b"new").expect("a file");
+        let destination = Destination::check(&written).expect("writable");
+        destination.write(b"new", &Interrupt::default()).expect("written");
+        let mode = |path: &Path| std::fs::metadata(path).expect("the file").permissions().mode();
+        assert_eq!(mode(&written), mode(&plain));
+    }
+
+    #[cfg(unix)]
+    #[test]
     fn a_link_to_a_file_that_is_not_there_yet_makes_it_and_stays_a_link() {
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::create_dir(folder.path().join("far")).expect("a folder");
@@ -338,22 +344,28 @@ mod tests {
     #[test]
     fn what_a_killed_run_left_is_swept_and_nothing_else() {
         let folder = tempfile::tempdir().expect("a folder");
-        // Also one of this process's own number: in containers numbers are used again and again.
-        let own = format!(".a.png.{}.tmp", std::process::id());
-        let kept = [".a.png..tmp", ".a.png.tmp", ".a.png.x1.tmp", ".b.png.7.tmp", "a.png.7.tmp"];
-        for name in kept.into_iter().chain([".a.png.7.tmp", own.as_str()]) {
+        let kept = [
+            ".a.png..rasray-tmp",
+            ".a.png.Ab3xY-.rasray-tmp",
+            ".a.png.Ab3xY.rasray-tmp",
+            ".a.png.Ab3xYz.tmp",
+            ".a.png.rasray-tmp",
+            ".b.png.Ab3xYz.rasray-tmp",
+            "a.png.Ab3xYz.rasray-tmp",
+        ];
+        for name in kept.into_iter().chain([".a.png.Ab3xYz.rasray-tmp", ".a.png.123456.rasray-tmp"]) {
             std::fs::write(folder.path().join(name), b"part").expect("a file");
         }
-        let busy = File::create(folder.path().join(".a.png.8.tmp")).expect("a file");
+        let busy = File::create(folder.path().join(".a.png.000000.rasray-tmp")).expect("a file");
         busy.try_lock().expect("a lock");
         let destination = Destination::check(&folder.path().join("a.png")).expect("writable");
-        let mut expected: Vec<_> = kept.into_iter().chain([".a.png.8.tmp"]).collect();
+        let mut expected: Vec<_> = kept.into_iter().chain([".a.png.000000.rasray-tmp"]).collect();
         expected.sort_unstable();
         assert_eq!(entries(folder.path()), expected);
         destination.write(b"new", &Interrupt::default()).expect("written");
         drop(busy);
         Destination::check(&folder.path().join("a.png")).expect("writable");
-        assert!(!entries(folder.path()).contains(&".a.png.8.tmp".to_owned()));
+        assert!(!entries(folder.path()).contains(&".a.png.000000.rasray-tmp".to_owned()));
     }
 
     #[cfg(target_os = "linux")]
