@@ -1,21 +1,17 @@
 //! Where results go and how much is said beside them: standard output, quiet and verbose runs, names that a terminal
 //! would obey, completions and pages.
 
-use crate::scripted::{HARNESS, command, entries, stderr, stdout};
+use crate::scripted::{HARNESS, command, entries, scripted, stderr, stdout};
 use rasray_report::Report;
 use serde_json::Value;
 use std::io::Read;
 use std::path::Path;
-use std::process::{Output, Stdio};
-
-fn rasray(folder: &Path, line: &str) -> Output {
-    command(folder, line).output().expect("the command starts")
-}
+use std::process::Stdio;
 
 #[test]
 fn an_image_goes_to_standard_output_alone() {
     let folder = tempfile::tempdir().expect("a folder");
-    let output = rasray(folder.path(), "render cornell --size 4x3 -o - --format png --report r.json");
+    let output = scripted(folder.path(), "render cornell --size 4x3 -o - --format png --report r.json");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let image = image::load_from_memory(&stdout(&output)).expect("nothing but an image").to_rgb8();
     assert_eq!((image.width(), image.height()), (4, 3));
@@ -27,7 +23,7 @@ fn an_image_goes_to_standard_output_alone() {
     );
     assert_eq!(entries(folder.path()), ["r.json"]);
 
-    let output = rasray(folder.path(), "render cornell --size 4x3 --aov depth -o - --format exr");
+    let output = scripted(folder.path(), "render cornell --size 4x3 --aov depth -o - --format exr");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let piped = folder.path().join("piped.exr");
     std::fs::write(&piped, stdout(&output)).expect("a file");
@@ -38,7 +34,7 @@ fn an_image_goes_to_standard_output_alone() {
 fn a_report_goes_to_standard_output_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     for line in ["render cornell --size 4x3 --report -", "compare cornell --systems mmrt --report -"] {
-        let output = rasray(folder.path(), line);
+        let output = scripted(folder.path(), line);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let report: Report = serde_json::from_slice(&stdout(&output)).expect("nothing but a report");
         let camera = report.camera.expect("the camera that was used");
@@ -58,18 +54,18 @@ fn standard_output_takes_one_thing_whose_format_is_said() {
         ("render cornell --report r.json --format png", "--output", "--help"),
         ("compare cornell --systems mmrt --report - --html -", "same file", "two files"),
     ] {
-        let output = rasray(folder.path(), line);
+        let output = scripted(folder.path(), line);
         let said = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{line}: {said}");
         assert!(said.contains(named) && said.contains(fix), "{line}: {said}");
     }
     assert!(entries(folder.path()).is_empty());
     // A format that is said goes before the name's.
-    let output = rasray(folder.path(), "render cornell --size 4x3 -o picture --format png");
+    let output = scripted(folder.path(), "render cornell --size 4x3 -o picture --format png");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(image::load_from_memory(&std::fs::read(folder.path().join("picture")).expect("a file")).is_ok());
     std::fs::write(folder.path().join("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a scene");
-    let output = rasray(folder.path(), "render one.obj --size 4x3 -o ./one.obj --format png");
+    let output = scripted(folder.path(), "render one.obj --size 4x3 -o ./one.obj --format png");
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
 }
 
@@ -78,7 +74,7 @@ fn a_run_says_little_everything_or_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a scene");
     let run = |line: &str| {
-        let output = rasray(folder.path(), line);
+        let output = scripted(folder.path(), line);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         (String::from_utf8(stdout(&output)).expect("text"), stderr(&output))
     };
@@ -93,7 +89,7 @@ fn a_run_says_little_everything_or_nothing() {
     assert_eq!((out.as_str(), said.as_str()), ("", ""));
     // What was asked for is no talk.
     assert!(run("info -q one.obj").0.contains("triangles"));
-    let output = rasray(folder.path(), "render nothing.obj -q -o a.png");
+    let output = scripted(folder.path(), "render nothing.obj -q -o a.png");
     assert!(stderr(&output).starts_with("error: "), "{}", stderr(&output));
 }
 
@@ -103,10 +99,10 @@ fn an_image_without_contents_comes_with_a_hint() {
     // The scripted image is 0.5, 0.25, 1.
     for (exposure, word) in [("-7", "nearly black: --exposure -2 "), ("2", "nearly white: --exposure -2 ")] {
         let output =
-            rasray(folder.path(), &format!("render cornell --size 4x3 -o a.png --exposure {exposure}"));
+            scripted(folder.path(), &format!("render cornell --size 4x3 -o a.png --exposure {exposure}"));
         assert!(stderr(&output).contains(word), "{}", stderr(&output));
     }
-    let output = rasray(folder.path(), "render cornell --size 4x3 -o a.png");
+    let output = scripted(folder.path(), "render cornell --size 4x3 -o a.png");
     assert!(!stderr(&output).contains("hint"), "{}", stderr(&output));
 }
 
@@ -149,13 +145,13 @@ fn names_in_a_file_cannot_steer_a_terminal() {
             assert_eq!(text.chars().find(obeyed), None, "{line:?}: {stream}: {text}");
         }
     }
-    let output = rasray(folder.path(), "info names.gltf --json");
+    let output = scripted(folder.path(), "info names.gltf --json");
     let info: Value = serde_json::from_slice(&stdout(&output)).expect("JSON");
     assert_eq!(
         info["scene"]["cameras"][0]["name"], "eye\u{1b}[2J\u{7}\u{9b}2J\u{202e}",
         "data holds names as the file does"
     );
-    let output = rasray(folder.path(), "info names.gltf");
+    let output = scripted(folder.path(), "info names.gltf");
     assert!(String::from_utf8_lossy(&output.stdout).contains(r"eye\u{1b}[2J\u{7}"), "{output:?}");
 }
 
@@ -164,7 +160,7 @@ fn info_is_data_too() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a scene");
     let json = |line: &str| -> Value {
-        let output = rasray(folder.path(), line);
+        let output = scripted(folder.path(), line);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         serde_json::from_slice(&stdout(&output)).expect("JSON")
     };
@@ -178,7 +174,7 @@ fn info_is_data_too() {
     let occlusion = json("info cornell --integrator ao --json");
     assert!(left_out(&occlusion) > left_out(&info));
     let line = "render cornell --integrator ao --size 4x3 --report r.json";
-    let output = rasray(folder.path(), line);
+    let output = scripted(folder.path(), line);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = std::fs::read(folder.path().join("r.json")).expect("the report");
     let report: Value = serde_json::from_slice(&text).expect("JSON");
@@ -197,11 +193,12 @@ fn info_is_data_too() {
     let passes = json("info cornell --passes --system mmrt --storage dll --json");
     assert_eq!(passes["passes"][0]["label"], "mmrt/build_0_header");
     assert_eq!((&passes["passes"][0]["workgroups"], &passes["passes"][0]["draws"]), (&7.into(), &0.into()));
-    let text = String::from_utf8(stdout(&rasray(folder.path(), "info cornell --passes"))).expect("text");
+    let text = String::from_utf8(stdout(&scripted(folder.path(), "info cornell --passes"))).expect("text");
     assert!(text.trim_start().starts_with("pass ") && text.contains("bvh/build_0_header"), "{text}");
     let lists = json("info cornell --statistics --system mmrt --storage dll --json");
     assert_eq!((&lists["lists"][0]["cells_of"], &lists["lists"][0]["cells"]), (&"mmrt".into(), &9.into()));
-    let text = String::from_utf8(stdout(&rasray(folder.path(), "info cornell --statistics"))).expect("text");
+    let text =
+        String::from_utf8(stdout(&scripted(folder.path(), "info cornell --statistics"))).expect("text");
     assert!(text.trim_start().starts_with("cells of ") && text.contains("on average"), "{text}");
     for (line, words) in [
         ("info cornell --passes --statistics", "--statistics"),
@@ -210,11 +207,11 @@ fn info_is_data_too() {
         ("info cornell --system mmrt", "--passes"),
         ("info --passes", "SCENE"),
     ] {
-        let output = rasray(folder.path(), line);
+        let output = scripted(folder.path(), line);
         assert_eq!(output.status.code(), Some(2), "{line}");
         assert!(stderr(&output).contains(words), "{line}: {}", stderr(&output));
     }
-    let text = String::from_utf8(stdout(&rasray(folder.path(), "info cornell"))).expect("text");
+    let text = String::from_utf8(stdout(&scripted(folder.path(), "info cornell"))).expect("text");
     for words in ["default view", "cameras\n  0  ", "perspective", "--eye "] {
         assert!(text.contains(words), "{words}: {text}");
     }
@@ -224,7 +221,7 @@ fn info_is_data_too() {
 fn completions_and_pages_know_the_options() {
     let folder = tempfile::tempdir().expect("a folder");
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let output = rasray(folder.path(), &format!("completions {shell}"));
+        let output = scripted(folder.path(), &format!("completions {shell}"));
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let script = String::from_utf8(stdout(&output)).expect("text");
         assert!(script.contains("ao-distance") && script.contains("completions"), "{shell}");
@@ -235,12 +232,12 @@ fn completions_and_pages_know_the_options() {
         ("man compare", ".TH rasray-compare 1", "ray\\-set"),
         ("man info", ".TH rasray-info 1", "json"),
     ] {
-        let output = rasray(folder.path(), line);
+        let output = scripted(folder.path(), line);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let page = String::from_utf8(stdout(&output)).expect("text");
         assert!(page.contains(title) && page.contains(word), "{line}: {page}");
     }
-    let output = rasray(folder.path(), "man nobody");
+    let output = scripted(folder.path(), "man nobody");
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("render"), "{}", stderr(&output));
 }

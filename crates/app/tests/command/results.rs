@@ -1,16 +1,11 @@
 //! What the command leaves behind: images, reports, exit codes.
 
-use crate::scripted::{command, entries, stderr};
+use crate::scripted::{command, entries, scripted, stderr};
 use exr::prelude::FlatSamples;
 use rasray_experiment::Aov;
 use rasray_metrics::{Tone, ToneCurve};
 use rasray_report::{Report, SCHEMA};
 use std::path::Path;
-use std::process::Output;
-
-fn rasray(folder: &Path, line: &str) -> Output {
-    command(folder, line).output().expect("the command starts")
-}
 
 fn report(path: &Path) -> Report {
     serde_json::from_slice(&std::fs::read(path).expect("a report")).expect("the schema")
@@ -19,7 +14,7 @@ fn report(path: &Path) -> Report {
 #[test]
 fn a_png_is_tone_mapped_by_exposure_and_srgb_alone() {
     let folder = tempfile::tempdir().expect("a folder");
-    let output = rasray(folder.path(), "render cornell --size 4x3 --exposure 1 -o a.png");
+    let output = scripted(folder.path(), "render cornell --size 4x3 --exposure 1 -o a.png");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let image = image::open(folder.path().join("a.png")).expect("an image").to_rgb8();
     assert_eq!((image.width(), image.height()), (4, 3));
@@ -31,7 +26,7 @@ fn a_png_is_tone_mapped_by_exposure_and_srgb_alone() {
 fn a_png_has_the_curve_that_was_asked_for_and_says_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let run = |line: &str| {
-        let output = rasray(folder.path(), &format!("render cornell --size 4x3 -o a.png {line}"));
+        let output = scripted(folder.path(), &format!("render cornell --size 4x3 -o a.png {line}"));
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let file = std::fs::File::open(folder.path().join("a.png")).expect("an image");
         let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
@@ -75,7 +70,7 @@ fn files_say_what_denoised_them() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let run = |line: &str| {
-        let output = rasray(folder.path(), &format!("render cornell --size 16x16 {line}"));
+        let output = scripted(folder.path(), &format!("render cornell --size 16x16 {line}"));
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         stderr(&output)
     };
@@ -97,7 +92,7 @@ fn files_say_what_denoised_them() {
 fn an_exr_holds_every_wanted_channel() {
     let folder = tempfile::tempdir().expect("a folder");
     let line = "render cornell --size 4x3 --spp 2 --aov depth,normal,primitive -o a.exr";
-    let output = rasray(folder.path(), line);
+    let output = scripted(folder.path(), line);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let image = exr::prelude::read_all_flat_layers_from_file(folder.path().join("a.exr")).expect("an image");
     let names: Vec<_> = image.layer_data[0].channel_data.list.iter().map(|c| c.name.to_string()).collect();
@@ -105,7 +100,7 @@ fn an_exr_holds_every_wanted_channel() {
 
     let all: Vec<_> = Aov::ALL.iter().map(|aov| aov.name()).collect();
     let line = format!("render walker --frames 3 --size 4x3 --spp 2 --aov {} -o a.#.exr", all.join(","));
-    let output = rasray(folder.path(), &line);
+    let output = scripted(folder.path(), &line);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let image =
         exr::prelude::read_all_flat_layers_from_file(folder.path().join("a.3.exr")).expect("an image");
@@ -127,7 +122,7 @@ fn a_report_follows_the_schema_and_leaves_out_what_was_not_measured() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a scene");
     let line = "render cornell --size 4x3 --seed 9 --bounces 2 --report r.json";
-    let output = rasray(folder.path(), line);
+    let output = scripted(folder.path(), line);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let made = report(&folder.path().join("r.json"));
     assert_eq!(made.schema, SCHEMA);
@@ -142,7 +137,7 @@ fn a_report_follows_the_schema_and_leaves_out_what_was_not_measured() {
     assert!(text.contains("trace 2.0 ms") && text.contains("1,000 rays"), "{text}");
     assert!(text.contains("system bvh: the fastest exact structure"), "{text}");
     for (given, system) in [("--system bvh", "bvh"), ("--system hu --preset published", "hu")] {
-        let output = rasray(folder.path(), &format!("render cornell --size 4x3 --report r.json {given}"));
+        let output = scripted(folder.path(), &format!("render cornell --size 4x3 --report r.json {given}"));
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let made = report(&folder.path().join("r.json"));
         assert_eq!((made.runs[0].system.as_str(), &made.runs[0].chosen), (system, &None));
@@ -154,7 +149,7 @@ fn a_comparison_makes_a_run_per_system_preset_and_ray_set() {
     let folder = tempfile::tempdir().expect("a folder");
     let line = "compare cornell --systems mmrt,brute-force --presets robust,published --ray-set eye,eye,camera \
                 --buckets 8 mmrt.march=samples --report r.json";
-    let output = rasray(folder.path(), line);
+    let output = scripted(folder.path(), line);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let runs = report(&folder.path().join("r.json")).runs;
     let shape: Vec<_> = runs
@@ -179,7 +174,7 @@ fn a_comparison_makes_a_run_per_system_preset_and_ray_set() {
 #[test]
 fn a_hard_case_fails_the_check_only_where_a_target_was_missed() {
     let folder = tempfile::tempdir().expect("a folder");
-    let run = |line: &str| rasray(folder.path(), line);
+    let run = |line: &str| scripted(folder.path(), line);
     let output = run("compare hard:E5 --systems mmrt,brute-force --rays 17 --seed 3 --report r.json");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let made = report(&folder.path().join("r.json"));
@@ -203,7 +198,7 @@ fn a_hard_case_fails_the_check_only_where_a_target_was_missed() {
 fn an_error_on_one_hard_case_keeps_the_cases_before_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let line = "compare hard:all --systems mmrt --rays 3 --device broken --report r.json";
-    let output = rasray(folder.path(), line);
+    let output = scripted(folder.path(), line);
     assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
     assert!(stderr(&output).contains("the device was lost"), "{}", stderr(&output));
     assert!(stderr(&output).contains("warning: 2 of "), "{}", stderr(&output));
@@ -211,7 +206,7 @@ fn an_error_on_one_hard_case_keeps_the_cases_before_it() {
     let ids: Vec<_> = kept.iter().filter_map(|run| run.ray_set.as_deref()).collect();
     assert_eq!(ids, ["G1", "G2"]);
     // With nothing whole there is nothing to keep.
-    let output = rasray(folder.path(), "compare hard:G3 --systems mmrt --device broken --report n.json");
+    let output = scripted(folder.path(), "compare hard:G3 --systems mmrt --device broken --report n.json");
     assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
     assert!(!folder.path().join("n.json").exists());
 }
@@ -221,7 +216,7 @@ fn a_device_that_is_absent_or_fails_ends_with_3_and_leaves_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     for device in ["absent", "broken"] {
         let output =
-            rasray(folder.path(), &format!("render cornell -o a.png --report r.json --device {device}"));
+            scripted(folder.path(), &format!("render cornell -o a.png --report r.json --device {device}"));
         assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
         assert!(stderr(&output).contains("help: "), "{}", stderr(&output));
     }
@@ -231,7 +226,7 @@ fn a_device_that_is_absent_or_fails_ends_with_3_and_leaves_nothing() {
 #[test]
 fn unanswered_rays_end_with_4_and_make_a_report_but_no_image() {
     let folder = tempfile::tempdir().expect("a folder");
-    let output = rasray(folder.path(), "render cornell -o a.png --report r.json --device unfinished");
+    let output = scripted(folder.path(), "render cornell -o a.png --report r.json --device unfinished");
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     assert_eq!(entries(folder.path()), ["r.json"]);
 }
@@ -241,7 +236,7 @@ fn unanswered_rays_end_with_4_and_make_a_report_but_no_image() {
 fn a_full_disk_ends_with_4_and_leaves_what_was_there() {
     let folder = tempfile::tempdir().expect("a folder");
     std::os::unix::fs::symlink("/dev/full", folder.path().join("full.png")).expect("a link");
-    let output = rasray(folder.path(), "render cornell --size 64x64 -o full.png");
+    let output = scripted(folder.path(), "render cornell --size 64x64 -o full.png");
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     assert!(stderr(&output).contains("full.png"), "{}", stderr(&output));
 
@@ -265,7 +260,7 @@ fn a_scene_without_triangles_is_a_warning() {
     let folder = tempfile::tempdir().expect("a folder");
     let empty = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[]}],"scene":0}"#;
     std::fs::write(folder.path().join("empty.gltf"), empty).expect("a scene");
-    let output = rasray(folder.path(), "render empty.gltf --size 4x3 -o a.png --report r.json");
+    let output = scripted(folder.path(), "render empty.gltf --size 4x3 -o a.png --report r.json");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let said = stderr(&output);
     assert!(said.contains("warning: empty: the file has no meshes; only the background is shown"), "{said}");
@@ -282,7 +277,7 @@ fn images_that_the_device_does_not_hold_are_smaller_and_named() {
         "compare atrium --systems mmrt --ray-set eye --report r.json",
     ];
     for line in lines {
-        let output = rasray(folder.path(), &format!("{line} --device small"));
+        let output = scripted(folder.path(), &format!("{line} --device small"));
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let said = stderr(&output);
         let warning = said.lines().find(|line| line.contains("(smaller-images)")).unwrap_or_default();
@@ -298,7 +293,7 @@ fn images_that_the_device_does_not_hold_are_smaller_and_named() {
         );
         assert!(smaller.iter().any(|image| warning.contains(&image.name)), "{warning}");
         // A device that holds them all says nothing.
-        let output = rasray(folder.path(), line);
+        let output = scripted(folder.path(), line);
         assert!(!stderr(&output).contains("smaller-images"), "{}", stderr(&output));
         assert!(report(&folder.path().join("r.json")).scene.smaller_images.is_empty());
     }
@@ -307,7 +302,7 @@ fn images_that_the_device_does_not_hold_are_smaller_and_named() {
 #[test]
 fn info_describes_the_device_in_use() {
     let folder = tempfile::tempdir().expect("a folder");
-    let output = rasray(folder.path(), "info");
+    let output = scripted(folder.path(), "info");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = String::from_utf8_lossy(&output.stdout);
     for line in [

@@ -8,6 +8,8 @@ use proptest::prelude::*;
 use rasray_scene::{Scene, SceneError};
 use rasray_scene_files::{LoadOptions, ply};
 
+use crate::gltf_support::placed_triangles;
+
 fn load(path: &Path) -> Result<Scene, SceneError> {
     ply::load(path, &LoadOptions::default())
 }
@@ -18,10 +20,6 @@ fn read(test: &str, bytes: impl AsRef<[u8]>) -> Result<Scene, SceneError> {
     let path = folder.join(format!("{test}.ply"));
     fs::write(&path, bytes).expect("written");
     load(&path)
-}
-
-fn triangles(scene: &Scene) -> usize {
-    scene.instances.iter().map(|instance| scene.meshes[instance.mesh].triangle_count()).sum()
 }
 
 fn warned(scene: &Scene, kind: &str) -> bool {
@@ -135,7 +133,7 @@ fn every_integer_type_can_index() {
 fn faces_may_stand_before_vertices() {
     let text = "ply\r\nformat ascii 1.0\r\nelement face 1\r\nproperty list uchar int vertex_indices\r\nelement vertex 3\r\n\
         property float x\r\nproperty float y\r\nproperty float z\r\nend_header\r\n3 0 1 2\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n";
-    assert_eq!(triangles(&read("order", text).expect("scene")), 1);
+    assert_eq!(placed_triangles(&read("order", text).expect("scene")), 1);
 }
 
 #[test]
@@ -236,7 +234,7 @@ fn files_of_others_end_as_the_table_says() {
     for (file, expected) in table {
         match (load(&folder.join(file)), expected) {
             (Ok(scene), Ok(count)) => {
-                assert_eq!(triangles(&scene), count, "{file}");
+                assert_eq!(placed_triangles(&scene), count, "{file}");
                 assert_eq!(warned(&scene, "no-triangles"), count == 0, "{file}");
             }
             (Err(error), Err(part)) => assert!(error.to_string().contains(part), "{error}"),

@@ -8,13 +8,7 @@ use rasray_scene::builtin::{NAMES, builtin};
 use rasray_scene::default_view::{bounds, is_lit};
 use rasray_scene::{AlphaMode, Environment, Mesh, Moment, Projection, Scene, SceneError};
 
-fn scene(spec: &str) -> Scene {
-    builtin(spec).unwrap_or_else(|| panic!("{spec} is a built-in")).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn triangles(scene: &Scene) -> usize {
-    scene.instances.iter().map(|instance| scene.meshes[instance.mesh].triangle_count()).sum()
-}
+use crate::made::{placed_triangles, scene};
 
 fn corners(mesh: &Mesh) -> impl Iterator<Item = [[f32; 3]; 3]> {
     mesh.indices.chunks_exact(3).map(|corners| [0, 1, 2].map(|at| mesh.positions[corners[at] as usize]))
@@ -161,7 +155,7 @@ fn wrong_parameters_are_refused_with_the_name_and_the_reason() {
 #[test]
 fn cornell_is_open_at_the_front_only() {
     let scene = scene("cornell");
-    assert_eq!(triangles(&scene), 38);
+    assert_eq!(placed_triangles(&scene), 38);
     let shell: Vec<_> = scene.meshes.iter().filter(|mesh| !mesh.name.contains("block")).collect();
     let open = open_edges(shell);
     assert_eq!(open.len(), 4);
@@ -202,7 +196,7 @@ fn cornell_has_its_colours_sides_and_light() {
 fn furnaces_are_closed_and_face_inwards() {
     for (spec, count, enclosed) in [("furnace", 1280, 4.1), ("furnace:shape=box", 12, 8.0)] {
         let scene = scene(spec);
-        assert_eq!(triangles(&scene), count);
+        assert_eq!(placed_triangles(&scene), count);
         assert!(open_edges(&scene.meshes).is_empty());
         let volume = volume(&scene.meshes[0]);
         assert!((volume + enclosed).abs() < 0.1, "{spec}: {volume}");
@@ -220,7 +214,7 @@ fn furnaces_are_closed_and_face_inwards() {
 fn spheres_have_the_triangles_asked_for_and_are_closed() {
     for (spec, count) in [("spheres:10k", 10_000), ("spheres", 300_000), ("spheres:123456", 123_456)] {
         let scene = scene(spec);
-        let found = triangles(&scene);
+        let found = placed_triangles(&scene);
         assert!(found.abs_diff(count) <= 10, "{spec}: {found}");
         assert!(open_edges(&scene.meshes).is_empty(), "{spec}");
         assert!(scene.meshes.iter().all(|mesh| volume(mesh) > 0.0));
@@ -228,7 +222,7 @@ fn spheres_have_the_triangles_asked_for_and_are_closed() {
         assert!(low.min_element() >= -10.0 && high.max_element() <= 10.0);
         assert!((high - low).min_element() > 14.0, "{spec} fills its cube: {low} {high}");
     }
-    assert_eq!(triangles(&scene("spheres:0.5M")), triangles(&scene("spheres:500k")));
+    assert_eq!(placed_triangles(&scene("spheres:0.5M")), placed_triangles(&scene("spheres:500k")));
 }
 
 #[test]
@@ -255,7 +249,7 @@ fn layers(scene: &Scene, x: f64, z: f64) -> usize {
 fn ruins_are_solid_stones_many_layers_deep() {
     for (spec, count, deep) in [("ruins:10k", 10_000, 1), ("ruins", 200_000, 8), ("ruins:600k", 600_000, 8)] {
         let scene = scene(spec);
-        let found = triangles(&scene);
+        let found = placed_triangles(&scene);
         assert!(found <= count && count - found < 20, "{spec}: {found}");
         for stones in scene.meshes.iter().filter(|mesh| mesh.name.ends_with("stone")) {
             assert!(open_edges([stones]).is_empty(), "{spec}: {}", stones.name);
@@ -271,7 +265,7 @@ fn ruins_are_solid_stones_many_layers_deep() {
 #[test]
 fn atrium_has_textures_masks_sun_and_sky() {
     let scene = scene("atrium");
-    let count = triangles(&scene);
+    let count = placed_triangles(&scene);
     assert!((50_000..=100_000).contains(&count), "{count}");
     let textured: Vec<_> =
         scene.materials.iter().filter(|material| material.base_color_texture.is_some()).collect();
@@ -286,7 +280,7 @@ fn atrium_has_textures_masks_sun_and_sky() {
     let (low, high) = bounds(&scene).expect("bounds");
     assert_eq!(low.y, 0.0);
     assert!(high.y > 8.0);
-    assert!(triangles(&self::scene("atrium:detail=0.25")) < count / 4);
+    assert!(placed_triangles(&self::scene("atrium:detail=0.25")) < count / 4);
 }
 
 #[test]
@@ -301,7 +295,7 @@ fn the_pierced_screen_has_holes_and_bars() {
 #[test]
 fn corridor_is_closed_with_mirrors_as_far_apart_as_asked() {
     let scene = scene("corridor:reflectance=0.9,width=3");
-    assert_eq!(triangles(&scene), 1300);
+    assert_eq!(placed_triangles(&scene), 1300);
     assert!(open_edges(&scene.meshes).is_empty());
     let mirrors = scene.meshes.iter().find(|mesh| mesh.name == "mirrors").expect("mirrors");
     let material = &scene.materials[mirrors.material];

@@ -2,12 +2,9 @@
 
 use std::collections::HashMap;
 
-use rasray_scene::builtin::builtin;
 use rasray_scene::{Mesh, Moment, Scene};
 
-fn scene(spec: &str) -> Scene {
-    builtin(spec).expect("built in").unwrap_or_else(|error| panic!("{error}"))
-}
+use crate::made::scene;
 
 /// Directed edges, by the bits of positions, that do not have exactly one triangle along and one against them.
 fn unmatched_edges(mesh: &Mesh) -> usize {

@@ -3,13 +3,10 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
-use rasray_scene::builtin::builtin;
 use rasray_scene::needs::moving_instances;
 use rasray_scene::{Mesh, Moment, Motion, Scene};
 
-fn scene(spec: &str) -> Scene {
-    builtin(spec).unwrap_or_else(|| panic!("{spec} is a built-in")).unwrap_or_else(|error| panic!("{error}"))
-}
+use crate::made::scene;
 
 fn at(scene: &Scene, seconds: f64) -> Scene {
     let clips = scene.animation.rig.compatible_clips();

@@ -4,6 +4,8 @@ use approx::assert_abs_diff_eq;
 use rasray_scene::facing::Facing;
 use rasray_scene::{Instance, Mesh, Scene};
 
+use crate::made::scene;
+
 /// Of the triangle (0, u, v).
 fn facing(u: [f32; 3], v: [f32; 3]) -> Facing {
     let mesh = Mesh { positions: vec![[0.0; 3], u, v], indices: vec![0, 1, 2], ..Mesh::default() };
@@ -40,7 +42,7 @@ fn a_sphere_saves_what_all_directions_do() {
             sums.1 += n.iter().sum::<f64>();
         }
     }
-    let spheres = rasray_scene::builtin::builtin("spheres:10k").expect("it is built in").expect("it is made");
+    let spheres = scene("spheres:10k");
     let saved = Facing::of(&spheres).saved_by_one_view().expect("it has an area");
     assert_abs_diff_eq!(saved, (1.0 - sums.0 / sums.1), epsilon = 0.01);
 }

@@ -6,6 +6,7 @@ mod closed_scenes;
 mod default_view;
 mod deforming;
 mod facing_of_scenes;
+mod made;
 mod needs_default_view;
 mod needs_of_scenes;
 mod poses;

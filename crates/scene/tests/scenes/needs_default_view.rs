@@ -3,9 +3,10 @@
 use approx::assert_abs_diff_eq;
 use glam::{DAffine3, DVec3};
 use proptest::prelude::*;
-use rasray_scene::builtin::builtin;
 use rasray_scene::default_view::{bounds, camera_looking_at, default_camera, ensure_lit, is_lit};
 use rasray_scene::{Environment, Instance, Light, Material, Mesh, Projection, Scene};
+
+use crate::made::scene;
 
 fn triangle_scene(points: [[f32; 3]; 3], world_from_mesh: DAffine3) -> Scene {
     let positions = [points.to_vec(), vec![[1.0e6, 1.0e6, 1.0e6]]].concat();
@@ -73,7 +74,7 @@ fn what_does_not_emit_gets_light_once() {
 
 #[test]
 fn the_default_camera_stands_outside_of_built_in_scenes() {
-    let scene = builtin("spheres:10k").expect("built-in").expect("scene");
+    let scene = scene("spheres:10k");
     let camera = default_camera(&scene);
     let (low, high) = bounds(&scene).expect("bounds");
     let eye = camera.world_from_camera.translation;

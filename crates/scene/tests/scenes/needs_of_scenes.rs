@@ -4,11 +4,12 @@ use glam::DAffine3;
 use rasray_scene::animation::{
     Channel, ChannelValues, Clip, Interpolation, NodeTransform, Placement, RigNode,
 };
-use rasray_scene::builtin::builtin;
 use rasray_scene::needs::{Needs, Term, Workload, moving_instances};
 use rasray_scene::{
     AlphaMode, Environment, Filter, Image, Instance, Light, Material, Mesh, Scene, Texture, TextureRef, Wrap,
 };
+
+use crate::made::scene;
 
 const OCCLUSION: Workload = Workload::VISIBILITY;
 const RAYCAST: Workload =
@@ -239,7 +240,6 @@ fn all_switches_everything_on() {
 
 #[test]
 fn built_in_scenes_need_what_they_are_made_of() {
-    let scene = |name: &str| builtin(name).expect("built-in").expect("scene");
     let cornell = required(&scene("cornell"), PATH);
     assert_eq!(cornell, [Term::Normals, Term::Emission, Term::AreaLights]);
     let atrium = scene("atrium");

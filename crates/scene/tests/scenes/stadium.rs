@@ -3,13 +3,10 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
-use rasray_scene::builtin::builtin;
 use rasray_scene::default_view::bounds;
 use rasray_scene::{Instance, Scene};
 
-fn scene(spec: &str) -> Scene {
-    builtin(spec).expect("built in").unwrap_or_else(|error| panic!("{error}"))
-}
+use crate::made::scene;
 
 fn benches(scene: &Scene) -> Vec<&Instance> {
     scene.instances.iter().filter(|instance| scene.meshes[instance.mesh].name.ends_with("seats")).collect()
