@@ -1,9 +1,13 @@
 //! Everything that ends the command early, with its exit code.
 
+use crate::hints;
 use rasray_experiment::ExperimentError;
+use rasray_ray_files::FileError;
 use rasray_report::one_line;
 use rasray_scene_source::LoadError;
+use std::borrow::Cow;
 use std::fmt::Display;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Exit code of a complete run.
@@ -42,13 +46,27 @@ pub enum AppError {
         /// What to do.
         help: String,
     },
-    /// The device is missing, lacks something required, or failed. Exit code 3.
-    #[error("{message}")]
-    Device {
+    /// An experiment gave no result. Exit code 3 where the device is missing, lacks something required or failed, 4 where
+    /// its result is not whole, else 2.
+    #[error("{}", hints::message(.0))]
+    Experiment(#[from] ExperimentError),
+    /// A file gave no rays or hits. Exit code 2.
+    #[error(transparent)]
+    Rays(#[from] FileError),
+    /// There is no window, or it cannot be drawn. Exit codes as of experiments.
+    #[cfg(feature = "viewer")]
+    #[error(transparent)]
+    Viewer(rasray_viewer::ViewerError),
+    /// The system does not let signals be handled. Exit code 2.
+    #[error("signals cannot be handled: {0}")]
+    Signals(#[source] io::Error),
+    /// The same with what it is about. Exit code as without.
+    #[error("{what}: {source}")]
+    About {
+        /// A frame, or the comparison of a plan.
+        what: String,
         /// What is wrong.
-        message: String,
-        /// What to do.
-        help: String,
+        source: Box<Self>,
     },
     /// A result exists that would have lost data had it been kept. Exit code 4.
     #[error("{message}")]
@@ -76,46 +94,26 @@ pub enum AppError {
     },
 }
 
-impl From<ExperimentError> for AppError {
-    fn from(error: ExperimentError) -> Self {
-        let help = error.help().to_owned();
-        match error {
-            ExperimentError::Usage { message, .. } => Self::Usage { message, help },
-            ExperimentError::Load(error) => error.into(),
-            ExperimentError::Input { path, message, .. } => Self::Input { path, message, help },
-            ExperimentError::Refused { message, .. } => Self::Refused { message, help },
-            error => Self::Device { message: error.to_string(), help },
-        }
-    }
-}
-
 impl From<LoadError> for AppError {
     fn from(error: LoadError) -> Self {
-        let help = error.help().to_owned();
-        match error {
-            LoadError::Input { path, message, .. } => Self::Input { path, message, help },
-            error => Self::Usage { message: error.to_string(), help },
-        }
+        Self::Experiment(error.into())
     }
 }
 
-impl From<rasray_ray_files::FileError> for AppError {
-    fn from(error: rasray_ray_files::FileError) -> Self {
-        Self::input(error.path(), error.message(), error.help())
+#[cfg(feature = "viewer")]
+impl From<rasray_viewer::ViewerError> for AppError {
+    fn from(error: rasray_viewer::ViewerError) -> Self {
+        match error {
+            rasray_viewer::ViewerError::Experiment(error) => Self::Experiment(error),
+            error => Self::Viewer(error),
+        }
     }
 }
 
 impl AppError {
     /// The same error, with what it is about before its message.
-    pub fn about(mut self, what: &str) -> Self {
-        let (Self::Usage { message, .. }
-        | Self::Input { message, .. }
-        | Self::Device { message, .. }
-        | Self::Refused { message, .. }
-        | Self::Target { message, .. }
-        | Self::Interrupted { message, .. }) = &mut self;
-        *message = format!("{what}: {message}");
-        self
+    pub fn about(self, what: &str) -> Self {
+        Self::About { what: what.to_owned(), source: Box::new(self) }
     }
 
     /// A usage error.
@@ -126,11 +124,6 @@ impl AppError {
     /// An error about a file that is read, or about the place of an output.
     pub fn input(path: &Path, message: impl Display, help: impl Into<String>) -> Self {
         Self::Input { path: path.to_owned(), message: message.to_string(), help: help.into() }
-    }
-
-    /// An error of the device.
-    pub fn device(message: impl Display, help: impl Into<String>) -> Self {
-        Self::Device { message: message.to_string(), help: help.into() }
     }
 
     /// A result that is not kept because it is not whole.
@@ -146,8 +139,11 @@ impl AppError {
     /// The exit code of the command.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Usage { .. } | Self::Input { .. } => EXIT_USAGE,
-            Self::Device { .. } => EXIT_DEVICE,
+            Self::Usage { .. } | Self::Input { .. } | Self::Rays(_) | Self::Signals(_) => EXIT_USAGE,
+            Self::Experiment(error) => hints::exit_code(error),
+            #[cfg(feature = "viewer")]
+            Self::Viewer(error) => hints::code_of_viewer(error),
+            Self::About { source, .. } => source.exit_code(),
             Self::Refused { .. } => EXIT_REFUSED,
             Self::Target { .. } => EXIT_TARGET,
             Self::Interrupted { .. } => EXIT_INTERRUPTED,
@@ -155,23 +151,30 @@ impl AppError {
     }
 
     /// What to do about it.
-    pub fn help(&self) -> &str {
+    pub fn help(&self) -> Cow<'_, str> {
         match self {
             Self::Usage { help, .. }
             | Self::Input { help, .. }
-            | Self::Device { help, .. }
             | Self::Refused { help, .. }
             | Self::Target { help, .. }
-            | Self::Interrupted { help, .. } => help,
+            | Self::Interrupted { help, .. } => help.into(),
+            Self::Experiment(error) => hints::help(error),
+            Self::Rays(error) => hints::help_of_rays(error).into(),
+            #[cfg(feature = "viewer")]
+            Self::Viewer(error) => hints::help_of_viewer(error),
+            Self::Signals(_) => {
+                "run in an environment that lets programs handle SIGINT, SIGTERM and SIGHUP".into()
+            }
+            Self::About { source, .. } => source.help(),
         }
     }
 
     /// The two lines that stderr gets: `error: …` and `help: …`, each without a line break inside.
     pub fn lines(&self) -> String {
-        let word = if matches!(self, Self::Interrupted { .. }) { "interrupted" } else { "error" };
+        let word = if self.exit_code() == EXIT_INTERRUPTED { "interrupted" } else { "error" };
         let mut lines = format!("{word}: {}\n", one_line(&self.to_string()));
         if !self.help().is_empty() {
-            lines += &format!("help: {}\n", one_line(self.help()));
+            lines += &format!("help: {}\n", one_line(&self.help()));
         }
         lines
     }
@@ -186,11 +189,10 @@ mod tests {
         let path = Path::new("a.gltf");
         assert_eq!(AppError::usage("a", "b").exit_code(), 2);
         assert_eq!(AppError::input(path, "a", "b").exit_code(), 2);
-        assert_eq!(AppError::device("a", "b").exit_code(), 3);
         assert_eq!(AppError::refused("a", "b").exit_code(), 4);
         assert_eq!(AppError::interrupted("a", "b").exit_code(), 130);
         let target = AppError::Target { message: "a".to_owned(), help: "b".to_owned() };
-        assert_eq!((target.exit_code(), target.help()), (1, "b"));
+        assert_eq!((target.exit_code(), &*target.help()), (1, "b"));
     }
 
     #[test]

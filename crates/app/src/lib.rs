@@ -4,6 +4,7 @@
 pub mod arguments;
 mod commands;
 mod error;
+mod hints;
 mod interrupt;
 pub mod output;
 mod progress;
@@ -48,12 +49,7 @@ fn execute(parsed: CommandLine, line: &str, open: &mut OpenBackend<'_>) -> Resul
         TalkArguments { verbose: true, .. } => Talk::Verbose,
         TalkArguments { .. } => Talk::Usual,
     });
-    let interrupt = Interrupt::install().map_err(|error| {
-        AppError::device(
-            format!("signals cannot be handled: {error}"),
-            "run in an environment that lets programs handle SIGINT, SIGTERM and SIGHUP",
-        )
-    })?;
+    let interrupt = Interrupt::install().map_err(AppError::Signals)?;
     terminal::start_logging();
     match parsed.command {
         Command::Render(given) => commands::render(&given, line, open, &interrupt),

@@ -100,7 +100,7 @@ mod tests {
         let error = SystemRequest::Automatic
             .config(Preset::Robust, &of("storage", "dll"))
             .expect_err("no exact one has it");
-        assert!(error.to_string().contains("--storage"), "{error}");
+        assert!(error.to_string().contains("storage"), "{error}");
         SystemRequest::Automatic
             .config(Preset::Published, &OptionValues::default())
             .expect_err("no paper's preset is exact");

@@ -106,8 +106,7 @@ impl TexelCapacity {
     }
 }
 
-/// What renders. Every method reports failure of the device as [`ExperimentError::Device`], and lost data
-/// as [`ExperimentError::Refused`].
+/// What renders. Every method reports failures of the device and lost data as [`ExperimentError`].
 pub trait Backend {
     /// The device in use, for reports.
     fn device(&self) -> Device;

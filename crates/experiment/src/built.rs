@@ -5,33 +5,17 @@ use std::time::Instant;
 
 use rasray_ads::{AdsError, Combined, GeometryParts, ListCounts, Structure, Viewpoint};
 use rasray_gpu::{Device, Feature, GpuError, Stage, Timing};
-use rasray_gpu_scene::GpuScene;
+use rasray_gpu_scene::{GpuScene, GpuSceneError};
 use rasray_scene::Scene;
-use rasray_systems::{Spec, SystemsError};
-use rasray_tracer::{BuildOutcome, FrameStructure, Keeping, TracerError, refresh_until_complete};
+use rasray_systems::Spec;
+use rasray_tracer::{BuildOutcome, FrameStructure, Keeping, refresh_until_complete};
 use serde_json::Value;
 
-use crate::device_scene::{DeviceScene, device_error, scene_error, tracer_error};
+use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::jobs::Refresh;
 use crate::passes::{Passes, median, spread};
 use rasray_report::{Counters, ListRecord, Memory, Pass, PassOf, Spread, StageTime, Times};
-
-/// Why a first build failed.
-enum FirstBuild {
-    /// A pool is larger than one binding.
-    ExceedsBinding(ExperimentError),
-    /// Anything else.
-    Other(ExperimentError),
-}
-
-impl From<FirstBuild> for ExperimentError {
-    fn from(error: FirstBuild) -> Self {
-        match error {
-            FirstBuild::ExceedsBinding(error) | FirstBuild::Other(error) => error,
-        }
-    }
-}
 
 /// Whether addressing was left open, and the device has addresses.
 fn may_use_addresses(device: &Device, spec: &Spec) -> bool {
@@ -49,57 +33,46 @@ fn first_build(
     (scene, parts): (&GpuScene, Option<&GeometryParts>),
     viewpoint: Viewpoint,
     timing: Timing,
-) -> Result<(FrameStructure, BuildOutcome), FirstBuild> {
-    let refuse = |error: ExperimentError| FirstBuild::Other(error);
-    let requirements = spec.requirements().map_err(|e| refuse(ExperimentError::usage(e.to_string(), "")))?;
+) -> Result<(FrameStructure, BuildOutcome), ExperimentError> {
+    let requirements = spec.requirements()?;
     if let Some(missing) = requirements.required.iter().find(|feature| !device.has(**feature)) {
-        return Err(refuse(missing_feature(device, spec, *missing)));
+        return Err(missing_feature(device, spec, *missing));
     }
     let create = |geometry: &_| spec.create(device, geometry, Some(scene.binding()));
     let made: rasray_tracer::Refresh = match parts {
         Some(parts) => Combined::new(parts, create).map(Into::into),
         None => create(scene.geometry()).map(Into::into),
     }
-    .map_err(|error| match error {
-        SystemsError::Ads(error) => ads_error(error, spec),
-        other => refuse(ExperimentError::usage(other.to_string(), "see `rasray render --help`")),
-    })?;
-    let mut structure = FrameStructure::new(device, made, KEEPING).map_err(|error| ads_error(error, spec))?;
-    let outcome =
-        refresh_until_complete(device, &mut structure, viewpoint, timing).map_err(|error| match error {
-            TracerError::Ads(error) => ads_error(error, spec),
-            other => refuse(tracer_error(&other)),
-        })?;
+    .map_err(|error| too_large(error.into(), spec))?;
+    let mut structure =
+        FrameStructure::new(device, made, KEEPING).map_err(|error| too_large(error.into(), spec))?;
+    let outcome = refresh_until_complete(device, &mut structure, viewpoint, timing)
+        .map_err(|error| too_large(error.into(), spec))?;
     Ok((structure, outcome))
 }
 
 /// A device that lacks what a system needs, or what one of its options asks for.
 fn missing_feature(device: &Device, spec: &Spec, missing: Feature) -> ExperimentError {
-    let (system, name) = (spec.system().name, device.name());
+    let (system, device) = (spec.system().name, device.name().to_owned());
     match spec.option_that_requires(missing) {
-        Some((option, value)) => ExperimentError::usage(
-            format!("--{option} {value} of {system} needs {missing}, which {name} lacks"),
-            format!("leave out --{option} {value}, or choose another --device"),
-        ),
-        None => ExperimentError::device(
-            format!("system {system} needs the feature {missing}, which {name} lacks"),
-            "choose another --device or --system",
-        ),
+        Some((option, value)) => {
+            ExperimentError::OptionNeedsFeature { system, option, value, feature: missing, device }
+        }
+        None => ExperimentError::SystemNeedsFeature { system, feature: missing, device },
     }
 }
 
-fn ads_error(error: AdsError, spec: &Spec) -> FirstBuild {
+/// The same error, where it is of a buffer larger than one binding as one of the structure or of the scene.
+fn too_large(error: ExperimentError, spec: &Spec) -> ExperimentError {
     match error {
-        AdsError::Gpu(GpuError::TooLarge { ref name, .. }) if is_pool(name, spec) => {
-            let smaller = spec.system().size_option().map(|option| format!("a smaller --{option}"));
-            let address = spec.system().has("addressing").then(|| "--addressing address".to_owned());
-            let fixes = [address, smaller, Some("another --device".to_owned())];
-            let fixes: Vec<String> = fixes.into_iter().flatten().collect();
-            let help = format!("try {}", fixes.join(" or "));
-            FirstBuild::ExceedsBinding(ExperimentError::device(error, help))
-        }
-        AdsError::Gpu(error @ GpuError::TooLarge { .. }) => FirstBuild::Other(scene_error(error.into())),
-        other => FirstBuild::Other(device_error(other)),
+        ExperimentError::Ads(AdsError::Gpu(error @ GpuError::TooLarge { .. }))
+        | ExperimentError::Gpu(error @ GpuError::TooLarge { .. }) => match &error {
+            GpuError::TooLarge { name, .. } if is_pool(name, spec) => {
+                ExperimentError::PoolExceedsBinding { system: spec.system(), source: error }
+            }
+            _ => GpuSceneError::Gpu(error).into(),
+        },
+        other => other,
     }
 }
 
@@ -171,18 +144,15 @@ impl Built {
         let timing = device.best_timing();
         let viewpoint = scene.viewpoint().at(eye);
         let (frames, outcome) = match first_build(device, spec, (scene, parts), viewpoint, timing) {
-            Err(FirstBuild::ExceedsBinding(_)) if may_use_addresses(device, spec) => {
+            Err(ExperimentError::PoolExceedsBinding { .. }) if may_use_addresses(device, spec) => {
                 tracing::info!(
                     system = spec.system().name,
                     "a pool exceeds one binding: reached by device address"
                 );
-                let spec = spec
-                    .with_option("addressing", "address")
-                    .map_err(|error| ExperimentError::usage(error.to_string(), ""))?;
-                first_build(device, &spec, (scene, parts), viewpoint, timing)
-                    .map_err(ExperimentError::from)?
+                let spec = spec.with_option("addressing", "address")?;
+                first_build(device, &spec, (scene, parts), viewpoint, timing)?
             }
-            other => other.map_err(ExperimentError::from)?,
+            other => other?,
         };
         let mut passes = Passes::default();
         if outcome.prepare_milliseconds > 0.0 {
@@ -232,8 +202,7 @@ impl Built {
     }
 
     fn refresh(&mut self, device: &Device) -> Result<BuildOutcome, ExperimentError> {
-        refresh_until_complete(device, &mut self.frames, self.viewpoint, device.best_timing())
-            .map_err(|error| tracer_error(&error))
+        Ok(refresh_until_complete(device, &mut self.frames, self.viewpoint, device.best_timing())?)
     }
 
     /// Times of the passes of builds, with what the host did: where builds were repeated to be timed, or a frame took one,
@@ -300,7 +269,7 @@ impl Built {
     /// # Errors
     /// The device fails.
     pub fn resolved(&self) -> Result<Resolved, ExperimentError> {
-        let report = self.structure().report().map_err(device_error)?;
+        let report = self.structure().report()?;
         let paths = report.paths.into_iter().map(|(name, value)| (name.to_owned(), value));
         Ok((rasray_report::options(report.options), paths.collect()))
     }
@@ -310,7 +279,7 @@ impl Built {
     /// # Errors
     /// The device fails.
     pub fn memory(&self, device: &Device) -> Result<Memory, ExperimentError> {
-        let report = self.structure().report().map_err(device_error)?;
+        let report = self.structure().report()?;
         Ok(Memory {
             structure_bytes: Some(report.bytes() - report.slack() - report.diagnostic_bytes),
             formula_bytes: Some(report.formula_bytes - report.diagnostic_bytes),
@@ -327,14 +296,14 @@ impl Built {
     /// # Errors
     /// The device fails, or lists are damaged.
     pub fn lists(&self, device: &Device) -> Result<Vec<ListRecord>, ExperimentError> {
-        let counts = self.structure().list_counts(device).map_err(device_error)?;
+        let counts = self.structure().list_counts(device)?;
         let all = ListCounts::all(&counts).filter(|_| counts.len() > 1);
         Ok(all.into_iter().chain(counts).map(list_record).collect())
     }
 
     /// Counts of the build.
     pub(super) fn counters(&self) -> Result<Counters, ExperimentError> {
-        let report = self.structure().report().map_err(device_error)?;
+        let report = self.structure().report()?;
         let pool = self.outcome.status.pools.first();
         Ok(Counters {
             fragments: report.stored,
@@ -368,37 +337,24 @@ mod tests {
 
     /// Only what addresses reach is said to be reached by them.
     #[test]
-    fn what_is_too_large_for_a_binding_comes_with_its_own_fix() {
+    fn pools_that_exceed_a_binding_are_told_from_other_buffers() {
         let spec = |system: &str| Spec::new(system, "robust", []).expect("registered");
-        let fix = |system: &str, buffer: &str| {
+        let of = |system: &str, buffer: &str| {
             let error = GpuError::TooLarge { name: buffer.to_owned(), size: 1 << 31, limit: 1 << 30 };
-            let (error, is_retried) = match ads_error(error.into(), &spec(system)) {
-                FirstBuild::ExceedsBinding(error) => (error, true),
-                FirstBuild::Other(error) => (error, false),
-            };
+            let error = too_large(AdsError::Gpu(error).into(), &spec(system));
             assert!(error.to_string().contains(buffer) && !error.to_string().contains("address"), "{error}");
-            assert!(matches!(error, ExperimentError::Device { .. }));
-            (error.help().to_owned(), is_retried)
+            error
         };
-        for (system, pool, size) in
-            [("mmrt", "abuffer lists", "--resolution"), ("bricks", "bricks entries", "--grid")]
-        {
-            let (help, is_retried) = fix(system, pool);
-            assert!(is_retried && help.contains("--addressing address") && help.contains(size), "{help}");
+        for (name, pool) in [("mmrt", "abuffer lists"), ("bricks", "bricks entries")] {
+            match of(name, pool) {
+                ExperimentError::PoolExceedsBinding { system, .. } => assert_eq!(system.name, name),
+                other => panic!("{other:?}"),
+            }
         }
         // The host's triangles are bound whatever the structure.
         for buffer in ["indices", "positions", "bricks"] {
-            let (help, is_retried) = fix("bricks", buffer);
-            assert!(
-                !is_retried && help.contains("fewer triangles") && !help.contains("--addressing"),
-                "{help}"
-            );
+            let error = of("bricks", buffer);
+            assert!(matches!(error, ExperimentError::SceneExceedsBinding { .. }), "{error:?}");
         }
-        let film = crate::device_scene::image_error(GpuError::TooLarge {
-            name: "film".to_owned(),
-            size: 9,
-            limit: 8,
-        });
-        assert!(film.help().contains("--size") && !film.to_string().contains("address"), "{film}");
     }
 }

@@ -9,7 +9,7 @@ use rasray_reference::shading::{PosedScene, View};
 
 use crate::backend::{FinishedRun, OnProgress, OnRun, Progress};
 use crate::contestant::Contestant;
-use crate::device_scene::{DeviceScene, device_error};
+use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::images::compare_images;
 use crate::jobs::{CompareJob, Comparison, FILE_SET, Sampler};
@@ -84,8 +84,7 @@ pub(super) fn compare(
     )?;
     stage.sample_as(frame)?;
     let (positions, indices) = stage.triangles(device)?;
-    let posed = PosedScene::with_positions(job.scene, stage.scene.frame_origin(), positions.clone())
-        .map_err(|error| ExperimentError::usage(error.to_string(), ""))?
+    let posed = PosedScene::with_positions(job.scene, stage.scene.frame_origin(), positions.clone())?
         .with_back_faces(frame.back_faces);
     let view = View {
         camera: job.camera.clone(),
@@ -125,7 +124,7 @@ fn compare_rays(
     _ = progress(Progress { task: "oracle", done: 0, total: 0, unit: "building" });
     let masked = posed.has_alpha_masks() && stage.dropped_triangles == 0;
     let accept: Option<Accept<'_>> = if masked { Some(&accept) } else { None };
-    let oracle = Oracle::new(positions, indices, accept).map_err(device_error)?;
+    let oracle = Oracle::new(positions, indices, accept)?;
     let oracle = oracle.with_backs(|primitive| posed.back_of(primitive));
     let bounds = stage.scene.geometry().bounds();
     let center = views_center(stage, bounds);

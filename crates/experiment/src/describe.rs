@@ -5,7 +5,6 @@ use rasray_gpu_scene::{TEXEL_BYTES, TexelRuns};
 use rasray_systems::{SYSTEMS, Spec};
 
 use crate::backend::{ChosenPath, DeviceDescription, Feature};
-use crate::device_scene::device_error;
 use crate::error::ExperimentError;
 
 /// What any system may want of a device; each names what it cannot do without when it is made.
@@ -27,7 +26,7 @@ pub fn requirements() -> Requirements {
 /// The devices, and what the one in use means for each system.
 pub(super) fn describe(device: &Device) -> Result<DeviceDescription, ExperimentError> {
     let wanted = requirements();
-    let devices = Device::list(&wanted).map_err(device_error)?;
+    let devices = Device::list(&wanted)?;
     let required = wanted.required.iter().map(|feature| (feature, true, "nothing runs without it"));
     let optional = wanted.optional.iter().map(|(feature, purpose)| (feature, false, *purpose));
     let features = required
@@ -43,8 +42,8 @@ pub(super) fn describe(device: &Device) -> Result<DeviceDescription, ExperimentE
     let mut paths = Vec::new();
     for system in SYSTEMS {
         for preset in system.presets {
-            let spec = Spec::new(system.name, preset.name(), []).map_err(device_error)?;
-            let missing = device.lacks(&spec.requirements().map_err(device_error)?);
+            let spec = Spec::new(system.name, preset.name(), [])?;
+            let missing = device.lacks(&spec.requirements()?);
             let (chosen, reason) = if missing.is_empty() {
                 ("runs".to_owned(), "the device has every feature and limit that it requires".to_owned())
             } else {

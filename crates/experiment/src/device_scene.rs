@@ -1,83 +1,13 @@
 //! A scene on the device.
 
 use glam::DVec3;
-use rasray_ads::AdsError;
-use rasray_frame::FrameError;
-use rasray_gpu::{Device, GpuError};
-use rasray_gpu_scene::{FramePose, GpuScene, GpuSceneError, Parts, PosePass, Sampling, SceneTables, View};
-use rasray_integrators::IntegratorError;
+use rasray_gpu::Device;
+use rasray_gpu_scene::{FramePose, GpuScene, Parts, PosePass, Sampling, SceneTables, View};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
-use rasray_scene_source::LoadError;
-use rasray_tracer::TracerError;
 
 use crate::error::ExperimentError;
 use crate::jobs::{Frame, Sampler};
-
-/// What a device error is about.
-pub(super) fn device_error(error: impl std::fmt::Display) -> ExperimentError {
-    ExperimentError::device(error, "try a smaller --resolution or --size, or another --device")
-}
-
-/// What an error about what holds an image, a film or its rays, is about: no option of structures makes it smaller.
-pub(super) fn image_error(error: impl std::fmt::Display) -> ExperimentError {
-    ExperimentError::device(error, "try a smaller --size, or another --device")
-}
-
-/// What an error about the scene's own tables is about: no option of structures or images makes them smaller.
-pub(super) fn scene_error(error: GpuSceneError) -> ExperimentError {
-    let error = match error {
-        GpuSceneError::Scene(error) => return LoadError::from(error).into(),
-        other => other,
-    };
-    let message = match &error {
-        GpuSceneError::Gpu(GpuError::TooLarge { name, size, limit })
-        | GpuSceneError::Ads(AdsError::Gpu(GpuError::TooLarge { name, size, limit })) => {
-            format!("the scene's {name} have {size} bytes, and this device binds {limit} at most")
-        }
-        GpuSceneError::TooManyVertices { .. }
-        | GpuSceneError::TooManyTexels { .. }
-        | GpuSceneError::OtherTriangles { .. }
-        | GpuSceneError::DeformedTwice { .. }
-        | GpuSceneError::Gpu(GpuError::OutOfDeviceMemory { .. })
-        | GpuSceneError::Ads(AdsError::Gpu(GpuError::OutOfDeviceMemory { .. })) => error.to_string(),
-        _ => return device_error(error),
-    };
-    ExperimentError::device(
-        message,
-        "try a scene with fewer triangles and images, a smaller map for --environment, or another --device",
-    )
-}
-
-/// A failed build or trace: lost rays are refused, everything else is the device's.
-pub(super) fn tracer_error(error: &TracerError) -> ExperimentError {
-    match error {
-        TracerError::Unfinished { .. }
-        | TracerError::NotReady { .. }
-        | TracerError::Corrupted { .. }
-        | TracerError::Unstable { .. } => ExperimentError::refused(
-            error.to_string(),
-            "its results are not kept; please report it with the command line",
-        ),
-        _ => device_error(error),
-    }
-}
-
-/// An image that failed: lost rays are refused.
-pub(super) fn frame_error(error: FrameError) -> ExperimentError {
-    match error {
-        FrameError::Tracer(error) => tracer_error(&error),
-        FrameError::Integrator(IntegratorError::Ads(error @ AdsError::Option { option: "fetch", .. })) => {
-            ExperimentError::usage(error.to_string(), "leave out --fetch raster, or choose another --system")
-        }
-        FrameError::Unfinished { .. } => ExperimentError::refused(
-            error.to_string(),
-            "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, \
-             else please report it with the command line",
-        ),
-        other => device_error(other),
-    }
-}
 
 /// A scene on the device.
 #[derive(Debug)]
@@ -139,9 +69,9 @@ impl DeviceScene {
         seed: u32,
         needs: &Needs,
     ) -> Result<(Self, SceneTables), ExperimentError> {
-        let tables = SceneTables::new(scene, origin, &Parts::from(needs)).map_err(scene_error)?;
+        let tables = SceneTables::new(scene, origin, &Parts::from(needs))?;
         let view = View { camera: camera.clone(), width, height, seed };
-        let gpu_scene = GpuScene::upload(device, &tables, &view).map_err(scene_error)?;
+        let gpu_scene = GpuScene::upload(device, &tables, &view)?;
         let dropped_triangles = tables.posed.dropped_triangles;
         if dropped_triangles > 0 {
             tracing::warn!(
@@ -156,7 +86,7 @@ impl DeviceScene {
     /// # Errors
     /// The device fails.
     pub fn triangles(&self, device: &Device) -> Result<(Vec<[f32; 3]>, Vec<u32>), ExperimentError> {
-        self.scene.geometry().download(device).map_err(device_error)
+        Ok(self.scene.geometry().download(device)?)
     }
 
     /// Whether positions have digits enough for a camera: the frame origin, around which the scene was uploaded, is the one
@@ -172,7 +102,7 @@ impl DeviceScene {
     /// # Errors
     /// The device fails.
     pub fn look(&mut self, view: &View) -> Result<(), ExperimentError> {
-        self.scene.update_camera(view).map_err(device_error)
+        Ok(self.scene.update_camera(view)?)
     }
 
     /// Sets how the pixels of an image are sampled, and what their rays pass.
@@ -185,6 +115,6 @@ impl DeviceScene {
             Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
         };
         let sampling = Sampling { sampler, samples: frame.spp, back_faces: frame.back_faces };
-        self.scene.set_sampling(sampling).map_err(device_error)
+        Ok(self.scene.set_sampling(sampling)?)
     }
 }

@@ -1,82 +1,364 @@
 //! Everything that ends an experiment early.
 
-use rasray_scene_source::LoadError;
-use std::fmt::Display;
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::PathBuf;
 
-/// Why an experiment gave no result. Every variant says what is wrong and what to do about it; both are whole
-/// sentences without a full stop, and may name options of the command.
+use rasray_ads::AdsError;
+use rasray_frame::FrameError;
+use rasray_gpu::{Feature, GpuError};
+use rasray_gpu_scene::GpuSceneError;
+use rasray_integrators::IntegratorError;
+use rasray_metrics::MetricsError;
+use rasray_options::Value;
+use rasray_reference::oracle::OracleError;
+use rasray_reference::shading::ReferenceError;
+use rasray_report::bytes;
+use rasray_scene_source::LoadError;
+use rasray_systems::{System, SystemsError};
+use rasray_tracer::TracerError;
+
+use crate::selection::SelectionError;
+
+/// Why an experiment gave no result. Messages are whole sentences without a full stop; what the device, a structure, a
+/// scene or the reference says is kept as it was said.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExperimentError {
-    /// The job asks for something that cannot be.
-    #[error("{message}")]
-    Usage {
-        /// What is wrong.
-        message: String,
-        /// What to do; may be empty.
-        help: String,
-    },
-    /// A file cannot be read.
-    #[error("{}: {message}", path.display())]
-    Input {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        message: String,
-        /// What to do; may be empty.
-        help: String,
-    },
+    /// Systems, presets and options that do not go together.
+    #[error(transparent)]
+    Selection(#[from] SelectionError),
+    /// The registry cannot make a system so.
+    #[error(transparent)]
+    Systems(SystemsError),
     /// There is no scene to show, or no view of it.
     #[error(transparent)]
     Load(#[from] LoadError),
-    /// The device is missing, lacks something required, or failed.
-    #[error("{message}")]
-    Device {
-        /// What is wrong.
-        message: String,
-        /// What to do; may be empty.
-        help: String,
+    /// No device was opened.
+    #[error(transparent)]
+    Opening(GpuError),
+    /// The device failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// A structure or a queue failed.
+    #[error(transparent)]
+    Ads(#[from] AdsError),
+    /// The scene's tables cannot be made or do not fit the device.
+    #[error(transparent)]
+    GpuScene(GpuSceneError),
+    /// An integrator, a film or drawn camera rays failed.
+    #[error(transparent)]
+    Integrator(#[from] IntegratorError),
+    /// A frame failed.
+    #[error(transparent)]
+    Frame(FrameError),
+    /// A build or a trace failed.
+    #[error(transparent)]
+    Tracer(TracerError),
+    /// The oracle refused the triangles.
+    #[error(transparent)]
+    Oracle(#[from] OracleError),
+    /// The reference cannot make its image.
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
+    /// Results cannot be compared with the truth.
+    #[error(transparent)]
+    Metrics(#[from] MetricsError),
+    /// A buffer of the scene is larger than one binding.
+    #[error("the scene's {name} have {size} bytes, and this device binds {limit} at most")]
+    SceneExceedsBinding {
+        /// Name of the buffer.
+        name: String,
+        /// Its bytes.
+        size: u64,
+        /// Bytes of the largest binding.
+        limit: u64,
     },
-    /// A result exists that is not whole, and is not kept.
-    #[error("{message}")]
-    Refused {
-        /// What would have been lost.
+    /// A pool of a structure is larger than one binding.
+    #[error("{source}")]
+    PoolExceedsBinding {
+        /// The system of the structure.
+        system: &'static System,
+        /// What the device said.
+        source: GpuError,
+    },
+    /// A system needs what the device lacks.
+    #[error("system {system} needs the feature {feature}, which {device} lacks")]
+    SystemNeedsFeature {
+        /// The system.
+        system: &'static str,
+        /// The feature.
+        feature: Feature,
+        /// Name of the device.
+        device: String,
+    },
+    /// An option of a system needs what the device lacks.
+    #[error("{option} {value} of {system} needs {feature}, which {device} lacks")]
+    OptionNeedsFeature {
+        /// The system.
+        system: &'static str,
+        /// The option.
+        option: &'static str,
+        /// Its value.
+        value: Value,
+        /// The feature.
+        feature: Feature,
+        /// Name of the device.
+        device: String,
+    },
+    /// Memory does not hold an image.
+    #[error(
+        "an image of {} x {} pixels takes {} ({bytes_per_pixel} bytes a pixel), and {memory} has {}",
+        size[0], size[1],
+        bytes(u64::from(size[0]) * u64::from(size[1]) * bytes_per_pixel),
+        bytes(*available)
+    )]
+    ImageTooLarge {
+        /// Width and height, pixels.
+        size: [u32; 2],
+        /// Bytes that each pixel takes there.
+        bytes_per_pixel: u64,
+        /// Bytes that there are.
+        available: u64,
+        /// Whose memory it is.
+        memory: Holder,
+    },
+    /// Camera rays that are drawn, and a camera with a lens.
+    #[error("primary {primary} draws through a pinhole, and the camera has a lens")]
+    Pinhole {
+        /// How camera rays are answered.
+        primary: &'static str,
+    },
+    /// First hits were asked of a structure that has none.
+    #[error("primary fragments: {structure} has no view of the camera to take them from")]
+    NoFirstHits {
+        /// The structure.
+        structure: &'static str,
+    },
+    /// Shadow maps cannot answer the shadow rays of an image.
+    #[error("occluder shadow-maps: {0}")]
+    Occluder(#[from] OccluderError),
+    /// Shadow maps cannot be made.
+    #[error("occluder shadow-maps: {source}")]
+    ShadowMaps {
+        /// Points on each emitting triangle that have maps.
+        points: u32,
+        /// What failed.
+        source: FrameError,
+    },
+    /// The reference has no such integrator.
+    #[error("images are compared with the reference, which has the integrators {known}")]
+    NoReference {
+        /// Names of those that it has.
+        known: String,
+    },
+    /// Parts that move were asked of a scene whose triangles are others in each frame.
+    #[error("a scene whose triangles are others in each frame has no part that stands still")]
+    NoStillPart,
+    /// A scene is to be posed that was not made to move.
+    #[error("a scene is to be posed that was not made to move")]
+    NotPosed,
+    /// A set has no such ray.
+    #[error("there is no ray {index} in {set}, which has {rays}")]
+    NoSuchRay {
+        /// Its number, from 0.
+        index: u32,
+        /// The set.
+        set: String,
+        /// Rays of the set.
+        rays: usize,
+    },
+    /// Hits that were given are not one for each ray.
+    #[error("{name} has {hits} hits for the {rays} rays of {set}")]
+    HitCount {
+        /// Whose hits they are.
+        name: String,
+        /// Hits given.
+        hits: usize,
+        /// Rays of the set.
+        rays: usize,
+        /// The set.
+        set: String,
+    },
+    /// The folder for temporary files takes none.
+    #[error("{}: cannot be written: {source}", path.display())]
+    TemporaryFile {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// The device does not have the triangles of a hard case.
+    #[error("the triangles of {case} are not the same on the device")]
+    OtherTriangles {
+        /// The case.
+        case: String,
+    },
+    /// The validation layer found a defect.
+    #[error("the validation layer says: {message}")]
+    Validation {
+        /// Its first message.
         message: String,
-        /// What to do; may be empty.
-        help: String,
+    },
+    /// What was traced lacked entries.
+    #[error("{system}: {entries} entries were missing from what was traced")]
+    MissingEntries {
+        /// System and preset.
+        system: String,
+        /// How many.
+        entries: u64,
+    },
+    /// Rays had no answer.
+    #[error("{system}: {rays} rays had no answer after the last round")]
+    Unanswered {
+        /// System and preset.
+        system: String,
+        /// How many.
+        rays: u64,
+    },
+    /// An image lacks pixels.
+    #[error("the image '{image}' has {pixels} of {expected} pixels")]
+    MissingPixels {
+        /// The image.
+        image: &'static str,
+        /// Pixels that it has.
+        pixels: usize,
+        /// Pixels that it should have.
+        expected: usize,
     },
 }
 
-impl ExperimentError {
-    /// A job that cannot be.
-    pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self::Usage { message: message.into(), help: help.into() }
-    }
+/// Whose memory does not hold an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holder {
+    /// The device's.
+    Device,
+    /// The host's, which a software device shares.
+    Host,
+}
 
-    /// An error about a file that is read.
-    pub fn input(path: &Path, message: impl Display, help: impl Into<String>) -> Self {
-        Self::Input { path: path.to_owned(), message: message.to_string(), help: help.into() }
+impl std::fmt::Display for Holder {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(match self {
+            Self::Device => "the device",
+            Self::Host => "this machine",
+        })
     }
+}
 
-    /// An error of the device.
-    pub fn device(message: impl Display, help: impl Into<String>) -> Self {
-        Self::Device { message: message.to_string(), help: help.into() }
-    }
+/// Why shadow maps cannot answer the shadow rays of an image.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OccluderError {
+    /// Blended surfaces.
+    #[error("surfaces of this scene let light pass, and maps do not say which lie on a ray")]
+    Blended,
+    /// Panes of glass.
+    #[error("panes of this scene let light pass, and maps do not say which lie on a ray")]
+    Panes {
+        /// Whether the integrator has an option that makes their shadows opaque.
+        can_be_opaque: bool,
+    },
+    /// No shadow rays.
+    #[error("the integrator {integrator} sends no ray to a light")]
+    NoShadowRays {
+        /// The integrator.
+        integrator: &'static str,
+    },
+    /// Light passes back faces.
+    #[error("maps have both sides of every surface, and with back-faces all no light meets backs")]
+    BackFaces,
+}
 
-    /// A result that is not kept because it is not whole.
-    pub fn refused(message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self::Refused { message: message.into(), help: help.into() }
-    }
-
-    /// What to do about it; may be empty.
-    pub fn help(&self) -> &str {
-        match self {
-            Self::Load(error) => error.help(),
-            Self::Usage { help, .. }
-            | Self::Input { help, .. }
-            | Self::Device { help, .. }
-            | Self::Refused { help, .. } => help,
+impl From<SystemsError> for ExperimentError {
+    fn from(error: SystemsError) -> Self {
+        match error {
+            SystemsError::Ads(error) => Self::Ads(error),
+            error => Self::Systems(error),
         }
+    }
+}
+
+impl From<GpuSceneError> for ExperimentError {
+    fn from(error: GpuSceneError) -> Self {
+        match error {
+            GpuSceneError::Scene(error) => Self::Load(error.into()),
+            GpuSceneError::Gpu(GpuError::TooLarge { name, size, limit })
+            | GpuSceneError::Ads(AdsError::Gpu(GpuError::TooLarge { name, size, limit })) => {
+                Self::SceneExceedsBinding { name, size, limit }
+            }
+            error => Self::GpuScene(error),
+        }
+    }
+}
+
+impl From<TracerError> for ExperimentError {
+    fn from(error: TracerError) -> Self {
+        match error {
+            TracerError::Ads(error) => Self::Ads(error),
+            TracerError::Gpu(error) => Self::Gpu(error),
+            error => Self::Tracer(error),
+        }
+    }
+}
+
+impl From<FrameError> for ExperimentError {
+    fn from(error: FrameError) -> Self {
+        match error {
+            FrameError::Tracer(error) => error.into(),
+            FrameError::Integrator(error) => Self::Integrator(error),
+            FrameError::Gpu(error) => Self::Gpu(error),
+            FrameError::Scene(error) => error.into(),
+            FrameError::Ads(error) => Self::Ads(error),
+            error => Self::Frame(error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::error::Error as _;
+
+    use super::*;
+    use rasray_scene::SceneError;
+
+    #[test]
+    fn what_a_crate_passes_on_is_the_error_of_the_crate_that_failed() {
+        let lost = || GpuError::DeviceLost { call: "vkQueueSubmit", during: "trace".to_owned() };
+        let nested = [
+            FrameError::Tracer(TracerError::Gpu(lost())).into(),
+            TracerError::Gpu(lost()).into(),
+            ExperimentError::from(FrameError::Gpu(lost())),
+        ];
+        for error in nested {
+            assert!(matches!(error, ExperimentError::Gpu(GpuError::DeviceLost { .. })), "{error:?}");
+        }
+        let unstable = TracerError::Unstable { structure: "bvh", rebuilds: 4 };
+        let error = ExperimentError::from(FrameError::Tracer(unstable));
+        assert!(matches!(error, ExperimentError::Tracer(TracerError::Unstable { .. })), "{error:?}");
+    }
+
+    #[test]
+    fn what_the_system_said_of_a_file_is_kept_as_a_source() {
+        let source = || io::Error::from(io::ErrorKind::PermissionDenied);
+        let of_scene = SceneError::Read { path: "a.ply".into(), source: source() };
+        let errors = [
+            ExperimentError::from(GpuSceneError::Scene(of_scene)),
+            ExperimentError::TemporaryFile { path: "a.ply".into(), source: source() },
+        ];
+        for error in errors {
+            let source = error.source().and_then(|source| source.downcast_ref::<io::Error>());
+            assert_eq!(source.map(io::Error::kind), Some(io::ErrorKind::PermissionDenied), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_scene_that_exceeds_a_binding_is_told_from_other_failures() {
+        let large = || GpuError::TooLarge { name: "texels".to_owned(), size: 9, limit: 8 };
+        for error in [GpuSceneError::Gpu(large()), GpuSceneError::Ads(AdsError::Gpu(large()))] {
+            let error = ExperimentError::from(error);
+            assert_eq!(error.to_string(), "the scene's texels have 9 bytes, and this device binds 8 at most");
+        }
+        let other = ExperimentError::from(GpuSceneError::TooManyTexels { count: 9, limit: 8 });
+        assert!(matches!(other, ExperimentError::GpuScene(_)), "{other:?}");
     }
 }

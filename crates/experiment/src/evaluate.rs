@@ -4,7 +4,6 @@ use rasray_ads::{Hit, PRIMITIVE_UNKNOWN, StructureKind};
 use rasray_metrics::{DeviceHit, HitConfusion, common_hits};
 use rasray_reference::oracle::Verdict;
 
-use crate::device_scene::device_error;
 use crate::error::ExperimentError;
 use rasray_report::Accuracy;
 use rasray_report::figures::DepthErrors;
@@ -34,7 +33,7 @@ pub(super) fn accuracy(
         StructureKind::Primitive | StructureKind::LossyPrimitive => 0.0,
         StructureKind::Fragment => FRAGMENT_TOLERANCE,
     };
-    let confusion = HitConfusion::measure(verdicts, hits, tolerance).map_err(device_error)?;
+    let confusion = HitConfusion::measure(verdicts, hits, tolerance)?;
     Ok(Accuracy::from(&confusion))
 }
 

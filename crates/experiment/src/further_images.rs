@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use rasray_gpu::Device;
-use rasray_integrators::{AovPixel, AovSurface, FilmPixel, IntegratorError};
+use rasray_integrators::{AovPixel, AovSurface, FilmPixel};
 use rasray_options::Value;
 
 use crate::built::Built;
-use crate::device_scene::{DeviceScene, device_error, frame_error};
+use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::jobs::{Aov, AovImage, Frame, RenderJob};
 use crate::motion::{TrianglesBefore, motion};
@@ -45,9 +45,9 @@ pub(super) fn further_images(
         first += met.len();
     };
     if aovs.has_surfaces() {
-        image.aovs_with_surfaces(scene, structure, take).map_err(frame_error)?;
+        image.aovs_with_surfaces(scene, structure, take)?;
     } else if aovs.has_centres() {
-        image.aovs(scene, structure, |met| take(met, &[])).map_err(frame_error)?;
+        image.aovs(scene, structure, |met| take(met, &[]))?;
     }
 
     if let (Some(image), Some(variances)) = (images.get_mut(&Aov::Variance), image.variances()) {
@@ -69,7 +69,7 @@ pub(super) fn further_images(
             }
             first += film.len();
         };
-        direct.image().film().read_bands(device, take).map_err(device_error)?;
+        direct.image().film().read_bands(device, take)?;
     }
     if aovs.contains(Aov::Samples) {
         // The sums of a share keep theirs.
@@ -111,10 +111,8 @@ fn direct_light(
     built: &Built,
     samples: u32,
 ) -> Result<Rendering, ExperimentError> {
-    let refused = |error: IntegratorError| ExperimentError::usage(error.to_string(), "");
     let bounces = job.frame.integrator.values().get("bounces").and_then(Value::whole).unwrap_or(1);
-    let integrator =
-        job.frame.integrator.clone().with("bounces", Value::Whole(bounces.min(1))).map_err(refused)?;
+    let integrator = job.frame.integrator.clone().with("bounces", Value::Whole(bounces.min(1)))?;
     let frame = Frame { integrator, spp: samples, ..job.frame.clone() };
     let mut rendering = Rendering::new(device, (stage, built), &frame, job.shard, &job.needs)?;
     rendering.render(device, built, "direct light", &mut |_| ControlFlow::Continue(()))?;

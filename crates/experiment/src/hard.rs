@@ -9,7 +9,7 @@ use rasray_scene::needs::Needs;
 
 use crate::backend::{OnProgress, Progress};
 use crate::contestant::Contestant;
-use crate::device_scene::{DeviceScene, device_error};
+use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::evaluate::device_hits;
 use crate::hard_verdict::hard_record;
@@ -38,7 +38,7 @@ pub(super) fn hard(
         return replay_case(device, &stage, job.systems, (case.id, case.eye), rays, index);
     }
     let (positions, indices) = case.buffers();
-    let oracle = Oracle::new(&positions, &indices, None).map_err(device_error)?;
+    let oracle = Oracle::new(&positions, &indices, None)?;
     let set = RaysWithTruth {
         name: case.id.to_owned(),
         rays: case.rays.iter().map(|ray| placed.device_ray(ray)).collect(),
@@ -74,8 +74,7 @@ pub(super) fn hard(
     for (run, answer) in comparison.runs.iter_mut().zip(&answers) {
         let hits = device_hits(answer.hits.iter().copied());
         let tolerance = Tolerance::of(answer.kind);
-        let measured =
-            Measured::of(case, &set.verdicts, &hits, tolerance, |_| false).map_err(device_error)?;
+        let measured = Measured::of(case, &set.verdicts, &hits, tolerance, |_| false)?;
         let largest_dt = run.accuracy.as_ref().and_then(|accuracy| accuracy.dt_rel_max);
         let dt = largest_dt.zip(case.largest_dt.filter(|_| answer.kind == StructureKind::Primitive));
         run.hard = Some(hard_record(case, answer.kind, &measured, dt, run.options.get("resolution")));
@@ -99,8 +98,5 @@ fn check_positions(
     if triangles(&positions, &indices).iter().map(bits).eq(expected.iter().map(bits)) {
         return Ok(());
     }
-    Err(ExperimentError::device(
-        format!("the triangles of {} are not the same on the device", case.id),
-        "this is a defect; please report it with the command line",
-    ))
+    Err(ExperimentError::OtherTriangles { case: case.id.to_string() })
 }

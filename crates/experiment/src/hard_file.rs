@@ -13,13 +13,7 @@ pub(super) const LOADER: (&str, &str) = ("loader", "file");
 /// # Errors
 /// The folder for temporary files takes none.
 pub fn compare_file(file: &HardFile) -> Result<Run, ExperimentError> {
-    let failed = |error: std::io::Error| {
-        ExperimentError::input(
-            &std::env::temp_dir(),
-            format!("a file cannot be written there: {error}"),
-            "set TMPDIR to a folder for temporary files",
-        )
-    };
+    let failed = |source| ExperimentError::TemporaryFile { path: std::env::temp_dir(), source };
     let folder = tempfile::Builder::new().prefix("rasray-").tempdir().map_err(failed)?;
     let place = folder.path().join(file.name);
     std::fs::write(&place, &file.bytes).map_err(failed)?;

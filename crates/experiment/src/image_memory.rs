@@ -2,9 +2,8 @@
 
 use rasray_gpu::Device;
 use rasray_integrators::FilmPixel;
-use rasray_report::{bytes as in_words, grouped};
 
-use crate::error::ExperimentError;
+use crate::error::{ExperimentError, Holder};
 use crate::jobs::{Aov, AovSelection, Frame};
 
 /// Bytes per pixel.
@@ -61,27 +60,16 @@ impl There {
     /// An image with so many pixels does not fit.
     fn check(self, [width, height]: [u32; 2], per_pixel: PerPixel) -> Result<(), ExperimentError> {
         let pixels = u64::from(width) * u64::from(height);
-        let refused = |bytes: u64, there: u64, whose: &str| {
-            let message = format!(
-                "an image of {width} x {height} pixels takes {} ({bytes} bytes a pixel), and {whose} has {}",
-                in_words(pixels * bytes),
-                in_words(there)
-            );
-            let most = grouped(there / bytes);
-            (
-                message,
-                format!("choose a --size of at most {most} pixels in all, or leave out --aov and --adaptive"),
-            )
+        let refused = |bytes_per_pixel, available, memory| {
+            Err(ExperimentError::ImageTooLarge { size: [width, height], bytes_per_pixel, available, memory })
         };
         let PerPixel { device, host } = per_pixel;
         if let Some(there) = self.device.filter(|there| pixels * device > *there) {
-            let (message, help) = refused(device, there, "the device");
-            return Err(ExperimentError::device(message, help));
+            return refused(device, there, Holder::Device);
         }
         let bytes = if self.device.is_some() { host } else { host + device };
         if let Some(there) = self.host.filter(|there| pixels * bytes > *there) {
-            let (message, help) = refused(bytes, there, "this machine");
-            return Err(ExperimentError::usage(message, help));
+            return refused(bytes, there, Holder::Host);
         }
         Ok(())
     }
@@ -131,13 +119,13 @@ mod tests {
         assert!(check(Some(GIBIBYTE), Some(GIBIBYTE)).is_ok());
         assert!(check(None, Some(2 * GIBIBYTE)).is_ok() && check(None, None).is_ok());
         let device = check(Some(GIBIBYTE / 2), None).expect_err("the device is too small");
-        assert!(matches!(device, ExperimentError::Device { .. }), "{device}");
+        assert!(matches!(device, ExperimentError::ImageTooLarge { memory: Holder::Device, .. }), "{device}");
         let expected =
             "an image of 8192 x 8192 pixels takes 1.00 GiB (16 bytes a pixel), and the device has 512.00 MiB";
         assert_eq!(device.to_string(), expected);
-        assert!(device.help().contains("at most 33,554,432 pixels"), "{}", device.help());
         let shared = check(None, Some(GIBIBYTE)).expect_err("device and host share what there is");
-        assert!(matches!(shared, ExperimentError::Usage { .. }) && shared.to_string().contains("1.75 GiB"));
+        let is_host = matches!(shared, ExperimentError::ImageTooLarge { memory: Holder::Host, .. });
+        assert!(is_host && shared.to_string().contains("1.75 GiB"), "{shared}");
         let host = check(Some(GIBIBYTE), Some(GIBIBYTE / 2)).expect_err("the host is too small");
         assert!(host.to_string().contains("768.00 MiB (12 bytes a pixel)"), "{host}");
     }

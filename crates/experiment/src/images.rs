@@ -8,7 +8,6 @@ use crate::backend::{FinishedRun, OnProgress, OnRun};
 use crate::built::Built;
 use crate::compare::Setting;
 use crate::contestant::Contestant;
-use crate::device_scene::device_error;
 use crate::error::ExperimentError;
 use crate::jobs::{Comparison, Frame, OccluderKind, Primary};
 use crate::render::{Kept, render_pixels};
@@ -23,8 +22,7 @@ fn reference_image(
     frame: &Frame,
 ) -> Result<Option<Image>, ExperimentError> {
     let Some(naive) = NaiveIntegrator::named(frame.integrator.name()) else { return Ok(None) };
-    let image = naive.render(scene, view, &frame.integrator.values());
-    image.map(Some).map_err(|error| ExperimentError::usage(error.to_string(), ""))
+    Ok(Some(naive.render(scene, view, &frame.integrator.values())?))
 }
 
 /// How far an image is from the reference, as a whole and, where wanted, in each pixel.
@@ -35,10 +33,10 @@ fn image_error(
     map: bool,
 ) -> Result<(ImageError, Vec<f32>), ExperimentError> {
     let (width, height) = (frame.width as usize, frame.height as usize);
-    let test = metrics::Image::new(width, height, test).map_err(device_error)?;
-    let reference = metrics::Image::new(width, height, &reference.pixels).map_err(device_error)?;
-    let error = metrics::ImageError::measure(&test, &reference).map_err(device_error)?;
-    let map = if map { metrics::flip_map(&test, &reference).map_err(device_error)? } else { Vec::new() };
+    let test = metrics::Image::new(width, height, test)?;
+    let reference = metrics::Image::new(width, height, &reference.pixels)?;
+    let error = metrics::ImageError::measure(&test, &reference)?;
+    let map = if map { metrics::flip_map(&test, &reference)? } else { Vec::new() };
     let error = ImageError {
         flip_mean: Some(error.flip.mean),
         flip_p99: Some(error.flip.p99),
@@ -76,10 +74,7 @@ pub(super) fn compare_images(
     }
     let Some(reference) = reference_image(posed, view, frame)? else {
         let known: Vec<_> = INTEGRATORS.iter().map(|row| row.name).collect();
-        return Err(ExperimentError::usage(
-            format!("--image compares with the reference, which has the integrators {}", known.join(", ")),
-            "choose one of these with --integrator, or leave --image out",
-        ));
+        return Err(ExperimentError::NoReference { known: known.join(", ") });
     };
     if job.figures {
         comparison.figures.images = Some(Images {

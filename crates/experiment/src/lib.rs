@@ -68,7 +68,7 @@ pub use cell::{CellList, HardSubject, cell_key, compare_cells, hard_cells};
 pub use contestant::Contestant;
 pub use describe::requirements;
 pub use device_scene::DeviceScene;
-pub use error::ExperimentError;
+pub use error::{ExperimentError, Holder, OccluderError};
 pub use evaluate::device_hits;
 pub use hard_file::compare_file;
 pub use jobs::{
@@ -81,16 +81,24 @@ pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use moving_scene::PoseTimes;
 pub use paper_frame::FrameDefaults;
 pub use placed::{Placed, case_camera};
-pub use rasray_frame::Adaptive;
-pub use rasray_gpu::{PassCommands, Stage};
-pub use rasray_integrators::{INTEGRATORS, IntegratorRow, IntegratorSpec, integrator_options};
+pub use rasray_ads::AdsError;
+pub use rasray_frame::{Adaptive, FrameError};
+pub use rasray_gpu::{GpuError, PassCommands, Stage};
+pub use rasray_gpu_scene::GpuSceneError;
+pub use rasray_integrators::{
+    INTEGRATORS, IntegratorError, IntegratorRow, IntegratorSpec, integrator_options,
+};
+pub use rasray_metrics::MetricsError;
 pub use rasray_options::OptionValues;
+pub use rasray_reference::{oracle::OracleError, shading::ReferenceError};
+pub use rasray_systems::SystemsError;
+pub use rasray_tracer::TracerError;
 pub use rays::{RaySource, incoherent_rays, oracle_ray};
 pub use render::KeptScene;
 pub use renderer::{open, open_device};
 pub use rendering::Rendering;
 pub use scene_info::{SceneInfo, count_not_uploaded};
-pub use selection::{one_system, several_systems};
+pub use selection::{SelectionError, one_system, several_systems};
 pub use shard::Shard;
 pub use system_config::SystemConfig;
 pub use traced_set::{TracedSet, trace_in_turns};

@@ -9,7 +9,7 @@ use rasray_report::Pass;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Moment, Scene};
 
-use crate::device_scene::{DeviceScene, device_error, scene_error};
+use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::jobs::{Frame, Refresh, RenderJob};
 use crate::passes::Passes;
@@ -32,7 +32,7 @@ impl DeviceScene {
     ) -> Result<Self, ExperimentError> {
         let origin = SceneTables::default_frame_origin(scene, camera.world_from_camera.translation);
         let (mut stage, tables) = Self::uploaded(device, scene, origin, camera, size, seed, needs)?;
-        stage.pose = Some(PosePass::new(device, scene, &tables, &stage.scene).map_err(scene_error)?);
+        stage.pose = Some(PosePass::new(device, scene, &tables, &stage.scene)?);
         Ok(stage)
     }
 
@@ -72,16 +72,13 @@ impl DeviceScene {
             return Ok(None);
         }
         let Some(pass) = self.pose.as_mut() else {
-            return Err(ExperimentError::usage(
-                "a scene whose triangles are others in each frame has no part that stands still",
-                "leave out --refresh",
-            ));
+            return Err(ExperimentError::NoStillPart);
         };
         let parts = match refresh {
             Refresh::Objects => pass.objects(device, Some(scene), OBJECTS_MOST),
             _ => pass.parts(device),
         };
-        parts.map(Some).map_err(scene_error)
+        Ok(Some(parts?))
     }
 
     /// Which of the parts that move are elsewhere than before the last [`DeviceScene::pose`]; empty: all.
@@ -133,13 +130,12 @@ impl DeviceScene {
         timing: Timing,
     ) -> Result<(FramePose, PoseTimes), ExperimentError> {
         let Some(pass) = &self.pose else {
-            return Err(device_error("a scene is to be posed that was not made to move"));
+            return Err(ExperimentError::NotPosed);
         };
         let started = Instant::now();
-        let pose = pass.frame(scene, moment).map_err(scene_error)?;
+        let pose = pass.frame(scene, moment)?;
         let host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
-        let submitted =
-            device.submit_passes(timing, |recorder| pass.record(recorder, 0, &pose)).map_err(device_error)?;
+        let submitted = device.submit_passes(timing, |recorder| pass.record(recorder, 0, &pose))?;
         Ok((pose, PoseTimes { host_milliseconds, passes: submitted.passes }))
     }
 }

@@ -4,7 +4,7 @@ use rasray_ads::{Domain, RayQueue, TraceMode};
 use rasray_gpu::{Device, PassCommands};
 
 use crate::built::Built;
-use crate::device_scene::{DeviceScene, device_error};
+use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::jobs::RenderJob;
 
@@ -17,22 +17,20 @@ pub(super) fn pass_list(device: &Device, job: &RenderJob<'_>) -> Result<Vec<Pass
     let spec = job.system.spec()?;
     let (mut stage, _) = DeviceScene::of_job(device, job)?;
     let mut built = Built::refreshed(device, &spec, &mut stage, (job.scene, job.refresh))?;
-    let queue = RayQueue::new(device, "listed", RAYS, true).map_err(device_error)?;
+    let queue = RayQueue::new(device, "listed", RAYS, true)?;
     let viewpoint = stage.scene.viewpoint().at(stage.scene.eye());
     let frames = &mut built.frames;
     frames.geometry_moved();
-    frames.prepare(device, viewpoint).map_err(device_error)?;
-    let submitted = device
-        .submit(|recorder| {
-            queue.record_reset(recorder);
-            frames.record(recorder, 0, viewpoint)?;
-            let (structure, all) = (frames.structure(), Domain::First(RAYS));
-            let rounds = structure.rounds();
-            structure.record_trace(recorder, &queue, all, TraceMode::Closest, rounds);
-            structure.record_trace(recorder, &queue, all, TraceMode::Occluded, rounds);
-            structure.record_surfaces(recorder, &queue, all)?;
-            Ok::<_, rasray_ads::AdsError>(recorder.passes().to_vec())
-        })
-        .map_err(device_error)?;
-    submitted.value.map_err(device_error)
+    frames.prepare(device, viewpoint)?;
+    let submitted = device.submit(|recorder| {
+        queue.record_reset(recorder);
+        frames.record(recorder, 0, viewpoint)?;
+        let (structure, all) = (frames.structure(), Domain::First(RAYS));
+        let rounds = structure.rounds();
+        structure.record_trace(recorder, &queue, all, TraceMode::Closest, rounds);
+        structure.record_trace(recorder, &queue, all, TraceMode::Occluded, rounds);
+        structure.record_surfaces(recorder, &queue, all)?;
+        Ok::<_, rasray_ads::AdsError>(recorder.passes().to_vec())
+    })?;
+    Ok(submitted.value?)
 }

@@ -11,7 +11,7 @@ use rasray_scene::needs::Needs;
 
 use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
-use crate::device_scene::{DeviceScene, device_error};
+use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::further_images::further_images;
 use crate::image_memory;
@@ -58,7 +58,7 @@ impl Pixels {
             samples += pixels.iter().map(|pixel| u64::from(pixel.samples)).sum::<u64>();
             samples_most = pixels.iter().map(|pixel| pixel.samples).fold(samples_most, u32::max);
         };
-        film.read_bands(device, take).map_err(device_error)?;
+        film.read_bands(device, take)?;
         Ok(Self { means, sums, counts, samples, samples_most, ..Self::default() })
     }
 

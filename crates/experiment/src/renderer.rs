@@ -30,10 +30,7 @@ impl Renderer {
     /// Messages of the validation layer are errors.
     fn check_validation(&self) -> Result<(), ExperimentError> {
         match self.device.validation_messages().first() {
-            Some(message) if self.validation => Err(ExperimentError::device(
-                format!("the validation layer says: {message}"),
-                "this is a defect; please report it with the command line",
-            )),
+            Some(message) if self.validation => Err(ExperimentError::Validation { message: message.clone() }),
             _ => Ok(()),
         }
     }
@@ -107,7 +104,7 @@ impl Backend for Renderer {
 /// Opens the wanted device, for code that works on it itself.
 ///
 /// # Errors
-/// [`ExperimentError::Device`]: no such device, or it lacks something required.
+/// [`ExperimentError::Opening`]: no such device, or it lacks something required.
 pub fn open_device(choice: &DeviceChoice) -> Result<GpuDevice, ExperimentError> {
     let device = GpuDevice::create(&DeviceDesc {
         requirements: requirements(),
@@ -115,7 +112,7 @@ pub fn open_device(choice: &DeviceChoice) -> Result<GpuDevice, ExperimentError> 
         validation: choice.validation,
         application: "rasray".to_owned(),
     })
-    .map_err(|error| ExperimentError::device(error, "`rasray info` lists the devices and what they lack"))?;
+    .map_err(ExperimentError::Opening)?;
     device.keep_pipelines(KEPT_PIPELINES);
     tracing::info!(device = device.name(), why = device.why_chosen(), "device");
     Ok(device)

@@ -4,30 +4,17 @@ use std::ops::ControlFlow;
 
 use rasray_frame::{Advance, ImagePasses, ImageRenderer};
 use rasray_gpu::Device;
-use rasray_integrators::{
-    Film, FilmFaults, Integrator, IntegratorDesc, IntegratorError, PATH_LAYER_LIMIT, Visibility,
-};
+use rasray_integrators::{Film, FilmFaults, IntegratorDesc, PATH_LAYER_LIMIT, Visibility};
 use rasray_scene::needs::Needs;
 
 use crate::backend::{OnProgress, Progress};
 use crate::built::Built;
-use crate::device_scene::{DeviceScene, device_error, frame_error, image_error};
-use crate::error::ExperimentError;
+use crate::device_scene::DeviceScene;
+use crate::error::{ExperimentError, OccluderError};
 use crate::jobs::{Frame, OccluderKind, Primary};
 use crate::passes::Passes;
 use crate::shard::Shard;
 use rasray_report::{Memory, Pass, PassOf};
-
-/// Makes the integrator of a frame.
-fn integrator(frame: &Frame, desc: &IntegratorDesc<'_>) -> Result<Box<dyn Integrator>, ExperimentError> {
-    frame.integrator.make(desc).map_err(|error| match error {
-        IntegratorError::Value(_) => ExperimentError::usage(error.to_string(), ""),
-        IntegratorError::CannotFetch { .. } => {
-            ExperimentError::device(error, "leave out --fetch raster, or choose another --device")
-        }
-        other => image_error(other),
-    })
-}
 
 /// What answers the camera rays of a frame in place of traces; nothing where they are traced.
 fn visibility(
@@ -38,21 +25,10 @@ fn visibility(
     match frame.primary {
         Primary::Trace => Ok(None),
         Primary::Raster | Primary::Fragments if stage.scene.frame().lens_radius > 0.0 => {
-            let name = frame.primary.name();
-            Err(ExperimentError::usage(
-                format!("--primary {name} draws through a pinhole, and the camera has a lens"),
-                "write --primary trace, or leave out --aperture",
-            ))
+            Err(ExperimentError::Pinhole { primary: frame.primary.name() })
         }
         Primary::Fragments => Ok(None),
-        Primary::Raster => {
-            Visibility::new(device, &stage.scene, false).map(Some).map_err(|error| match error {
-                IntegratorError::CannotDraw { .. } => {
-                    ExperimentError::device(error, "choose --primary trace, or another --device")
-                }
-                other => device_error(other),
-            })
-        }
+        Primary::Raster => Ok(Some(Visibility::new(device, &stage.scene, false)?)),
     }
 }
 
@@ -64,34 +40,19 @@ fn with_occluder(
     frame: &Frame,
 ) -> Result<ImagePasses, ExperimentError> {
     let OccluderKind::ShadowMaps { resolution, points } = frame.occluder else { return Ok(passes) };
-    let refused =
-        |why: String, fix| Err(ExperimentError::usage(format!("--occluder shadow-maps: {why}"), fix));
     if !passes.integrator().asks_occluder() {
         let features = stage.scene.features();
-        return match frame.workload().scatters {
-            true if features.blend => refused(
-                "surfaces of this scene let light pass, and maps do not say which lie on a ray".to_owned(),
-                "write --occluder structure, or --alpha off, which makes every surface opaque",
-            ),
-            true if features.panes => refused(
-                "panes of this scene let light pass, and maps do not say which lie on a ray".to_owned(),
-                match frame.integrator.row().option("glass-shadows") {
-                    Some(_) => "write --occluder structure, or --glass-shadows opaque",
-                    None => "write --occluder structure",
-                },
-            ),
-            _ => refused(
-                format!("the integrator {} sends no ray to a light", frame.integrator.name()),
-                "write --occluder structure, or choose --integrator path with bounces",
-            ),
-        };
+        return Err(match frame.workload().scatters {
+            true if features.blend => OccluderError::Blended,
+            true if features.panes => OccluderError::Panes {
+                can_be_opaque: frame.integrator.row().option("glass-shadows").is_some(),
+            },
+            _ => OccluderError::NoShadowRays { integrator: frame.integrator.name() },
+        }
+        .into());
     }
     if frame.back_faces.lets_other_rays() {
-        return refused(
-            "maps have both sides of every surface, and with --back-faces all no light meets backs"
-                .to_owned(),
-            "write --occluder structure, or leave out --back-faces all",
-        );
+        return Err(OccluderError::BackFaces.into());
     }
     let (has_lights, has_emitters) = (!stage.scene.lights().is_empty(), stage.scene.emitter_count() > 0);
     if points > 0 && !has_emitters {
@@ -103,13 +64,9 @@ fn with_occluder(
         );
     }
     let config = rasray_shadow_maps::Config { points, ..rasray_shadow_maps::Config::new(resolution) };
-    passes.with_shadow_maps(device, &stage.scene, config).map_err(|error| {
-        let fix = match points {
-            0 => "choose a smaller --shadow-resolution, or another --device",
-            _ => "choose a smaller --shadow-resolution or --shadow-points, or another --device",
-        };
-        ExperimentError::device(format!("--occluder shadow-maps: {error}"), fix)
-    })
+    passes
+        .with_shadow_maps(device, &stage.scene, config)
+        .map_err(|source| ExperimentError::ShadowMaps { points, source })
 }
 
 /// The image of a job in the making, with the times of its passes. Every call submits and waits.
@@ -141,13 +98,13 @@ impl Rendering {
             Some(_) => film.and_then(|film| film.listed(device)),
             None => film,
         };
-        let film = film.map_err(image_error)?;
+        let film = film?;
         let mut desc = IntegratorDesc::new(device, &stage.scene, &film);
         if *needs == Needs::all() {
             desc.features = rasray_gpu_scene::ShadingFeatures::ALL;
         }
         desc.surfaces_of_hits = built.structure().has_surfaces_of_triangles();
-        let passes = ImagePasses::from(integrator(frame, &desc)?);
+        let passes = ImagePasses::from(frame.integrator.make(&desc)?);
         let passes = passes.with_visibility(visibility(device, stage, frame)?);
         let passes = if frame.primary == Primary::Fragments { passes.with_stored_hits() } else { passes };
         let passes = with_occluder(passes, device, stage, frame)?;
@@ -157,8 +114,7 @@ impl Rendering {
             Some(rule) => image.and_then(|image| image.adapting(rule)),
             None => image,
         };
-        let image = image.map_err(frame_error)?;
-        Ok(Self { image, passes: Passes::default(), of_hits: desc.surfaces_of_hits })
+        Ok(Self { image: image?, passes: Passes::default(), of_hits: desc.surfaces_of_hits })
     }
 
     /// Whether it renders what `built` holds, without kernels of its own.
@@ -175,18 +131,12 @@ impl Rendering {
     /// Refuses a structure without the first hits that the frame takes from it.
     ///
     /// # Errors
-    /// A usage error.
+    /// The structure has none.
     pub(super) fn check(frame: &Frame, built: &Built) -> Result<(), ExperimentError> {
         if frame.primary != Primary::Fragments || built.structure().has_first_hits() {
             return Ok(());
         }
-        Err(ExperimentError::usage(
-            format!(
-                "--primary fragments: {} has no view of the camera to take them from",
-                built.structure().name()
-            ),
-            "write --system mmrt --views cube+camera, or leave it out",
-        ))
+        Err(ExperimentError::NoFirstHits { structure: built.structure().name() })
     }
 
     /// What is on the film.
@@ -218,7 +168,7 @@ impl Rendering {
     /// The device fails.
     pub fn clear(&mut self) -> Result<(), ExperimentError> {
         self.passes = Passes::default();
-        self.image.clear().map_err(frame_error)
+        Ok(self.image.clear()?)
     }
 
     /// As [`ImageRenderer::scene_moved`].
@@ -231,7 +181,7 @@ impl Rendering {
     /// # Errors
     /// The device fails.
     pub fn warm_up(&mut self, built: &Built) -> Result<f64, ExperimentError> {
-        self.image.warm_up(built.structure()).map_err(frame_error)
+        Ok(self.image.warm_up(built.structure())?)
     }
 
     /// Renders the next wave. False where rays need more rounds than they had: then all starts at 0 again, and the
@@ -240,7 +190,7 @@ impl Rendering {
     /// # Errors
     /// The device fails, or rays met list entries that name nothing.
     pub fn advance(&mut self, device: &Device, built: &Built) -> Result<bool, ExperimentError> {
-        let step = self.image.advance(built.structure(), device.best_timing()).map_err(frame_error)?;
+        let step = self.image.advance(built.structure(), device.best_timing())?;
         Ok(keep_times(&mut self.passes, &step))
     }
 
@@ -263,7 +213,7 @@ impl Rendering {
             let (done, total) = (image.waves_done(), image.waves());
             progress(Progress { task, done, total, unit: "waves" })
         };
-        image.render(built.structure(), device.best_timing(), after).map_err(frame_error)
+        Ok(image.render(built.structure(), device.best_timing(), after)?)
     }
 
     /// Warns of what the picture lacks: samples that are no numbers, and light behind too many surfaces.
@@ -271,7 +221,7 @@ impl Rendering {
     /// # Errors
     /// The device fails.
     pub fn warn_of_faults(&self, device: &Device) -> Result<FilmFaults, ExperimentError> {
-        let faults = self.image.film().read_faults(device).map_err(device_error)?;
+        let faults = self.image.film().read_faults(device)?;
         if faults.non_finite > 0 {
             tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
         }
@@ -287,7 +237,7 @@ impl Rendering {
     /// Says how many triangles were drawn over all pixels, where camera rays are drawn.
     pub(super) fn log_visibility(&self, device: &Device) -> Result<(), ExperimentError> {
         if let Some(visibility) = self.image.passes().visibility() {
-            let covering = visibility.read_counts(device).map_err(device_error)?.covering;
+            let covering = visibility.read_counts(device)?.covering;
             tracing::info!(
                 covering,
                 "triangles drawn over all pixels, of all waves: they reach behind the eye"
@@ -301,7 +251,7 @@ impl Rendering {
     /// # Errors
     /// The device fails.
     pub fn read(&self, device: &Device) -> Result<Vec<[f32; 3]>, ExperimentError> {
-        self.image.film().read(device).map_err(device_error)
+        Ok(self.image.film().read(device)?)
     }
 
     /// Times of the passes since the film was clear, all waves together.

@@ -11,7 +11,7 @@ use rasray_tracer::{BatchTracer, Replay};
 use serde_json::Value;
 
 use crate::built::Built;
-use crate::device_scene::{DeviceScene, device_error, tracer_error};
+use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::jobs::Comparison;
 use crate::rays::oracle_ray;
@@ -39,19 +39,15 @@ impl ReplaySetting<'_> {
         index: u32,
     ) -> Result<String, ExperimentError> {
         let Some(ray) = rays.get(index as usize) else {
-            return Err(ExperimentError::usage(
-                format!("there is no ray {index} in {set}, which has {}", rays.len()),
-                "rays are counted from 0; --rays says how many a set has",
-            ));
+            return Err(ExperimentError::NoSuchRay { index, set: set.to_owned(), rays: rays.len() });
         };
         let truth = self.oracle.replay(&oracle_ray(ray));
         let mut text = format!("ray {index} of {set}\n");
         for spec in specs {
             let spec = spec.clone().with_counters(Counters::Steps);
             let built = Built::new(self.device, &spec, &self.stage.scene, self.center)?;
-            let tracer = BatchTracer::new(self.device, 1).map_err(|e| tracer_error(&e))?;
-            let replay =
-                tracer.replay(built.structure(), ray, TraceMode::Closest).map_err(|e| tracer_error(&e))?;
+            let tracer = BatchTracer::new(self.device, 1)?;
+            let replay = tracer.replay(built.structure(), ray, TraceMode::Closest)?;
             let _ = write!(text, "\n{} {}: {replay}", spec.system().name, spec.preset().name());
             text.push_str(&met(&replay, &truth));
             if let Some(resolution) = cube_resolution(&built)? {
@@ -89,7 +85,7 @@ pub(super) fn replay_case(
 ) -> Result<Comparison, ExperimentError> {
     let (name, center) = case;
     let (positions, indices) = stage.triangles(device)?;
-    let oracle = Oracle::new(&positions, &indices, None).map_err(device_error)?;
+    let oracle = Oracle::new(&positions, &indices, None)?;
     let setting = ReplaySetting { device, stage, oracle: &oracle, center };
     replay_sets(&setting, systems, std::iter::once((name.to_owned(), rays)), index)
 }

@@ -4,13 +4,13 @@
 use crate::error::ExperimentError;
 use crate::system_config::SystemConfig;
 use rasray_options::OptionValues;
-use rasray_systems::{Preset, SYSTEMS, System};
+use rasray_systems::{Preset, System};
 
 mod assigned;
-mod names;
+mod error;
 
 use assigned::Assigned;
-use names::{names, who_has};
+pub use error::SelectionError;
 
 /// One system with its options, each of which it must have.
 ///
@@ -22,23 +22,11 @@ pub fn one_system(
     options: &OptionValues,
 ) -> Result<SystemConfig, ExperimentError> {
     if !system.presets.contains(&preset) {
-        let own: Vec<_> = system.presets.iter().map(|preset| preset.name()).collect();
-        let having: Vec<_> = SYSTEMS
-            .iter()
-            .filter(|system| system.presets.contains(&preset))
-            .map(|system| system.name)
-            .collect();
-        return Err(ExperimentError::usage(
-            format!("system {} has no preset {}", system.name, preset.name()),
-            format!("its presets: {}; choose another --system for it: {}", own.join(", "), having.join(", ")),
-        ));
+        return Err(SelectionError::NoPreset { system, preset }.into());
     }
     for (option, _) in options.iter() {
         if !system.has(option) {
-            return Err(ExperimentError::usage(
-                format!("system {} has no option --{option}", system.name),
-                format!("{}; leave it out or choose another --system", who_has(option)),
-            ));
+            return Err(SelectionError::NoOption { system, option }.into());
         }
     }
     let config = SystemConfig::new(system, preset, options.clone());
@@ -61,35 +49,23 @@ pub fn several_systems(
 ) -> Result<Vec<SystemConfig>, ExperimentError> {
     for (option, _) in options.iter() {
         if !systems.iter().any(|system| system.has(option)) {
-            return Err(ExperimentError::usage(
-                format!("none of the systems {} has an option --{option}", names(systems)),
-                format!("{}; leave it out or add such a system to --systems", who_has(option)),
-            ));
+            return Err(SelectionError::NoneHasOption { systems: systems.to_vec(), option }.into());
         }
     }
     for preset in presets {
         if !systems.iter().any(|system| system.presets.contains(preset)) {
-            return Err(ExperimentError::usage(
-                format!("none of the systems {} has the preset {}", names(systems), preset.name()),
-                "leave it out of --presets or add a system that has it to --systems",
-            ));
+            return Err(SelectionError::NoneHasPreset { systems: systems.to_vec(), preset: *preset }.into());
         }
     }
     let assigned = assignments.iter().map(|text| Assigned::read(text)).collect::<Result<Vec<_>, _>>()?;
     if let Some(Assigned { system, .. }) =
         assigned.iter().find(|assigned| !systems.contains(&assigned.system))
     {
-        return Err(ExperimentError::usage(
-            format!("an option addresses {}, which is not compared", system.name),
-            format!("add {} to --systems or leave the option out", system.name),
-        ));
+        return Err(SelectionError::SystemNotCompared { system }.into());
     }
     let mut addressed = assigned.iter().filter_map(|assigned| assigned.preset);
     if let Some(preset) = addressed.find(|preset| !presets.contains(preset)) {
-        return Err(ExperimentError::usage(
-            format!("an option addresses the preset {}, which is not compared", preset.name()),
-            format!("add {} to --presets or leave the option out", preset.name()),
-        ));
+        return Err(SelectionError::PresetNotCompared { preset }.into());
     }
     let mut configs = Vec::new();
     for (position, system) in systems.iter().enumerate() {

@@ -77,10 +77,8 @@ impl SystemConfig {
     /// What the registry makes the structure from.
     ///
     /// # Errors
-    /// A usage error for values that do not go together; none for a config of the command line.
+    /// Values do not go together; those of a config of the command line do.
     pub fn spec(&self) -> Result<Spec, ExperimentError> {
-        Spec::of(self.system, self.preset, self.options.clone()).map_err(|error| {
-            ExperimentError::usage(error.to_string(), "change the option, or leave it to the preset")
-        })
+        Ok(Spec::of(self.system, self.preset, self.options.clone())?)
     }
 }

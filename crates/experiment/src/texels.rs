@@ -2,7 +2,7 @@
 
 use crate::backend::TexelCapacity;
 use crate::error::ExperimentError;
-use rasray_gpu_scene::{GpuSceneError, Parts, SmallerImage, TEXEL_BYTES, TexelDemand};
+use rasray_gpu_scene::{Parts, SmallerImage, TEXEL_BYTES, TexelDemand};
 use rasray_report::{SmallerImageRecord, bytes};
 use rasray_scene::Scene;
 use rasray_scene::needs::Needs;
@@ -17,7 +17,7 @@ const HELD_BY_EVERY_DEVICE: u64 = 512 << 20;
 /// # Errors
 /// The scene names what it does not have.
 fn demand(scene: &Scene, needs: &Needs) -> Result<TexelDemand, ExperimentError> {
-    TexelDemand::of(scene, &Parts::from(needs)).map_err(refused)
+    Ok(TexelDemand::of(scene, &Parts::from(needs))?)
 }
 
 /// Which images a device does not hold as they are.
@@ -28,7 +28,7 @@ fn smaller_images(
     demand: &TexelDemand,
     capacity: &TexelCapacity,
 ) -> Result<Vec<SmallerImage>, ExperimentError> {
-    demand.smaller_images(capacity.texels).map_err(refused)
+    Ok(demand.smaller_images(capacity.texels)?)
 }
 
 /// Makes the largest images smaller until the device holds the texels of all, and says in words what it did, if anything.
@@ -74,10 +74,6 @@ fn records(smaller: &[SmallerImage]) -> Vec<SmallerImageRecord> {
         to: image.to,
     };
     smaller.iter().map(record).collect()
-}
-
-fn refused(error: GpuSceneError) -> ExperimentError {
-    ExperimentError::device(error, "use fewer textures, or another --device")
 }
 
 /// Bytes of texels, and what the device in use does with them where not every device holds them.

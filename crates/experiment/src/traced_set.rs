@@ -9,7 +9,6 @@ use rasray_reference::oracle::{Outcome, Verdict};
 use rasray_tracer::BatchTracer;
 
 use crate::contestant::Contestant;
-use crate::device_scene::tracer_error;
 use crate::error::ExperimentError;
 use crate::evaluate::{accuracy, depth_errors, device_hits};
 use crate::jobs::{Answers, Comparison, KeptSet};
@@ -101,16 +100,12 @@ pub(super) fn compare_set(
 ) -> Result<Vec<Answers>, ExperimentError> {
     for (_, given) in &taking.given {
         if given.hits.len() != set.rays.len() {
-            return Err(ExperimentError::usage(
-                format!(
-                    "{} has {} hits for the {} rays of {}",
-                    given.name,
-                    given.hits.len(),
-                    set.rays.len(),
-                    set.name
-                ),
-                "give one hit for each ray, in the order of the rays",
-            ));
+            return Err(ExperimentError::HitCount {
+                name: given.name.clone(),
+                hits: given.hits.len(),
+                rays: set.rays.len(),
+                set: set.name.clone(),
+            });
         }
     }
     let mut answers = Vec::new();
@@ -181,14 +176,13 @@ pub fn trace_in_turns<'a>(
     rays: &[Ray],
     repetitions: u32,
 ) -> Result<Vec<TracedSet>, ExperimentError> {
-    let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
+    let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32)?;
     let timing = device.best_timing();
     let mut traces: Vec<TracedSet> = contestants.iter().map(|_| TracedSet::default()).collect();
     for repetition in 0..=repetitions {
         for (contestant, traced) in contestants.iter().zip(&mut traces) {
-            let outcome = tracer
-                .trace(contestant.borrow().built.structure(), rays, TraceMode::Closest, timing)
-                .map_err(|e| tracer_error(&e))?;
+            let outcome =
+                tracer.trace(contestant.borrow().built.structure(), rays, TraceMode::Closest, timing)?;
             if repetition == 0 {
                 traced.hits = outcome.hits;
                 traced.counters = outcome.counters;

@@ -7,22 +7,15 @@ use rasray_report::Run;
 /// Refuses what was traced through a structure with holes, or with rays left unanswered.
 ///
 /// # Errors
-/// [`ExperimentError::Refused`], naming the system.
+/// [`ExperimentError::MissingEntries`] or [`ExperimentError::Unanswered`], naming the system.
 pub fn check_run(run: &Run) -> Result<(), ExperimentError> {
     let Some(counters) = &run.counters else { return Ok(()) };
     let system = format!("{} {}", run.system, run.preset);
-    if let Some(missing) = counters.overflow.filter(|count| *count > 0) {
-        return Err(ExperimentError::refused(
-            format!("{system}: {missing} entries were missing from what was traced"),
-            "its results are not kept; lower --resolution, or use a device with more memory",
-        ));
+    if let Some(entries) = counters.overflow.filter(|count| *count > 0) {
+        return Err(ExperimentError::MissingEntries { system, entries });
     }
-    if let Some(unfinished) = counters.unfinished.filter(|count| *count > 0) {
-        return Err(ExperimentError::refused(
-            format!("{system}: {unfinished} rays had no answer after the last round"),
-            "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, else \
-             please report it with the command line",
-        ));
+    if let Some(rays) = counters.unfinished.filter(|count| *count > 0) {
+        return Err(ExperimentError::Unanswered { system, rays });
     }
     Ok(())
 }
@@ -31,17 +24,14 @@ impl RenderOutput {
     /// Refuses an output that lacks pixels or a wanted image.
     ///
     /// # Errors
-    /// [`ExperimentError::Refused`], naming the image that is not whole.
+    /// [`ExperimentError::MissingPixels`], naming the image that is not whole.
     pub fn check_images(&self, aovs: AovSelection) -> Result<(), ExperimentError> {
         let pixels = self.width as usize * self.height as usize;
         let length = |aov| self.aovs.get(&aov).map_or(0, AovImage::pixels);
         let wanted = aovs.iter().map(|aov| (aov.name(), length(aov)));
         for (name, length) in wanted.chain([("colours", self.beauty.len())]) {
             if length != pixels {
-                return Err(ExperimentError::refused(
-                    format!("the image '{name}' has {length} of {pixels} pixels"),
-                    "nothing was written; this is a defect of the renderer, please report it with the command line",
-                ));
+                return Err(ExperimentError::MissingPixels { image: name, pixels: length, expected: pixels });
             }
         }
         Ok(())
@@ -69,7 +59,6 @@ mod tests {
         assert!(check_run(&run(Some(0), Some(0))).is_ok());
         for (bad, word) in [(run(Some(3), None), "3 entries"), (run(None, Some(2)), "2 rays")] {
             let error = check_run(&bad).expect_err(word);
-            assert!(matches!(error, ExperimentError::Refused { .. }), "{error:?}");
             assert!(error.to_string().contains(word), "{error}");
         }
     }
@@ -84,6 +73,6 @@ mod tests {
         assert_eq!(output.non_finite_pixels(), 1);
         output.beauty.pop();
         let error = output.check_images(AovSelection::default()).expect_err("a hole");
-        assert!(matches!(error, ExperimentError::Refused { .. }), "{error:?}");
+        assert!(matches!(error, ExperimentError::MissingPixels { pixels: 1, expected: 2, .. }), "{error:?}");
     }
 }

@@ -11,7 +11,7 @@ use rasray_tracer::BatchTracer;
 
 use crate::built::Built;
 use crate::contestant::Contestant;
-use crate::device_scene::{DeviceScene, tracer_error};
+use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::evaluate::device_hits;
 use crate::rays::{RayFlags, RaySource, from_shading};
@@ -57,11 +57,9 @@ pub fn work_per_pixel(
     [width, height]: [u32; 2],
 ) -> Result<Option<WorkMap>, ExperimentError> {
     let rays = centres(&view_of(camera, [width, height]), stage);
-    let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
+    let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32)?;
     let built = Built::new(device, &spec.clone().with_counters(Counters::PerRay), &stage.scene, eye)?;
-    let outcome = tracer
-        .trace(built.structure(), &rays, TraceMode::Closest, device.best_timing())
-        .map_err(|e| tracer_error(&e))?;
+    let outcome = tracer.trace(built.structure(), &rays, TraceMode::Closest, device.best_timing())?;
     let of = |count: fn(&RayWork) -> u32| outcome.work.iter().map(count).collect();
     Ok((outcome.work.len() == rays.len()).then(|| WorkMap {
         run: 0,
@@ -88,10 +86,8 @@ pub fn hit_at(
     place: [f32; 2],
 ) -> Result<Option<DeviceHit>, ExperimentError> {
     let ray = through(&view_of(camera, size), stage, Vec2::from(place));
-    let tracer = BatchTracer::new(device, 1).map_err(|e| tracer_error(&e))?;
-    let outcome = tracer
-        .trace(built.structure(), &[ray], TraceMode::Closest, Timing::None)
-        .map_err(|e| tracer_error(&e))?;
+    let tracer = BatchTracer::new(device, 1)?;
+    let outcome = tracer.trace(built.structure(), &[ray], TraceMode::Closest, Timing::None)?;
     Ok(device_hits(outcome.hits).into_iter().next().flatten())
 }
 

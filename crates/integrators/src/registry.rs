@@ -233,7 +233,7 @@ mod tests {
             |result: Result<IntegratorSpec, IntegratorError>| result.expect_err("refused").to_string();
         assert!(message(ao.with("bounces", 2)).contains("bounces"));
         assert!(message(ao.with("ao-distance", 0.0)).contains("above 0"));
-        assert!(message(ao.with("ao-distance", "far")).contains("--ao-distance far"));
+        assert!(message(ao.with("ao-distance", "far")).contains("ao-distance far"));
         assert!(IntegratorRow::named("radiosity").is_none());
     }
 }

@@ -21,7 +21,7 @@ pub struct OptionRow {
 
 /// A value that an option does not take.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("--{option} {value} is not possible: {expected}")]
+#[error("{option} {value} is not possible: {expected}")]
 pub struct ValueError {
     /// The option.
     pub option: &'static str,
@@ -114,7 +114,7 @@ mod tests {
     fn errors_name_the_option() {
         let row = OptionRow::switch("sort", "Sort");
         let error = row.parse("maybe").expect_err("no such word");
-        assert_eq!(error.to_string(), "--sort maybe is not possible: must be one of: on, off");
+        assert_eq!(error.to_string(), "sort maybe is not possible: must be one of: on, off");
         assert_eq!(row.check(Value::Whole(1)).expect_err("no word").value, "1");
         assert_eq!(row.check(Value::Word("on")), Ok(Value::Word("on")));
     }

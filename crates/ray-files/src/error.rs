@@ -1,50 +1,38 @@
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::PathBuf;
 
 /// Why a file gave no rays or hits.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}: {why}", path.display())]
-pub struct FileError {
-    path: PathBuf,
-    why: Why,
-}
-
-/// What is wrong with the file.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub(crate) enum Why {
-    #[error("cannot be read: {0}")]
-    Unreadable(String),
-    #[error("is not a file of rays by its name")]
-    NotRays,
-    #[error("is not a file of hits by its name")]
-    NotHits,
-    #[error(transparent)]
-    Format(FormatError),
-}
-
-impl FileError {
-    pub(crate) fn new(path: &Path, why: Why) -> Self {
-        Self { path: path.to_owned(), why }
-    }
-
-    /// The file.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// What is wrong with it, without its name.
-    pub fn message(&self) -> String {
-        self.why.to_string()
-    }
-
-    /// What to do about it.
-    pub fn help(&self) -> &'static str {
-        match &self.why {
-            Why::Unreadable(_) => "check the name and that you may read the file",
-            Why::NotRays => "name a .rays file or a .npy array of N x 6, 7 or 8 numbers",
-            Why::NotHits => "name a .npy array with fields t and primitive",
-            Why::Format(error) => error.help(),
-        }
-    }
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FileError {
+    /// The file cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// The name has another extension than `.rays` and `.npy`.
+    #[error("{}: is not a file of rays by its name", path.display())]
+    NotRays {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The name has another extension than `.npy`.
+    #[error("{}: is not a file of hits by its name", path.display())]
+    NotHits {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file is not what its name says.
+    #[error("{}: {source}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with its bytes.
+        source: FormatError,
+    },
 }
 
 /// Why bytes are not a file of rays or hits.
@@ -101,21 +89,4 @@ pub enum FormatError {
         /// What the header says.
         entries: u64,
     },
-}
-
-impl FormatError {
-    /// What to do about it.
-    pub fn help(&self) -> &'static str {
-        match self {
-            Self::Magic { .. } | Self::Version { .. } | Self::Header { .. } => {
-                "write the file again: .rays by --save-rays, .npy by numpy.save"
-            }
-            Self::Length { .. } => "the file is cut short or has something after it; write it again",
-            Self::Content { .. } => "docs/ray-files.md shows the arrays that can be read",
-            Self::Entry { .. } => {
-                "directions must be finite and not zero, origins finite, and no number NaN; correct the entry"
-            }
-            Self::TooMany { .. } => "split the file",
-        }
-    }
 }

@@ -28,9 +28,9 @@ pub fn load_rays(path: &Path) -> Result<RaysFile, FileError> {
     let read = match extension(path).as_deref() {
         Some("rays") => read_rays,
         Some("npy") => rays_from_npy,
-        _ => return Err(FileError::new(path, error::Why::NotRays)),
+        _ => return Err(FileError::NotRays { path: path.to_owned() }),
     };
-    read(&read_file(path)?).map_err(|error| FileError::new(path, error::Why::Format(error)))
+    read(&read_file(path)?).map_err(|source| FileError::Format { path: path.to_owned(), source })
 }
 
 /// Reads hits from a `.npy` file; `name` is what a report calls the tracer that found them.
@@ -39,10 +39,10 @@ pub fn load_rays(path: &Path) -> Result<RaysFile, FileError> {
 /// The file cannot be read, is no `.npy` by its name, or does not hold hits.
 pub fn load_hits(name: &str, path: &Path) -> Result<HitsFile, FileError> {
     if extension(path).as_deref() != Some("npy") {
-        return Err(FileError::new(path, error::Why::NotHits));
+        return Err(FileError::NotHits { path: path.to_owned() });
     }
     let hits = hits_from_npy(&read_file(path)?);
-    let hits = hits.map_err(|error| FileError::new(path, error::Why::Format(error)))?;
+    let hits = hits.map_err(|source| FileError::Format { path: path.to_owned(), source })?;
     Ok(HitsFile { name: name.to_owned(), hits })
 }
 
@@ -51,7 +51,7 @@ fn extension(path: &Path) -> Option<String> {
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, FileError> {
-    std::fs::read(path).map_err(|error| FileError::new(path, error::Why::Unreadable(error.to_string())))
+    std::fs::read(path).map_err(|source| FileError::Unreadable { path: path.to_owned(), source })
 }
 
 /// What the readme shows compiles.

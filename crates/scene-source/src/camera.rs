@@ -29,17 +29,9 @@ impl Chosen {
         self.camera.lens = match (self.camera.projection, focus) {
             _ if aperture <= 0.0 => None,
             (Projection::Orthographic { .. }, _) => {
-                return Err(LoadError::usage(
-                    format!("the camera {} has a parallel projection, which has no lens", self.described()),
-                    "leave out --aperture, or place a camera by --eye and --target",
-                ));
+                return Err(LoadError::ParallelLens { camera: self.described() });
             }
-            (Projection::Perspective { .. }, None) => {
-                return Err(LoadError::usage(
-                    "--aperture blurs what is not in focus, and nothing says what is",
-                    "say --focus METRES, or place the camera by --eye and --target, whose target is in focus",
-                ));
-            }
+            (Projection::Perspective { .. }, None) => return Err(LoadError::NoFocus),
             (Projection::Perspective { .. }, Some(focus)) => Some(Lens { aperture, focus: focus as f32 }),
         };
         Ok(self)
@@ -99,15 +91,10 @@ pub fn default_view(scene: &Scene) -> Chosen {
 pub fn named_view(scene: &Scene, name: &str) -> Result<Chosen, LoadError> {
     let by_name = scene.cameras.iter().position(|camera| camera.name == name);
     let by_position = || name.parse::<usize>().ok().filter(|position| *position < scene.cameras.len());
-    let index = by_name.or_else(by_position).ok_or_else(|| {
-        let known: Vec<_> =
-            scene.cameras.iter().enumerate().map(|(i, camera)| format!("{i} '{}'", camera.name)).collect();
-        let help = if known.is_empty() {
-            "the scene has no cameras; use --eye and --target".to_owned()
-        } else {
-            format!("its cameras: {}", known.join(", "))
-        };
-        LoadError::usage(format!("the scene {} has no camera '{name}'", scene.name), help)
+    let index = by_name.or_else(by_position).ok_or_else(|| LoadError::NoSuchCamera {
+        scene: scene.name.clone(),
+        wanted: name.to_owned(),
+        cameras: scene.cameras.iter().map(|camera| camera.name.clone()).collect(),
     })?;
     Ok(Chosen { camera: scene.cameras[index].clone(), index: Some(index) })
 }
@@ -120,10 +107,7 @@ pub fn placed_view(eye: [f64; 3], target: [f64; 3], fov: Option<f64>) -> Result<
     let (eye, target) = (DVec3::from_array(eye), DVec3::from_array(target));
     let distance = (target - eye).length();
     if !(distance > 0.0 && distance.is_finite()) {
-        return Err(LoadError::usage(
-            "--eye and --target give no direction to look in",
-            "choose a --target at another place than --eye",
-        ));
+        return Err(LoadError::NoDirection);
     }
     let fov = fov.unwrap_or(DEFAULT_FOV).to_radians() as f32;
     Ok(Chosen { camera: camera_looking_at("command line", eye, target, fov), index: None })
@@ -178,7 +162,10 @@ mod tests {
         assert_eq!(["door", "1", "0"].map(named), ["door", "1", "1"]);
         assert_eq!(default_view(&scene).camera.name, "1");
         let error = named_view(&scene, "window").expect_err("no such camera");
-        assert!(error.help().contains("'door'"), "{}", error.help());
+        assert!(
+            matches!(&error, LoadError::NoSuchCamera { cameras, .. } if *cameras == ["1", "door"]),
+            "{error:?}"
+        );
     }
 
     #[test]
@@ -189,7 +176,7 @@ mod tests {
         let Projection::Perspective { fov_y } = camera.projection else { panic!("perspective") };
         assert!((fov_y - 45.0_f32.to_radians()).abs() < 1.0e-6);
         let error = placed_view([1.0; 3], [1.0; 3], None).expect_err("no direction");
-        assert!(matches!(error, LoadError::Usage { .. }), "{error:?}");
+        assert!(matches!(error, LoadError::NoDirection), "{error:?}");
     }
 
     #[test]
@@ -202,10 +189,10 @@ mod tests {
         assert_eq!(pinhole.clone().with_lens(0.0, None).expect("a pinhole").camera.lens, None);
         let mut parallel = pinhole.clone();
         parallel.camera.projection = Projection::Orthographic { half_height: 1.0 };
-        for (camera, focus, word) in [(pinhole, None, "--focus"), (parallel, Some(1.0), "--eye")] {
-            let error = camera.with_lens(0.1, focus).expect_err("no such lens");
-            assert!(error.help().contains(word), "{error} {}", error.help());
-        }
+        let error = pinhole.with_lens(0.1, None).expect_err("nothing is in focus");
+        assert!(matches!(error, LoadError::NoFocus), "{error:?}");
+        let error = parallel.with_lens(0.1, Some(1.0)).expect_err("no lens");
+        assert!(matches!(error, LoadError::ParallelLens { .. }), "{error:?}");
     }
 
     #[test]

@@ -1,78 +1,80 @@
 //! Why there is no scene to show.
 
 use rasray_scene::SceneError;
-use std::fmt::Display;
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::PathBuf;
 
-/// Why there is no scene to show, or no view of it. Every variant says what is wrong and what to do about it; both are
-/// whole sentences without a full stop, and may name options of the command.
+/// Why there is no scene to show, or no view of it. Messages are whole sentences without a full stop.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// The scene does not have what is asked for.
-    #[error("{message}")]
-    Usage {
-        /// What is wrong.
-        message: String,
-        /// What to do.
-        help: String,
-    },
-    /// A name that is no scene's, or a file that cannot be read.
-    #[error("{}: {message}", path.display())]
-    Input {
+    /// A file that is no scene's.
+    #[error("{}: is not a scene file by its name", path.display())]
+    NoSceneFile {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
-        message: String,
-        /// What to do.
-        help: String,
+    },
+    /// Neither a file nor a built-in scene.
+    #[error("{}: there is neither such a file nor such a built-in scene", path.display())]
+    NoSuchScene {
+        /// The name.
+        path: PathBuf,
+        /// The built-in scene that was probably meant, with the parameters that were given.
+        meant: Option<String>,
+    },
+    /// A file that was read has gone.
+    #[error("{}: cannot be read again: {source}", path.display())]
+    Gone {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: io::Error,
     },
     /// A scene cannot be read.
     #[error(transparent)]
     Scene(#[from] SceneError),
-}
-
-impl LoadError {
-    /// Something that the scene does not have.
-    pub(crate) fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self::Usage { message: message.into(), help: help.into() }
-    }
-
-    /// An error about a file that is read.
-    pub(crate) fn input(path: &Path, message: impl Display, help: impl Into<String>) -> Self {
-        Self::Input { path: path.to_owned(), message: message.to_string(), help: help.into() }
-    }
-
-    /// What to do about it; may be empty.
-    pub fn help(&self) -> &str {
-        match self {
-            Self::Scene(error) => scene_help(error),
-            Self::Usage { help, .. } | Self::Input { help, .. } => help,
-        }
-    }
-}
-
-/// What to do about a scene that cannot be read. Messages that already end in what to do get none.
-fn scene_help(error: &SceneError) -> &'static str {
-    match error {
-        SceneError::Read { .. } => "check the name and that you may read the file",
-        SceneError::Missing { .. } => {
-            "put that file where the scene looks for it, and check that you may read it"
-        }
-        SceneError::TooLarge { .. } => "split or simplify the scene",
-        SceneError::Syntax { .. }
-        | SceneError::Invalid { .. }
-        | SceneError::IndexOutOfRange { .. }
-        | SceneError::NoTriangles { .. } => {
-            "the file is damaged or breaks its format: correct it, or export it again"
-        }
-        SceneError::Sequence { .. } => {
-            "numbered files go on without a gap, with the meshes and materials of the first"
-        }
-        SceneError::Image { .. } => "convert the image to .png or .jpg and refer to that",
-        SceneError::Builtin { .. } => {
-            "write NAME:PARAMETER=VALUE,PARAMETER=VALUE, or the name alone for its defaults"
-        }
-        _ => "",
-    }
+    /// The scene has no such camera.
+    #[error("the scene {scene} has no camera '{wanted}'")]
+    NoSuchCamera {
+        /// Name of the scene.
+        scene: String,
+        /// Name or number of the camera.
+        wanted: String,
+        /// Names of the cameras that it has.
+        cameras: Vec<String>,
+    },
+    /// A lens for a camera with a parallel projection.
+    #[error("the camera {camera} has a parallel projection, which has no lens")]
+    ParallelLens {
+        /// The camera in a few words.
+        camera: String,
+    },
+    /// A lens without the distance of the plane in focus.
+    #[error("an aperture blurs what is not in focus, and nothing says what is")]
+    NoFocus,
+    /// A camera is to look from a place at the same place, or at none.
+    #[error("eye and target give no direction to look in")]
+    NoDirection,
+    /// A moment of a scene that nothing moves.
+    #[error("the scene {scene} has no clips that could move it")]
+    NothingMoves {
+        /// Name of the scene.
+        scene: String,
+    },
+    /// A clip of a scene that deforms in one way.
+    #[error("the scene {scene} has no clips: it deforms in one way")]
+    NoClips {
+        /// Name of the scene.
+        scene: String,
+    },
+    /// The scene has no such clip.
+    #[error("the scene {scene} has no clip '{wanted}'")]
+    NoSuchClip {
+        /// Name of the scene.
+        scene: String,
+        /// Name or number of the clip.
+        wanted: String,
+        /// Names of the clips that it has.
+        clips: Vec<String>,
+    },
 }

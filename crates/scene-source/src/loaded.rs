@@ -94,18 +94,11 @@ pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, Loa
         let scene = made?;
         return Ok(loaded(scene, None, KeyHash::default().with("built-in", name.as_encoded_bytes())));
     }
-    let kinds = format!(
-        "scenes are .gltf, .glb, .obj and .ply files, numbered files such as 'cloth.####.ply', or built-in: {} (parameters \
-         follow a colon: spheres:10k)",
-        builtin::NAMES.join(", ")
-    );
+    let path = path.to_owned();
     if path.exists() {
-        return Err(LoadError::input(path, "is not a scene file by its name", kinds));
+        return Err(LoadError::NoSceneFile { path });
     }
-    let nothing = "there is neither such a file nor such a built-in scene";
-    let help =
-        name.to_str().and_then(meant).map_or(kinds.clone(), |meant| format!("did you mean {meant}? {kinds}"));
-    Err(LoadError::input(path, nothing, help))
+    Err(LoadError::NoSuchScene { path, meant: name.to_str().and_then(meant) })
 }
 
 /// The built-in scene that was meant, with the parameters that were given.
@@ -234,29 +227,20 @@ impl LoadedScene {
     pub(crate) fn clips(&self, clip: Option<&str>) -> Result<Vec<usize>, LoadError> {
         let names = &self.scene.animation.clips;
         if !self.moves() {
-            return Err(LoadError::usage(
-                format!("the scene {} has no clips that could move it", self.scene.name),
-                "leave --time out; `rasray info SCENE` says what moves",
-            ));
+            return Err(LoadError::NothingMoves { scene: self.scene.name.clone() });
         }
         if names.is_empty() && clip.is_some() {
-            return Err(LoadError::usage(
-                format!("the scene {} has no clips: it deforms in one way", self.scene.name),
-                "leave --clip out",
-            ));
+            return Err(LoadError::NoClips { scene: self.scene.name.clone() });
         }
         Ok(match clip {
             None => self.scene.animation.rig.compatible_clips(),
             Some(wanted) => {
                 let named = names.iter().position(|name| name == wanted);
                 let counted = || wanted.parse().ok().filter(|index: &usize| *index < names.len());
-                let index = named.or_else(counted).ok_or_else(|| {
-                    let listed: Vec<String> =
-                        names.iter().enumerate().map(|(index, name)| format!("{index} ({name})")).collect();
-                    LoadError::usage(
-                        format!("the scene {} has no clip '{wanted}'", self.scene.name),
-                        format!("it has {}", listed.join(", ")),
-                    )
+                let index = named.or_else(counted).ok_or_else(|| LoadError::NoSuchClip {
+                    scene: self.scene.name.clone(),
+                    wanted: wanted.to_owned(),
+                    clips: names.clone(),
                 })?;
                 vec![index]
             }
@@ -281,13 +265,7 @@ fn triangles(scene: &Scene) -> u64 {
 
 /// Of a file that was read before, in hexadecimal.
 fn digest(path: &Path) -> Result<String, LoadError> {
-    let failed = |error: std::io::Error| {
-        LoadError::input(
-            path,
-            format!("cannot be read again: {error}"),
-            "leave the file in place while it is read",
-        )
-    };
+    let failed = |source| LoadError::Gone { path: path.to_owned(), source };
     let mut file = File::open(path).map_err(failed)?;
     let mut hash = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
@@ -355,7 +333,13 @@ mod tests {
     fn a_name_that_is_nothing_lists_what_there_is() {
         for bad in ["cornel", "missing.glb", "cornell:walls=7", "Cargo.toml"] {
             let error = load(OsStr::new(bad)).expect_err(bad);
-            assert!(matches!(error, LoadError::Input { .. } | LoadError::Scene(_)), "{error:?}");
+            assert!(
+                matches!(
+                    error,
+                    LoadError::NoSceneFile { .. } | LoadError::NoSuchScene { .. } | LoadError::Scene(_)
+                ),
+                "{error:?}"
+            );
             assert!(error.to_string().contains(bad.split(':').next().unwrap_or(bad)), "{error}");
         }
         for (bad, meant) in [
@@ -366,9 +350,10 @@ mod tests {
             ("kitchen", None),
         ] {
             let error = load(OsStr::new(bad)).expect_err("misspelt");
-            let told = error.help().strip_prefix("did you mean ").and_then(|rest| rest.split_once("? "));
-            assert_eq!(told.map(|(name, _)| name), meant, "{bad}: {}", error.help());
-            assert!(error.help().contains("cornell, furnace"), "{}", error.help());
+            match &error {
+                LoadError::NoSuchScene { meant: told, .. } => assert_eq!(told.as_deref(), meant, "{bad}"),
+                other => panic!("{bad}: {other:?}"),
+            }
         }
     }
 }

@@ -32,12 +32,12 @@ pub enum SystemsError {
         option: String,
     },
     /// The option has no such value.
-    #[error("{system}: {error}")]
+    #[error("{system}: {source}")]
     Value {
         /// The system.
         system: &'static str,
         /// The option and what it takes.
-        error: ValueError,
+        source: ValueError,
     },
     /// The structure refused.
     #[error(transparent)]

@@ -76,6 +76,9 @@ impl Given {
     /// A value that the system does not take.
     fn refused(&self, expected: String) -> SystemsError {
         let Self { system, name, value } = *self;
-        SystemsError::Value { system, error: ValueError { option: name, value: value.to_string(), expected } }
+        SystemsError::Value {
+            system,
+            source: ValueError { option: name, value: value.to_string(), expected },
+        }
     }
 }

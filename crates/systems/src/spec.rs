@@ -127,7 +127,8 @@ impl System {
     ) -> Result<Vec<(&'static str, Value)>, SystemsError> {
         let read = |(name, text): (String, String)| {
             let row = self.option(&name)?;
-            let value = row.parse(&text).map_err(|error| SystemsError::Value { system: self.name, error })?;
+            let value =
+                row.parse(&text).map_err(|source| SystemsError::Value { system: self.name, source })?;
             Ok((row.name, value))
         };
         options.into_iter().map(read).collect()
@@ -172,7 +173,7 @@ impl Spec {
         }
         for (name, value) in options.iter() {
             let row = system.option(name)?;
-            row.check(value).map_err(|error| SystemsError::Value { system: system.name, error })?;
+            row.check(value).map_err(|source| SystemsError::Value { system: system.name, source })?;
         }
         let spec = Self { system, preset, options, counters: Counters::Off, work_budget: None };
         spec.requirements()?;

@@ -24,11 +24,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let end = run(Viewing {
         device: device.name().to_owned(),
         engine: Box::new(move || Engine::new(device, validation, source, settings)),
-        session: Session::new(opening),
-        open: Arc::new(|name: &OsStr| {
-            opened(name)
-                .map_err(|error| Failure { message: error.to_string(), help: error.help().to_owned() })
-        }),
+        session: Session::new(opening, Failure::without_help),
+        open: Arc::new(|name: &OsStr| opened(name).map_err(|error| Failure::without_help(&error))),
         validation,
         stop: &|| false,
         save: &mut |saved: &SavedPicture<'_>| {

@@ -1,7 +1,7 @@
 //! A camera that is moved by hand.
 
+use crate::error::ViewerError;
 use glam::{DMat3, DVec3};
-use rasray_experiment::ExperimentError;
 use rasray_options::text::{number, numbers};
 use rasray_scene::{Camera, Lens, Projection};
 use rasray_scene_source::placed_view;
@@ -27,12 +27,10 @@ impl Rounded {
     ///
     /// # Errors
     /// Eye and target are one place.
-    pub fn camera(&self) -> Result<Camera, ExperimentError> {
-        let wrong =
-            || ExperimentError::usage("the camera is not at a place that numbers can say", "reset it");
+    pub fn camera(&self) -> Result<Camera, ViewerError> {
         let point = |text| numbers(text, &[',']);
-        let (eye, target) = point(&self.eye).zip(point(&self.target)).ok_or_else(wrong)?;
-        let fov = number(&self.fov).ok_or_else(wrong)?;
+        let (eye, target) = point(&self.eye).zip(point(&self.target)).ok_or(ViewerError::Nowhere)?;
+        let fov = number(&self.fov).ok_or(ViewerError::Nowhere)?;
         Ok(Camera { lens: self.lens, ..placed_view(eye, target, Some(fov))?.camera })
     }
 }

@@ -13,6 +13,7 @@ use rasray_scene::Camera;
 use rasray_scene::needs::Needs;
 use rasray_scene_source::LoadedScene;
 
+use crate::error::ViewerError;
 use crate::picked::{Answer, Pick};
 use crate::picture::{Picture, Pixels};
 use crate::preview::Preview;
@@ -140,21 +141,20 @@ impl Engine {
     /// # Errors
     /// The settings ask for what cannot be, the device fails, or a structure or rays do not become complete. The next step
     /// tries again.
-    pub fn step(&mut self, say: &mut dyn FnMut(&str)) -> Result<Step, ExperimentError> {
+    pub fn step(&mut self, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         if self.done {
             return Ok(Step::Done);
         }
         let step = self.make(say)?;
         match self.device.validation_messages().first() {
-            Some(message) if self.validation => Err(ExperimentError::device(
-                format!("the validation layer says: {message}"),
-                "this is a defect; please report it with the command line",
-            )),
+            Some(message) if self.validation => {
+                Err(ExperimentError::Validation { message: message.clone() }.into())
+            }
             _ => Ok(step),
         }
     }
 
-    fn make(&mut self, say: &mut dyn FnMut(&str)) -> Result<Step, ExperimentError> {
+    fn make(&mut self, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         self.settings.system.spec()?;
         let camera = self.prepare_scene(say)?;
         let size = self.picture_size();
@@ -183,14 +183,14 @@ impl Engine {
     }
 
     /// The scene on the device at its time, and the camera there.
-    fn prepare_scene(&mut self, say: &mut dyn FnMut(&str)) -> Result<Camera, ExperimentError> {
+    fn prepare_scene(&mut self, say: &mut dyn FnMut(&str)) -> Result<Camera, ViewerError> {
         let seconds = self.settings.seconds;
         self.scene.show(seconds)?;
         let camera = match &self.settings.standpoint {
             Standpoint::AsGiven => self.scene.camera(&*self.choose)?,
-            Standpoint::Camera(index) => self.scene.loaded().camera(*index).ok_or_else(|| {
-                ExperimentError::usage(format!("the scene has no camera {index}"), "choose another camera")
-            })?,
+            Standpoint::Camera(index) => {
+                self.scene.loaded().camera(*index).ok_or(ViewerError::NoCamera { index: *index })?
+            }
             Standpoint::Placed(rounded) => rounded.camera()?,
         };
         let is_posed = self.scene.loaded().moment.is_some();
@@ -253,7 +253,7 @@ impl Engine {
     }
 
     /// One wave of the whole picture.
-    fn refine(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ExperimentError> {
+    fn refine(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         let Self { device, stage, traced, film, settings, .. } = self;
         let (Some((stage, needs)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
         let film = opened(device, stage, film, &settings.frame, needs, &traced.built, say)?;
@@ -278,7 +278,7 @@ impl Engine {
         camera: Camera,
         size: [u32; 2],
         say: &mut dyn FnMut(&str),
-    ) -> Result<Step, ExperimentError> {
+    ) -> Result<Step, ViewerError> {
         let Self { device, stage, traced, preview, settings, .. } = self;
         let (Some((stage, needs)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
         let kept = preview.take().filter(|kept| kept.size == size && kept.serves(&traced.built));
@@ -312,7 +312,7 @@ impl Engine {
     }
 
     /// One wave of the picture or of the same through a structure that is exact, whichever has fewer samples.
-    fn difference(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ExperimentError> {
+    fn difference(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         let config = exact_config(&self.settings.system);
         follow(&self.device, self.stage.as_ref(), self.posed, &mut self.exact, &config, say)?;
         let Self { device, stage, traced, exact, film, exact_film, settings, .. } = self;
@@ -338,17 +338,14 @@ impl Engine {
     }
 
     /// The map of what the rays through the pixels' centres cost.
-    fn work(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ExperimentError> {
+    fn work(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         let Self { device, stage, traced, settings, .. } = self;
         let (Some((stage, _)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
         say("counting the work of rays");
         let size = [settings.frame.width, settings.frame.height];
         let spec = traced.config.spec()?;
         let map = work_per_pixel(device, stage, &spec, stage.scene.eye(), &camera, size)?;
-        let map = map.ok_or_else(|| {
-            let name = traced.config.system.name;
-            ExperimentError::usage(format!("system {name} does not count its work"), "choose another system")
-        })?;
+        let map = map.ok_or(ViewerError::NotCounted { system: traced.config.system.name })?;
         let counts = match settings.shown {
             Shown::Cells => map.cells,
             Shown::Entries => map.entries,
@@ -369,8 +366,9 @@ impl Engine {
             Some((stage, _)) => {
                 let scene = (&self.scene.loaded().scene, stage);
                 pick.hit(&self.device, scene, self.traced.as_ref(), config, &self.settings.frame)
+                    .map_err(ViewerError::from)
             }
-            None => Err(ExperimentError::usage("the scene has moved since it was picked", "pick again")),
+            None => Err(ViewerError::Moved),
         };
         Answer { system, hit: hit.map_err(|error| error.to_string()) }
     }
@@ -381,7 +379,7 @@ impl Engine {
         pixels: Pixels,
         samples: u32,
         samples_passes: Vec<Pass>,
-    ) -> Result<Step, ExperimentError> {
+    ) -> Result<Step, ViewerError> {
         let (Some((stage, _)), Some(traced)) = (&self.stage, &self.traced) else { return Ok(Step::Working) };
         let mut memory = traced.built.memory(&self.device)?;
         for (name, bytes) in stage.scene.bytes_by_part() {
@@ -439,14 +437,10 @@ fn advance(
     let advanced = film.advance(device, &traced.built)?;
     *sample_ms += started.elapsed().as_secs_f64() * 1.0e3;
     if film.image().unfinished() > 0 {
-        return Err(ExperimentError::refused(
-            format!(
-                "{}: {} rays had no answer after the last round",
-                traced.config.system.name,
-                film.image().unfinished()
-            ),
-            "the picture is not shown; where very many triangles lie in one place --system bvh has shorter work",
-        ));
+        return Err(ExperimentError::Unanswered {
+            system: traced.config.system.name.to_owned(),
+            rays: film.image().unfinished(),
+        });
     }
     Ok(advanced && film.image().is_between_samples())
 }

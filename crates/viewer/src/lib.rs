@@ -10,6 +10,7 @@
 mod camera_control;
 mod command_line;
 mod engine;
+mod error;
 mod option_controls;
 mod picked;
 mod picture;
@@ -30,6 +31,7 @@ mod worker;
 pub use camera_control::{CameraControl, Rounded, Side};
 pub use command_line::quoted;
 pub use engine::{Engine, SceneSource, Step};
+pub use error::ViewerError;
 pub use option_controls::{Control, SystemChoice};
 pub use picked::{Answer, Pick, Picked, PickedHit, PickedTriangle};
 pub use picture::{Legend, Picture, Pixels};
@@ -38,7 +40,7 @@ pub use playback::Playback;
 pub use preview_size::PreviewSize;
 pub use rate::Rate;
 pub use scene_at_time::ChooseCamera;
-pub use session::{Failure, Opening, Session, camera_names};
+pub use session::{Explain, Failure, Opening, Session, camera_names};
 pub use settings::{Redo, Settings, Shown, Standpoint};
 pub use viewer::{OpenScene, Viewer};
 #[cfg(feature = "window")]

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use crate::command_line::{frame_words, quoted, system_words};
 use crate::engine::SceneSource;
+use crate::error::ViewerError;
 use crate::option_controls::SystemChoice;
 use crate::picked::{Pick, Picked};
 use crate::picture::Picture;
@@ -18,7 +19,7 @@ use crate::settings::{Settings, Standpoint};
 use crate::worker::{Opened, Update};
 use cameras::Stand;
 pub use opening::{Opening, camera_names};
-use rasray_experiment::{ExperimentError, Frame, SystemConfig};
+use rasray_experiment::{Frame, SystemConfig};
 use rasray_metrics::{Tone, ToneCurve};
 use rasray_scene::Lens;
 
@@ -35,11 +36,14 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// Of an error.
-    pub fn of(error: &ExperimentError) -> Self {
-        Self { message: error.to_string(), help: error.help().to_owned() }
+    /// What is wrong, without what to do.
+    pub fn without_help(error: &impl std::error::Error) -> Self {
+        Self { message: error.to_string(), help: String::new() }
     }
 }
+
+/// Says in words what is wrong and what to do about it.
+pub type Explain = fn(&ViewerError) -> Failure;
 
 /// Whether both make one structure, whoever chose it.
 fn is_same(one: &SystemConfig, other: &SystemConfig) -> bool {
@@ -49,6 +53,7 @@ fn is_same(one: &SystemConfig, other: &SystemConfig) -> bool {
 /// What was chosen by hand, and the last picture.
 pub struct Session {
     opening: Opening,
+    explain: Explain,
     /// The system and what is set of its options; it need not be valid.
     pub system: SystemChoice,
     /// The last valid configuration.
@@ -95,8 +100,8 @@ pub struct Session {
 }
 
 impl Session {
-    /// Begins a session.
-    pub fn new(opening: Opening) -> Self {
+    /// Begins a session, whose errors `explain` says in words.
+    pub fn new(opening: Opening, explain: Explain) -> Self {
         let Settings { system, frame, shown, seconds, .. } = opening.settings.clone();
         Self {
             system: SystemChoice::new(&system),
@@ -123,6 +128,7 @@ impl Session {
             failed: None,
             invalid: None,
             opening,
+            explain,
         }
     }
 
@@ -153,7 +159,7 @@ impl Session {
             Ok(config) if is_same(&config, &self.config) => (),
             Ok(config) => self.config = config,
             Err(error) => {
-                self.invalid = Some(Failure::of(&error));
+                self.invalid = Some((self.explain)(&error.into()));
             }
         }
         let seconds = self.playback.shown();
@@ -203,9 +209,9 @@ impl Session {
                 self.picture_rate.count(now);
             }
             Update::Picture(_) => (),
-            Update::Failed(failure) => {
+            Update::Failed(error) => {
                 self.status = None;
-                self.failed = Some(failure);
+                self.failed = Some((self.explain)(&error));
             }
             Update::Answered(number, answer) => {
                 if let Some(picked) = self.picked.as_mut().filter(|picked| picked.pick.number == number) {

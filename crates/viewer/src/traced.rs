@@ -17,10 +17,7 @@ pub(crate) struct Traced {
 /// A system whose hits are exact, and not the one that is shown.
 pub(crate) fn exact_config(shown: &SystemConfig) -> SystemConfig {
     let is_exact = |config: &SystemConfig| {
-        config
-            .spec()
-            .and_then(|spec| spec.kind().map_err(|error| ExperimentError::usage(error.to_string(), "")))
-            .is_ok_and(|kind| kind == StructureKind::Primitive)
+        config.spec().and_then(|spec| Ok(spec.kind()?)).is_ok_and(|kind| kind == StructureKind::Primitive)
     };
     let robust = |system| SystemConfig::new(system, Preset::Robust, OptionValues::default());
     let others = SYSTEMS.iter().filter(|system| *system != shown.system).map(robust);

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use rasray_experiment::SystemConfig;
 
 use crate::engine::{Engine, SceneSource, Step};
+use crate::error::ViewerError;
 use crate::picked::{Answer, Pick};
 use crate::picture::Picture;
 use crate::session::{Failure, Opening};
@@ -23,7 +24,7 @@ pub enum Update {
     /// A picture.
     Picture(Box<Picture>),
     /// The settings failed. The picture before stays the last complete one.
-    Failed(Failure),
+    Failed(ViewerError),
     /// What a system answered to the pick of that number.
     Answered(u64, Answer),
     /// What came of reading a scene, by the number of the request.
@@ -163,7 +164,7 @@ fn work(mut engine: Engine, post: &Post, tell: &dyn Fn(Update)) {
                 }
             }
             Err(error) => {
-                tell(Update::Failed(Failure::of(&error)));
+                tell(Update::Failed(error));
                 idle = true;
             }
         }

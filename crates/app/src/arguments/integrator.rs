@@ -3,7 +3,8 @@
 use clap::builder::TypedValueParser;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
 use rasray_experiment::{
-    FrameDefaults, INTEGRATORS, IntegratorRow, IntegratorSpec, OptionValues, integrator_options,
+    ExperimentError, FrameDefaults, INTEGRATORS, IntegratorRow, IntegratorSpec, OptionValues,
+    integrator_options,
 };
 
 use super::options::{arguments, choice, given};
@@ -46,7 +47,7 @@ impl IntegratorArguments {
             ));
         }
         let values = defaults.options.iter().chain(self.0.iter()).collect();
-        IntegratorSpec::new(integrator, &values).map_err(|error| AppError::usage(error.to_string(), ""))
+        Ok(IntegratorSpec::new(integrator, &values).map_err(ExperimentError::from)?)
     }
 }
 

@@ -1,10 +1,9 @@
 //! Options that address one of the systems of a comparison.
 
 use rasray_options::Value;
-use rasray_systems::{Preset, SYSTEMS, System};
+use rasray_systems::{Preset, System};
 
-use super::names::{names, who_has};
-use crate::error::ExperimentError;
+use super::error::SelectionError;
 
 /// An option of one system, or of one preset of it, with values that it takes in turns.
 pub(super) struct Assigned {
@@ -17,13 +16,8 @@ pub(super) struct Assigned {
 
 impl Assigned {
     /// Reads `mmrt.samples=50`, `mmrt.samples=50,100` or `mmrt-published.samples=50`.
-    pub(super) fn read(text: &str) -> Result<Self, ExperimentError> {
-        let shape = || {
-            ExperimentError::usage(
-                format!("'{text}' is not of the form SYSTEM.OPTION=VALUE or SYSTEM-PRESET.OPTION=VALUE"),
-                "write for example mmrt.samples=50",
-            )
-        };
+    pub(super) fn read(text: &str) -> Result<Self, SelectionError> {
+        let shape = || SelectionError::Form { assignment: text.to_owned() };
         let (target, values) = text.split_once('=').ok_or_else(shape)?;
         let (system, option) = target.split_once('.').ok_or_else(shape)?;
         // Names of systems may have a hyphen of their own.
@@ -32,21 +26,18 @@ impl Assigned {
             Some((System::named(system)?, Some(Preset::named(preset)?)))
         };
         let known = System::named(system).map(|system| (system, None)).or_else(with_preset);
-        let (system, preset) = known.ok_or_else(|| {
-            ExperimentError::usage(
-                format!("'{text}': there is no system {system}"),
-                format!("the systems: {}", names(&SYSTEMS.iter().collect::<Vec<_>>())),
-            )
+        let (system, preset) = known.ok_or_else(|| SelectionError::UnknownSystem {
+            assignment: text.to_owned(),
+            system: system.to_owned(),
         })?;
-        let row = system.option(option).map_err(|_| {
-            let message = format!("'{text}': system {} has no option {option}", system.name);
-            ExperimentError::usage(message, who_has(option))
+        let row = system.option(option).map_err(|_| SelectionError::UnknownOption {
+            assignment: text.to_owned(),
+            system,
+            option: option.to_owned(),
         })?;
         let parse = |value: &str| {
-            row.parse(value).map(|read| (read, format!("{option}={value}"))).map_err(|error| {
-                let help = format!("--{}: {}", row.name, row.help());
-                ExperimentError::usage(format!("'{text}': {error}"), help)
-            })
+            let read = row.parse(value).map(|read| (read, format!("{option}={value}")));
+            read.map_err(|source| SelectionError::Value { assignment: text.to_owned(), row, source })
         };
         let values = values.split(',').map(parse).collect::<Result<_, _>>()?;
         Ok(Self { system, preset, option: row.name, values })
@@ -57,6 +48,7 @@ impl Assigned {
 mod tests {
     use super::super::several_systems;
     use super::*;
+    use crate::error::ExperimentError;
     use rasray_options::OptionValues;
 
     #[test]
@@ -81,7 +73,8 @@ mod tests {
         assert!(assigned("mmrt.accept=interval,plane").is_err(), "published keeps no plane");
         for bad in ["brute-force-robust.buckets=4", "mmrt-other.samples=4"] {
             let error = assigned(bad).expect_err("no such option, no such preset");
-            assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
+            let is_option = matches!(error, ExperimentError::Selection(SelectionError::UnknownOption { .. }));
+            assert_eq!(is_option, bad.starts_with("brute-force"), "{error:?}");
         }
         let one = several_systems(
             &[System::named("mmrt").expect("a system")],

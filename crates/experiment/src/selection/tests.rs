@@ -1,7 +1,9 @@
 use super::*;
 use crate::{Frame, Primary};
+use rasray_ads::AdsError;
 use rasray_scene::needs::Workload;
 use rasray_scene::{Camera, Projection};
+use rasray_systems::SYSTEMS;
 
 fn options(given: &[(&str, &str)]) -> OptionValues {
     let read = |(name, text): &(&str, &str)| {
@@ -91,7 +93,7 @@ fn published_views_are_those_of_the_paper() {
 fn values_that_do_not_go_together_are_refused_before_a_device_is_opened() {
     let options = options(&[("accept", "plane")]);
     let error = one_system(system("mmrt"), Preset::Published, &options).expect_err("no plane in attributes");
-    assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
+    assert!(matches!(error, ExperimentError::Ads(AdsError::Option { .. })), "{error:?}");
     assert!(error.to_string().contains("payload"), "{error}");
     assert!(one_system(system("mmrt"), Preset::Robust, &options).is_ok());
 }
@@ -100,8 +102,8 @@ fn values_that_do_not_go_together_are_refused_before_a_device_is_opened() {
 fn an_option_of_another_system_is_refused_by_name() {
     let error =
         one_system(system("brute-force"), Preset::Robust, &with_buckets()).expect_err("not its option");
-    assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
-    assert!(error.to_string().contains("--buckets") && error.help().contains("mmrt"), "{error}");
+    assert!(matches!(error, ExperimentError::Selection(SelectionError::NoOption { .. })), "{error:?}");
+    assert!(error.to_string().contains("buckets"), "{error}");
     assert!(one_system(system("mmrt"), Preset::Robust, &with_buckets()).is_ok());
 }
 
@@ -161,6 +163,6 @@ fn in_a_comparison_what_nobody_has_is_refused() {
         "mmrt.sort=on,",
     ] {
         let error = several_systems(&evaluate, &[Preset::Robust], &plain, &[bad.to_owned()]).expect_err(bad);
-        assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
+        assert!(matches!(error, ExperimentError::Selection(_)), "{error:?}");
     }
 }

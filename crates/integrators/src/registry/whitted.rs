@@ -156,7 +156,7 @@ impl Whitted {
         THRESHOLD.check(Value::Number(options.threshold))?;
         MIRROR_ROUGHNESS.check(Value::Number(options.mirror_roughness))?;
         if options.select != Select::Expected && options.threshold > 0.0 {
-            let expected = "--select expected alone has a threshold".to_owned();
+            let expected = "select expected alone has a threshold".to_owned();
             return Err(THRESHOLD.refused(options.threshold, expected).into());
         }
         let features = desc.features;

@@ -188,12 +188,12 @@ fn options_out_of_their_ranges_are_refused() {
     let device = device();
     let stage = Setup::new(&device, &Scene::default(), forward_camera(DVec3::ZERO), 2, 2, 0);
     for (options, named) in [
-        (of_resolution(0), "--cube-resolution 0"),
+        (of_resolution(0), "cube-resolution 0"),
         (
             CubeMapOptions { position: Some([0.0, f32::NAN, 0.0]), ..of_resolution(4) },
-            "--cube-position 0,NaN,0",
+            "cube-position 0,NaN,0",
         ),
-        (CubeMapOptions { mirror_roughness: -1.0, ..of_resolution(4) }, "--mirror-roughness -1"),
+        (CubeMapOptions { mirror_roughness: -1.0, ..of_resolution(4) }, "mirror-roughness -1"),
     ] {
         let error = CubeMap::new(&stage.desc(), options).expect_err("refused");
         assert!(error.to_string().contains(named), "{error}");

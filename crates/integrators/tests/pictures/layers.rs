@@ -209,11 +209,11 @@ fn layers_that_cannot_be_are_refused() {
     let (scene, _) = sheets(1, 1.0);
     let stage = Setup::new(&device, &scene, flat_camera(), 4, 4, SEED);
     for (limit, opacity, option) in [
-        (Some(0), 0.5, "--layer-limit"),
-        (Some(PATH_LAYER_LIMIT + 1), 0.5, "--layer-limit"),
-        (None, 0.0, "--layer-opacity"),
-        (None, 1.5, "--layer-opacity"),
-        (None, f32::NAN, "--layer-opacity"),
+        (Some(0), 0.5, "layer-limit"),
+        (Some(PATH_LAYER_LIMIT + 1), 0.5, "layer-limit"),
+        (None, 0.0, "layer-opacity"),
+        (None, 1.5, "layer-opacity"),
+        (None, f32::NAN, "layer-opacity"),
     ] {
         let error = Layers::new(&stage.desc(), limit, opacity).expect_err("refused").to_string();
         assert!(error.contains(option), "{error}");

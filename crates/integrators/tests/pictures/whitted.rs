@@ -424,10 +424,10 @@ fn options_out_of_their_ranges_are_refused() {
     let stage = Setup::new(&device, &Scene::default(), forward_camera(DVec3::ZERO), 2, 2, 0);
     let plain = WhittedOptions::default();
     for (options, named) in [
-        (depth(RAY_DEPTH_LIMIT + 1), "--ray-depth 9"),
-        (WhittedOptions { threshold: -0.5, ..plain }, "--threshold -0.5"),
-        (WhittedOptions { threshold: 0.5, ..all() }, "--select expected alone"),
-        (WhittedOptions { mirror_roughness: f32::NAN, ..plain }, "--mirror-roughness NaN"),
+        (depth(RAY_DEPTH_LIMIT + 1), "ray-depth 9"),
+        (WhittedOptions { threshold: -0.5, ..plain }, "threshold -0.5"),
+        (WhittedOptions { threshold: 0.5, ..all() }, "select expected alone"),
+        (WhittedOptions { mirror_roughness: f32::NAN, ..plain }, "mirror-roughness NaN"),
     ] {
         let error = Whitted::new(&stage.desc(), options).expect_err("refused");
         assert!(error.to_string().contains(named), "{error}");

@@ -11,7 +11,7 @@ use rasray_scene::default_view::camera_looking_at;
 use rasray_systems::{Preset, SYSTEMS};
 
 fn session() -> Session {
-    Session::new(opening("a b.glb"))
+    Session::new(opening("a b.glb"), Failure::without_help)
 }
 
 fn opening(scene: &str) -> Opening {
@@ -61,7 +61,7 @@ fn settings_are_asked_for_once() {
     let mut opening = opening("a.glb");
     opening.settings.system.chosen = Some("the fastest".to_owned());
     let first = opening.settings.clone();
-    assert_eq!(Session::new(opening).changed_settings(0.0), Some(first));
+    assert_eq!(Session::new(opening, Failure::without_help).changed_settings(0.0), Some(first));
     let mut session = session();
     assert_eq!(session.changed_settings(0.0), Some(some()));
     assert_eq!(session.changed_settings(0.1), None);
@@ -139,9 +139,9 @@ fn a_failure_keeps_the_last_picture() {
     let mut session = session();
     session.changed_settings(0.0);
     picture(&mut session);
-    let failure = Failure { message: "no memory".to_owned(), help: String::new() };
-    take(&mut session, Update::Failed(failure));
-    assert!(session.picture.is_some() && session.failure().is_some());
+    take(&mut session, Update::Failed(ViewerError::Moved));
+    let expected = Failure::without_help(&ViewerError::Moved);
+    assert_eq!((session.picture.is_some(), session.failure()), (true, Some(&expected)));
 }
 
 #[test]

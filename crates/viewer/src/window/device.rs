@@ -5,7 +5,7 @@
 
 use std::ffi::CStr;
 
-use rasray_experiment::ExperimentError;
+use crate::error::ViewerError;
 use rasray_gpu::{ValidationLog, ash, vk};
 use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::Window;
@@ -13,11 +13,11 @@ use winit::window::Window;
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
 /// An error of the window's device.
-pub(super) fn window_error(during: &str, error: impl std::fmt::Display) -> ExperimentError {
-    ExperimentError::device(
-        format!("the window cannot be drawn: {during}: {error}"),
-        "`rasray render` needs no window",
-    )
+pub(super) fn window_error(
+    during: &'static str,
+    source: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+) -> ViewerError {
+    ViewerError::Window { during, source: source.into() }
 }
 
 /// Instance and surface of a window. Everything made from them is gone before they are dropped.
@@ -33,7 +33,7 @@ pub(super) struct WindowInstance {
 }
 
 impl WindowInstance {
-    fn new(window: &Window, validation: bool) -> Result<Self, ExperimentError> {
+    fn new(window: &Window, validation: bool) -> Result<Self, ViewerError> {
         let display = window.display_handle().map_err(|error| window_error("display", error))?.as_raw();
         let handle = window.window_handle().map_err(|error| window_error("window", error))?.as_raw();
         // SAFETY: the system's Vulkan loader is trusted to be one; its initialisers have no preconditions.
@@ -85,7 +85,7 @@ impl WindowInstance {
     }
 
     /// The device of that name with a family that draws and presents, else the first with one.
-    fn choose(&self, name: &str) -> Result<(vk::PhysicalDevice, u32), ExperimentError> {
+    fn choose(&self, name: &str) -> Result<(vk::PhysicalDevice, u32), ViewerError> {
         // SAFETY: the instance is live.
         let all = unsafe { self.instance.enumerate_physical_devices() }
             .map_err(|error| window_error("vkEnumeratePhysicalDevices", error))?;
@@ -115,7 +115,7 @@ impl WindowInstance {
         })
     }
 
-    fn open(&self, physical: vk::PhysicalDevice, family: u32) -> Result<ash::Device, ExperimentError> {
+    fn open(&self, physical: vk::PhysicalDevice, family: u32) -> Result<ash::Device, ViewerError> {
         let priorities = [1.0];
         let queues =
             [vk::DeviceQueueCreateInfo::default().queue_family_index(family).queue_priorities(&priorities)];
@@ -153,7 +153,7 @@ pub(super) struct WindowDevice {
 
 impl WindowDevice {
     /// Makes it for a window, of the physical device of the name where that can present, else of the first that can.
-    pub(super) fn new(window: &Window, name: &str, validation: bool) -> Result<Self, ExperimentError> {
+    pub(super) fn new(window: &Window, name: &str, validation: bool) -> Result<Self, ViewerError> {
         let owner = WindowInstance::new(window, validation)?;
         let (physical, family) = owner.choose(name)?;
         let device = owner.open(physical, family)?;

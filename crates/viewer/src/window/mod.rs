@@ -22,6 +22,7 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::window::{Window, WindowId};
 
 use crate::engine::Engine;
+use crate::error::ViewerError;
 use crate::rate::Rate;
 use crate::session::Session;
 use crate::viewer::{OpenScene, Viewer};
@@ -68,13 +69,9 @@ pub enum End {
     Stopped,
 }
 
-/// There is no display.
-fn no_display(reason: impl std::fmt::Display) -> ExperimentError {
-    ExperimentError::device(
-        format!("there is no display for a window: {reason}"),
-        "set DISPLAY or WAYLAND_DISPLAY, or run `rasray render`, which needs none; a virtual display will do: xvfb-run \
-         rasray view SCENE",
-    )
+/// The window system gives no window.
+fn no_window(source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> ViewerError {
+    ViewerError::NoWindow { source: source.into() }
 }
 
 /// That there is a display, before anything is done for it: without one some window systems fail in ways that nothing can
@@ -82,12 +79,12 @@ fn no_display(reason: impl std::fmt::Display) -> ExperimentError {
 ///
 /// # Errors
 /// Nothing names a display.
-pub fn check_display() -> Result<(), ExperimentError> {
+pub fn check_display() -> Result<(), ViewerError> {
     let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     if cfg!(all(unix, not(target_vendor = "apple")))
         && !["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(is_set)
     {
-        return Err(no_display("neither DISPLAY nor WAYLAND_DISPLAY is set"));
+        return Err(ViewerError::NoDisplay);
     }
     Ok(())
 }
@@ -96,14 +93,14 @@ pub fn check_display() -> Result<(), ExperimentError> {
 ///
 /// # Errors
 /// There is no display, or the window cannot be drawn. What goes wrong with a picture is shown in the window.
-pub fn run(viewing: Viewing<'_>) -> Result<End, ExperimentError> {
+pub fn run(viewing: Viewing<'_>) -> Result<End, ViewerError> {
     check_display()?;
     // Libraries of the window system that are not there are a panic of theirs.
     let made = std::panic::catch_unwind(|| EventLoop::<()>::with_user_event().build());
     let events = match made {
         Ok(Ok(events)) => events,
-        Ok(Err(error)) => return Err(no_display(error)),
-        Err(_) => return Err(no_display("a library of the window system is missing")),
+        Ok(Err(error)) => return Err(no_window(error)),
+        Err(_) => return Err(no_window("a library of the window system is missing")),
     };
     let Viewing { engine, session, open, device, validation, stop, save } = viewing;
     let wake = events.create_proxy();
@@ -139,10 +136,7 @@ pub fn run(viewing: Viewing<'_>) -> Result<End, ExperimentError> {
     }
     ran.map_err(|error| device::window_error("events", error))?;
     match log.map(|log| log.messages()).unwrap_or_default().first() {
-        Some(message) if validation => Err(ExperimentError::device(
-            format!("the validation layer says: {message}"),
-            "this is a defect; please report it with the command line",
-        )),
+        Some(message) if validation => Err(ExperimentError::Validation { message: message.clone() }.into()),
         _ => Ok(end),
     }
 }
@@ -177,18 +171,18 @@ struct Shown<'a> {
     /// When the next frame is due.
     wake_at: Instant,
     end: End,
-    failed: Option<ExperimentError>,
+    failed: Option<ViewerError>,
 }
 
 impl Shown<'_> {
-    fn open(&self, events: &ActiveEventLoop) -> Result<Live, ExperimentError> {
+    fn open(&self, events: &ActiveEventLoop) -> Result<Live, ViewerError> {
         let frame = &self.viewer.session.frame;
         let [width, height] = panel::window_size([frame.width, frame.height]);
         let attributes = Window::default_attributes()
             .with_title(title(&self.title))
             .with_min_inner_size(LEAST)
             .with_inner_size(winit::dpi::LogicalSize::new(width, height));
-        let window = events.create_window(attributes).map_err(no_display)?;
+        let window = events.create_window(attributes).map_err(no_window)?;
         let painter = Painter::new(&window, &self.device, self.validation)?;
         let context = egui::Context::default();
         panel::set_style(&context);
@@ -198,7 +192,7 @@ impl Shown<'_> {
     }
 
     /// Lets the frame's interface run, and draws it.
-    fn frame(&mut self) -> Result<(), ExperimentError> {
+    fn frame(&mut self) -> Result<(), ViewerError> {
         let Some(live) = &mut self.live else { return Ok(()) };
         let elapsed = self.frame_began.elapsed().as_secs_f64();
         self.frame_began = Instant::now();
@@ -250,7 +244,7 @@ impl Shown<'_> {
         }
     }
 
-    fn fail(&mut self, events: &ActiveEventLoop, error: ExperimentError) {
+    fn fail(&mut self, events: &ActiveEventLoop, error: ViewerError) {
         self.failed = Some(error);
         events.exit();
     }

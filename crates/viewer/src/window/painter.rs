@@ -4,9 +4,10 @@ use std::time::Duration;
 
 use egui_ash_renderer::allocator::DefaultAllocator;
 use egui_ash_renderer::{Options, RenderMode, Renderer};
-use rasray_experiment::ExperimentError;
 use rasray_gpu::{ValidationLog, vk};
 use winit::window::Window;
+
+use crate::error::ViewerError;
 
 use super::device::{WindowDevice, window_error};
 use super::swapchain::{Swapchain, is_srgb, surface_format};
@@ -32,7 +33,7 @@ pub(super) struct Painter {
 
 impl Painter {
     /// Makes it for a window, on the device of the name where it can present.
-    pub(super) fn new(window: &Window, name: &str, validation: bool) -> Result<Self, ExperimentError> {
+    pub(super) fn new(window: &Window, name: &str, validation: bool) -> Result<Self, ViewerError> {
         let device = WindowDevice::new(window, name, validation)?;
         let format = surface_format(&device)?;
         // From here on dropping the value destroys what was made; null handles are ignored.
@@ -62,7 +63,7 @@ impl Painter {
         Ok(made)
     }
 
-    fn make_commands(&mut self) -> Result<(), ExperimentError> {
+    fn make_commands(&mut self) -> Result<(), ViewerError> {
         let failed = |error| window_error("commands", error);
         let device = &self.device.device;
         let info = vk::CommandPoolCreateInfo::default()
@@ -85,7 +86,7 @@ impl Painter {
         Ok(())
     }
 
-    fn make_render_pass(&self) -> Result<vk::RenderPass, ExperimentError> {
+    fn make_render_pass(&self) -> Result<vk::RenderPass, ViewerError> {
         let attachments = [vk::AttachmentDescription::default()
             .format(self.format.format)
             .samples(vk::SampleCountFlags::TYPE_1)
@@ -126,7 +127,7 @@ impl Painter {
     }
 
     /// Takes over the textures of a frame. They must be taken over in order even where nothing is drawn.
-    fn set_textures(&mut self, textures: &mut egui::TexturesDelta) -> Result<(), ExperimentError> {
+    fn set_textures(&mut self, textures: &mut egui::TexturesDelta) -> Result<(), ViewerError> {
         let Some(renderer) = &mut self.renderer else { return Ok(()) };
         for (id, deltas) in std::mem::take(&mut textures.set) {
             for delta in deltas {
@@ -146,7 +147,7 @@ impl Painter {
         scale: f32,
         primitives: &[egui::ClippedPrimitive],
         textures: &mut egui::TexturesDelta,
-    ) -> Result<bool, ExperimentError> {
+    ) -> Result<bool, ViewerError> {
         self.set_textures(textures)?;
         let drawn = self.draw(size, scale, primitives)?;
         // The frame was waited for.
@@ -163,7 +164,7 @@ impl Painter {
         size: [u32; 2],
         scale: f32,
         primitives: &[egui::ClippedPrimitive],
-    ) -> Result<bool, ExperimentError> {
+    ) -> Result<bool, ViewerError> {
         if self.is_old || self.swapchain.is_none() {
             let before = self.swapchain.take();
             let made = Swapchain::new(&self.device, self.format, self.render_pass, size, before.as_ref());
@@ -204,7 +205,7 @@ impl Painter {
         index: u32,
         scale: f32,
         primitives: &[egui::ClippedPrimitive],
-    ) -> Result<(), ExperimentError> {
+    ) -> Result<(), ViewerError> {
         let failed = |error| window_error("a frame", error);
         let Self { swapchain: Some(swapchain), renderer: Some(renderer), device: owner, .. } = self else {
             return Ok(());
@@ -243,7 +244,7 @@ impl Painter {
         unsafe { device.reset_fences(&fences) }.map_err(failed)
     }
 
-    fn present(&mut self, index: u32) -> Result<bool, ExperimentError> {
+    fn present(&mut self, index: u32) -> Result<bool, ViewerError> {
         let Some(swapchain) = &self.swapchain else { return Ok(false) };
         let (chains, indices) = ([swapchain.handle], [index]);
         let waits = [swapchain.targets[index as usize].drawn];

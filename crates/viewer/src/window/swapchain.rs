@@ -1,12 +1,13 @@
 //! The images of a window, and how they are shown.
 
-use rasray_experiment::ExperimentError;
 use rasray_gpu::{ash, vk};
+
+use crate::error::ViewerError;
 
 use super::device::{WindowDevice, window_error};
 
 /// The format of a surface's images: an sRGB one, so that bytes of pictures arrive as they are; else its first.
-pub(super) fn surface_format(device: &WindowDevice) -> Result<vk::SurfaceFormatKHR, ExperimentError> {
+pub(super) fn surface_format(device: &WindowDevice) -> Result<vk::SurfaceFormatKHR, ViewerError> {
     // SAFETY: physical device and surface belong to one instance.
     let formats = unsafe {
         device.owner.surfaces.get_physical_device_surface_formats(device.physical, device.owner.surface)
@@ -50,7 +51,7 @@ impl Swapchain {
         render_pass: vk::RenderPass,
         [width, height]: [u32; 2],
         before: Option<&Self>,
-    ) -> Result<Option<Self>, ExperimentError> {
+    ) -> Result<Option<Self>, ViewerError> {
         // SAFETY: physical device and surface belong to one instance.
         let able = unsafe {
             device
@@ -109,7 +110,7 @@ impl Swapchain {
         device: &WindowDevice,
         format: vk::Format,
         render_pass: vk::RenderPass,
-    ) -> Result<(), ExperimentError> {
+    ) -> Result<(), ViewerError> {
         let failed = |error| window_error("images of the window", error);
         // SAFETY: the swapchain is live.
         let images = unsafe { self.functions.get_swapchain_images(self.handle) }.map_err(failed)?;

@@ -20,7 +20,7 @@ use rasray_scene::needs::Needs;
 use rasray_scene_source::{LoadedScene, load};
 use rasray_systems::{Preset, System};
 use rasray_viewer::{
-    Engine, Failure, Picture, Pixels, Rounded, SceneSource, Settings, Shown, Standpoint, Step, Update, Worker,
+    Engine, Picture, Pixels, Rounded, SceneSource, Settings, Shown, Standpoint, Step, Update, Worker,
 };
 
 const VALIDATED: DeviceChoice = DeviceChoice { device: None, validation: true };
@@ -366,7 +366,7 @@ fn a_failure_is_told_and_the_next_settings_go_on() {
     let next = || updates.recv_timeout(Duration::from_secs(300)).expect("an update");
     loop {
         match next() {
-            Update::Failed(Failure { message, .. }) => break assert!(message.contains("grid"), "{message}"),
+            Update::Failed(error) => break assert!(error.to_string().contains("grid"), "{error}"),
             Update::Status(_) => (),
             Update::Picture(_) | Update::Answered(..) | Update::Read(..) => panic!("nobody asked for it"),
         }
@@ -376,7 +376,7 @@ fn a_failure_is_told_and_the_next_settings_go_on() {
         match next() {
             Update::Picture(picture) if picture.is_finished() => break,
             Update::Picture(_) | Update::Status(_) => (),
-            Update::Failed(Failure { message, .. }) => panic!("{message}"),
+            Update::Failed(error) => panic!("{error}"),
             Update::Answered(..) | Update::Read(..) => panic!("nobody asked for it"),
         }
     }

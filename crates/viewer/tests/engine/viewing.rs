@@ -21,8 +21,7 @@ use crate::{
 
 /// What a session of a scene begins with, with the settings of these tests.
 fn opened(scene: &OsStr) -> Result<Opened, Failure> {
-    let loaded =
-        load(scene).map_err(|error| Failure { message: error.to_string(), help: error.help().to_owned() })?;
+    let loaded = load(scene).map_err(|error| Failure::without_help(&error))?;
     let opening = Opening {
         scene: scene.to_owned(),
         camera_words: Vec::new(),
@@ -53,7 +52,7 @@ impl Running {
         let first = opening.settings.clone();
         let (sender, woken) = channel();
         let viewer = Viewer::start(
-            Session::new(opening),
+            Session::new(opening, Failure::without_help),
             move || engine_for(source, &first),
             Arc::new(opened),
             // The test may have failed meanwhile.

@@ -4,6 +4,7 @@ use crate::arguments::values::Switch;
 use crate::arguments::{NeedsName, SceneArguments, ViewArguments, ViewerArguments};
 use crate::commands::steps::{keep_inputs, prepare};
 use crate::error::AppError;
+use crate::hints;
 use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat};
 use crate::progress::during;
@@ -14,7 +15,7 @@ use rasray_scene::default_view;
 use rasray_scene_source::{Chosen, LoadError, LoadedScene};
 use rasray_viewer::{
     End, Engine, Failure, Opened, Opening, SavedPicture, SceneSource, Session, Settings, Shown, Standpoint,
-    Viewing, camera_names, check_display, run,
+    ViewerError, Viewing, camera_names, check_display, run,
 };
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -43,12 +44,8 @@ pub(crate) fn view(given: &ViewerArguments, interrupt: &Interrupt) -> Result<(),
         device: device.name().to_owned(),
         validation,
         engine: Box::new(move || Engine::new(device, validation, source, settings)),
-        session: Session::new(opening),
-        open: Arc::new(move |scene: &OsStr| {
-            later
-                .open(scene)
-                .map_err(|error| Failure { message: error.to_string(), help: error.help().to_owned() })
-        }),
+        session: Session::new(opening, explain),
+        open: Arc::new(move |scene: &OsStr| later.open(scene).map_err(|error| failure(&error))),
         stop: &|| interrupt.requested(),
         save: &mut |saved| save(saved, interrupt).map_err(|error| error.to_string()),
     })?;
@@ -56,6 +53,20 @@ pub(crate) fn view(given: &ViewerArguments, interrupt: &Interrupt) -> Result<(),
         End::Closed => Ok(()),
         End::Stopped => Err(AppError::interrupted("the window was closed by a signal", "")),
     }
+}
+
+/// An error in the words of the command.
+fn failure(error: &AppError) -> Failure {
+    Failure { message: error.to_string(), help: error.help().into_owned() }
+}
+
+/// The same of an error that a window shows while it goes on.
+fn explain(error: &ViewerError) -> Failure {
+    let message = match error {
+        ViewerError::Experiment(error) => hints::message(error),
+        other => other.to_string(),
+    };
+    Failure { message, help: hints::help_of_viewer(error).into_owned() }
 }
 
 /// Opens scenes as a command line says.

@@ -5,8 +5,8 @@
 
 use rasray_experiment::{
     Aov, AovImage, Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription,
-    ExperimentError, Feature, FilmSums, FinishedRun, HardJob, KeptScene, OnProgress, OnRun, PassCommands,
-    Progress, RenderJob, RenderOutput, Stage, TexelCapacity,
+    ExperimentError, Feature, FilmSums, FinishedRun, GpuError, HardJob, KeptScene, OnProgress, OnRun,
+    PassCommands, Progress, RenderJob, RenderOutput, Stage, TexelCapacity,
 };
 use rasray_report::{Counters, Device, HardRecord, ImageError, ListRecord, Run, Times};
 use std::path::Path;
@@ -37,6 +37,11 @@ fn aov_image(aov: Aov, pixels: usize) -> AovImage {
     }
 }
 
+/// What the device named `broken` says.
+fn lost() -> ExperimentError {
+    GpuError::DeviceLost { call: "vkQueueSubmit", during: "trace".to_owned() }.into()
+}
+
 impl Backend for Scripted {
     fn device(&self) -> Device {
         Device { name: "scripted".to_owned(), driver: "none 1".to_owned(), software: true }
@@ -54,7 +59,7 @@ impl Backend for Scripted {
         progress: &mut OnProgress<'_>,
     ) -> Result<RenderOutput, ExperimentError> {
         if self.device == "broken" {
-            return Err(ExperimentError::device("the device was lost", "restart it"));
+            return Err(lost());
         }
         let (width, height) = (job.frame.width, job.frame.height);
         let pixels = width as usize * height as usize;
@@ -175,7 +180,7 @@ impl Backend for Scripted {
         progress: &mut OnProgress<'_>,
     ) -> Result<Comparison, ExperimentError> {
         if self.device == "broken" && job.case.id == "G3" {
-            return Err(ExperimentError::device("the device was lost", "restart it"));
+            return Err(lost());
         }
         if self.device == "slow" && job.case.id != "G1" {
             say_ready();
@@ -241,7 +246,10 @@ pub fn become_the_command() {
     let mut open = |choice: &DeviceChoice| -> Result<Box<dyn Backend>, ExperimentError> {
         let device = choice.device.clone().unwrap_or_default();
         if device == "absent" {
-            return Err(ExperimentError::device("no device 'absent'", "see 'rasray info'"));
+            return Err(ExperimentError::Opening(GpuError::NoMatchingDevice {
+                preference: "absent".to_owned(),
+                devices: "none".to_owned(),
+            }));
         }
         Ok(Box::new(Scripted { device }))
     };
