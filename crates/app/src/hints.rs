@@ -45,6 +45,12 @@ const DAMAGED: &str = "the file is damaged or breaks its format: correct it, or 
 
 const PLACE_CAMERA: &str = "place the camera by --eye and --target";
 
+/// The same text with options as they are written on the command line; libraries write them `` `views` cube ``.
+pub(crate) fn with_flags(text: &str) -> String {
+    let parts = text.split('`').enumerate();
+    parts.map(|(place, part)| if place % 2 == 1 { format!("--{part}") } else { part.to_owned() }).collect()
+}
+
 /// What is wrong, with options written as on the command line.
 pub(crate) fn message(error: &ExperimentError) -> String {
     match error {
@@ -236,7 +242,7 @@ fn help_of_selection(error: &SelectionError) -> Cow<'static, str> {
         SelectionError::Form { .. } => "write for example mmrt.samples=50".into(),
         SelectionError::UnknownSystem { .. } => format!("the systems: {}", names(SYSTEMS)).into(),
         SelectionError::UnknownOption { option, .. } => who_has(option).into(),
-        SelectionError::Value { row, .. } => format!("--{}: {}", row.name, row.help()).into(),
+        SelectionError::Value { row, .. } => format!("--{}: {}", row.name, with_flags(&row.help())).into(),
         _ => "".into(),
     }
 }

@@ -111,7 +111,7 @@ const REFUSED: [(&str, &str); 17] = [
     ("help-all", COMMAND),
 ];
 
-const FOLDER: &str = "leave it out: all reports go to the folder of --output";
+const FOLDER: &str = "leave it out: all reports go to the folder of the campaign";
 const COMPARE: &str = "leave it out: it is of single comparisons, `rasray compare`";
 const COMMAND: &str = "leave it out, and say it on the command line";
 

@@ -86,8 +86,8 @@ impl Aov {
             Self::Uv => "uv.U .V: texture coordinates 0",
             Self::Material => "material: index of the material",
             Self::Instance => "instance: index of the instance",
-            Self::Motion => "motion.X .Y: pixels to the right and upwards to the frame before, with --frames",
-            Self::Direct => "direct.R .G .B: light scattered at most once, with --integrator path",
+            Self::Motion => "motion.X .Y: pixels to the right and upwards to the frame before, with `frames`",
+            Self::Direct => "direct.R .G .B: light scattered at most once, with `integrator` path",
             Self::Indirect => "indirect.R .G .B: the picture less the direct light",
             Self::Variance => "variance.R .G .B: of each pixel's mean",
         }

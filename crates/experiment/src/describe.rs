@@ -12,14 +12,14 @@ pub fn requirements() -> Requirements {
     let mut requirements = Requirements::floor();
     requirements.optional.push((
         GpuFeature::FragmentStoresAndAtomics,
-        "structures built by the rasterizer, and --primary raster",
+        "structures built by the rasterizer, and `primary` raster",
     ));
     requirements
         .optional
-        .push((GpuFeature::BufferDeviceAddress, "pools beyond the binding limit (--addressing address)"));
+        .push((GpuFeature::BufferDeviceAddress, "pools beyond the binding limit (`addressing` address)"));
     requirements
         .optional
-        .push((GpuFeature::ConservativeRasterization, "--coverage conservative-extension of dirt"));
+        .push((GpuFeature::ConservativeRasterization, "`coverage` conservative-extension of dirt"));
     requirements
 }
 

@@ -71,7 +71,7 @@ impl Primary {
                  exact first hits where it does not"
             }
             Self::Fragments => {
-                "The nearest fragment in the pixel's cell of the camera's view, of --system mmrt with such a view"
+                "The nearest fragment in the pixel's cell of the camera's view, of `system` mmrt with such a view"
             }
         }
     }
@@ -125,7 +125,7 @@ impl OccluderKind {
             Self::Structure => "Rays are traced through the structure",
             Self::ShadowMaps { .. } => {
                 "Each point, spot and directional light has a map of depths, drawn where anything moves: fast, and wrong along \
-                 the edges of shadows. Emitting triangles have maps with --shadow-points. Rays to other lights are traced"
+                 the edges of shadows. Emitting triangles have maps with `shadow-points`. Rays to other lights are traced"
             }
         }
     }
@@ -214,7 +214,7 @@ impl Sampler {
     pub fn doc(self) -> &'static str {
         match self {
             Self::Sobol => {
-                "Points spread evenly over the samples of a pixel: least noise where --spp is a power of two"
+                "Points spread evenly over the samples of a pixel: least noise where `spp` is a power of two"
             }
             Self::Pcg => "Independent numbers",
         }

@@ -70,7 +70,7 @@ impl SystemConfig {
         let payload = payload.filter(|payload| ["normal", "plane"].contains(payload))?;
         (!workload.is_visibility()).then(|| {
             let system = self.system.name;
-            format!("{system}: fragments with --payload {payload} carry nothing to shade by, so that surfaces are white")
+            format!("{system}: fragments with `payload` {payload} carry nothing to shade by, so that surfaces are white")
         })
     }
 

@@ -9,7 +9,8 @@ pub struct OptionRow {
     pub name: &'static str,
     /// What it takes.
     pub values: Values,
-    /// What it is for, one line of help without a full stop. Help adds the range and the default.
+    /// What it is for, one line of help without a full stop, with names of other options in backticks. Help adds the range and
+    /// the default.
     pub doc: &'static str,
     /// The value where none is given; absent where that depends on more than the option.
     pub default: Option<Value>,

@@ -28,7 +28,7 @@ pub const OPTIONS: &[StructureOption] = &[
         SameForTriangles,
         Values::Cells(VIEW_LIMIT),
         &["12", "37"],
-        "With a camera among --views: columns and rows of its view, or one number for both; as --resolution if \
+        "With a camera among `views`: columns and rows of its view, or one number for both; as `resolution` if \
          not given",
     ),
     row(
@@ -37,8 +37,8 @@ pub const OPTIONS: &[StructureOption] = &[
         SameForTriangles,
         Values::Whole(1, 1024),
         &["8", "24"],
-        "Cells along the longest side of the scene or, with --views cube, columns along each side of a face, by its \
-         triangles if not given; voxels along each side of its cube, balanced with --resolution if not given",
+        "Cells along the longest side of the scene or, with `views` cube, columns along each side of a face, by its \
+         triangles if not given; voxels along each side of its cube, balanced with `resolution` if not given",
     ),
     row(
         "tile",
@@ -54,7 +54,7 @@ pub const OPTIONS: &[StructureOption] = &[
         SameWithoutLoss,
         Values::Whole(1, 64),
         &["1", "2", "8", "12", "32", "64"],
-        "Depth buckets per cell; of mmrt up to 32, and with --storage llb, dllb or paged alone",
+        "Depth buckets per cell; of mmrt up to 32, and with `storage` llb, dllb or paged alone",
     ),
     row(
         "slices",
@@ -62,7 +62,7 @@ pub const OPTIONS: &[StructureOption] = &[
         SameForTriangles,
         Values::Whole(1, 1024),
         &["8", "64"],
-        "Bricks with --views cube: depth slices, the same for all columns",
+        "Bricks with `views` cube: depth slices, the same for all columns",
     ),
     row(
         "block",
@@ -134,7 +134,7 @@ pub const OPTIONS: &[StructureOption] = &[
             off_name: Some("decoupled"),
             ..OptionRow::switch(
                 "inline",
-                "Keep the payload of a fragment within its list [opposite: --decoupled]",
+                "Keep the payload of a fragment within its list [opposite: `decoupled`]",
             )
         },
         Method,
@@ -146,7 +146,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Same,
         Values::Whole(1, 8),
         &["1", "2", "4", "8"],
-        "With --storage paged: fragments per page; of mmrt a power of two",
+        "With `storage` paged: fragments per page; of mmrt a power of two",
     ),
     trying(
         // Attributes and normals are those of a scene, which plain triangles lack.
@@ -222,7 +222,7 @@ pub const OPTIONS: &[StructureOption] = &[
         MayChange,
         Values::Number(Unit::Metres, Least::Zero),
         &["0.5"],
-        "With --accept thickness: metres behind a fragment that count as its inside",
+        "With `accept` thickness: metres behind a fragment that count as its inside",
     ),
     row(
         "tolerance",
@@ -230,7 +230,7 @@ pub const OPTIONS: &[StructureOption] = &[
         MayChange,
         Values::Number(Unit::Share, Least::Zero),
         &["0.01"],
-        "With --accept tolerance: how far along a view a fragment may be from the ray, a share of the cube's side",
+        "With `accept` tolerance: how far along a view a fragment may be from the ray, a share of the cube's side",
     ),
     words(
         "inside",
@@ -240,7 +240,7 @@ pub const OPTIONS: &[StructureOption] = &[
             ("column", "All that lie before it in its cell"),
             ("voxel", "Those of them at the depths of the voxel"),
         ],
-        "With --accept parity: fragments that decide whether a point is inside",
+        "With `accept` parity: fragments that decide whether a point is inside",
     ),
     words(
         "ends",
@@ -253,7 +253,7 @@ pub const OPTIONS: &[StructureOption] = &[
                 "A ray starts beyond those of the triangle that it leaves, and those where it ends do not count",
             ),
         ],
-        "With --accept tolerance, slope or parity, or --leaves voxels: fragments as close to an end of the ray as the surface there",
+        "With `accept` tolerance, slope or parity, or `leaves` voxels: fragments as close to an end of the ray as the surface there",
     ),
     words(
         "march",
@@ -274,13 +274,13 @@ pub const OPTIONS: &[StructureOption] = &[
         MayChange,
         Values::Whole(1, 65_535),
         &["5"],
-        "With --march samples: maximum samples per face, or steps per voxel",
+        "With `march` samples: maximum samples per face, or steps per voxel",
     ),
     switch(
         "jitter",
         Method,
         MayChange,
-        "With --march samples: where steps are longer than a cell, each ray samples them at an offset of its own",
+        "With `march` samples: where steps are longer than a cell, each ray samples them at an offset of its own",
     ),
     words(
         "stop",
@@ -339,7 +339,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Method,
         SameForTriangles,
         &[("fragments", "The fragments in it"), ("triangles", "The triangles that reach into it")],
-        "What makes a voxel occupied; by default fragments with --axes all, else triangles",
+        "What makes a voxel occupied; by default fragments with `axes` all, else triangles",
     ),
     words(
         "leaves",
@@ -384,14 +384,14 @@ pub const OPTIONS: &[StructureOption] = &[
             ("1", "Once; the view of a triangle is chosen as it is drawn"),
             ("3", "Once for each view along the axes, which leaves out the triangles of the others"),
         ],
-        "How often a pass of the build draws the scene, with --builder raster",
+        "How often a pass of the build draws the scene, with `builder` raster",
     ),
     words(
         "children",
         Speed,
         Same,
         &[("2", "Two"), ("4", "Four, tested together")],
-        "Children per node of the tree: 4 with --builder sah and trbvh unless given, 2 with the others",
+        "Children per node of the tree: 4 with `builder` sah and trbvh unless given, 2 with the others",
     ),
     row(
         "leaf",
@@ -399,7 +399,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Same,
         Values::Whole(1, 16),
         &["1", "16"],
-        "Maximum triangles per leaf: 4 with --builder sah unless given, 1 with the others",
+        "Maximum triangles per leaf: 4 with `builder` sah unless given, 1 with the others",
     ),
     switch("sort", Speed, Same, "Sort the fragments of a cell by depth"),
     switch("skip", Speed, SameWithoutLoss, "Skip empty space"),
@@ -417,7 +417,7 @@ pub const OPTIONS: &[StructureOption] = &[
             ("finest", "The finest, then coarser ones until one holds something"),
             ("coarsest", "The coarsest, then finer ones until one holds nothing"),
         ],
-        "With --pyramid: the blocks that a ray compares its depths with first",
+        "With `pyramid`: the blocks that a ray compares its depths with first",
     ),
     words(
         "bounds",
@@ -463,7 +463,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Same,
         Values::Whole(1, 1024),
         &["256", "1024"],
-        "With --build peel: maximum layers; a scene with more is an error",
+        "With `build` peel: maximum layers; a scene with more is an error",
     ),
     row(
         "capacity",

@@ -1,5 +1,6 @@
 //! Options on the command line, made from their rows.
 
+use crate::hints::with_flags;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches};
 use rasray_options::{OptionRow, Unit, Value, Values};
@@ -13,7 +14,7 @@ pub fn choice<T: Copy + Send + Sync + 'static>(
     let names: Vec<_> = values
         .iter()
         .map(|value| told(*value))
-        .map(|(name, doc)| PossibleValue::new(name).help(doc))
+        .map(|(name, doc)| PossibleValue::new(name).help(with_flags(doc)))
         .collect();
     PossibleValuesParser::new(names).map(move |given| {
         let named = |value: &T| told(*value).0 == given;
@@ -23,11 +24,11 @@ pub fn choice<T: Copy + Send + Sync + 'static>(
 
 /// The argument of an option with its help, and the word that stands for its value `off` where there is one.
 pub fn arguments(row: &'static OptionRow, help: String) -> impl Iterator<Item = Arg> {
-    let argument = Arg::new(row.name).long(row.name).help(help);
+    let argument = Arg::new(row.name).long(row.name).help(with_flags(&help));
     let read = move |text: &str| row.values.parse(text);
     let argument = match row.values {
         Values::Words(words) => {
-            let words = words.iter().map(|(word, doc)| PossibleValue::new(*word).help(*doc));
+            let words = words.iter().map(|(word, doc)| PossibleValue::new(*word).help(with_flags(doc)));
             argument
                 .value_name("WORD")
                 .value_parser(PossibleValuesParser::new(words).try_map(move |word| read(&word)))

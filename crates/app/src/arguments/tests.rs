@@ -271,6 +271,32 @@ fn ranges_in_the_help_are_those_of_the_values() {
     assert!(tried > 20, "{tried}");
 }
 
+/// Rows of libraries name options without knowing the command line.
+#[test]
+fn every_option_that_a_help_names_is_one() {
+    let line = CommandLine::command();
+    let commands: Vec<_> = line.get_subcommands().collect();
+    let known: Vec<_> = commands
+        .iter()
+        .flat_map(|command| command.get_arguments())
+        .filter_map(|argument| argument.get_long())
+        .collect();
+    let mut named = 0;
+    for argument in commands.iter().flat_map(|command| command.get_arguments()) {
+        let values = argument.get_possible_values();
+        let of_values = values.iter().filter_map(|value| value.get_help());
+        for text in argument.get_help().into_iter().chain(of_values).map(ToString::to_string) {
+            for word in text.split("--").skip(1) {
+                let name = word.split(|letter: char| !letter.is_ascii_lowercase() && letter != '-').next();
+                let name = name.unwrap_or_default();
+                assert!(known.contains(&name) || name == "help", "--{name} of: {text}");
+                named += 1;
+            }
+        }
+    }
+    assert!(named > 20, "{named}");
+}
+
 #[test]
 fn an_environment_is_a_colour_or_a_map() {
     let read = |value: &str| {

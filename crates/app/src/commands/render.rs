@@ -7,6 +7,7 @@ use super::pictures::Pictures;
 use super::steps::{Posing, Shown, fit_images, open_device, read_scene, stop_if_requested};
 use crate::arguments::RenderArguments;
 use crate::error::AppError;
+use crate::hints::with_flags;
 use crate::interrupt::Interrupt;
 use crate::terminal;
 use rasray_experiment::{KeptScene, OpenBackend};
@@ -45,7 +46,7 @@ pub(crate) fn render(
         Some(_) => system.rebuilt_for(frame.rays(), loaded.triangles),
         None => system,
     };
-    system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
+    system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(&with_flags(text)));
 
     let backend = open_device(open, &given.work.device)?;
     stop_if_requested(interrupt)?;

@@ -3,6 +3,7 @@
 use super::steps::{Posing, Shown, fit_images, read_scene};
 use crate::arguments::CompareArguments;
 use crate::error::AppError;
+use crate::hints::with_flags;
 use crate::terminal;
 use crate::version::version_text;
 use rasray_experiment::{
@@ -81,7 +82,7 @@ impl Subject<'_> {
     pub(super) fn warn(&self) {
         let Asked { systems, frame, given, .. } = &self.asked;
         let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));
-        shortcomings.filter(|_| given.image).for_each(|text| terminal::warn(&text));
+        shortcomings.filter(|_| given.image).for_each(|text| terminal::warn(&with_flags(&text)));
     }
 
     /// Makes images of the scene smaller where the device does not hold them.

@@ -55,7 +55,7 @@ fn published_fragments_carry_what_their_paper_keeps_for_occlusion() {
     assert_eq!(system("mmrt").occlusion_payload, Some("normal"));
     let plane = options(&[("payload", "plane")]);
     let plane = one_system(system("mmrt"), Preset::Robust, &plane).expect("valid");
-    assert!(plane.shortcoming(path).expect("white surfaces").contains("--payload plane"));
+    assert!(plane.shortcoming(path).expect("white surfaces").contains("`payload` plane"));
     assert_eq!(plane.shortcoming(occlusion), None);
     let attributes = one_system(system("mmrt"), Preset::Published, &given).expect("valid");
     assert_eq!(attributes.shortcoming(path), None);

@@ -1,6 +1,7 @@
 //! The devices, what the one in use offers, and the way of each structure on it.
 
 use super::rows::pair;
+use crate::hints::with_flags;
 use rasray_experiment::DeviceDescription;
 use rasray_report::{Device, columns};
 use serde_json::{Map, Value, json};
@@ -12,7 +13,7 @@ pub(super) fn device_json(device: &Device, description: &DeviceDescription) -> V
             "name": feature.name,
             "present": feature.present,
             "required": feature.required,
-            "purpose": feature.purpose,
+            "purpose": with_flags(&feature.purpose),
         })
     });
     let limits = description.limits.iter().map(|(name, value)| (name.clone(), Value::from(value.as_str())));
@@ -60,7 +61,7 @@ pub(super) fn device_text(device: &Device, description: &DeviceDescription) -> S
                     (false, false) => "no",
                 };
                 let need = if feature.required { "required" } else { "optional" };
-                vec![feature.name.clone(), state.to_owned(), need.to_owned(), feature.purpose.clone()]
+                vec![feature.name.clone(), state.to_owned(), need.to_owned(), with_flags(&feature.purpose)]
             })
             .collect();
         text += &columns(&rows, 4);

@@ -32,7 +32,7 @@ pub(super) const SELECT: OptionRow = OptionRow::words(
 pub(super) const THRESHOLD: OptionRow = OptionRow::new(
     "threshold",
     Values::Number(Unit::Share, Least::Zero),
-    "With --select expected: rays are traced where they carry more than this share of what they find",
+    "With `select` expected: rays are traced where they carry more than this share of what they find",
 )
 .by_default(Value::Number(0.0))
 .trying(&["0.1"]);
@@ -94,7 +94,7 @@ impl Select {
     /// What it is, in one line of help.
     pub const fn doc(self) -> &'static str {
         match self {
-            Self::Expected => "Where they carry more than --threshold; with 0 the picture is that of all",
+            Self::Expected => "Where they carry more than `threshold`; with 0 the picture is that of all",
             Self::All => "Everywhere, also where they carry nothing",
             Self::Reflective => "Where what the camera sees mirrors; from there on all",
             Self::Specular => {
