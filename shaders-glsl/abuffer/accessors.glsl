@@ -1,6 +1,5 @@
-// What: the A-buffer's pools, and the only place that knows how they are reached: through the
-// descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, bounds, lists, nodes, data, near-region list, scratch, conservative lists; with ABUFFER_READ_ONLY
+// What: the A-buffer's pools, reached as ads/pools.glsl says.
+// Reads, writes: header, bounds, lists, nodes, data, near-region list, scratch, conservative lists; with STRUCTURE_READ_ONLY
 // bounds are read only. Every access checks the capacity.
 // Source: MMRT table 2: what a cell and a node hold under each storage.
 #ifndef ABUFFER_ACCESSORS_GLSL
@@ -9,32 +8,14 @@
 #include "abuffer/views.glsl"
 #include "ads/bucket.glsl"
 
-#ifdef ADDRESSING_ADDRESS
-layout(buffer_reference, scalar, buffer_reference_align = 4) ABUFFER_HEADER_ACCESS buffer AbufferWordAddress { uint words[]; };
-#define ABUFFER_BOUNDS(s) AbufferWordAddress(ABUFFER_HEADER(s).bounds_address).words
-#define ABUFFER_LISTS(s) AbufferWordAddress(ABUFFER_HEADER(s).lists_address).words
-#define ABUFFER_NODES(s) AbufferWordAddress(ABUFFER_HEADER(s).nodes_address).words
-#define ABUFFER_DATA(s) AbufferWordAddress(ABUFFER_HEADER(s).data_address).words
-#define ABUFFER_NEAR(s) AbufferWordAddress(ABUFFER_HEADER(s).near_address).words
-#define ABUFFER_SCRATCH(s) AbufferWordAddress(ABUFFER_HEADER(s).scratch_address).words
-#define ABUFFER_CONSERVATIVE_NODES(s) AbufferWordAddress(ABUFFER_HEADER(s).conservative_address).words
-#else
-layout(set = STRUCTURE_SET, binding = 1, scalar) ABUFFER_HEADER_ACCESS buffer AbufferBoundsBuffer { uint abuffer_bounds_words[]; };
-layout(set = STRUCTURE_SET, binding = 2, scalar) buffer AbufferListsBuffer { uint abuffer_list_words[]; };
-layout(set = STRUCTURE_SET, binding = 3, scalar) buffer AbufferNodesBuffer { uint abuffer_node_words[]; };
-layout(set = STRUCTURE_SET, binding = 4, scalar) buffer AbufferDataBuffer { uint abuffer_data_words[]; };
-layout(set = STRUCTURE_SET, binding = 5, scalar) buffer AbufferNearBuffer { uint abuffer_near_words[]; };
-layout(set = STRUCTURE_SET, binding = 6, scalar) buffer AbufferScratchBuffer { uint abuffer_scratch_words[]; };
-layout(set = STRUCTURE_SET, binding = 7,
-    scalar) buffer AbufferConservativeBuffer { uint abuffer_conservative_nodes[]; };
-#define ABUFFER_BOUNDS(s) abuffer_bounds_words
-#define ABUFFER_LISTS(s) abuffer_list_words
-#define ABUFFER_NODES(s) abuffer_node_words
-#define ABUFFER_DATA(s) abuffer_data_words
-#define ABUFFER_NEAR(s) abuffer_near_words
-#define ABUFFER_SCRATCH(s) abuffer_scratch_words
-#define ABUFFER_CONSERVATIVE_NODES(s) abuffer_conservative_nodes
-#endif
+POOL_WORDS(abuffer, bounds, 1)
+POOL_WORDS(abuffer, lists, 2)
+POOL_WORDS(abuffer, nodes, 3)
+POOL_WORDS(abuffer, data, 4)
+POOL_WORDS(abuffer, near, 5)
+POOL_WORDS(abuffer, scratch, 6)
+POOL_WORDS(abuffer, conservative, 7)
+#define ABUFFER_POOL(s, pool) POOL_WORDS_OF(abuffer, pool, ABUFFER_HEADER(s))
 
 // Lists by depth bucket, with depth bounds of each cell.
 const bool ABUFFER_BUCKETED = ABUFFER_STORAGE == ABUFFER_STORAGE_LLB || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB
@@ -95,45 +76,45 @@ const uint ABUFFER_PAGE_STRIDE = ABUFFER_PAGE_WORDS + ABUFFER_PAGE_SLOTS * ABUFF
 
 // The smallest depth of a cell. False where nothing has been found.
 bool abuffer_z_min(AbufferRef s, uint cell, out float z_min) {
-    uint word = ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE];
+    uint word = ABUFFER_POOL(s, bounds)[cell * ABUFFER_BOUNDS_STRIDE];
     z_min = uintBitsToFloat(~word);
     return word != 0u;
 }
 
-#ifndef ABUFFER_READ_ONLY
+#ifndef STRUCTURE_READ_ONLY
 // Widens the depths of a cell. Word 0 holds the complement of the smallest depth's bits, so that a
 // cleared cell is empty and both ends are maxima; positive floats order like their bits.
 void abuffer_widen_bounds(AbufferRef s, uint cell, float lower, float upper) {
     uint word = cell * ABUFFER_BOUNDS_STRIDE;
-    atomicMax(ABUFFER_BOUNDS(s)[word], ~floatBitsToUint(lower));
-    atomicMax(ABUFFER_BOUNDS(s)[word + 1u], floatBitsToUint(upper));
+    atomicMax(ABUFFER_POOL(s, bounds)[word], ~floatBitsToUint(lower));
+    atomicMax(ABUFFER_POOL(s, bounds)[word + 1u], floatBitsToUint(upper));
 }
 
 // The same for one end only, where only the nearest fragments are kept: the near end is known before they
 // are stored, the far end is that of the stored fragments.
 void abuffer_widen_near(AbufferRef s, uint cell, float z) {
-    atomicMax(ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE], ~floatBitsToUint(z));
+    atomicMax(ABUFFER_POOL(s, bounds)[cell * ABUFFER_BOUNDS_STRIDE], ~floatBitsToUint(z));
 }
 
 void abuffer_widen_far(AbufferRef s, uint cell, float z) {
-    atomicMax(ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE + 1u], floatBitsToUint(z));
+    atomicMax(ABUFFER_POOL(s, bounds)[cell * ABUFFER_BOUNDS_STRIDE + 1u], floatBitsToUint(z));
 }
 
 // Widens the extent of a cell, where it has one.
 void abuffer_widen_extent(AbufferRef s, uint cell, float extent) {
     if (ABUFFER_HAS_EXTENT) {
         uint word = cell * ABUFFER_BOUNDS_STRIDE + ABUFFER_EXTENT_WORD;
-        atomicMax(ABUFFER_BOUNDS(s)[word], floatBitsToUint(extent));
+        atomicMax(ABUFFER_POOL(s, bounds)[word], floatBitsToUint(extent));
     }
 }
 
 // Stores the scale of a cell's buckets next to its bounds.
 void abuffer_store_scale(AbufferRef s, uint cell) {
     uint word = cell * ABUFFER_BOUNDS_STRIDE;
-    uint z_max = ABUFFER_BOUNDS(s)[word + 1u];
-    float z_min = uintBitsToFloat(~ABUFFER_BOUNDS(s)[word]);
+    uint z_max = ABUFFER_POOL(s, bounds)[word + 1u];
+    float z_min = uintBitsToFloat(~ABUFFER_POOL(s, bounds)[word]);
     float scale = z_max == 0u ? 0.0 : bucket_scale(z_min, uintBitsToFloat(z_max), ABUFFER_BUCKETS);
-    ABUFFER_BOUNDS(s)[word + 3u] = floatBitsToUint(scale);
+    ABUFFER_POOL(s, bounds)[word + 3u] = floatBitsToUint(scale);
 }
 #endif
 
@@ -153,13 +134,13 @@ uint abuffer_marks(AbufferRef s) {
     return abuffer_cell_count(s) * ABUFFER_BOUNDS_STRIDE;
 }
 
-#ifndef ABUFFER_READ_ONLY
+#ifndef STRUCTURE_READ_ONLY
 // Marks a triangle that a cell keeps in a set.
 void abuffer_mark(AbufferRef s, uint primitive, uint set) {
     uint word = abuffer_marks(s) + set * abuffer_mark_words(s) + primitive / 32u;
     uint bit = 1u << (primitive % 32u);
-    if (primitive < ABUFFER_HEADER(s).triangles && (ABUFFER_BOUNDS(s)[word] & bit) == 0u) {
-        atomicOr(ABUFFER_BOUNDS(s)[word], bit);
+    if (primitive < ABUFFER_HEADER(s).triangles && (ABUFFER_POOL(s, bounds)[word] & bit) == 0u) {
+        atomicOr(ABUFFER_POOL(s, bounds)[word], bit);
     }
 }
 #endif
@@ -167,7 +148,7 @@ void abuffer_mark(AbufferRef s, uint primitive, uint set) {
 // Whether a triangle has a fragment.
 bool abuffer_is_marked(AbufferRef s, uint primitive) {
     uint word = abuffer_marks(s) + primitive / 32u;
-    return primitive < ABUFFER_HEADER(s).triangles && (ABUFFER_BOUNDS(s)[word] & 1u << (primitive % 32u)) != 0u;
+    return primitive < ABUFFER_HEADER(s).triangles && (ABUFFER_POOL(s, bounds)[word] & 1u << (primitive % 32u)) != 0u;
 }
 
 // The bounds of a cell. Without ends they hold everything, and lists say whether there is anything.
@@ -178,25 +159,25 @@ AbufferBounds abuffer_bounds(AbufferRef s, uint cell) {
     }
     uint word = cell * ABUFFER_BOUNDS_STRIDE;
     if (ABUFFER_HAS_EXTENT) {
-        bounds.extent = uintBitsToFloat(ABUFFER_BOUNDS(s)[word + ABUFFER_EXTENT_WORD]);
+        bounds.extent = uintBitsToFloat(ABUFFER_POOL(s, bounds)[word + ABUFFER_EXTENT_WORD]);
     }
     if (!ABUFFER_HAS_ENDS) {
         bounds.empty = false;
         bounds.z_max = uintBitsToFloat(0x7F800000u);
         return bounds;
     }
-    uint z_max = ABUFFER_BOUNDS(s)[word + 1u];
+    uint z_max = ABUFFER_POOL(s, bounds)[word + 1u];
     if (z_max == 0u) {
         return bounds;
     }
     bounds.empty = false;
-    bounds.z_min = uintBitsToFloat(~ABUFFER_BOUNDS(s)[word]);
+    bounds.z_min = uintBitsToFloat(~ABUFFER_POOL(s, bounds)[word]);
     bounds.z_max = uintBitsToFloat(z_max);
     if (!ABUFFER_HAS_BUCKETS) {
         return bounds;
     }
     if (ABUFFER_HAS_EXTENT) {
-        bounds.scale = uintBitsToFloat(ABUFFER_BOUNDS(s)[word + 3u]);
+        bounds.scale = uintBitsToFloat(ABUFFER_POOL(s, bounds)[word + 3u]);
     } else {
         bounds.scale = bucket_scale(bounds.z_min, bounds.z_max, ABUFFER_BUCKETS);
     }

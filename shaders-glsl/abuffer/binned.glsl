@@ -14,7 +14,7 @@
 
 // Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
 #define LargeRef AbufferRef
-#define LARGE_WORD(s, place) ABUFFER_SCRATCH(s)[abuffer_scan_words(s) + place]
+#define LARGE_WORD(s, place) ABUFFER_POOL(s, scratch)[abuffer_scan_words(s) + place]
 #define LARGE_HEADER(s) ABUFFER_HEADER(s)
 #define LARGE_CAPACITY(s) ABUFFER_HEADER(s).large_capacity
 #include "ads/bin_large.glsl"

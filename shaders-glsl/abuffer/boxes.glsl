@@ -1,6 +1,6 @@
 // What: boxes around objects, from which cells take their depth bounds in place of fragments: where they are, behind the
 // bounds of cells, marks and blocks; what a view sees of one. An object is a draw: an instance of a mesh.
-// Reads: header, geometry, bounds. Writes: bounds, unless ABUFFER_READ_ONLY.
+// Reads: header, geometry, bounds. Writes: bounds, unless STRUCTURE_READ_ONLY.
 // Source: MMRT section 3.3, which names bounding boxes as a replacement for the geometry.
 #ifndef ABUFFER_BOXES_GLSL
 #define ABUFFER_BOXES_GLSL
@@ -25,11 +25,11 @@ uint abuffer_box_word(AbufferRef s, uint box) {
     return base + ABUFFER_BOX_WORDS * min(box, ABUFFER_BOXES - 1u);
 }
 
-#ifndef ABUFFER_READ_ONLY
+#ifndef STRUCTURE_READ_ONLY
 // Makes a word at least as large. Most triangles change none.
 void abuffer_widen_box_word(AbufferRef s, uint word, uint key) {
-    if (ABUFFER_BOUNDS(s)[word] < key) {
-        atomicMax(ABUFFER_BOUNDS(s)[word], key);
+    if (ABUFFER_POOL(s, bounds)[word] < key) {
+        atomicMax(ABUFFER_POOL(s, bounds)[word], key);
     }
 }
 
@@ -47,10 +47,10 @@ void abuffer_widen_box(AbufferRef s, uint box, vec3 lower, vec3 upper) {
 bool abuffer_box(AbufferRef s, uint box, out vec3 lower, out vec3 upper) {
     uint word = abuffer_box_word(s, box);
     for (uint axis = 0u; axis < 3u; axis++) {
-        lower[axis] = float_of(~ABUFFER_BOUNDS(s)[word + axis]);
-        upper[axis] = float_of(ABUFFER_BOUNDS(s)[word + 3u + axis]);
+        lower[axis] = float_of(~ABUFFER_POOL(s, bounds)[word + axis]);
+        upper[axis] = float_of(ABUFFER_POOL(s, bounds)[word + 3u + axis]);
     }
-    return ABUFFER_BOUNDS(s)[word + 3u] != 0u;
+    return ABUFFER_POOL(s, bounds)[word + 3u] != 0u;
 }
 
 // How far rounding may move a point of a box, relative to the eye, and a corner of a triangle in it, against each other

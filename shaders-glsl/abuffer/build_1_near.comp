@@ -22,6 +22,6 @@ void main() {
     float size = ABUFFER_HEADER(build.structure).near_size;
     if (bin_box_is_near(lower, upper, size)) {
         LIST_APPEND(ABUFFER_HEADER(build.structure).near_demand, ABUFFER_HEADER(build.structure).near_capacity,
-            ABUFFER_NEAR(build.structure), 0u, primitive)
+            ABUFFER_POOL(build.structure, near), 0u, primitive)
     }
 }

@@ -19,7 +19,7 @@ void main() {
     }
     uint marks = 0u;
     for (uint set = 0u; set < abuffer_mark_sets(); set++) {
-        marks |= ABUFFER_BOUNDS(build.structure)[abuffer_marks(build.structure) + set * abuffer_mark_words(build.structure) + word];
+        marks |= ABUFFER_POOL(build.structure, bounds)[abuffer_marks(build.structure) + set * abuffer_mark_words(build.structure) + word];
     }
     uint lost = 0u;
     for (uint bit = 0u; bit < min(32u, triangles - 32u * word); bit++) {

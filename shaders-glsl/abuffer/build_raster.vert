@@ -4,7 +4,7 @@
 // Source: MMRT section 3.3; instances replace the paper's geometry-shader amplification.
 #version 460
 #include "contract/extensions.glsl"
-#define ABUFFER_READ_ONLY
+#define STRUCTURE_READ_ONLY
 #include "abuffer/covered.glsl"
 
 layout(location = 0) flat out uvec2 primitive_and_view;

@@ -3,7 +3,7 @@
 // Source: MMRT section 3.3, bounding boxes in place of the geometry.
 #version 460
 #include "contract/extensions.glsl"
-#define ABUFFER_READ_ONLY
+#define STRUCTURE_READ_ONLY
 #include "ads/coverage.glsl"
 #include "abuffer/boxes.glsl"
 #include "abuffer/names.glsl"

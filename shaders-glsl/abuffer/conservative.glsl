@@ -13,13 +13,13 @@ uint abuffer_conservative_word(uint cell) {
 
 // The first link of a cell's conservative list.
 uint abuffer_conservative_head(AbufferRef s, uint cell) {
-    return ABUFFER_HAS_CONSERVATIVE && cell < abuffer_cell_count(s) ? ABUFFER_BOUNDS(s)[abuffer_conservative_word(cell)]
+    return ABUFFER_HAS_CONSERVATIVE && cell < abuffer_cell_count(s) ? ABUFFER_POOL(s, bounds)[abuffer_conservative_word(cell)]
         : 0u;
 }
 
 #define ConservativeRef AbufferRef
-#define CONSERVATIVE_HEAD(s, cell) ABUFFER_BOUNDS(s)[abuffer_conservative_word(cell)]
-#define CONSERVATIVE_NODES(s) ABUFFER_CONSERVATIVE_NODES(s)
+#define CONSERVATIVE_HEAD(s, cell) ABUFFER_POOL(s, bounds)[abuffer_conservative_word(cell)]
+#define CONSERVATIVE_NODES(s) ABUFFER_POOL(s, conservative)
 #define CONSERVATIVE_HEADER(s) ABUFFER_HEADER(s)
 #include "ads/conservative.glsl"
 

@@ -9,9 +9,9 @@ void abuffer_exchange(AbufferRef s, uint left, uint right) {
     uint left_word = abuffer_node_word(left);
     uint right_word = abuffer_node_word(right);
     for (uint word = 0u; word < ABUFFER_NODE_STRIDE; word++) {
-        uint value = ABUFFER_NODES(s)[left_word + word];
-        ABUFFER_NODES(s)[left_word + word] = ABUFFER_NODES(s)[right_word + word];
-        ABUFFER_NODES(s)[right_word + word] = value;
+        uint value = ABUFFER_POOL(s, nodes)[left_word + word];
+        ABUFFER_POOL(s, nodes)[left_word + word] = ABUFFER_POOL(s, nodes)[right_word + word];
+        ABUFFER_POOL(s, nodes)[right_word + word] = value;
     }
     // Contiguous nodes name their payload, those of pages share its number.
     if (ABUFFER_PAGED && ABUFFER_INLINE == 0u) {

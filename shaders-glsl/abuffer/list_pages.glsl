@@ -8,8 +8,8 @@
 
 #define PageRef AbufferRef
 #define PAGE_SIZE ABUFFER_PAGE
-#define PAGE_LIST(s, list) ABUFFER_LISTS(s)[list]
-#define PAGE_NEXT(s, page) ABUFFER_NODES(s)[(page) * ABUFFER_PAGE_STRIDE]
+#define PAGE_LIST(s, list) ABUFFER_POOL(s, lists)[list]
+#define PAGE_NEXT(s, page) ABUFFER_POOL(s, nodes)[(page) * ABUFFER_PAGE_STRIDE]
 #define PAGE_DEMAND(s) ABUFFER_HEADER(s).demand
 #define PAGE_CAPACITY(s) ABUFFER_HEADER(s).capacity
 #include "ads/pages.glsl"

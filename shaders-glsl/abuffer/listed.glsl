@@ -58,7 +58,7 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraver
                 primitive = PRIMITIVE_NONE;
             }
         } else {
-            primitive = source == ABUFFER_LISTED_ALL ? traversal.place : ABUFFER_NEAR(s)[traversal.place];
+            primitive = source == ABUFFER_LISTED_ALL ? traversal.place : ABUFFER_POOL(s, near)[traversal.place];
             traversal.place++;
         }
         if (primitive != PRIMITIVE_NONE) {

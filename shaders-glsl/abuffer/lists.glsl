@@ -31,8 +31,8 @@ uint abuffer_head_word(uint list) {
 // Links of the first and the last node of a contiguous list, zeros where it is empty. Nodes past the end of the pool
 // are counted and left out.
 uvec2 abuffer_ends(AbufferRef s, uint list) {
-    uint first = ABUFFER_LISTS(s)[list];
-    uint count = ABUFFER_LISTS(s)[abuffer_list_count(s) + list];
+    uint first = ABUFFER_POOL(s, lists)[list];
+    uint count = ABUFFER_POOL(s, lists)[abuffer_list_count(s) + list];
     uint stored = abuffer_stored(s);
     if (count == 0u) {
         return uvec2(0u);
@@ -46,7 +46,7 @@ uvec2 abuffer_ends(AbufferRef s, uint list) {
 
 // Adds one to the length of a contiguous list, ahead of the scan that turns lengths into places.
 void abuffer_count_one(AbufferRef s, uint list) {
-    atomicAdd(ABUFFER_LISTS(s)[list], 1u);
+    atomicAdd(ABUFFER_POOL(s, lists)[list], 1u);
 }
 
 // Takes a node for a fragment of a list; 0 beyond the capacity, which is counted.
@@ -57,8 +57,8 @@ uint abuffer_allocate(AbufferRef s, uint list) {
     }
     if (ABUFFER_CONTIGUOUS) {
         uint count = abuffer_list_count(s);
-        node = ABUFFER_LISTS(s)[list] + atomicAdd(ABUFFER_LISTS(s)[count + list], 1u);
-        uint end = list + 1u < count ? ABUFFER_LISTS(s)[list + 1u] : ABUFFER_HEADER(s).demand;
+        node = ABUFFER_POOL(s, lists)[list] + atomicAdd(ABUFFER_POOL(s, lists)[count + list], 1u);
+        uint end = list + 1u < count ? ABUFFER_POOL(s, lists)[list + 1u] : ABUFFER_HEADER(s).demand;
         if (node >= end) {
             // More fragments than the count pass found would overwrite another list.
             atomicAdd(ABUFFER_HEADER(s).corrupted, 1u);
@@ -79,13 +79,13 @@ void abuffer_push(AbufferRef s, uint list, uint link, float z) {
         return;
     }
     uint word = abuffer_head_word(list);
-    uint old = atomicExchange(ABUFFER_LISTS(s)[word], link);
+    uint old = atomicExchange(ABUFFER_POOL(s, lists)[word], link);
     abuffer_set_next(s, link, old);
     if (!ABUFFER_DOUBLY) {
         return;
     }
     if (old == 0u) {
-        ABUFFER_LISTS(s)[word + 1u] = link;
+        ABUFFER_POOL(s, lists)[word + 1u] = link;
     } else {
         abuffer_set_prev(s, old, link);
     }
@@ -105,10 +105,10 @@ AbufferCursor abuffer_list_begin(AbufferRef s, uint list, bool backward) {
         return backward ? AbufferCursor(ends.y, ends.x, true) : AbufferCursor(ends.x, ends.y, false);
     }
     if (ABUFFER_PAGED) {
-        return AbufferCursor(page_link(s, ABUFFER_LISTS(s)[list]), 0u, false);
+        return AbufferCursor(page_link(s, ABUFFER_POOL(s, lists)[list]), 0u, false);
     }
     uint word = abuffer_head_word(list);
-    return AbufferCursor(ABUFFER_LISTS(s)[backward ? word + 1u : word], 0u, backward);
+    return AbufferCursor(ABUFFER_POOL(s, lists)[backward ? word + 1u : word], 0u, backward);
 }
 
 // A list that has been read up to `link`.

@@ -21,57 +21,57 @@ uint abuffer_node_word(uint link) {
 
 // Depth at the cell's centre, metres.
 float abuffer_z(AbufferRef s, uint link) {
-    return uintBitsToFloat(ABUFFER_NODES(s)[abuffer_node_word(link)]);
+    return uintBitsToFloat(ABUFFER_POOL(s, nodes)[abuffer_node_word(link)]);
 }
 
 void abuffer_set_z(AbufferRef s, uint link, float z) {
-    ABUFFER_NODES(s)[abuffer_node_word(link)] = floatBitsToUint(z);
+    ABUFFER_POOL(s, nodes)[abuffer_node_word(link)] = floatBitsToUint(z);
 }
 
 // The link away from the eye, of linked nodes.
 uint abuffer_next(AbufferRef s, uint link) {
-    return ABUFFER_NODES(s)[abuffer_node_word(link) + ABUFFER_LINK_WORD];
+    return ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD];
 }
 
 void abuffer_set_next(AbufferRef s, uint link, uint next) {
-    ABUFFER_NODES(s)[abuffer_node_word(link) + ABUFFER_LINK_WORD] = next;
+    ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD] = next;
 }
 
 // The link towards the eye; of nodes that link both ways.
 uint abuffer_prev(AbufferRef s, uint link) {
-    return ABUFFER_NODES(s)[abuffer_node_word(link) + ABUFFER_LINK_WORD + 1u];
+    return ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD + 1u];
 }
 
 void abuffer_set_prev(AbufferRef s, uint link, uint prev) {
-    ABUFFER_NODES(s)[abuffer_node_word(link) + ABUFFER_LINK_WORD + 1u] = prev;
+    ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + ABUFFER_LINK_WORD + 1u] = prev;
 }
 
 // A word of a fragment's payload. A contiguous node whose payload is past the end is counted and gives 0.
 uint abuffer_data(AbufferRef s, uint link, uint word) {
     if (ABUFFER_INLINE != 0u) {
-        return ABUFFER_NODES(s)[abuffer_node_word(link) + 1u + word];
+        return ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + 1u + word];
     }
     uint place = link - 1u;
     if (ABUFFER_CONTIGUOUS) {
-        place = ABUFFER_NODES(s)[abuffer_node_word(link) + 1u];
+        place = ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + 1u];
         if (place >= abuffer_stored(s)) {
             atomicAdd(ABUFFER_HEADER(s).corrupted, 1u);
             return 0u;
         }
     }
-    return ABUFFER_DATA(s)[place * ABUFFER_DATA_STRIDE + word];
+    return ABUFFER_POOL(s, data)[place * ABUFFER_DATA_STRIDE + word];
 }
 
 // Stores a word of payload, before anything is sorted: until then payload and node have the same number.
 void abuffer_set_data(AbufferRef s, uint link, uint word, uint value) {
     if (ABUFFER_INLINE != 0u) {
-        ABUFFER_NODES(s)[abuffer_node_word(link) + 1u + word] = value;
+        ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + 1u + word] = value;
         return;
     }
     if (ABUFFER_CONTIGUOUS) {
-        ABUFFER_NODES(s)[abuffer_node_word(link) + 1u] = link - 1u;
+        ABUFFER_POOL(s, nodes)[abuffer_node_word(link) + 1u] = link - 1u;
     }
-    ABUFFER_DATA(s)[(link - 1u) * ABUFFER_DATA_STRIDE + word] = value;
+    ABUFFER_POOL(s, data)[(link - 1u) * ABUFFER_DATA_STRIDE + word] = value;
 }
 
 // The words of a fragment's payload; zeros behind its last.

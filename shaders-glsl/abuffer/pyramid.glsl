@@ -8,12 +8,12 @@
 #include "abuffer/conservative.glsl"
 
 uvec2 abuffer_pyramid_read(AbufferRef s, uint word) {
-    return uvec2(ABUFFER_BOUNDS(s)[word], ABUFFER_BOUNDS(s)[word + 1u]);
+    return uvec2(ABUFFER_POOL(s, bounds)[word], ABUFFER_POOL(s, bounds)[word + 1u]);
 }
 
 void abuffer_pyramid_write(AbufferRef s, uint word, uvec2 words) {
-    ABUFFER_BOUNDS(s)[word] = words.x;
-    ABUFFER_BOUNDS(s)[word + 1u] = words.y;
+    ABUFFER_POOL(s, bounds)[word] = words.x;
+    ABUFFER_POOL(s, bounds)[word + 1u] = words.y;
 }
 
 // Triangles of a conservative list whose depths are evaluated; a cell with more is never skipped.

@@ -10,19 +10,19 @@ uint scan_count(AbufferRef s, uint step) {
 }
 
 uint scan_number(AbufferRef s, uint step, uint i) {
-    return ABUFFER_LISTS(s)[i];
+    return ABUFFER_POOL(s, lists)[i];
 }
 
 void scan_set_number(AbufferRef s, uint step, uint i, uint number) {
-    ABUFFER_LISTS(s)[i] = number;
+    ABUFFER_POOL(s, lists)[i] = number;
 }
 
 uint scan_sum(AbufferRef s, uint step, uint block) {
-    return ABUFFER_SCRATCH(s)[block];
+    return ABUFFER_POOL(s, scratch)[block];
 }
 
 void scan_set_sum(AbufferRef s, uint step, uint block, uint sum) {
-    ABUFFER_SCRATCH(s)[block] = sum;
+    ABUFFER_POOL(s, scratch)[block] = sum;
 }
 
 void scan_set_total(AbufferRef s, uint step, uint total) {

@@ -10,12 +10,9 @@
 #include "abuffer/names.glsl"
 #include "ads/build_constants.glsl"
 
-#define SortRef AbufferRef
-#define sort_built build.structure
-#define sort_round build.step
 #define SORT_HEADER(s) ABUFFER_HEADER(s)
 // Behind the sums of the scan.
-#define SORT_WORD(s, place) ABUFFER_SCRATCH(s)[abuffer_scan_words(s) + (place)]
+#define SORT_WORD(s, place) ABUFFER_POOL(s, scratch)[abuffer_scan_words(s) + (place)]
 // To exchange two nodes takes a loop over their words.
 #define SORT_LIMIT NODE_SORT_LIMIT
 #define SORT_LONG_LIMIT NODE_SORT_LONG_LIMIT
@@ -53,13 +50,13 @@ void linked_set_prev(AbufferRef s, uint link, uint prev) { abuffer_set_prev(s, l
 
 bool linked_comes_first(AbufferRef s, uint left, uint right) { return abuffer_comes_first(s, left, right); }
 
-uint linked_head(AbufferRef s, uint list) { return ABUFFER_LISTS(s)[abuffer_head_word(list)]; }
+uint linked_head(AbufferRef s, uint list) { return ABUFFER_POOL(s, lists)[abuffer_head_word(list)]; }
 
 void linked_set_ends(AbufferRef s, uint list, uint head, uint tail) {
     uint word = abuffer_head_word(list);
-    ABUFFER_LISTS(s)[word] = head;
+    ABUFFER_POOL(s, lists)[word] = head;
     if (ABUFFER_DOUBLY) {
-        ABUFFER_LISTS(s)[word + 1u] = tail;
+        ABUFFER_POOL(s, lists)[word + 1u] = tail;
     }
 }
 

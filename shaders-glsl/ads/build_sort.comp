@@ -9,19 +9,19 @@
 layout(local_size_x = SORT_GROUP_SIZE) in;
 
 void main() {
-    if (!sort_is_possible(sort_built)) {
+    if (!sort_is_possible(build.structure)) {
         return;
     }
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 #ifdef SORT_LINKED
     if (SORT_LINKED) {
         uint first = group * SORT_GROUP_SIZE * NODE_SORT_LISTS + gl_LocalInvocationID.x;
-        sort_linked_lists(sort_built, first, SORT_GROUP_SIZE);
+        sort_linked_lists(build.structure, first, SORT_GROUP_SIZE);
         return;
     }
 #endif
     uint list = group * SORT_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (list < sort_list_count(sort_built)) {
-        sort_list(sort_built, list);
+    if (list < sort_list_count(build.structure)) {
+        sort_list(build.structure, list);
     }
 }

@@ -9,7 +9,7 @@ layout(local_size_x = SORT_GROUP_SIZE) in;
 
 void main() {
     uint place = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * SORT_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (place < min(SORT_HEADER(sort_built).long_demand, SORT_HEADER(sort_built).long_capacity) && sort_is_possible(sort_built)) {
-        sort_long_list(sort_built, place, sort_round);
+    if (place < min(SORT_HEADER(build.structure).long_demand, SORT_HEADER(build.structure).long_capacity) && sort_is_possible(build.structure)) {
+        sort_long_list(build.structure, place, build.step);
     }
 }

@@ -1,13 +1,12 @@
 // What: sorts a linked list in place by merging the ascending runs it consists of, two at a time, until one is left.
 // Reads, writes: through what the including file defines before; links are numbers of nodes, 0 ends a list:
-//   SortRef                                                         reference type of the structure
 //   LINKED_DOUBLY                                                   whether nodes link to the one before
-//   uint linked_next(SortRef s, uint link)
-//   void linked_set_next(SortRef s, uint link, uint next)
-//   void linked_set_prev(SortRef s, uint link, uint prev)           with LINKED_DOUBLY
-//   bool linked_comes_first(SortRef s, uint left, uint right)       a total order
-//   uint linked_head(SortRef s, uint list)
-//   void linked_set_ends(SortRef s, uint list, uint head, uint tail)
+//   uint linked_next(StructureRef s, uint link)
+//   void linked_set_next(StructureRef s, uint link, uint next)
+//   void linked_set_prev(StructureRef s, uint link, uint prev)      with LINKED_DOUBLY
+//   bool linked_comes_first(StructureRef s, uint left, uint right)  a total order
+//   uint linked_head(StructureRef s, uint list)
+//   void linked_set_ends(StructureRef s, uint list, uint head, uint tail)
 // Source: MMRT section 3.3, reorder pass, and Hu et al. section 3.1, sort pass; Knuth 1998, section 5.2.4, natural
 // merges. The papers' private array, whose length cuts longer lists short, is not needed: only links change.
 // Everything is one loop of bounded length: drivers may end all loops of an invocation after 65,535 iterations,
@@ -53,7 +52,7 @@ void linked_merge_begin(uint head, inout LinkedMerge merge) {
 }
 
 // Moves the first node of one of the two runs behind what has been merged.
-void linked_merge_take(SortRef s, inout LinkedMerge merge) {
+void linked_merge_take(StructureRef s, inout LinkedMerge merge) {
     bool take_left = merge.right_ended || (!merge.left_ended && linked_comes_first(s, merge.left, merge.right));
     uint taken = take_left ? merge.left : merge.right;
     uint next = linked_next(s, taken);
@@ -76,7 +75,7 @@ void linked_merge_take(SortRef s, inout LinkedMerge merge) {
 }
 
 // Nodes of a list; of a longer one than `limit` one more than that.
-uint linked_sort_count(SortRef s, uint list, uint limit) {
+uint linked_sort_count(StructureRef s, uint list, uint limit) {
     uint count = 0u;
     uint link = linked_head(s, list);
     while (link != 0u && count <= limit) {
@@ -86,7 +85,7 @@ uint linked_sort_count(SortRef s, uint list, uint limit) {
     return count;
 }
 
-void linked_sort_begin(SortRef s, uint list, inout LinkedMerge merge) {
+void linked_sort_begin(StructureRef s, uint list, inout LinkedMerge merge) {
     linked_merge_begin(linked_head(s, list), merge);
 }
 
@@ -96,7 +95,7 @@ uint linked_sort_cost(uint count) {
 }
 
 // One step of the sorting of a list of two nodes and more. Between passes the list is whole.
-uint linked_sort_step(SortRef s, uint list, inout LinkedMerge merge) {
+uint linked_sort_step(StructureRef s, uint list, inout LinkedMerge merge) {
     if (merge.finding) {
         uint next = linked_next(s, merge.at);
         if (next != 0u && linked_comes_first(s, merge.at, next)) {
@@ -129,7 +128,7 @@ uint linked_sort_step(SortRef s, uint list, inout LinkedMerge merge) {
 
 // Sorts as far as `steps` go, with those that count the nodes, whole passes at a time. Lists of more than
 // `limit` nodes stay as they are. True once the list is sorted.
-bool linked_sort(SortRef s, uint list, uint limit, uint steps) {
+bool linked_sort(StructureRef s, uint list, uint limit, uint steps) {
     uint count = linked_sort_count(s, list, limit);
     if (count > limit || count < 2u) {
         return count < 2u;
@@ -153,7 +152,7 @@ bool linked_sort(SortRef s, uint list, uint limit, uint steps) {
 // those that stay as they are, by bits: they are longer than NODE_SORT_LIMIT, or NODE_SORT_STEPS do not
 // suffice for them in addition to those before. That follows from the numbers of nodes alone, in whatever order they
 // are.
-uint linked_sort_several(SortRef s, uint first, uint stride, uint end) {
+uint linked_sort_several(StructureRef s, uint first, uint stride, uint end) {
     uint waiting = 0u;
     uint left_over = 0u;
     uint reserved = 0u;

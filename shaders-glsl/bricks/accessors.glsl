@@ -1,5 +1,4 @@
-// What: the pools of bricks, and the only place that knows how they are reached: through the descriptors of
-// STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
+// What: the pools of bricks, reached as ads/pools.glsl says.
 // Reads, writes: header, bricks, lists, entries, sums or distances, near-region list, records, triangles; lists hold where the
 // list of each cell that has one ends.
 #ifndef BRICKS_ACCESSORS_GLSL
@@ -12,42 +11,23 @@
 #include "bricks/slices.glsl"
 #include "bricks/words.glsl"
 
-#ifdef ADDRESSING_ADDRESS
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BrickWordAddress { uint words[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BrickVectorAddress { uvec4 vectors[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BrickTriangleAddress { vec3 corners[]; };
-#define BRICK_WORDS(s) BrickWordAddress(BRICK_HEADER(s).bricks_address).words
-#define BRICK_VECTORS(s) BrickVectorAddress(BRICK_HEADER(s).bricks_address).vectors
-#define BRICK_LISTS(s) BrickWordAddress(BRICK_HEADER(s).lists_address).words
-#define BRICK_ENTRIES(s) BrickWordAddress(BRICK_HEADER(s).entries_address).words
-#define BRICK_SUMS(s) BrickWordAddress(BRICK_HEADER(s).sums_address).words
-#define BRICK_NEAR_LIST(s) BrickWordAddress(BRICK_HEADER(s).near_address).words
-#define BRICK_RECORDS(s) BrickWordAddress(BRICK_HEADER(s).records_address).words
-#define BRICK_CORNERS(s) BrickTriangleAddress(BRICK_HEADER(s).triangles_address).corners
-#else
-layout(set = STRUCTURE_SET, binding = 1, scalar) buffer BrickWordsBuffer { uint brick_own_words[]; };
-layout(set = STRUCTURE_SET, binding = 1, scalar) readonly buffer BrickVectorsBuffer { uvec4 brick_vectors[]; };
-layout(set = STRUCTURE_SET, binding = 2, scalar) buffer BrickListsBuffer { uint brick_list_words[]; };
-layout(set = STRUCTURE_SET, binding = 3, scalar) buffer BrickEntriesBuffer { uint brick_entry_words[]; };
-layout(set = STRUCTURE_SET, binding = 4, scalar) buffer BrickSumsBuffer { uint brick_sum_words[]; };
-layout(set = STRUCTURE_SET, binding = 5, scalar) buffer BrickNearBuffer { uint brick_near_words[]; };
-layout(set = STRUCTURE_SET, binding = 6, scalar) buffer BrickRecordsBuffer { uint brick_record_words[]; };
-layout(set = STRUCTURE_SET, binding = 7, scalar) buffer BrickTrianglesBuffer { vec3 brick_corners[]; };
-#define BRICK_WORDS(s) brick_own_words
-#define BRICK_VECTORS(s) brick_vectors
-#define BRICK_LISTS(s) brick_list_words
-#define BRICK_ENTRIES(s) brick_entry_words
-#define BRICK_SUMS(s) brick_sum_words
-#define BRICK_NEAR_LIST(s) brick_near_words
-#define BRICK_RECORDS(s) brick_record_words
-#define BRICK_CORNERS(s) brick_corners
-#endif
+POOL_WORDS(brick, bricks, 1)
+POOL_VECTORS(brick, vectors, 1, uvec4, 16)
+POOL_WORDS(brick, lists, 2)
+POOL_WORDS(brick, entries, 3)
+POOL_WORDS(brick, sums, 4)
+POOL_WORDS(brick, near, 5)
+POOL_WORDS(brick, records, 6)
+POOL_RECORDS(brick, corners, 7, vec3)
+#define BRICK_POOL(s, pool) POOL_WORDS_OF(brick, pool, BRICK_HEADER(s))
+#define BRICK_VECTORS(s) POOL_VIEW_OF(brick, vectors, BRICK_HEADER(s).bricks_address)
+#define BRICK_CORNERS(s) POOL_VIEW_OF(brick, corners, BRICK_HEADER(s).triangles_address)
 
 // How many small triangles a list has, where cells may be divided: those no longer than a cell along any axis.
-#define BRICK_SMALL_COUNT(s, list) BRICK_LISTS(s)[BRICK_HEADER(s).cell_capacity + (list)]
+#define BRICK_SMALL_COUNT(s, list) BRICK_POOL(s, lists)[BRICK_HEADER(s).cell_capacity + (list)]
 
 // Distances replace the sums of scans.
-#define BRICK_DISTANCES(s) BRICK_SUMS(s)
+#define BRICK_DISTANCES(s) BRICK_POOL(s, sums)
 
 // Words of a record, and the bit beside the brick's number: the triangle is no longer than a cell along any axis.
 #define BRICK_RECORD_WORDS 4u
@@ -105,13 +85,13 @@ uint brick_stored(BrickRef s) {
 }
 
 uvec2 brick_mask(BrickRef s, uint brick) {
-    return uvec2(BRICK_WORDS(s)[brick_mask_at(brick, 0u)], BRICK_WORDS(s)[brick_mask_at(brick, 1u)]);
+    return uvec2(BRICK_POOL(s, bricks)[brick_mask_at(brick, 0u)], BRICK_POOL(s, bricks)[brick_mask_at(brick, 1u)]);
 }
 
 // The cells of a brick that are divided.
 uvec2 brick_divided(BrickRef s, uint brick) {
     return BRICK_DEPTH == 0u ? uvec2(0u)
-        : uvec2(BRICK_WORDS(s)[brick_divided_at(brick, 0u)], BRICK_WORDS(s)[brick_divided_at(brick, 1u)]);
+        : uvec2(BRICK_POOL(s, bricks)[brick_divided_at(brick, 0u)], BRICK_POOL(s, bricks)[brick_divided_at(brick, 1u)]);
 }
 
 // What a ray reads of a brick.
@@ -126,7 +106,7 @@ struct BrickWords {
 // All of it at once, as whole vectors where cells may be divided.
 BrickWords brick_words(BrickRef s, uint brick) {
     if (BRICK_DEPTH == 0u) {
-        return BrickWords(BRICK_WORDS(s)[brick_at(brick)], brick_mask(s, brick), uvec2(0u), 0u, 0u);
+        return BrickWords(BRICK_POOL(s, bricks)[brick_at(brick)], brick_mask(s, brick), uvec2(0u), 0u, 0u);
     }
     uvec4 first = BRICK_VECTORS(s)[2u * brick];
     uvec4 second = BRICK_VECTORS(s)[2u * brick + 1u];
@@ -150,8 +130,8 @@ uvec3 brick_place_of(BrickRef s, uint brick, uint level) {
         return brick_place(brick, brick_cells(s));
     }
     uint at = brick_place_at(brick);
-    uint columns = BRICK_WORDS(s)[at];
-    return uvec3(columns & 0xFFFFu, columns >> 16, BRICK_WORDS(s)[at + 1u]);
+    uint columns = BRICK_POOL(s, bricks)[at];
+    return uvec3(columns & 0xFFFFu, columns >> 16, BRICK_POOL(s, bricks)[at + 1u]);
 }
 
 // Sets bits of a brick's mask.
@@ -159,8 +139,8 @@ void brick_mark(BrickRef s, uint brick, uvec2 cells) {
     for (uint word = 0u; word < 2u; word++) {
         uint at = brick_mask_at(brick, word);
         // Most bits are set already, and reading is cheaper.
-        if ((BRICK_WORDS(s)[at] & cells[word]) != cells[word]) {
-            atomicOr(BRICK_WORDS(s)[at], cells[word]);
+        if ((BRICK_POOL(s, bricks)[at] & cells[word]) != cells[word]) {
+            atomicOr(BRICK_POOL(s, bricks)[at], cells[word]);
         }
     }
 }
@@ -169,10 +149,10 @@ void brick_mark(BrickRef s, uint brick, uvec2 cells) {
 void brick_store_record(BrickRef s, uint level, BrickRecord record) {
     uint place = atomicAdd(BRICK_HEADER(s).record_demand, 1u);
     if (place < BRICK_HEADER(s).record_capacity) {
-        BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place] = record.primitive;
-        BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 1u] = record.brick | (record.small ? BRICK_RECORD_SMALL : 0u);
-        BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 2u] = record.cells.x;
-        BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 3u] = record.cells.y;
+        BRICK_POOL(s, records)[BRICK_RECORD_WORDS * place] = record.primitive;
+        BRICK_POOL(s, records)[BRICK_RECORD_WORDS * place + 1u] = record.brick | (record.small ? BRICK_RECORD_SMALL : 0u);
+        BRICK_POOL(s, records)[BRICK_RECORD_WORDS * place + 2u] = record.cells.x;
+        BRICK_POOL(s, records)[BRICK_RECORD_WORDS * place + 3u] = record.cells.y;
         brick_mark(s, record.brick, record.cells);
         uint of_level = place - BRICK_HEADER(s).record_first[level];
         if (of_level % BRICK_GROUP_SIZE == 0u) {
@@ -182,14 +162,14 @@ void brick_store_record(BrickRef s, uint level, BrickRecord record) {
 }
 
 void brick_set_cells(BrickRef s, uint place, uvec2 cells) {
-    BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 2u] = cells.x;
-    BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 3u] = cells.y;
+    BRICK_POOL(s, records)[BRICK_RECORD_WORDS * place + 2u] = cells.x;
+    BRICK_POOL(s, records)[BRICK_RECORD_WORDS * place + 3u] = cells.y;
 }
 
 BrickRecord brick_record(BrickRef s, uint place) {
-    uint brick = BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 1u];
-    return BrickRecord(BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place], brick & ~BRICK_RECORD_SMALL, (brick & BRICK_RECORD_SMALL) != 0u,
-        uvec2(BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 2u], BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 3u]));
+    uint brick = BRICK_POOL(s, records)[BRICK_RECORD_WORDS * place + 1u];
+    return BrickRecord(BRICK_POOL(s, records)[BRICK_RECORD_WORDS * place], brick & ~BRICK_RECORD_SMALL, (brick & BRICK_RECORD_SMALL) != 0u,
+        uvec2(BRICK_POOL(s, records)[BRICK_RECORD_WORDS * place + 2u], BRICK_POOL(s, records)[BRICK_RECORD_WORDS * place + 3u]));
 }
 
 #endif

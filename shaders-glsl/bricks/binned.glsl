@@ -12,13 +12,8 @@
 #include "ads/build_constants.glsl"
 
 // The large-triangle queue is stored where the corners of triangles will be.
-#ifdef ADDRESSING_ADDRESS
-#define LARGE_WORD(s, place) BrickWordAddress(BRICK_HEADER(s).triangles_address).words[place]
-#else
-layout(set = STRUCTURE_SET, binding = 7, scalar) buffer BrickLargeBuffer { uint brick_large_words[]; };
-#define LARGE_WORD(s, place) brick_large_words[place]
-#endif
-
+POOL_WORDS(brick, triangles, 7)
+#define LARGE_WORD(s, place) BRICK_POOL(s, triangles)[place]
 #define LargeRef BrickRef
 #define LARGE_HEADER(s) BRICK_HEADER(s)
 #define LARGE_CAPACITY(s) (BRICK_LARGE_LIMIT * BRICK_HEADER(s).triangle_capacity)

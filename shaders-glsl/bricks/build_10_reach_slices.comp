@@ -23,16 +23,16 @@ void main() {
         uint brick = first + z;
         run = brick_has_nothing(build.structure, brick) ? min(run + 1u, BRICK_REACH) : 0u;
         if (run != 0u) {
-            BRICK_WORDS(build.structure)[brick_at(brick)] = BRICK_EMPTY | run;
+            BRICK_POOL(build.structure, bricks)[brick_at(brick)] = BRICK_EMPTY | run;
         }
     }
     run = BRICK_REACH;
     for (uint z = deep; z-- > 0u;) {
         uint brick = first + z;
-        uint word = BRICK_WORDS(build.structure)[brick_at(brick)];
+        uint word = BRICK_POOL(build.structure, bricks)[brick_at(brick)];
         run = brick_is_empty(word) ? min(run + 1u, BRICK_REACH) : 0u;
         if (run != 0u) {
-            BRICK_WORDS(build.structure)[brick_at(brick)] = word | run << 4;
+            BRICK_POOL(build.structure, bricks)[brick_at(brick)] = word | run << 4;
         }
     }
 }

@@ -23,7 +23,7 @@ void main() {
     uvec2 runs = uvec2(BRICK_RUNS_BEGIN);
     for (uint x = 0u; x < bricks.x; x++) {
         uint brick = first + x * deep;
-        uint word = BRICK_WORDS(build.structure)[brick_at(brick)];
+        uint word = BRICK_POOL(build.structure, bricks)[brick_at(brick)];
         bool empty = brick_is_empty(word);
         runs.x = brick_runs_with(runs.x, empty ? word & 15u : 0u);
         runs.y = brick_runs_with(runs.y, empty ? word >> 4 & 15u : 0u);
@@ -32,7 +32,7 @@ void main() {
     runs = uvec2(BRICK_RUNS_BEGIN);
     for (uint x = bricks.x; x-- > 0u;) {
         uint brick = first + x * deep;
-        uint word = BRICK_WORDS(build.structure)[brick_at(brick)];
+        uint word = BRICK_POOL(build.structure, bricks)[brick_at(brick)];
         bool empty = brick_is_empty(word);
         runs.x = brick_runs_with(runs.x, empty ? word & 15u : 0u);
         runs.y = brick_runs_with(runs.y, empty ? word >> 4 & 15u : 0u);

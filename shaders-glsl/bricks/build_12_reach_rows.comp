@@ -36,10 +36,10 @@ void main() {
         lengthen(runs, reaches);
         if (reaches != 0u) {
             if (BRICK_DEPTH != 0u) {
-                BRICK_WORDS(build.structure)[brick_layer_at(brick)] = reaches;
+                BRICK_POOL(build.structure, bricks)[brick_layer_at(brick)] = reaches;
             }
             // Until the pass in the other direction, these are the reaches towards lower rows.
-            BRICK_WORDS(build.structure)[brick_at(brick)] = BRICK_EMPTY | reaches_of(runs);
+            BRICK_POOL(build.structure, bricks)[brick_at(brick)] = BRICK_EMPTY | reaches_of(runs);
         }
     }
     runs = uint[4](BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN);
@@ -48,8 +48,8 @@ void main() {
         uint reaches = BRICK_DISTANCES(build.structure)[brick];
         lengthen(runs, reaches);
         if (reaches != 0u) {
-            uint lower = BRICK_WORDS(build.structure)[brick_at(brick)] & 0xFFFFu;
-            BRICK_WORDS(build.structure)[brick_at(brick)] = brick_empty_word(lower | reaches_of(runs) << 16);
+            uint lower = BRICK_POOL(build.structure, bricks)[brick_at(brick)] & 0xFFFFu;
+            BRICK_POOL(build.structure, bricks)[brick_at(brick)] = brick_empty_word(lower | reaches_of(runs) << 16);
         }
     }
 }

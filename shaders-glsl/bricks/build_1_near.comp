@@ -27,6 +27,6 @@ void main() {
     float size = BRICK_HEADER(build.structure).near_size + BRICK_HEADER(build.structure).rounding;
     if (bin_box_is_near(lower, upper, size)) {
         LIST_APPEND(BRICK_HEADER(build.structure).near_demand, BRICK_HEADER(build.structure).near_capacity,
-            BRICK_NEAR_LIST(build.structure), 0u, primitive)
+            BRICK_POOL(build.structure, near), 0u, primitive)
     }
 }

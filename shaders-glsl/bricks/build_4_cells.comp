@@ -19,7 +19,7 @@ void main() {
         uvec2 cells = brick_mask(build.structure, brick);
         uint count = uint(bitCount(cells.x) + bitCount(cells.y));
         if (count > 0u) {
-            BRICK_WORDS(build.structure)[brick_at(brick)] = atomicAdd(BRICK_HEADER(build.structure).cell_demand, count);
+            BRICK_POOL(build.structure, bricks)[brick_at(brick)] = atomicAdd(BRICK_HEADER(build.structure).cell_demand, count);
         }
     }
 }

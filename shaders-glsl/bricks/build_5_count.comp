@@ -14,13 +14,13 @@ void main() {
     for (uint place = range.x; place < range.y; place += BRICK_LEVEL_STRIDE) {
         BrickRecord record = brick_record(build.structure, place);
         uvec2 mask = brick_mask(build.structure, record.brick);
-        uint first = BRICK_WORDS(build.structure)[brick_at(record.brick)];
+        uint first = BRICK_POOL(build.structure, bricks)[brick_at(record.brick)];
         uint word;
         uint bit;
         while (brick_take_cell(record.cells, word, bit)) {
             uint list = first + brick_rank(mask, word, bit);
             if (list < lists) {
-                atomicAdd(BRICK_LISTS(build.structure)[list], 1u);
+                atomicAdd(BRICK_POOL(build.structure, lists)[list], 1u);
             }
             if (build.step < BRICK_DEPTH && record.small && list < lists) {
                 atomicAdd(BRICK_SMALL_COUNT(build.structure, list), 1u);

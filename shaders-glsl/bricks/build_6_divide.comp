@@ -30,7 +30,7 @@ void main() {
     uvec2 range = brick_level_bricks();
     for (uint brick = range.x; brick < range.y; brick += BRICK_LEVEL_STRIDE) {
         uvec2 mask = brick_mask(build.structure, brick);
-        uint list = BRICK_WORDS(build.structure)[brick_at(brick)];
+        uint list = BRICK_POOL(build.structure, bricks)[brick_at(brick)];
         uvec2 crowded = crowded_cells(mask, list);
         uint count = uint(bitCount(crowded.x) + bitCount(crowded.y));
         if (count == 0u) {
@@ -42,19 +42,19 @@ void main() {
         }
         uvec3 place = brick_place_of(build.structure, brick, build.step);
         for (uint word = 0u; word < 2u; word++) {
-            BRICK_WORDS(build.structure)[brick_mask_at(brick, word)] = mask[word] & ~crowded[word];
-            BRICK_WORDS(build.structure)[brick_divided_at(brick, word)] = crowded[word];
+            BRICK_POOL(build.structure, bricks)[brick_mask_at(brick, word)] = mask[word] & ~crowded[word];
+            BRICK_POOL(build.structure, bricks)[brick_divided_at(brick, word)] = crowded[word];
         }
         uvec2 left = crowded;
         uint word;
         uint bit;
         for (uint at = brick_place_at(child); brick_take_cell(left, word, bit); at += BRICK_STRIDE) {
-            BRICK_LISTS(build.structure)[list + brick_rank(mask, word, bit)] = 0u;
+            BRICK_POOL(build.structure, lists)[list + brick_rank(mask, word, bit)] = 0u;
             uvec3 cell = uvec3(side) * place + uvec3(brick_cell_of_bit(word, bit));
-            BRICK_WORDS(build.structure)[at] = cell.x | cell.y << 16;
-            BRICK_WORDS(build.structure)[at + 1u] = cell.z;
+            BRICK_POOL(build.structure, bricks)[at] = cell.x | cell.y << 16;
+            BRICK_POOL(build.structure, bricks)[at + 1u] = cell.z;
         }
-        BRICK_WORDS(build.structure)[brick_child_at(brick)] = child;
+        BRICK_POOL(build.structure, bricks)[brick_child_at(brick)] = child;
         uint of_level = child + count - BRICK_HEADER(build.structure).brick_first[build.step + 1u];
         uint groups = (of_level + BRICK_GROUP_SIZE - 1u) / BRICK_GROUP_SIZE;
         atomicMax(BRICK_HEADER(build.structure).brick_groups[3u * (build.step + 1u)], min(groups, BRICK_GROUPS_MOST));

@@ -70,7 +70,7 @@ void main() {
         }
         BoxClip clip = box_clip_begin(axes, all, triangle.a, triangle.b, triangle.c);
         uvec3 brick = brick_place_of(build.structure, record.brick, build.step);
-        uint child = BRICK_WORDS(build.structure)[brick_child_at(record.brick)];
+        uint child = BRICK_POOL(build.structure, bricks)[brick_child_at(record.brick)];
         // One loop over the columns of all cells, so that invocations with few of each do not wait for those with many.
         Refined part;
         uint word;

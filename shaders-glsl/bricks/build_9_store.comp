@@ -21,15 +21,15 @@ void main() {
         return;
     }
     uvec2 mask = brick_mask(build.structure, record.brick) | brick_divided(build.structure, record.brick);
-    uint first = BRICK_WORDS(build.structure)[brick_at(record.brick)];
+    uint first = BRICK_POOL(build.structure, bricks)[brick_at(record.brick)];
     uint word;
     uint bit;
     while (brick_take_cell(record.cells, word, bit)) {
         uint list = first + brick_rank(mask, word, bit);
         if (list < lists) {
-            uint entry = atomicAdd(BRICK_LISTS(build.structure)[list], 1u);
+            uint entry = atomicAdd(BRICK_POOL(build.structure, lists)[list], 1u);
             if (entry < capacity) {
-                BRICK_ENTRIES(build.structure)[entry] = record.primitive;
+                BRICK_POOL(build.structure, entries)[entry] = record.primitive;
             }
         }
     }

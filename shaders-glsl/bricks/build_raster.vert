@@ -4,7 +4,7 @@
 // its conservative rasterization.
 #version 460
 #include "contract/extensions.glsl"
-#define BRICK_READ_ONLY
+#define STRUCTURE_READ_ONLY
 #include "ads/bin_triangle.glsl"
 #include "ads/coverage.glsl"
 #include "ads/views.glsl"

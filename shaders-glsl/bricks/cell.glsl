@@ -104,7 +104,7 @@ BrickBox brick_box(BrickRef s, BrickTraversal traversal, uint face, ivec3 cell, 
 // Where the list of a cell begins and ends. One that leaves the pool is empty.
 uvec2 brick_entries(BrickRef s, BrickTraversal traversal, uint list, inout uint corrupted) {
     if (list < traversal.listed) {
-        uvec2 entries = uvec2(list == 0u ? 0u : BRICK_LISTS(s)[list - 1u], BRICK_LISTS(s)[list]);
+        uvec2 entries = uvec2(list == 0u ? 0u : BRICK_POOL(s, lists)[list - 1u], BRICK_POOL(s, lists)[list]);
         if (entries.y <= traversal.stored) {
             return entries;
         }

@@ -11,19 +11,19 @@ uint scan_count(BrickRef s, uint step) {
 }
 
 uint scan_number(BrickRef s, uint step, uint i) {
-    return BRICK_LISTS(s)[i];
+    return BRICK_POOL(s, lists)[i];
 }
 
 void scan_set_number(BrickRef s, uint step, uint i, uint number) {
-    BRICK_LISTS(s)[i] = number;
+    BRICK_POOL(s, lists)[i] = number;
 }
 
 uint scan_sum(BrickRef s, uint step, uint block) {
-    return BRICK_SUMS(s)[block];
+    return BRICK_POOL(s, sums)[block];
 }
 
 void scan_set_sum(BrickRef s, uint step, uint block, uint sum) {
-    BRICK_SUMS(s)[block] = sum;
+    BRICK_POOL(s, sums)[block] = sum;
 }
 
 void scan_set_total(BrickRef s, uint step, uint total) {

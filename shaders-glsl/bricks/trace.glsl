@@ -158,10 +158,10 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
                 uint primitive = entry;
                 if (alone == BRICK_ALONE_NONE) {
                     state.entries++;
-                    primitive = BRICK_ENTRIES(s)[entry];
+                    primitive = BRICK_POOL(s, entries)[entry];
                     trace_log_visit(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
                 } else if (alone == BRICK_ALONE_NEAR) {
-                    primitive = BRICK_NEAR_LIST(s)[entry];
+                    primitive = BRICK_POOL(s, near)[entry];
                 }
                 if (primitive != tested.x && primitive != tested.y) {
                     brick_test(s, primitive, ray, state, corrupted);

@@ -1,51 +1,26 @@
-// What: the tree's pools, and the only place that knows how they are reached: through the descriptors
-// of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
+// What: the tree's pools, reached as ads/pools.glsl says.
 // Reads, writes: header, nodes, records, scratch. Every access checks the capacity.
 #ifndef BVH_ACCESSORS_GLSL
 #define BVH_ACCESSORS_GLSL
 
+#include "ads/pools.glsl"
 #include "bvh/types.glsl"
 
-#ifndef STRUCTURE_SET
-#define STRUCTURE_SET 1
-#endif
+STRUCTURE_HEADER(Bvh, bvh)
+#define BVH_HEADER(s) STRUCTURE_HEADER_OF(Bvh, bvh, s)
 
-// Where a tree is. Unused with descriptors.
-struct BvhRef {
-    uvec2 header;
-};
-
-#ifdef ADDRESSING_ADDRESS
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhHeaderAddress { BvhHeader header; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhNodeAddress { BvhNode nodes[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhWideNodeAddress { BvhWideNode nodes[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhNodeVectorAddress { uvec4 vectors[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhRecordAddress { BvhRecord records[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhRecordVectorAddress { uvec2 vectors[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhScratchAddress { uint words[]; };
-#define BVH_HEADER(s) BvhHeaderAddress(s.header).header
-#define BVH_NODES(s) BvhNodeAddress(BVH_HEADER(s).nodes_address).nodes
-#define BVH_WIDE_NODES(s) BvhWideNodeAddress(BVH_HEADER(s).nodes_address).nodes
-#define BVH_NODE_VECTORS(s) BvhNodeVectorAddress(BVH_HEADER(s).nodes_address).vectors
-#define BVH_RECORDS(s) BvhRecordAddress(BVH_HEADER(s).records_address).records
-#define BVH_RECORD_VECTORS(s) BvhRecordVectorAddress(BVH_HEADER(s).records_address).vectors
-#define BVH_SCRATCH(s) BvhScratchAddress(BVH_HEADER(s).scratch_address).words
-#else
-layout(set = STRUCTURE_SET, binding = 0, scalar) buffer BvhHeaderBuffer { BvhHeader bvh_header; };
-layout(set = STRUCTURE_SET, binding = 1, scalar) buffer BvhNodeBuffer { BvhNode bvh_nodes[]; };
-layout(set = STRUCTURE_SET, binding = 1, scalar) buffer BvhWideNodeBuffer { BvhWideNode bvh_wide_nodes[]; };
-layout(set = STRUCTURE_SET, binding = 1, scalar) readonly buffer BvhNodeVectorBuffer { uvec4 bvh_node_vectors[]; };
-layout(set = STRUCTURE_SET, binding = 2, scalar) buffer BvhRecordBuffer { BvhRecord bvh_records[]; };
-layout(set = STRUCTURE_SET, binding = 2, scalar) readonly buffer BvhRecordVectorBuffer { uvec2 bvh_record_vectors[]; };
-layout(set = STRUCTURE_SET, binding = 3, scalar) buffer BvhScratchBuffer { uint bvh_scratch_words[]; };
-#define BVH_HEADER(s) bvh_header
-#define BVH_NODES(s) bvh_nodes
-#define BVH_WIDE_NODES(s) bvh_wide_nodes
-#define BVH_NODE_VECTORS(s) bvh_node_vectors
-#define BVH_RECORDS(s) bvh_records
-#define BVH_RECORD_VECTORS(s) bvh_record_vectors
-#define BVH_SCRATCH(s) bvh_scratch_words
-#endif
+POOL_RECORDS(bvh, nodes, 1, BvhNode)
+POOL_RECORDS(bvh, wide_nodes, 1, BvhWideNode)
+POOL_VECTORS(bvh, node_vectors, 1, uvec4, 16)
+POOL_RECORDS(bvh, records, 2, BvhRecord)
+POOL_VECTORS(bvh, record_vectors, 2, uvec2, 8)
+POOL_WORDS(bvh, scratch, 3)
+#define BVH_NODES(s) POOL_VIEW_OF(bvh, nodes, BVH_HEADER(s).nodes_address)
+#define BVH_WIDE_NODES(s) POOL_VIEW_OF(bvh, wide_nodes, BVH_HEADER(s).nodes_address)
+#define BVH_NODE_VECTORS(s) POOL_VIEW_OF(bvh, node_vectors, BVH_HEADER(s).nodes_address)
+#define BVH_RECORDS(s) POOL_VIEW_OF(bvh, records, BVH_HEADER(s).records_address)
+#define BVH_RECORD_VECTORS(s) POOL_VIEW_OF(bvh, record_vectors, BVH_HEADER(s).records_address)
+#define BVH_POOL(s, pool) POOL_WORDS_OF(bvh, pool, BVH_HEADER(s))
 
 // Adds to the references with an invalid index, which readers count for themselves: an atomic in a loop costs time.
 void bvh_count_corrupted(BvhRef s, uint corrupted) {
@@ -215,12 +190,12 @@ void bvh_set_wide_parent(BvhRef s, uint node, uint link) {
 }
 
 uint bvh_scratch(BvhRef s, uint word) {
-    return word < BVH_HEADER(s).scratch_capacity ? BVH_SCRATCH(s)[word] : 0u;
+    return word < BVH_HEADER(s).scratch_capacity ? BVH_POOL(s, scratch)[word] : 0u;
 }
 
 void bvh_set_scratch(BvhRef s, uint word, uint value) {
     if (word < BVH_HEADER(s).scratch_capacity) {
-        BVH_SCRATCH(s)[word] = value;
+        BVH_POOL(s, scratch)[word] = value;
     }
 }
 
@@ -229,7 +204,7 @@ uint bvh_add_scratch(BvhRef s, uint word, uint value) {
     if (word >= BVH_HEADER(s).scratch_capacity) {
         return 0u;
     }
-    return atomicAdd(BVH_SCRATCH(s)[word], value);
+    return atomicAdd(BVH_POOL(s, scratch)[word], value);
 }
 
 #endif

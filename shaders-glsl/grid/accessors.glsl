@@ -1,5 +1,4 @@
-// What: the pools of a grid, and the only place that knows how they are reached: through the descriptors of
-// STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device addresses of the header.
+// What: the pools of a grid, reached as ads/pools.glsl says.
 // Reads, writes: header, lists, entries, scratch. Lists hold a word per cell: the length of its list, then where it
 // begins, and once all entries are stored where it ends. Scratch holds the sums of the scan, and behind these the
 // large-triangle queue.
@@ -10,19 +9,10 @@
 #include "ads/constants.glsl"
 #include "grid/header.glsl"
 
-#ifdef ADDRESSING_ADDRESS
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer GridWordAddress { uint words[]; };
-#define GRID_LISTS(s) GridWordAddress(GRID_HEADER(s).lists_address).words
-#define GRID_ENTRIES(s) GridWordAddress(GRID_HEADER(s).entries_address).words
-#define GRID_SCRATCH(s) GridWordAddress(GRID_HEADER(s).scratch_address).words
-#else
-layout(set = STRUCTURE_SET, binding = 1, scalar) buffer GridListsBuffer { uint grid_list_words[]; };
-layout(set = STRUCTURE_SET, binding = 2, scalar) buffer GridEntriesBuffer { uint grid_entry_words[]; };
-layout(set = STRUCTURE_SET, binding = 3, scalar) buffer GridScratchBuffer { uint grid_scratch_words[]; };
-#define GRID_LISTS(s) grid_list_words
-#define GRID_ENTRIES(s) grid_entry_words
-#define GRID_SCRATCH(s) grid_scratch_words
-#endif
+POOL_WORDS(grid, lists, 1)
+POOL_WORDS(grid, entries, 2)
+POOL_WORDS(grid, scratch, 3)
+#define GRID_POOL(s, pool) POOL_WORDS_OF(grid, pool, GRID_HEADER(s))
 
 uvec3 grid_cells(GridRef s) {
     return uvec3(GRID_HEADER(s).cells[0], GRID_HEADER(s).cells[1], GRID_HEADER(s).cells[2]);

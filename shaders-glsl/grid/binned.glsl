@@ -13,7 +13,7 @@
 #include "ads/build_constants.glsl"
 
 #define LargeRef GridRef
-#define LARGE_WORD(s, place) GRID_SCRATCH(s)[grid_scan_words(s) + place]
+#define LARGE_WORD(s, place) GRID_POOL(s, scratch)[grid_scan_words(s) + place]
 #define LARGE_HEADER(s) GRID_HEADER(s)
 #define LARGE_CAPACITY(s) GRID_HEADER(s).triangle_capacity
 #include "ads/bin_large.glsl"
@@ -62,11 +62,11 @@ void bin_visit(Bin bin, ivec2 column) {
     uint first = grid_list(ivec3(column, 0), bin.cells);
     for (int slice = slices.x; slice <= slices.y; slice++) {
 #if BIN_VISIT == BIN_VISIT_STORE
-        LIST_APPEND(GRID_LISTS(build.structure)[first + uint(slice)], GRID_HEADER(build.structure).capacity,
-            GRID_ENTRIES(build.structure), 0u,
+        LIST_APPEND(GRID_POOL(build.structure, lists)[first + uint(slice)], GRID_HEADER(build.structure).capacity,
+            GRID_POOL(build.structure, entries), 0u,
             bin.primitive)
 #else
-        atomicAdd(GRID_LISTS(build.structure)[first + uint(slice)], 1u);
+        atomicAdd(GRID_POOL(build.structure, lists)[first + uint(slice)], 1u);
 #endif
     }
 }

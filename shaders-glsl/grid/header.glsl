@@ -1,25 +1,12 @@
-// What: the header of a grid, and how it is reached.
+// What: the header of a grid.
 // Reads, writes: header.
 #ifndef GRID_HEADER_GLSL
 #define GRID_HEADER_GLSL
 
+#include "ads/pools.glsl"
 #include "grid/types.glsl"
 
-#ifndef STRUCTURE_SET
-#define STRUCTURE_SET 1
-#endif
-
-// Where a grid is. Unused with descriptors.
-struct GridRef {
-    uvec2 header;
-};
-
-#ifdef ADDRESSING_ADDRESS
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer GridHeaderAddress { GridHeader header; };
-#define GRID_HEADER(s) GridHeaderAddress(s.header).header
-#else
-layout(set = STRUCTURE_SET, binding = 0, scalar) buffer GridHeaderBuffer { GridHeader grid_header; };
-#define GRID_HEADER(s) grid_header
-#endif
+STRUCTURE_HEADER(Grid, grid)
+#define GRID_HEADER(s) STRUCTURE_HEADER_OF(Grid, grid, s)
 
 #endif

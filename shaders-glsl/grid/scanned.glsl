@@ -10,19 +10,19 @@ uint scan_count(GridRef s, uint step) {
 }
 
 uint scan_number(GridRef s, uint step, uint i) {
-    return GRID_LISTS(s)[i];
+    return GRID_POOL(s, lists)[i];
 }
 
 void scan_set_number(GridRef s, uint step, uint i, uint number) {
-    GRID_LISTS(s)[i] = number;
+    GRID_POOL(s, lists)[i] = number;
 }
 
 uint scan_sum(GridRef s, uint step, uint block) {
-    return GRID_SCRATCH(s)[block];
+    return GRID_POOL(s, scratch)[block];
 }
 
 void scan_set_sum(GridRef s, uint step, uint block, uint sum) {
-    GRID_SCRATCH(s)[block] = sum;
+    GRID_POOL(s, scratch)[block] = sum;
 }
 
 void scan_set_total(GridRef s, uint step, uint total) {

@@ -28,7 +28,7 @@
 // Where the list of a cell begins and ends. One that leaves the pool is counted and is empty.
 uvec2 grid_entries(GridRef s, ivec3 cell, uvec3 cells, uint stored) {
     uint list = grid_list(cell, cells);
-    uvec2 entries = uvec2(list == 0u ? 0u : GRID_LISTS(s)[list - 1u], GRID_LISTS(s)[list]);
+    uvec2 entries = uvec2(list == 0u ? 0u : GRID_POOL(s, lists)[list - 1u], GRID_POOL(s, lists)[list]);
     if (entries.x <= entries.y && entries.y <= stored) {
         return entries;
     }
@@ -97,7 +97,7 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
             }
             work++;
             state.entries++;
-            uint primitive = GRID_ENTRIES(s)[entry];
+            uint primitive = GRID_POOL(s, entries)[entry];
             trace_log_visit(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
             if (primitive == PRIMITIVE_NONE || (primitive != tested.x && primitive != tested.y)) {
                 grid_test(s, primitive, ray, state);

@@ -1,5 +1,4 @@
-// What: the pools of a layered depth cube, and the only place that knows how they are reached: through the
-// descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
+// What: the pools of a layered depth cube, reached as ads/pools.glsl says.
 // Reads, writes: header, lists, depths, payload, blocks, heads, conservative lists, scratch. Every access checks the capacity.
 #ifndef LDC_ACCESSORS_GLSL
 #define LDC_ACCESSORS_GLSL
@@ -8,31 +7,14 @@
 #include "ads/axis_views.glsl"
 #include "ads/constants.glsl"
 
-#ifdef ADDRESSING_ADDRESS
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LdcWordAddress { uint words[]; };
-#define LDC_LISTS(s) LdcWordAddress(LDC_HEADER(s).lists_address).words
-#define LDC_DEPTHS(s) LdcWordAddress(LDC_HEADER(s).depths_address).words
-#define LDC_PAYLOAD_WORDS(s) LdcWordAddress(LDC_HEADER(s).payload_address).words
-#define LDC_BLOCKS(s) LdcWordAddress(LDC_HEADER(s).blocks_address).words
-#define LDC_HEADS(s) LdcWordAddress(LDC_HEADER(s).heads_address).words
-#define LDC_CONSERVATIVE_NODES(s) LdcWordAddress(LDC_HEADER(s).conservative_address).words
-#define LDC_SCRATCH(s) LdcWordAddress(LDC_HEADER(s).scratch_address).words
-#else
-layout(set = STRUCTURE_SET, binding = 1, scalar) buffer LdcListsBuffer { uint ldc_list_words[]; };
-layout(set = STRUCTURE_SET, binding = 2, scalar) buffer LdcDepthsBuffer { uint ldc_depth_words[]; };
-layout(set = STRUCTURE_SET, binding = 3, scalar) buffer LdcPayloadBuffer { uint ldc_payload_words[]; };
-layout(set = STRUCTURE_SET, binding = 4, scalar) buffer LdcBlocksBuffer { uint ldc_block_words[]; };
-layout(set = STRUCTURE_SET, binding = 5, scalar) buffer LdcHeadsBuffer { uint ldc_head_words[]; };
-layout(set = STRUCTURE_SET, binding = 6, scalar) buffer LdcConservativeBuffer { uint ldc_conservative_nodes[]; };
-layout(set = STRUCTURE_SET, binding = 7, scalar) buffer LdcScratchBuffer { uint ldc_scratch_words[]; };
-#define LDC_LISTS(s) ldc_list_words
-#define LDC_DEPTHS(s) ldc_depth_words
-#define LDC_PAYLOAD_WORDS(s) ldc_payload_words
-#define LDC_BLOCKS(s) ldc_block_words
-#define LDC_HEADS(s) ldc_head_words
-#define LDC_CONSERVATIVE_NODES(s) ldc_conservative_nodes
-#define LDC_SCRATCH(s) ldc_scratch_words
-#endif
+POOL_WORDS(ldc, lists, 1)
+POOL_WORDS(ldc, depths, 2)
+POOL_WORDS(ldc, payload, 3)
+POOL_WORDS(ldc, blocks, 4)
+POOL_WORDS(ldc, heads, 5)
+POOL_WORDS(ldc, conservative, 6)
+POOL_WORDS(ldc, scratch, 7)
+#define LDC_POOL(s, pool) POOL_WORDS_OF(ldc, pool, LDC_HEADER(s))
 
 AxisView ldc_view(LdcRef s, uint axis) {
     return AxisView(LDC_HEADER(s).origin, LDC_HEADER(s).cell, LDC_HEADER(s).resolution, axis);
@@ -69,8 +51,8 @@ uint ldc_places(LdcRef s) {
 // Places of a cell's list: first, and one past the last. A list that leaves the `places` there are is counted
 // and empty.
 uvec2 ldc_list(LdcRef s, uint cell, uint places) {
-    uint begin = cell == 0u ? 0u : ldc_aligned(LDC_LISTS(s)[cell - 1u]);
-    uint end = LDC_LISTS(s)[cell];
+    uint begin = cell == 0u ? 0u : ldc_aligned(LDC_POOL(s, lists)[cell - 1u]);
+    uint end = LDC_POOL(s, lists)[cell];
     if (begin > end || end > places) {
         atomicAdd(LDC_HEADER(s).corrupted, 1u);
         return uvec2(0u);
@@ -86,16 +68,16 @@ uint ldc_payload_stride() {
 
 // The triangle of a fragment; with attributes only during the build.
 uint ldc_primitive(LdcRef s, uint place) {
-    return LDC_PAYLOAD_WORDS(s)[ldc_payload_stride() * place];
+    return LDC_POOL(s, payload)[ldc_payload_stride() * place];
 }
 
 void ldc_set_primitive(LdcRef s, uint place, uint primitive) {
-    LDC_PAYLOAD_WORDS(s)[ldc_payload_stride() * place] = primitive;
+    LDC_POOL(s, payload)[ldc_payload_stride() * place] = primitive;
 }
 
 // Lowers the triangle at a place whose bits start out as ones.
 void ldc_lower_primitive(LdcRef s, uint place, uint primitive) {
-    atomicMin(LDC_PAYLOAD_WORDS(s)[ldc_payload_stride() * place], primitive);
+    atomicMin(LDC_POOL(s, payload)[ldc_payload_stride() * place], primitive);
 }
 
 // Colour and normal of a fragment. An invalid place is counted.
@@ -105,17 +87,17 @@ uvec2 ldc_attributes(LdcRef s, uint place) {
         return uvec2(0u);
     }
     uint first = ldc_payload_stride() * place;
-    return uvec2(LDC_PAYLOAD_WORDS(s)[first], LDC_PAYLOAD_WORDS(s)[first + 1u]);
+    return uvec2(LDC_POOL(s, payload)[first], LDC_POOL(s, payload)[first + 1u]);
 }
 
 // Puts colour and normal of a fragment in place of its triangle, which is stored behind them where it is kept.
 void ldc_set_attributes(LdcRef s, uint place, uvec2 words) {
     uint first = ldc_payload_stride() * place;
     if (LDC_IDS != 0u) {
-        LDC_PAYLOAD_WORDS(s)[first + 2u] = LDC_PAYLOAD_WORDS(s)[first];
+        LDC_POOL(s, payload)[first + 2u] = LDC_POOL(s, payload)[first];
     }
-    LDC_PAYLOAD_WORDS(s)[first] = words.x;
-    LDC_PAYLOAD_WORDS(s)[first + 1u] = words.y;
+    LDC_POOL(s, payload)[first] = words.x;
+    LDC_POOL(s, payload)[first + 1u] = words.y;
 }
 
 // The triangle of a fragment with attributes, where it is kept. An invalid place is counted.
@@ -124,7 +106,7 @@ uint ldc_kept_id(LdcRef s, uint place) {
         atomicAdd(LDC_HEADER(s).corrupted, 1u);
         return PRIMITIVE_UNKNOWN;
     }
-    return LDC_PAYLOAD_WORDS(s)[ldc_payload_stride() * place + 2u];
+    return LDC_POOL(s, payload)[ldc_payload_stride() * place + 2u];
 }
 
 // The bits a depth is stored as: with 16 bits a share of the cube's side.
@@ -155,17 +137,17 @@ float ldc_reach(LdcRef s) {
 // Stores the first depth at a place; words start out zeroed where two depths share one.
 void ldc_add_depth(LdcRef s, uint place, uint bits) {
     if (LDC_DEPTH_BITS == 16u) {
-        atomicOr(LDC_DEPTHS(s)[place >> 1u], bits << (16u * (place & 1u)));
+        atomicOr(LDC_POOL(s, depths)[place >> 1u], bits << (16u * (place & 1u)));
     } else {
-        LDC_DEPTHS(s)[place] = bits;
+        LDC_POOL(s, depths)[place] = bits;
     }
 }
 
 uint ldc_bits_at(LdcRef s, uint place) {
     if (LDC_DEPTH_BITS == 16u) {
-        return (LDC_DEPTHS(s)[place >> 1u] >> (16u * (place & 1u))) & 0xFFFFu;
+        return (LDC_POOL(s, depths)[place >> 1u] >> (16u * (place & 1u))) & 0xFFFFu;
     }
-    return LDC_DEPTHS(s)[place];
+    return LDC_POOL(s, depths)[place];
 }
 
 // Lowers the depth at a place whose bits start out as ones. Of two depths that share a word the first is settled before
@@ -175,7 +157,7 @@ void ldc_lower_depth(LdcRef s, uint place, uint bits) {
     if (LDC_DEPTH_BITS == 16u) {
         word = (place & 1u) == 0u ? 0xFFFF0000u | bits : bits << 16u | ldc_bits_at(s, place - 1u);
     }
-    atomicMin(LDC_DEPTHS(s)[LDC_DEPTH_BITS == 16u ? place >> 1u : place], word);
+    atomicMin(LDC_POOL(s, depths)[LDC_DEPTH_BITS == 16u ? place >> 1u : place], word);
 }
 
 // Depth of a fragment as stored, metres.
@@ -192,7 +174,7 @@ void ldc_count_layer(LdcRef s, uint layer) {
         atomicMax(LDC_HEADER(s).layer_demand, layer + 1u);
     }
     if (layer < LDC_HEADER(s).layer_capacity) {
-        atomicAdd(LDC_SCRATCH(s)[ldc_scan_words(s) + layer], 1u);
+        atomicAdd(LDC_POOL(s, scratch)[ldc_scan_words(s) + layer], 1u);
     }
 }
 
@@ -200,9 +182,9 @@ void ldc_count_layer(LdcRef s, uint layer) {
 void ldc_set_bits(LdcRef s, uint place, uint bits) {
     if (LDC_DEPTH_BITS == 16u) {
         uint shift = 16u * (place & 1u);
-        LDC_DEPTHS(s)[place >> 1u] = (LDC_DEPTHS(s)[place >> 1u] & ~(0xFFFFu << shift)) | bits << shift;
+        LDC_POOL(s, depths)[place >> 1u] = (LDC_POOL(s, depths)[place >> 1u] & ~(0xFFFFu << shift)) | bits << shift;
     } else {
-        LDC_DEPTHS(s)[place] = bits;
+        LDC_POOL(s, depths)[place] = bits;
     }
 }
 

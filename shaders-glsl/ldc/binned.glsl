@@ -14,7 +14,7 @@
 
 // Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
 #define LargeRef LdcRef
-#define LARGE_WORD(s, place) LDC_SCRATCH(s)[ldc_scan_words(s) + place]
+#define LARGE_WORD(s, place) LDC_POOL(s, scratch)[ldc_scan_words(s) + place]
 #define LARGE_HEADER(s) LDC_HEADER(s)
 #define LARGE_CAPACITY(s) LDC_HEADER(s).large_capacity
 #include "ads/bin_large.glsl"

@@ -58,11 +58,11 @@ void ldc_widen_blocks(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high
     for (uint level = 0u; level < LDC_LEVELS; level++) {
         uint word = ldc_block_stride() * ldc_block(resolution, level, axis, cell / ldc_block_cells(level));
         for (uint side = 0u; side < 2u; side++) {
-            if (LDC_BLOCKS(s)[word + side] < ends[side]) {
-                atomicMax(LDC_BLOCKS(s)[word + side], ends[side]);
+            if (LDC_POOL(s, blocks)[word + side] < ends[side]) {
+                atomicMax(LDC_POOL(s, blocks)[word + side], ends[side]);
             }
-            if (LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES && (slices[side] & ~LDC_BLOCKS(s)[word + 2u + side]) != 0u) {
-                atomicOr(LDC_BLOCKS(s)[word + 2u + side], slices[side]);
+            if (LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES && (slices[side] & ~LDC_POOL(s, blocks)[word + 2u + side]) != 0u) {
+                atomicOr(LDC_POOL(s, blocks)[word + 2u + side], slices[side]);
             }
         }
     }
@@ -70,10 +70,10 @@ void ldc_widen_blocks(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high
 
 LdcBlock ldc_block_depths(LdcRef s, uint block) {
     uint word = ldc_block_stride() * block;
-    uint low = LDC_BLOCKS(s)[word];
+    uint low = LDC_POOL(s, blocks)[word];
     uvec2 slices = LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES
-        ? uvec2(LDC_BLOCKS(s)[word + 2u], LDC_BLOCKS(s)[word + 3u]) : uvec2(0xFFFFFFFFu);
-    return LdcBlock(low == 0u, uintBitsToFloat(~low), uintBitsToFloat(LDC_BLOCKS(s)[word + 1u]), slices);
+        ? uvec2(LDC_POOL(s, blocks)[word + 2u], LDC_POOL(s, blocks)[word + 3u]) : uvec2(0xFFFFFFFFu);
+    return LdcBlock(low == 0u, uintBitsToFloat(~low), uintBitsToFloat(LDC_POOL(s, blocks)[word + 1u]), slices);
 }
 
 #endif

@@ -20,9 +20,9 @@ void main() {
     }
     uint layer = build.step / 2u;
     uint list = ldc_cell(build.structure, view.axis, cell);
-    uint place = LDC_LISTS(build.structure)[list] + layer;
+    uint place = LDC_POOL(build.structure, lists)[list] + layer;
     uint end = list + 1u < ldc_cell_count(build.structure)
-        ? LDC_LISTS(build.structure)[list + 1u] : LDC_HEADER(build.structure).demand;
+        ? LDC_POOL(build.structure, lists)[list + 1u] : LDC_HEADER(build.structure).demand;
     if (place >= end) {
         return;
     }

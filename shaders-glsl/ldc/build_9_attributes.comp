@@ -14,7 +14,7 @@
 layout(local_size_x = LDC_GROUP_SIZE) in;
 
 uint list_end(uint list) {
-    return LDC_LISTS(build.structure)[list];
+    return LDC_POOL(build.structure, lists)[list];
 }
 
 #include "ads/list_of_place.glsl"

@@ -5,7 +5,7 @@
 // instance is a view, and the triangles of the others are left out.
 #version 460
 #include "contract/extensions.glsl"
-#define LDC_READ_ONLY
+#define STRUCTURE_READ_ONLY
 #include "ldc/covered.glsl"
 
 layout(location = 0) flat out uvec2 primitive_and_axis;

@@ -9,12 +9,12 @@
 // The first link of a cell's conservative list. Where rays meet triangles the other list holds all that reach into the cell.
 uint ldc_conservative_head(LdcRef s, uint cell) {
     bool kept = LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE && LDC_ACCEPT != LDC_ACCEPT_TRIANGLE;
-    return kept ? LDC_HEADS(s)[cell] : 0u;
+    return kept ? LDC_POOL(s, heads)[cell] : 0u;
 }
 
 #define ConservativeRef LdcRef
-#define CONSERVATIVE_HEAD(s, cell) LDC_HEADS(s)[cell]
-#define CONSERVATIVE_NODES(s) LDC_CONSERVATIVE_NODES(s)
+#define CONSERVATIVE_HEAD(s, cell) LDC_POOL(s, heads)[cell]
+#define CONSERVATIVE_NODES(s) LDC_POOL(s, conservative)
 #define CONSERVATIVE_HEADER(s) LDC_HEADER(s)
 #include "ads/conservative.glsl"
 

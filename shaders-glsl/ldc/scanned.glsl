@@ -11,19 +11,19 @@ uint scan_count(LdcRef s, uint step) {
 
 // Places are aligned already, so that aligning them again changes nothing.
 uint scan_number(LdcRef s, uint step, uint i) {
-    return ldc_aligned(LDC_LISTS(s)[i]);
+    return ldc_aligned(LDC_POOL(s, lists)[i]);
 }
 
 void scan_set_number(LdcRef s, uint step, uint i, uint number) {
-    LDC_LISTS(s)[i] = number;
+    LDC_POOL(s, lists)[i] = number;
 }
 
 uint scan_sum(LdcRef s, uint step, uint block) {
-    return LDC_SCRATCH(s)[block];
+    return LDC_POOL(s, scratch)[block];
 }
 
 void scan_set_sum(LdcRef s, uint step, uint block, uint sum) {
-    LDC_SCRATCH(s)[block] = sum;
+    LDC_POOL(s, scratch)[block] = sum;
 }
 
 void scan_set_total(LdcRef s, uint step, uint total) {

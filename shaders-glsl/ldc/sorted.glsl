@@ -9,12 +9,9 @@
 #include "ldc/names.glsl"
 #include "ads/build_constants.glsl"
 
-#define SortRef LdcRef
-#define sort_built build.structure
-#define sort_round build.step
 #define SORT_HEADER(s) LDC_HEADER(s)
 // Behind the sums of the scan.
-#define SORT_WORD(s, place) LDC_SCRATCH(s)[ldc_scan_words(s) + (place)]
+#define SORT_WORD(s, place) LDC_POOL(s, scratch)[ldc_scan_words(s) + (place)]
 #define SORT_LIMIT SHORT_LIST_LIMIT
 #define SORT_LONG_LIMIT LONG_LIST_LIMIT
 

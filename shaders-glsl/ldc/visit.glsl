@@ -13,7 +13,7 @@ void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
     float z;
     vec2 barycentrics;
     if (ldc_fragment(ldc_built_view(axis), primitive, cell, z, barycentrics) && ldc_keeps(primitive, barycentrics)) {
-        uint layer = atomicAdd(LDC_LISTS(build.structure)[ldc_cell(build.structure, axis, cell)], 1u);
+        uint layer = atomicAdd(LDC_POOL(build.structure, lists)[ldc_cell(build.structure, axis, cell)], 1u);
         if (LDC_BUILD == LDC_BUILD_PEEL && build.step == 0u) {
             ldc_count_layer(build.structure, layer);
         }
@@ -41,7 +41,7 @@ void ldc_visit_store(uint primitive, uint axis, ivec2 cell) {
     if (!ldc_fragment(ldc_built_view(axis), primitive, cell, z, barycentrics) || !ldc_keeps(primitive, barycentrics)) {
         return;
     }
-    uint place = atomicAdd(LDC_LISTS(build.structure)[ldc_cell(build.structure, axis, cell)], 1u);
+    uint place = atomicAdd(LDC_POOL(build.structure, lists)[ldc_cell(build.structure, axis, cell)], 1u);
     if (place >= LDC_HEADER(build.structure).capacity) {
         return;
     }

@@ -1,5 +1,4 @@
-// What: the pools of primitive lists, and the only place that knows how they are reached: through the
-// descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
+// What: the pools of primitive lists, reached as ads/pools.glsl says.
 // Reads, writes: header, bounds, lists, entries, sums, near-region list. Every access checks the capacity.
 #ifndef PRIMITIVE_ACCESSORS_GLSL
 #define PRIMITIVE_ACCESSORS_GLSL
@@ -8,25 +7,12 @@
 #include "ads/bucket.glsl"
 #include "ads/views.glsl"
 
-#ifdef ADDRESSING_ADDRESS
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PrimitiveWordAddress { uint words[]; };
-#define PRIMITIVE_BOUNDS(s) PrimitiveWordAddress(PRIMITIVE_HEADER(s).bounds_address).words
-#define PRIMITIVE_LISTS(s) PrimitiveWordAddress(PRIMITIVE_HEADER(s).lists_address).words
-#define PRIMITIVE_ENTRIES(s) PrimitiveWordAddress(PRIMITIVE_HEADER(s).entries_address).words
-#define PRIMITIVE_SUMS(s) PrimitiveWordAddress(PRIMITIVE_HEADER(s).sums_address).words
-#define PRIMITIVE_NEAR_LIST(s) PrimitiveWordAddress(PRIMITIVE_HEADER(s).near_address).words
-#else
-layout(set = STRUCTURE_SET, binding = 1, scalar) buffer PrimitiveBoundsBuffer { uint primitive_bounds_words[]; };
-layout(set = STRUCTURE_SET, binding = 2, scalar) buffer PrimitiveListsBuffer { uint primitive_list_words[]; };
-layout(set = STRUCTURE_SET, binding = 3, scalar) buffer PrimitiveEntriesBuffer { uint primitive_entry_words[]; };
-layout(set = STRUCTURE_SET, binding = 4, scalar) buffer PrimitiveSumsBuffer { uint primitive_sum_words[]; };
-layout(set = STRUCTURE_SET, binding = 5, scalar) buffer PrimitiveNearBuffer { uint primitive_near_words[]; };
-#define PRIMITIVE_BOUNDS(s) primitive_bounds_words
-#define PRIMITIVE_LISTS(s) primitive_list_words
-#define PRIMITIVE_ENTRIES(s) primitive_entry_words
-#define PRIMITIVE_SUMS(s) primitive_sum_words
-#define PRIMITIVE_NEAR_LIST(s) primitive_near_words
-#endif
+POOL_WORDS(primitive, bounds, 1)
+POOL_WORDS(primitive, lists, 2)
+POOL_WORDS(primitive, entries, 3)
+POOL_WORDS(primitive, sums, 4)
+POOL_WORDS(primitive, near, 5)
+#define PRIMITIVE_POOL(s, pool) POOL_WORDS_OF(primitive, pool, PRIMITIVE_HEADER(s))
 
 uint primitive_cell_count(PrimitiveRef s) {
     return primitive_view_count() * face_cells(PRIMITIVE_HEADER(s).tiles);
@@ -49,8 +35,8 @@ uint primitive_bounds_stride() {
 // cleared cell is empty and both ends are maxima; positive floats order like their bits.
 void primitive_widen_bounds(PrimitiveRef s, uint cell, vec2 depths) {
     uint word = cell * primitive_bounds_stride();
-    atomicMax(PRIMITIVE_BOUNDS(s)[word], ~floatBitsToUint(depths.x));
-    atomicMax(PRIMITIVE_BOUNDS(s)[word + 1u], floatBitsToUint(depths.y));
+    atomicMax(PRIMITIVE_POOL(s, bounds)[word], ~floatBitsToUint(depths.x));
+    atomicMax(PRIMITIVE_POOL(s, bounds)[word + 1u], floatBitsToUint(depths.y));
 }
 
 PrimitiveBounds primitive_bounds(PrimitiveRef s, uint cell) {
@@ -59,15 +45,15 @@ PrimitiveBounds primitive_bounds(PrimitiveRef s, uint cell) {
         return bounds;
     }
     uint word = cell * primitive_bounds_stride();
-    uint z_max = PRIMITIVE_BOUNDS(s)[word + 1u];
+    uint z_max = PRIMITIVE_POOL(s, bounds)[word + 1u];
     if (z_max == 0u) {
         return bounds;
     }
     bounds.empty = false;
-    bounds.z_min = uintBitsToFloat(~PRIMITIVE_BOUNDS(s)[word]);
+    bounds.z_min = uintBitsToFloat(~PRIMITIVE_POOL(s, bounds)[word]);
     bounds.z_max = uintBitsToFloat(z_max);
     if (PRIMITIVE_BUCKETS > 1u) {
-        bounds.scale = uintBitsToFloat(PRIMITIVE_BOUNDS(s)[word + 2u]);
+        bounds.scale = uintBitsToFloat(PRIMITIVE_POOL(s, bounds)[word + 2u]);
     }
     return bounds;
 }
@@ -76,7 +62,7 @@ PrimitiveBounds primitive_bounds(PrimitiveRef s, uint cell) {
 void primitive_store_scale(PrimitiveRef s, uint cell) {
     PrimitiveBounds bounds = primitive_bounds(s, cell);
     float scale = bounds.empty ? 0.0 : bucket_scale(bounds.z_min, bounds.z_max, PRIMITIVE_BUCKETS);
-    PRIMITIVE_BOUNDS(s)[cell * primitive_bounds_stride() + 2u] = floatBitsToUint(scale);
+    PRIMITIVE_POOL(s, bounds)[cell * primitive_bounds_stride() + 2u] = floatBitsToUint(scale);
 }
 
 #endif

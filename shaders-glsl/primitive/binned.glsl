@@ -12,13 +12,8 @@
 #include "primitive/names.glsl"
 #include "ads/build_constants.glsl"
 
-#ifdef ADDRESSING_ADDRESS
-#define LARGE_WORD(s, place) PrimitiveWordAddress(PRIMITIVE_HEADER(s).large_address).words[place]
-#else
-layout(set = STRUCTURE_SET, binding = 6, scalar) buffer PrimitiveLargeBuffer { uint primitive_large_words[]; };
-#define LARGE_WORD(s, place) primitive_large_words[place]
-#endif
-
+POOL_WORDS(primitive, large, 6)
+#define LARGE_WORD(s, place) PRIMITIVE_POOL(s, large)[place]
 #define LargeRef PrimitiveRef
 #define LARGE_HEADER(s) PRIMITIVE_HEADER(s)
 #define LARGE_CAPACITY(s) PRIMITIVE_HEADER(s).large_capacity

@@ -32,6 +32,6 @@ void main() {
     float size = PRIMITIVE_HEADER(build.structure).near_size + PRIMITIVE_HEADER(build.structure).rounding;
     if (bin_box_is_near(lower, upper, size)) {
         LIST_APPEND(PRIMITIVE_HEADER(build.structure).near_demand, PRIMITIVE_HEADER(build.structure).near_capacity,
-            PRIMITIVE_NEAR_LIST(build.structure), 0u, primitive)
+            PRIMITIVE_POOL(build.structure, near), 0u, primitive)
     }
 }

@@ -4,7 +4,7 @@
 // its conservative rasterization, unless PRIMITIVE_COVERAGE_EXTENSION asks for that.
 #version 460
 #include "contract/extensions.glsl"
-#define PRIMITIVE_READ_ONLY
+#define STRUCTURE_READ_ONLY
 #include "primitive/raster.glsl"
 
 layout(location = 0) flat out uvec2 primitive_and_face;

@@ -1,33 +1,13 @@
-// What: the header of primitive lists, and how it is reached.
-// Reads, writes: header. Stages that only read say so (PRIMITIVE_READ_ONLY), because writing from a
-// vertex shader is a device feature of its own.
+// What: the header of primitive lists.
+// Reads, writes: header; stages with STRUCTURE_READ_ONLY only read it.
 #ifndef PRIMITIVE_HEADER_GLSL
 #define PRIMITIVE_HEADER_GLSL
 
+#include "ads/pools.glsl"
 #include "primitive/types.glsl"
 
-#ifndef STRUCTURE_SET
-#define STRUCTURE_SET 1
-#endif
-
-#ifdef PRIMITIVE_READ_ONLY
-#define PRIMITIVE_HEADER_ACCESS readonly
-#else
-#define PRIMITIVE_HEADER_ACCESS
-#endif
-
-// Where primitive lists are. Unused with descriptors.
-struct PrimitiveRef {
-    uvec2 header;
-};
-
-#ifdef ADDRESSING_ADDRESS
-layout(buffer_reference, scalar, buffer_reference_align = 4) PRIMITIVE_HEADER_ACCESS buffer PrimitiveHeaderAddress { PrimitiveHeader header; };
-#define PRIMITIVE_HEADER(s) PrimitiveHeaderAddress(s.header).header
-#else
-layout(set = STRUCTURE_SET, binding = 0, scalar) PRIMITIVE_HEADER_ACCESS buffer PrimitiveHeaderBuffer { PrimitiveHeader primitive_header; };
-#define PRIMITIVE_HEADER(s) primitive_header
-#endif
+STRUCTURE_HEADER(Primitive, primitive)
+#define PRIMITIVE_HEADER(s) STRUCTURE_HEADER_OF(Primitive, primitive, s)
 
 mat3 primitive_camera(PrimitiveRef s) {
     return mat3(PRIMITIVE_HEADER(s).camera_x, PRIMITIVE_HEADER(s).camera_y, PRIMITIVE_HEADER(s).camera_z);

@@ -23,11 +23,11 @@ uint primitive_stored(PrimitiveRef s) {
 
 // A list from its begin. A contiguous one that leaves the pool or runs backwards is counted and is empty.
 PrimitiveCursor primitive_list_begin(PrimitiveRef s, uint list) {
-    uint word = PRIMITIVE_LISTS(s)[list];
+    uint word = PRIMITIVE_POOL(s, lists)[list];
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED) {
         return PrimitiveCursor(word, 0u);
     }
-    uint begin = list == 0u ? 0u : PRIMITIVE_LISTS(s)[list - 1u];
+    uint begin = list == 0u ? 0u : PRIMITIVE_POOL(s, lists)[list - 1u];
     if (begin > word || word > primitive_stored(s)) {
         atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
         return PrimitiveCursor(0u, 0u);
@@ -37,7 +37,7 @@ PrimitiveCursor primitive_list_begin(PrimitiveRef s, uint list) {
 
 // A list that has been read up to `at`.
 PrimitiveCursor primitive_list_resume(PrimitiveRef s, uint list, uint at) {
-    return PrimitiveCursor(at, PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? 0u : PRIMITIVE_LISTS(s)[list]);
+    return PrimitiveCursor(at, PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? 0u : PRIMITIVE_POOL(s, lists)[list]);
 }
 
 bool primitive_list_ended(PrimitiveCursor cursor) {
@@ -55,11 +55,11 @@ uint primitive_list_next(PrimitiveRef s, inout PrimitiveCursor cursor) {
     }
     uint primitive;
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED) {
-        cursor.at = PRIMITIVE_ENTRIES(s)[2u * entry + 1u];
-        primitive = PRIMITIVE_ENTRIES(s)[2u * entry];
+        cursor.at = PRIMITIVE_POOL(s, entries)[2u * entry + 1u];
+        primitive = PRIMITIVE_POOL(s, entries)[2u * entry];
     } else {
         cursor.at += 1u;
-        primitive = PRIMITIVE_ENTRIES(s)[entry];
+        primitive = PRIMITIVE_POOL(s, entries)[entry];
     }
     if (primitive >= geometry_triangle_count()) {
         atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
@@ -70,19 +70,19 @@ uint primitive_list_next(PrimitiveRef s, inout PrimitiveCursor cursor) {
 
 // Adds one to the length of a list, contiguous only.
 void primitive_list_count_one(PrimitiveRef s, uint list) {
-    atomicAdd(PRIMITIVE_LISTS(s)[list], 1u);
+    atomicAdd(PRIMITIVE_POOL(s, lists)[list], 1u);
 }
 
 // Puts a triangle into a list, or counts that the capacity did not suffice.
 void primitive_list_store(PrimitiveRef s, uint list, uint primitive) {
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_CONTIGUOUS) {
-        LIST_APPEND(PRIMITIVE_LISTS(s)[list], PRIMITIVE_HEADER(s).capacity, PRIMITIVE_ENTRIES(s), 0u, primitive)
+        LIST_APPEND(PRIMITIVE_POOL(s, lists)[list], PRIMITIVE_HEADER(s).capacity, PRIMITIVE_POOL(s, entries), 0u, primitive)
         return;
     }
     uint node = atomicAdd(PRIMITIVE_HEADER(s).demand, 1u);
     if (node < PRIMITIVE_HEADER(s).capacity) {
-        PRIMITIVE_ENTRIES(s)[2u * node] = primitive;
-        PRIMITIVE_ENTRIES(s)[2u * node + 1u] = atomicExchange(PRIMITIVE_LISTS(s)[list], node + 1u);
+        PRIMITIVE_POOL(s, entries)[2u * node] = primitive;
+        PRIMITIVE_POOL(s, entries)[2u * node + 1u] = atomicExchange(PRIMITIVE_POOL(s, lists)[list], node + 1u);
     }
 }
 

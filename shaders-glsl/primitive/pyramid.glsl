@@ -17,7 +17,7 @@ PyramidLevel primitive_pyramid_first(PrimitiveRef s, uint view) {
 }
 
 uvec2 primitive_pyramid_read(PrimitiveRef s, uint word) {
-    return uvec2(PRIMITIVE_BOUNDS(s)[word], PRIMITIVE_BOUNDS(s)[word + 1u]);
+    return uvec2(PRIMITIVE_POOL(s, bounds)[word], PRIMITIVE_POOL(s, bounds)[word + 1u]);
 }
 
 uvec2 primitive_pyramid_cell(PrimitiveRef s, uint view, ivec2 cell) {
@@ -25,8 +25,8 @@ uvec2 primitive_pyramid_cell(PrimitiveRef s, uint view, ivec2 cell) {
 }
 
 void primitive_pyramid_write(PrimitiveRef s, uint word, uvec2 words) {
-    PRIMITIVE_BOUNDS(s)[word] = words.x;
-    PRIMITIVE_BOUNDS(s)[word + 1u] = words.y;
+    PRIMITIVE_POOL(s, bounds)[word] = words.x;
+    PRIMITIVE_POOL(s, bounds)[word + 1u] = words.y;
 }
 
 #endif

@@ -10,19 +10,19 @@ uint scan_count(PrimitiveRef s, uint step) {
 }
 
 uint scan_number(PrimitiveRef s, uint step, uint i) {
-    return PRIMITIVE_LISTS(s)[i];
+    return PRIMITIVE_POOL(s, lists)[i];
 }
 
 void scan_set_number(PrimitiveRef s, uint step, uint i, uint number) {
-    PRIMITIVE_LISTS(s)[i] = number;
+    PRIMITIVE_POOL(s, lists)[i] = number;
 }
 
 uint scan_sum(PrimitiveRef s, uint step, uint block) {
-    return PRIMITIVE_SUMS(s)[block];
+    return PRIMITIVE_POOL(s, sums)[block];
 }
 
 void scan_set_sum(PrimitiveRef s, uint step, uint block, uint sum) {
-    PRIMITIVE_SUMS(s)[block] = sum;
+    PRIMITIVE_POOL(s, sums)[block] = sum;
 }
 
 void scan_set_total(PrimitiveRef s, uint step, uint total) {

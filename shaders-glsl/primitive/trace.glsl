@@ -14,7 +14,7 @@
 
 #define ListedRef PrimitiveRef
 #define LISTED_HEADER(s) PRIMITIVE_HEADER(s)
-#define LISTED_NEAR(s) PRIMITIVE_NEAR_LIST(s)
+#define LISTED_NEAR(s) PRIMITIVE_POOL(s, near)
 #include "ads/listed.glsl"
 
 // Searches the cells of one face. True if the budget ended first; `ended` where no hit behind can count.

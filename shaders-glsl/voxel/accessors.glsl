@@ -1,5 +1,4 @@
-// What: the pools of voxels with axis A-buffers, and the only place that knows how they are reached: through the
-// descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
+// What: the pools of voxels with axis A-buffers, reached as ads/pools.glsl says.
 // Reads, writes: header, voxels, normals, lists, fragments, scratch, nodes, octants. Every access checks the capacity.
 // A list is a cell of a view: its word is that of voxel/lists.glsl. Where voxels are the leaves there are no lists, and
 // these words are the triangles of voxels.
@@ -11,31 +10,14 @@
 #include "ads/axis_views.glsl"
 #include "ads/constants.glsl"
 
-#ifdef ADDRESSING_ADDRESS
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelWordAddress { uint words[]; };
-#define VOXEL_VOXELS(s) VoxelWordAddress(VOXEL_HEADER(s).voxels_address).words
-#define VOXEL_NORMALS(s) VoxelWordAddress(VOXEL_HEADER(s).normals_address).words
-#define VOXEL_LISTS(s) VoxelWordAddress(VOXEL_HEADER(s).lists_address).words
-#define VOXEL_FRAGMENTS(s) VoxelWordAddress(VOXEL_HEADER(s).fragments_address).words
-#define VOXEL_SCRATCH(s) VoxelWordAddress(VOXEL_HEADER(s).scratch_address).words
-#define VOXEL_NODES(s) VoxelWordAddress(VOXEL_HEADER(s).nodes_address).words
-#define VOXEL_OCTANTS(s) VoxelWordAddress(VOXEL_HEADER(s).octants_address).words
-#else
-layout(set = STRUCTURE_SET, binding = 1, scalar) buffer VoxelVoxelsBuffer { uint voxel_voxel_words[]; };
-layout(set = STRUCTURE_SET, binding = 2, scalar) buffer VoxelNormalsBuffer { uint voxel_normal_words[]; };
-layout(set = STRUCTURE_SET, binding = 3, scalar) buffer VoxelListsBuffer { uint voxel_list_words[]; };
-layout(set = STRUCTURE_SET, binding = 4, scalar) buffer VoxelFragmentsBuffer { uint voxel_fragment_words[]; };
-layout(set = STRUCTURE_SET, binding = 5, scalar) buffer VoxelScratchBuffer { uint voxel_scratch_words[]; };
-layout(set = STRUCTURE_SET, binding = 6, scalar) buffer VoxelNodesBuffer { uint voxel_node_words[]; };
-layout(set = STRUCTURE_SET, binding = 7, scalar) buffer VoxelOctantsBuffer { uint voxel_octant_words[]; };
-#define VOXEL_VOXELS(s) voxel_voxel_words
-#define VOXEL_NORMALS(s) voxel_normal_words
-#define VOXEL_LISTS(s) voxel_list_words
-#define VOXEL_FRAGMENTS(s) voxel_fragment_words
-#define VOXEL_SCRATCH(s) voxel_scratch_words
-#define VOXEL_NODES(s) voxel_node_words
-#define VOXEL_OCTANTS(s) voxel_octant_words
-#endif
+POOL_WORDS(voxel, voxels, 1)
+POOL_WORDS(voxel, normals, 2)
+POOL_WORDS(voxel, lists, 3)
+POOL_WORDS(voxel, fragments, 4)
+POOL_WORDS(voxel, scratch, 5)
+POOL_WORDS(voxel, nodes, 6)
+POOL_WORDS(voxel, octants, 7)
+#define VOXEL_POOL(s, pool) POOL_WORDS_OF(voxel, pool, VOXEL_HEADER(s))
 
 // The view along an axis, with the cells of the fragments.
 AxisView voxel_view(VoxelRef s, uint axis) {
@@ -64,27 +46,27 @@ void voxel_mark(VoxelRef s, uint index, uint bits) {
     if (index < voxel_count(s)) {
         uint shift = VOXEL_BITS * (index % 8u);
         // Many fragments mark the same voxel: for most it is marked already.
-        if ((VOXEL_VOXELS(s)[index / 8u] >> shift & bits) != bits) {
-            atomicOr(VOXEL_VOXELS(s)[index / 8u], bits << shift);
+        if ((VOXEL_POOL(s, voxels)[index / 8u] >> shift & bits) != bits) {
+            atomicOr(VOXEL_POOL(s, voxels)[index / 8u], bits << shift);
         }
     }
 }
 
 // The bits of a voxel: those of the axes it is searched along, and VOXEL_OCCUPIED.
 uint voxel_bits(VoxelRef s, uint index) {
-    return index < voxel_count(s) ? VOXEL_VOXELS(s)[index / 8u] >> (VOXEL_BITS * (index % 8u)) & 15u : 0u;
+    return index < voxel_count(s) ? VOXEL_POOL(s, voxels)[index / 8u] >> (VOXEL_BITS * (index % 8u)) & 15u : 0u;
 }
 
 // Lets a triangle stand for a voxel, if its id is the lowest so far. Voxels begin with zeros: they hold complements.
 void voxel_hold_triangle(VoxelRef s, uint index, uint primitive) {
-    if (index < voxel_count(s) && VOXEL_LISTS(s)[index] < ~primitive) {
-        atomicMax(VOXEL_LISTS(s)[index], ~primitive);
+    if (index < voxel_count(s) && VOXEL_POOL(s, lists)[index] < ~primitive) {
+        atomicMax(VOXEL_POOL(s, lists)[index], ~primitive);
     }
 }
 
 // The triangle that stands for an occupied voxel.
 uint voxel_triangle(VoxelRef s, uint index) {
-    return ~VOXEL_LISTS(s)[index];
+    return ~VOXEL_POOL(s, lists)[index];
 }
 
 // The size of what rays hit, metres: how far their points may lie from the surface.
@@ -103,7 +85,7 @@ void voxel_add_normal(VoxelRef s, uint index, vec3 normal) {
         ivec3 steps = ivec3(round(normal * VOXEL_NORMAL_STEPS));
         for (uint k = 0u; k < 3u; k++) {
             if (steps[k] != 0) {
-                atomicAdd(VOXEL_NORMALS(s)[3u * index + k], uint(steps[k]));
+                atomicAdd(VOXEL_POOL(s, normals)[3u * index + k], uint(steps[k]));
             }
         }
     }
@@ -113,7 +95,7 @@ void voxel_add_normal(VoxelRef s, uint index, vec3 normal) {
 uint voxel_normal_axis(VoxelRef s, uint index) {
     uvec3 size;
     for (uint k = 0u; k < 3u; k++) {
-        size[k] = uint(abs(int(VOXEL_NORMALS(s)[3u * index + k])));
+        size[k] = uint(abs(int(VOXEL_POOL(s, normals)[3u * index + k])));
     }
     return size.x >= size.y && size.x >= size.z ? 0u : (size.y >= size.z ? 1u : 2u);
 }
@@ -163,11 +145,11 @@ uint voxel_first_word(uint place) {
 }
 
 uint voxel_word(VoxelRef s, uint place, uint word) {
-    return VOXEL_FRAGMENTS(s)[voxel_first_word(place) + word];
+    return VOXEL_POOL(s, fragments)[voxel_first_word(place) + word];
 }
 
 void voxel_set_word(VoxelRef s, uint place, uint word, uint value) {
-    VOXEL_FRAGMENTS(s)[voxel_first_word(place) + word] = value;
+    VOXEL_POOL(s, fragments)[voxel_first_word(place) + word] = value;
 }
 
 // Depth at the cell's centre, metres from the lower side of the cube.

@@ -12,7 +12,7 @@
 
 // Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
 #define LargeRef VoxelRef
-#define LARGE_WORD(s, place) VOXEL_SCRATCH(s)[voxel_scan_words(s) + place]
+#define LARGE_WORD(s, place) VOXEL_POOL(s, scratch)[voxel_scan_words(s) + place]
 #define LARGE_HEADER(s) VOXEL_HEADER(s)
 #define LARGE_CAPACITY(s) VOXEL_HEADER(s).large_capacity
 #include "ads/bin_large.glsl"

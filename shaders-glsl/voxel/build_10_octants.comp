@@ -21,8 +21,8 @@ void main() {
     uint count = 0u;
     for (uint octant = 0u; octant < 8u; octant++) {
         uint held = above_blocks ? octree_block(build.structure, 8u * number + octant)
-            : VOXEL_OCTANTS(build.structure)[8u * node + 1u + octant];
+            : VOXEL_POOL(build.structure, octants)[8u * node + 1u + octant];
         count += held != 0u ? 1u : 0u;
     }
-    VOXEL_OCTANTS(build.structure)[node] = count;
+    VOXEL_POOL(build.structure, octants)[node] = count;
 }

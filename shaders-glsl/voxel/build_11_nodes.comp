@@ -11,7 +11,7 @@ layout(local_size_x = VOXEL_GROUP_SIZE) in;
 
 // Octants that hold something of all nodes before one.
 uint before(uint node, uint count) {
-    return node < count ? VOXEL_OCTANTS(build.structure)[node] : VOXEL_HEADER(build.structure).node_demand - 1u;
+    return node < count ? VOXEL_POOL(build.structure, octants)[node] : VOXEL_HEADER(build.structure).node_demand - 1u;
 }
 
 void main() {
@@ -44,9 +44,9 @@ void main() {
         uint block = octree_block(build.structure, child - count);
         if (block != 0u) {
             word |= 1u << octant;
-            VOXEL_NODES(build.structure)[stored] = block;
+            VOXEL_POOL(build.structure, nodes)[stored] = block;
             stored++;
         }
     }
-    VOXEL_NODES(build.structure)[place] = word;
+    VOXEL_POOL(build.structure, nodes)[place] = word;
 }

@@ -16,12 +16,12 @@ void main() {
     if (8u * word >= count) {
         return;
     }
-    uint bits = VOXEL_VOXELS(build.structure)[word];
+    uint bits = VOXEL_POOL(build.structure, voxels)[word];
     uint with_axes = bits;
     for (uint k = 0u; k < 8u; k++) {
         if ((bits >> (VOXEL_BITS * k) & VOXEL_OCCUPIED) != 0u) {
             with_axes |= 1u << (VOXEL_BITS * k + voxel_normal_axis(build.structure, 8u * word + k));
         }
     }
-    VOXEL_VOXELS(build.structure)[word] = with_axes;
+    VOXEL_POOL(build.structure, voxels)[word] = with_axes;
 }

@@ -5,7 +5,7 @@
 #include "contract/extensions.glsl"
 #include "ads/axis_views.glsl"
 #include "ads/geometry.glsl"
-#define VOXEL_READ_ONLY
+#define STRUCTURE_READ_ONLY
 #include "voxel/header.glsl"
 #include "voxel/names.glsl"
 #include "ads/build_constants.glsl"

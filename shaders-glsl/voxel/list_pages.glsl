@@ -8,8 +8,8 @@
 
 #define PageRef VoxelRef
 #define PAGE_SIZE VOXEL_PAGE
-#define PAGE_LIST(s, list) VOXEL_LISTS(s)[list]
-#define PAGE_NEXT(s, page) VOXEL_FRAGMENTS(s)[(page) * voxel_page_stride()]
+#define PAGE_LIST(s, list) VOXEL_POOL(s, lists)[list]
+#define PAGE_NEXT(s, page) VOXEL_POOL(s, fragments)[(page) * voxel_page_stride()]
 #define PAGE_DEMAND(s) VOXEL_HEADER(s).demand
 #define PAGE_CAPACITY(s) VOXEL_HEADER(s).capacity
 #include "ads/pages.glsl"

@@ -19,7 +19,7 @@
 
 // Adds one to the length of a contiguous list.
 void voxel_list_count_one(VoxelRef s, uint list) {
-    atomicAdd(VOXEL_LISTS(s)[list], 1u);
+    atomicAdd(VOXEL_POOL(s, lists)[list], 1u);
 }
 
 // Takes a place for a fragment of a list; VOXEL_NO_PLACE beyond the capacity, which is counted.
@@ -30,14 +30,14 @@ uint voxel_allocate(VoxelRef s, uint list) {
         uint slot = page_take_slot(s, list);
         return slot / VOXEL_PAGE < capacity ? slot : VOXEL_NO_PLACE;
     }
-    uint place = voxel_contiguous() ? atomicAdd(VOXEL_LISTS(s)[list], 1u) : atomicAdd(VOXEL_HEADER(s).demand, 1u);
+    uint place = voxel_contiguous() ? atomicAdd(VOXEL_POOL(s, lists)[list], 1u) : atomicAdd(VOXEL_HEADER(s).demand, 1u);
     return place < capacity ? place : VOXEL_NO_PLACE;
 }
 
 // Links a place in front of its list, where fragments are linked.
 void voxel_link(VoxelRef s, uint list, uint place) {
     if (!voxel_contiguous() && !voxel_paged()) {
-        voxel_set_word(s, place, voxel_stride(), atomicExchange(VOXEL_LISTS(s)[list], place + 1u));
+        voxel_set_word(s, place, voxel_stride(), atomicExchange(VOXEL_POOL(s, lists)[list], place + 1u));
     }
 }
 
@@ -46,8 +46,8 @@ uvec2 voxel_list(VoxelRef s, uint list) {
     if (list >= voxel_list_count(s)) {
         return uvec2(0u);
     }
-    uint begin = list == 0u ? 0u : VOXEL_LISTS(s)[list - 1u];
-    uint end = VOXEL_LISTS(s)[list];
+    uint begin = list == 0u ? 0u : VOXEL_POOL(s, lists)[list - 1u];
+    uint end = VOXEL_POOL(s, lists)[list];
     if (begin > end || end > voxel_stored(s)) {
         atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
         return uvec2(0u);
@@ -75,7 +75,7 @@ VoxelCursor voxel_list_begin(VoxelRef s, uint list) {
         uvec2 range = voxel_list(s, list);
         return VoxelCursor(range.x < range.y ? range.x + 1u : 0u, range.y, 0u, 0u, 0u);
     }
-    uint word = list < voxel_list_count(s) ? VOXEL_LISTS(s)[list] : 0u;
+    uint word = list < voxel_list_count(s) ? VOXEL_POOL(s, lists)[list] : 0u;
     return voxel_list_resume(s, list, voxel_paged() ? page_link(s, word) : word);
 }
 

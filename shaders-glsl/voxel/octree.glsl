@@ -43,7 +43,7 @@ uint octree_node(VoxelRef s, uint place) {
         atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
         return 0u;
     }
-    return VOXEL_NODES(s)[place];
+    return VOXEL_POOL(s, nodes)[place];
 }
 
 // The bits of a voxel. `level`: where they are zero, the voxel lies in a block of 2^level voxels along a side that holds

@@ -12,27 +12,27 @@ uint scan_count(VoxelRef s, uint step) {
 }
 
 uint scan_number(VoxelRef s, uint step, uint i) {
-    return step == VOXEL_SCAN_OCTANTS ? VOXEL_OCTANTS(s)[i] : VOXEL_LISTS(s)[i];
+    return step == VOXEL_SCAN_OCTANTS ? VOXEL_POOL(s, octants)[i] : VOXEL_POOL(s, lists)[i];
 }
 
 void scan_set_number(VoxelRef s, uint step, uint i, uint number) {
     if (step == VOXEL_SCAN_OCTANTS) {
-        VOXEL_OCTANTS(s)[i] = number;
+        VOXEL_POOL(s, octants)[i] = number;
     } else {
-        VOXEL_LISTS(s)[i] = number;
+        VOXEL_POOL(s, lists)[i] = number;
     }
 }
 
 // The octree's sums are behind its numbers.
 uint scan_sum(VoxelRef s, uint step, uint block) {
-    return step == VOXEL_SCAN_OCTANTS ? VOXEL_OCTANTS(s)[octree_upper_count(s) + block] : VOXEL_SCRATCH(s)[block];
+    return step == VOXEL_SCAN_OCTANTS ? VOXEL_POOL(s, octants)[octree_upper_count(s) + block] : VOXEL_POOL(s, scratch)[block];
 }
 
 void scan_set_sum(VoxelRef s, uint step, uint block, uint sum) {
     if (step == VOXEL_SCAN_OCTANTS) {
-        VOXEL_OCTANTS(s)[octree_upper_count(s) + block] = sum;
+        VOXEL_POOL(s, octants)[octree_upper_count(s) + block] = sum;
     } else {
-        VOXEL_SCRATCH(s)[block] = sum;
+        VOXEL_POOL(s, scratch)[block] = sum;
     }
 }
 

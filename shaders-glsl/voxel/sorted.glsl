@@ -10,12 +10,9 @@
 #include "voxel/names.glsl"
 #include "ads/build_constants.glsl"
 
-#define SortRef VoxelRef
-#define sort_built build.structure
-#define sort_round build.step
 #define SORT_HEADER(s) VOXEL_HEADER(s)
 // Behind the sums of the scan.
-#define SORT_WORD(s, place) VOXEL_SCRATCH(s)[voxel_scan_words(s) + (place)]
+#define SORT_WORD(s, place) VOXEL_POOL(s, scratch)[voxel_scan_words(s) + (place)]
 #define SORT_LIMIT SHORT_LIST_LIMIT
 #define SORT_LONG_LIMIT LONG_LIST_LIMIT
 #define SORT_LINKED (!voxel_contiguous())
@@ -62,9 +59,9 @@ bool linked_comes_first(VoxelRef s, uint left, uint right) {
         || (left < right && !sort_places_before(s, right - 1u, left - 1u));
 }
 
-uint linked_head(VoxelRef s, uint list) { return VOXEL_LISTS(s)[list]; }
+uint linked_head(VoxelRef s, uint list) { return VOXEL_POOL(s, lists)[list]; }
 
-void linked_set_ends(VoxelRef s, uint list, uint head, uint tail) { VOXEL_LISTS(s)[list] = head; }
+void linked_set_ends(VoxelRef s, uint list, uint head, uint tail) { VOXEL_POOL(s, lists)[list] = head; }
 
 #include "ads/sort_lists.glsl"
 
