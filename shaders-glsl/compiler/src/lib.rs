@@ -233,9 +233,34 @@ impl Permutation {
     }
 }
 
+/// The lines that one with `{x,y}` stands for: one for each choice in the name, where the group at the same place behind the
+/// `=` is its choice at the same place. A choice may be empty.
+fn choices(line: &str) -> Result<Vec<String>, String> {
+    let (name, rest) = line.split_once('=').ok_or("expected `name = entry MACRO=value ...`")?;
+    let group = |text: &str| -> Option<[String; 3]> {
+        let (before, behind) = text.split_once('{')?;
+        let (within, after) = behind.split_once('}')?;
+        Some([before, within, after].map(str::to_owned))
+    };
+    let ([before, within, after], [rest_before, rest_within, rest_after]) = match (group(name), group(rest)) {
+        (None, None) => return Ok(vec![line.to_owned()]),
+        (Some(of_name), Some(of_rest)) => (of_name, of_rest),
+        _ => return Err("the name has as many `{...}` as what follows `=`".to_owned()),
+    };
+    let (named, chosen): (Vec<_>, Vec<_>) = (within.split(',').collect(), rest_within.split(',').collect());
+    if named.len() != chosen.len() {
+        return Err(format!("`{{{within}}}` has not as many choices as `{{{rest_within}}}`"));
+    }
+    let mut lines = Vec::new();
+    for (name, choice) in named.into_iter().zip(chosen) {
+        lines.extend(choices(&format!("{before}{name}{after}={rest_before}{choice}{rest_after}"))?);
+    }
+    Ok(lines)
+}
+
 /// Reads the permutation list. `[feature+feature]` heads a section; with `.address` after it each of its modules is there
 /// once more, under its name with that ending and with `ADDRESSING_ADDRESS`. `name = entry MACRO=value ...` is a module;
-/// with `A<B=x,y,z` one for each pair, in whose name and features A and B stand for the two. `A<B=*` are the pairs of all
+/// with `{x,y}` in the name, and as many such groups of as many choices behind `=`, one for each choice; with `A<B=x,y,z` one for each pair, in whose name and features A and B stand for the two. `A<B=*` are the pairs of all
 /// values of `STRUCTURE` in the sections before with `.address`. `#` starts a comment.
 ///
 /// # Errors
@@ -258,28 +283,28 @@ pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
             };
             continue;
         }
-        let (name, rest) = line
-            .split_once('=')
-            .ok_or_else(|| format!("line {}: expected `name = entry MACRO=value ...`", number + 1))?;
-        let mut words = rest.split_whitespace();
-        let entry = words.next().ok_or_else(|| format!("line {}: no entry file", number + 1))?;
-        let defines = words
-            .map(|word| word.split_once('=').unwrap_or((word, "")))
-            .map(|(macro_name, value)| (macro_name.to_owned(), value.to_owned()))
-            .collect();
-        let line = Permutation {
-            name: name.trim().to_owned(),
-            entry: entry.to_owned(),
-            defines,
-            features: features.clone(),
-        };
-        if by_address {
-            let values = line.defines.iter().filter(|(name, _)| name == "STRUCTURE");
-            structures.extend(values.map(|(_, value)| value.clone()));
-        }
-        for module in line.pairs(&structures) {
-            let twin = by_address.then(|| module.by_address());
-            permutations.extend([Some(module), twin].into_iter().flatten());
+        for line in choices(line).map_err(|wrong| format!("line {}: {wrong}", number + 1))? {
+            let (name, rest) = line.split_once('=').unwrap_or_default();
+            let mut words = rest.split_whitespace();
+            let entry = words.next().ok_or_else(|| format!("line {}: no entry file", number + 1))?;
+            let defines = words
+                .map(|word| word.split_once('=').unwrap_or((word, "")))
+                .map(|(macro_name, value)| (macro_name.to_owned(), value.to_owned()))
+                .collect();
+            let line = Permutation {
+                name: name.trim().to_owned(),
+                entry: entry.to_owned(),
+                defines,
+                features: features.clone(),
+            };
+            if by_address {
+                let values = line.defines.iter().filter(|(name, _)| name == "STRUCTURE");
+                structures.extend(values.map(|(_, value)| value.clone()));
+            }
+            for module in line.pairs(&structures) {
+                let twin = by_address.then(|| module.by_address());
+                permutations.extend([Some(module), twin].into_iter().flatten());
+            }
         }
     }
     Ok(permutations)
@@ -305,8 +330,24 @@ mod tests {
     }
 
     #[test]
-    fn sections_and_pairs_stand_for_several_modules() {
+    fn sections_choices_and_pairs_stand_for_several_modules() {
         assert_eq!(names("[a]\nx = x.comp M=1 # why\n"), ["x M=1"]);
+        assert_eq!(names("[a]\nx{,.r} = x.comp M=1 {,R}"), ["x M=1", "x.r M=1 R="]);
+        assert_eq!(
+            names("[a]\nx{.p,.q}{.r,.s} = x{_1,_2}.comp M={R,S}"),
+            ["x.p.r M=R", "x.p.s M=S", "x.q.r M=R", "x.q.s M=S"]
+        );
+        let entries = read_permutations("[a]\nx_{p,q} = y_{p,q}.comp").expect("the list is well formed");
+        assert_eq!(
+            entries.into_iter().map(|module| module.entry).collect::<Vec<_>>(),
+            ["y_p.comp", "y_q.comp"]
+        );
+        for wrong in
+            ["x{p,q} = x.comp", "x = x.comp M={P,Q}", "x{p,q} = x.comp M={P,Q,R}", "x{p = x.comp {P}"]
+        {
+            let error = read_permutations(&format!("[a]\n{wrong}\n")).expect_err(wrong);
+            assert!(error.contains("line 2") && error.contains('{'), "{error}");
+        }
         assert_eq!(
             names("[a+b] .address\nx = x.comp M=1\n[c]\ny = y.comp"),
             ["x M=1", "x.address M=1 ADDRESSING_ADDRESS=", "y"]
