@@ -67,7 +67,7 @@ struct AbufferHeader {
     uint capacity;        // fragments or pages the pools hold
     uint near_demand;     // triangles that intersect the near region
     uint near_capacity;   // triangles that the near-region list holds
-    uint unsorted;        // lists longer than the reorder passes sort
+    uint unsorted;        // lists longer than the sort passes sort
     uint corrupted;       // list entries with an invalid index
     uint resolution;      // cells along a side of a face, border not counted
     uint samples;         // marching samples per face, ABUFFER_MARCH_SAMPLES only
@@ -77,7 +77,7 @@ struct AbufferHeader {
     float rounding_per_reach; // `rounding` over the reach
     float widest;         // side of a cell at a depth of 1, of the widest view
     float near_size;      // metres: half side of the near region
-    uint long_demand;     // lists too long for the first reorder pass
+    uint long_demand;     // lists too long for one dispatch of the sort
     vec3 eye;             // metres relative to the frame origin: common centre of the faces
     uint long_capacity;   // long lists that the scratch holds
     vec3 lower;           // lower corner of the geometry relative to the eye, metres

@@ -53,7 +53,7 @@ pub struct Build {
     conservative: Option<Visit>,
     lost: ComputePipeline,
     pyramid: Option<Pyramid>,
-    reorder: Option<ListSort>,
+    sort: Option<ListSort>,
     status: ComputePipeline,
 }
 
@@ -77,7 +77,7 @@ impl Build {
         let lengths = || Lengths::new(pipelines, covered("build_5_count", masked)?, "build_6_scan");
         let boxed = config.bounds == Bounds::Boxes;
         let sorted = if config.storage == Storage::Paged { ".pages" } else { "" };
-        let reorder = || ListSort::new(pipelines, "build_11_reorder", sorted, "build_12_reorder_long");
+        let sort = || ListSort::new(pipelines, "build_11_sort", sorted, "build_12_sort_long");
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
             large: visits.large("build_2_large")?,
@@ -99,7 +99,7 @@ impl Build {
             pyramid: (config.march == March::Pyramid)
                 .then(|| Pyramid::new(pipelines, "build_10_pyramid"))
                 .transpose()?,
-            reorder: config.sort.then(reorder).transpose()?,
+            sort: config.sort.then(sort).transpose()?,
             status: pipelines.compute("build_13_status")?,
         })
     }
@@ -148,7 +148,7 @@ impl Build {
         if let Some(pyramid) = &self.pyramid {
             pyramid.record(recorder, target, "abuffer/build_10_pyramid", &draws, Access::COMPUTE);
         }
-        if let Some(reorder) = &self.reorder {
+        if let Some(sort) = &self.sort {
             // Each page is sorted separately.
             let (sorted, linked) = match config.storage {
                 Storage::Paged => (target.pools.sizes().elements_of(Pool::Nodes), false),
@@ -156,7 +156,7 @@ impl Build {
                 _ => (lists, true),
             };
             let long = scratch(config).long_capacity(target.pools.sizes());
-            reorder.record(recorder, target, sorted, linked, long, Access::COMPUTE);
+            sort.record(recorder, target, sorted, linked, long, Access::COMPUTE);
         }
         target.status_pass(recorder, "abuffer/build_13_status", &self.status);
     }
