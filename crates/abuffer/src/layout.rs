@@ -3,7 +3,7 @@
 use rasray_ads::{AdsError, ListCounts, Pyramid, Scan, Scratch, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::abuffer::{ABUFFER_BOX_WORDS, ABUFFER_BOXES, ABUFFER_CAMERA};
 
-use crate::{Accept, Bounds, Builder, Config, Coverage, Header, March, Payload, Pool, Storage, Views};
+use crate::{Accept, Bounds, Builder, Config, Coverage, March, Payload, Pool, Storage, Views};
 
 /// Cells of all views, each with a border of one cell.
 pub fn cell_count(config: &Config) -> u64 {
@@ -153,7 +153,6 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     let cells = cell_count(config);
     let lists = cells * u64::from(config.lists());
     let sizes = [
-        (Pool::Header, 1, size_of::<Header>() as u64),
         (Pool::Bounds, bounds_and_blocks(config) + config.mark_sets() * demand.triangles.div_ceil(32), 4),
         (Pool::Lists, lists, 4 * list_words(config.storage)),
         (Pool::Nodes, demand.nodes, 4 * node_words(config)),

@@ -1,23 +1,24 @@
 //! The pools.
 
-rasray_ads::pool_names! {
+use crate::{Config, Contents, Header};
+
+rasray_ads::pools! {
     /// Pools of an A-buffer, in the order of their bindings.
-    pub enum Pool {
-        /// What shaders start from.
-        Header = "header",
+    pub enum Pool: Header {
         /// Depths of cells and blocks, and marks of triangles.
-        Bounds = "bounds",
+        Bounds "bounds" bounds_address => bounds,
         /// Heads or ends of lists.
-        Lists = "lists",
+        Lists "lists" lists_address => lists,
         /// Nodes of fragments, or of pages of them.
-        Nodes = "nodes",
+        Nodes "nodes" nodes_address => nodes,
         /// Payload of fragments, where it is not in the nodes.
-        Data = "data",
+        Data "data" data_address => data,
         /// Triangles in the near region.
-        Near = "near",
+        Near "near" near_address => near,
         /// Sums of the scan, long lists, and the large-triangle queue.
-        Scratch = "scratch",
+        Scratch "scratch" scratch_address => scratch,
         /// Nodes of the conservative lists.
-        Conservative = "conservative",
+        Conservative "conservative" conservative_address => conservative,
     }
+    Config => Contents { header, config }
 }

@@ -4,7 +4,7 @@ use std::mem::offset_of;
 
 use rasray_ads::{
     AdsError, BuildPipelines, Dependencies, Design, Geometry, ListCounts, Parts, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_NEAR_BOX;
@@ -75,14 +75,7 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
         camera_y,
         camera_z,
         triangles: (32 * mark_words(parts)).min(u32::MAX.into()) as u32,
-        bounds_address: pools.address_of(Pool::Bounds),
-        lists_address: pools.address_of(Pool::Lists),
-        nodes_address: pools.address_of(Pool::Nodes),
-        data_address: pools.address_of(Pool::Data),
-        near_address: pools.address_of(Pool::Near),
-        scratch_address: pools.address_of(Pool::Scratch),
         conservative_capacity: parts.elements(Pool::Conservative) as u32,
-        conservative_address: pools.address_of(Pool::Conservative),
         large_capacity: scratch(config).large_capacity(pools.sizes()) as u32,
         groups: [0, 0, bin_groups(widest_view(config))],
         ..Header::default()
@@ -203,20 +196,6 @@ impl Design for Build {
             + parts.rounds(header.conservative_demand.min(parts.elements(Pool::Conservative) as u32))
     }
 
-    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
-        let config = &parts.config;
-        match pool {
-            Pool::Nodes | Pool::Data => Some(asked.nodes),
-            Pool::Near => Some(asked.near_triangles),
-            Pool::Scratch => Some(scratch(config).words(asked.large, asked.long_lists)),
-            Pool::Conservative => Some(asked.conservative),
-            Pool::Bounds => {
-                Some(bounds_and_blocks(config) + config.mark_sets() * asked.triangles.div_ceil(32))
-            }
-            _ => None,
-        }
-    }
-
     fn report(parts: &Parts<Config>, header: &Header, asked: &Demand) -> StructureReport {
         let formula = formula_bytes(&parts.config, *asked);
         let fragments = match parts.config.storage {
@@ -240,16 +219,5 @@ impl Design for Build {
 
     fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
         contents.list_counts().map_err(|fault| fault.to_string())
-    }
-
-    pools_of_words! {
-        Contents with config;
-        Bounds => bounds,
-        Lists => lists,
-        Nodes => nodes,
-        Data => data,
-        Near => near,
-        Scratch => scratch,
-        Conservative => conservative,
     }
 }

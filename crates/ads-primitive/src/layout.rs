@@ -4,7 +4,7 @@ use rasray_ads::{AdsError, Geometry, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::ads::BIN_BLOCK;
 use rasray_shaders_glsl::constants::primitive as numbers;
 
-use crate::{Builder, Config, Header, Pool, Storage, Views};
+use crate::{Builder, Config, Pool, Storage, Views};
 
 /// The demand of a build.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -76,7 +76,6 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     let sums = if config.storage == Storage::Contiguous { Scan::sums(lists) } else { 0 };
     let pool = |pool, elements, words: u64| (pool, elements, 4 * words);
     let pools = [
-        (Pool::Header, 1, size_of::<Header>() as u64),
         pool(Pool::Bounds, cells * bounds_words(config) + pyramid_words(config), 1),
         pool(Pool::Lists, lists, 1),
         pool(Pool::Entries, demand.entries, entry_words(config.storage)),

@@ -1,21 +1,22 @@
 //! The pools.
 
-rasray_ads::pool_names! {
+use crate::{Config, Contents, Header};
+
+rasray_ads::pools! {
     /// Pools of primitive lists, in the order of their bindings.
-    pub enum Pool {
-        /// What shaders start from.
-        Header = "header",
+    pub enum Pool: Header {
         /// Depths of tiles, and of blocks of them.
-        Bounds = "bounds",
+        Bounds "bounds" bounds_address => bounds,
         /// Heads or ends of lists.
-        Lists = "lists",
+        Lists "lists" lists_address => lists,
         /// Triangles of all lists.
-        Entries = "entries",
+        Entries "entries" entries_address => entries,
         /// Sums of the scan.
-        Sums = "sums",
+        Sums "sums" sums_address,
         /// Triangles in the near region.
-        Near = "near",
+        Near "near" near_address => near,
         /// The large-triangle queue.
-        Large = "large",
+        Large "large" large_address,
     }
+    Config => Contents { header, config }
 }

@@ -4,7 +4,7 @@ use std::mem::offset_of;
 
 use rasray_ads::{
     AdsError, BuildPipelines, CameraView, Dependencies, Design, Geometry, ListCounts, Parts, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, pools_of_words,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Feature, Recorder, Requirements};
 
@@ -39,7 +39,7 @@ fn camera_columns(config: &Config, viewpoint: Viewpoint) -> Result<[[f32; 3]; 3]
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
-    let Parts { config, pools, .. } = parts;
+    let config = &parts.config;
     let [camera_x, camera_y, camera_z] = camera_columns(config, viewpoint)?;
     Ok(Header {
         capacity: parts.elements(Pool::Entries) as u32,
@@ -50,12 +50,6 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
         camera_x,
         camera_y,
         camera_z,
-        bounds_address: pools.address_of(Pool::Bounds),
-        lists_address: pools.address_of(Pool::Lists),
-        entries_address: pools.address_of(Pool::Entries),
-        sums_address: pools.address_of(Pool::Sums),
-        near_address: pools.address_of(Pool::Near),
-        large_address: pools.address_of(Pool::Large),
         large_capacity: parts.elements(Pool::Large) as u32,
         groups: [0, 0, bin_groups(config)],
         ..Header::default()
@@ -156,15 +150,6 @@ impl Design for Passes {
         parts.rounds_with_distant_rays()
     }
 
-    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
-        match pool {
-            Pool::Entries => Some(asked.entries),
-            Pool::Near => Some(asked.near),
-            Pool::Large => Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements_of(pool))),
-            _ => None,
-        }
-    }
-
     fn report(parts: &Parts<Config>, _header: &Header, asked: &Demand) -> StructureReport {
         StructureReport {
             options: parts.config.options(),
@@ -181,13 +166,5 @@ impl Design for Passes {
 
     fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
         contents.list_counts().map_err(|fault| fault.to_string())
-    }
-
-    pools_of_words! {
-        Contents with config;
-        Bounds => bounds,
-        Lists => lists,
-        Entries => entries,
-        Near => near,
     }
 }

@@ -3,12 +3,12 @@
 use std::fmt;
 
 use bytemuck::Pod;
-use rasray_gpu::{BindingSet, ComputePipeline, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, ComputePipeline, Device, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::{
-    AdsError, BuildPipelines, BuildTarget, Configured, Dependencies, Geometry, ListCounts, PoolName, Pools,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
+    AdsError, BuildPipelines, BuildTarget, Configured, Dependencies, Geometry, ListCounts, PoolContents,
+    PoolName, Pools, RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 
 /// Work units that a ray may spend in a dispatch where the device is not a CPU: nearly every ray needs one dispatch
@@ -20,9 +20,6 @@ const HARDWARE_WORK_BUDGET: u32 = 16 * TRACE_WORK_BUDGET;
 pub fn default_work_budget(device: &Device) -> u32 {
     if device.is_software() { TRACE_WORK_BUDGET } else { HARDWARE_WORK_BUDGET }
 }
-
-/// Pools with their bytes.
-pub type PoolBytes<'a, P> = Vec<(P, &'a [u8])>;
 
 /// Numbers of elements that only a build counts, and other inputs of planning.
 pub trait Demand: Copy {
@@ -92,9 +89,9 @@ pub trait Design: fmt::Debug + Sized {
     /// The demand of builds.
     type Demand: Demand;
     /// Its pools.
-    type Pool: PoolName;
+    type Pool: PoolName<Header = Self::Header>;
     /// Pools on the host, for checks.
-    type Contents;
+    type Contents: PoolContents<Self::Config, Self::Pool>;
 
     /// [`Structure::name`](crate::Structure::name); the folder of its shaders, and the prefix of what they declare.
     const NAME: &'static str;
@@ -213,7 +210,7 @@ pub trait Design: fmt::Debug + Sized {
     /// Pools were written from outside: nothing that an earlier build left in them can be relied on.
     fn overwritten(&self) {}
 
-    /// The header that the next build starts from: options, capacities, addresses, eye. What follows from the bounds of the
+    /// The header that the next build starts from: options, capacities, eye. [`Pools::begin`] adds the addresses. What follows from the bounds of the
     /// geometry, which only the device knows, is worked out there: by the structure's `from_bounds.glsl`.
     ///
     /// # Errors
@@ -252,22 +249,14 @@ pub trait Design: fmt::Debug + Sized {
         None
     }
 
-    /// Elements of a pool that are in use; absent where all are.
-    fn used(parts: &Parts<Self::Config>, asked: &Self::Demand, pool: Self::Pool) -> Option<u64>;
+    /// Elements of a pool that are in use: what is planned for the demand, unless a build uses less. Absent where nothing
+    /// can be planned for it.
+    fn used(parts: &Parts<Self::Config>, asked: &Self::Demand, pool: Self::Pool) -> Option<u64> {
+        Some(Self::plan(&parts.config, asked).ok()?.elements_of(pool))
+    }
 
     /// The report, but for [`StructureReport::bytes_by_part`].
     fn report(parts: &Parts<Self::Config>, header: &Self::Header, asked: &Self::Demand) -> StructureReport;
-
-    /// Pools as downloaded.
-    ///
-    /// # Errors
-    /// The device failed.
-    fn download(
-        &self,
-        parts: &Parts<Self::Config>,
-        device: &Device,
-        header: Self::Header,
-    ) -> Result<Self::Contents, GpuError>;
 
     /// What is wrong with the pools after a build over that number of triangles.
     fn fault(contents: &Self::Contents, triangles: u32) -> Option<String>;
@@ -279,42 +268,6 @@ pub trait Design: fmt::Debug + Sized {
     fn list_counts(_contents: &Self::Contents) -> Result<Vec<ListCounts>, String> {
         Ok(Vec::new())
     }
-
-    /// Header and other pools to write back, with their bytes.
-    fn pools_of(contents: &Self::Contents) -> (Self::Header, PoolBytes<'_, Self::Pool>);
-}
-
-/// [`Design::download`] and [`Design::pools_of`] of contents whose
-/// pools are words: one list of the pools with their fields, for both directions. Contents that keep the configuration
-/// name its field: `pools_of_words!(Contents with config; Lists => lists, Entries => entries)`. It names the enum `Pool` of the
-/// structure and the crate `rasray_gpu`.
-#[macro_export]
-macro_rules! pools_of_words {
-    ($contents:ident $(with $config:ident)?; $($pool:ident => $field:ident),+ $(,)?) => {
-        fn download(
-            &self,
-            parts: &$crate::Parts<Self::Config>,
-            device: &rasray_gpu::Device,
-            header: Self::Header,
-        ) -> Result<Self::Contents, rasray_gpu::GpuError> {
-            Ok($contents {
-                $($config: parts.config,)?
-                header,
-                $($field: parts.pools.download_words(device, Pool::$pool)?,)+
-            })
-        }
-
-        fn pools_of(contents: &Self::Contents) -> (Self::Header, $crate::PoolBytes<'_, Self::Pool>) {
-            let pools = vec![$((Pool::$pool, $crate::bytes_of_words(&contents.$field)),)+];
-            (contents.header, pools)
-        }
-    };
-}
-
-/// Words as the bytes that are uploaded, for [`pools_of_words!`].
-#[doc(hidden)]
-pub fn bytes_of_words(words: &[u32]) -> &[u8] {
-    bytemuck::cast_slice(words)
 }
 
 #[cfg(test)]

@@ -8,9 +8,10 @@ use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Counters, Demand, Dependencies, Design,
-    Domain, Geometry, GeometryRigid, InlineTrace, ListCounts, Modules, PartRays, Parts, PoolName, PoolSize,
-    PoolStatus, Pools, RayQueue, RecordLayout, SceneBinding, Sizes, Structure, StructureKind,
-    StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, TracedPart, Viewpoint, default_work_budget,
+    Domain, Geometry, GeometryRigid, InlineTrace, ListCounts, Modules, PartRays, Parts, PoolContents,
+    PoolName, PoolSize, PoolStatus, Pools, RayQueue, RecordLayout, SceneBinding, Sizes, Structure,
+    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, TracedPart, Viewpoint,
+    default_work_budget,
 };
 
 /// A demand that [varies](Design::varies) is met with capacity for one in so many more. Pages of a small scene differ by up to
@@ -142,7 +143,7 @@ impl<D: Design> Pooled<D> {
     /// The device failed.
     pub fn download(&self, device: &Device) -> Result<D::Contents, GpuError> {
         let header = device.download_as::<D::Header>(self.parts.pools.header_buffer(), 0, 1)?[0];
-        self.design.download(&self.parts, device, header)
+        D::Contents::download(&self.parts, device, header)
     }
 
     /// Writes back what [`Pooled::download`] returned, or what was made of it. Submits and waits: for tests and tools.
@@ -152,7 +153,7 @@ impl<D: Design> Pooled<D> {
     /// A pool is larger than what was allocated, or the device failed.
     pub fn upload(&self, device: &Device, contents: &D::Contents) -> Result<(), GpuError> {
         self.design.overwritten();
-        let (header, pools) = D::pools_of(contents);
+        let (header, pools) = contents.pools();
         device.upload(self.parts.pools.header_buffer(), 0, bytes_of(&header))?;
         pools.into_iter().try_for_each(|(pool, bytes)| device.upload(self.parts.pools.pool(pool), 0, bytes))
     }
@@ -276,7 +277,7 @@ impl<D: Design> Structure for Pooled<D> {
         viewpoint: Viewpoint,
     ) -> Result<(), AdsError> {
         let header = self.design.first_header(&self.parts, viewpoint)?;
-        self.parts.pools.begin(slot, &header)?;
+        self.parts.pools.begin::<D::Pool>(slot, header)?;
         self.is_scene_new = false;
         if self.follows {
             self.traced.record_gather(recorder);

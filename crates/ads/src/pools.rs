@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use bytemuck::{AnyBitPattern, NoUninit};
+use bytemuck::AnyBitPattern;
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, Recorder,
     SetLayout,
@@ -12,15 +12,12 @@ use rasray_gpu::{
 use crate::addressing::halves;
 use crate::slots::Slots;
 use crate::{
-    Addressing, AdsError, Domain, Geometry, InlineTrace, Lookup, PoolName, PoolSize, QueueHeader, RayQueue,
-    Sizes, TraceKernels, TraceMode, TracedPart,
+    Addressing, AdsError, Domain, Geometry, HEADER_POOL, InlineTrace, Lookup, PoolName, PoolSize,
+    QueueHeader, RayQueue, Sizes, TraceKernels, TraceMode, TracedPart,
 };
 
 /// Where the header of a queue notes how many list entries with an invalid index a structure met.
 const NOTED: u64 = offset_of!(QueueHeader, corrupted) as u64;
-
-/// The header's name among the pools; it is the first.
-const HEADER: &str = "header";
 
 /// Factor by which the number of rounds grows where rays did not finish.
 const MORE_ROUNDS: u32 = 4;
@@ -63,7 +60,7 @@ impl Pools {
             Addressing::Address => 0,
         };
         let layout = device.create_set_layout(structure, bindings)?;
-        let header_bytes = bytes(sizes, HEADER);
+        let header_bytes = bytes(sizes, HEADER_POOL);
         let (pools, set) = allocate(device, structure, addressing, &layout, sizes)?;
         Ok(Self {
             structure,
@@ -147,7 +144,7 @@ impl Pools {
     }
 
     /// Device address of a pool as a header holds it, low word first; zero with descriptors.
-    pub fn address_of(&self, pool: impl PoolName) -> [u32; 2] {
+    fn address_of(&self, pool: impl PoolName) -> [u32; 2] {
         let address = match self.addressing {
             Addressing::Descriptor => 0,
             Addressing::Address => self.pool(pool).address().unwrap_or(0),
@@ -155,27 +152,36 @@ impl Pools {
         halves(address)
     }
 
-    /// Takes the header that the passes recorded next start from, and the slot that keeps their outcome. Each recording
-    /// has its own header: builds that wait for the device together do not share one.
+    /// Takes the header that the passes recorded next start from, but for the addresses of `P`, and the slot that keeps
+    /// their outcome. Each recording has its own header: builds that wait for the device together do not share one.
     ///
     /// # Errors
     /// There is no such slot.
     ///
     /// # Panics
-    /// The header is not as long as its pool: a structure plans its own.
-    pub fn begin<H: NoUninit>(&mut self, slot: u32, header: &H) -> Result<(), AdsError> {
+    /// The pools are those of another structure.
+    pub fn begin<P: PoolName>(&mut self, slot: u32, header: P::Header) -> Result<(), AdsError> {
         self.slots.begin(slot)?;
-        self.header.copy_from_slice(bytemuck::bytes_of(header));
+        self.keep_header::<P>(header);
         Ok(())
     }
 
-    /// Takes the header that the passes recorded next start from, where nobody asks for their outcome.
+    /// As [`Pools::begin`], where nobody asks for the outcome.
     ///
     /// # Panics
-    /// The header is not as long as its pool.
-    pub fn set_header<H: NoUninit>(&mut self, header: &H) {
-        self.header.copy_from_slice(bytemuck::bytes_of(header));
+    /// The pools are those of another structure.
+    pub fn begin_unread<P: PoolName>(&mut self, header: P::Header) {
         self.slots.begin_unread();
+        self.keep_header::<P>(header);
+    }
+
+    fn keep_header<P: PoolName>(&mut self, mut header: P::Header) {
+        for pool in P::ALL {
+            if let Some(address) = pool.address_in(&mut header) {
+                *address = self.address_of(*pool);
+            }
+        }
+        self.header.copy_from_slice(bytemuck::bytes_of(&header));
     }
 
     /// Records the header, zeros in the pools of `cleared` and the check of the triangles, visible to `readers`.
@@ -345,7 +351,8 @@ fn allocate(
         BufferUsage::STORAGE | BufferUsage::INDIRECT | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST;
     // Fresh memory may hold the header of a structure that was dropped: nothing is built until it says so.
     let name = |pool: &str| format!("{structure} {pool}");
-    let mut pools = vec![device.create_buffer_of_zeros(&name(HEADER), usage, bytes(sizes, HEADER))?];
+    let mut pools =
+        vec![device.create_buffer_of_zeros(&name(HEADER_POOL), usage, bytes(sizes, HEADER_POOL))?];
     for pool in sizes.pools.iter().skip(1) {
         pools.push(device.create_buffer(&BufferDesc {
             name: &name(pool.name),

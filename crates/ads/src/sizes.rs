@@ -2,7 +2,7 @@
 
 use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
-use crate::{AdsError, PoolName};
+use crate::{AdsError, HEADER_POOL, PoolName};
 
 /// One pool of a structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,8 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Pools of a structure with their elements and the bytes of one, in the order of their bindings.
+    /// Pools of a structure: the header, then the others with their elements and the bytes of one, in the order of their
+    /// bindings.
     ///
     /// # Errors
     /// A pool has more words than 32-bit indices can address with one value reserved for "none" or "more".
@@ -31,12 +32,14 @@ impl Sizes {
         structure: &'static str,
         pools: impl IntoIterator<Item = (P, u64, u64)>,
     ) -> Result<Self, AdsError> {
+        let header =
+            PoolSize { name: HEADER_POOL, elements: 1, element_bytes: size_of::<P::Header>() as u64 };
         let named = |(pool, elements, element_bytes): (P, u64, u64)| PoolSize {
             name: pool.name(),
             elements,
             element_bytes,
         };
-        let pools: Vec<_> = pools.into_iter().map(named).collect();
+        let pools: Vec<_> = [header].into_iter().chain(pools.into_iter().map(named)).collect();
         let is_too_large =
             |pool: &&PoolSize| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX);
         match pools.iter().find(is_too_large) {

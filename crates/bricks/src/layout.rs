@@ -4,7 +4,7 @@ use rasray_ads::{AdsError, Geometry, Scan, Sizes};
 use rasray_shaders_glsl::constants::bricks as numbers;
 
 use crate::grid::BRICK_SIDE;
-use crate::{Config, Header, Pool, Views};
+use crate::{Config, Pool, Views};
 
 /// Words of a record: a triangle in cells of a brick.
 const RECORD_WORDS: u64 = 4;
@@ -52,7 +52,6 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     let distances = if config.skip { of_views } else { 0 };
     let pool = |pool, elements, words: u64| (pool, elements, 4 * words);
     let pools = [
-        (Pool::Header, 1, size_of::<Header>() as u64),
         pool(Pool::Bricks, demand.bricks.max(of_views), config.brick_words().into()),
         pool(Pool::Lists, demand.cells, if config.divides() { 2 } else { 1 }),
         pool(Pool::Entries, demand.entries, 1),

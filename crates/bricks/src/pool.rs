@@ -1,23 +1,24 @@
 //! The pools.
 
-rasray_ads::pool_names! {
+use crate::{Config, Contents, Header};
+
+rasray_ads::pools! {
     /// Pools of bricks, in the order of their bindings.
-    pub enum Pool {
-        /// What shaders start from.
-        Header = "header",
+    pub enum Pool: Header {
         /// Words and masks of bricks.
-        Bricks = "bricks",
+        Bricks "bricks" bricks_address => bricks,
         /// Where the list of each cell that has one ends.
-        Lists = "lists",
+        Lists "lists" lists_address => lists,
         /// Triangles of all lists.
-        Entries = "entries",
+        Entries "entries" entries_address => entries,
         /// Sums of scans, later distances.
-        Sums = "sums",
+        Sums "sums" sums_address,
         /// Triangles in the near region.
-        Near = "near",
+        Near "near" near_address => near,
         /// Records: triangles in columns.
-        Records = "records",
+        Records "records" records_address,
         /// Corners of triangles; during the build the large-triangle queue.
-        Triangles = "triangles",
+        Triangles "triangles" triangles_address,
     }
+    Config => Contents { header, config }
 }

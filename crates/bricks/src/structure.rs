@@ -4,7 +4,7 @@ use std::mem::offset_of;
 
 use rasray_ads::{
     AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, box_ignores_eye, pools_of_words,
+    Sizes, StructureKind, StructureReport, Viewpoint, box_ignores_eye,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
@@ -40,7 +40,6 @@ fn groups_of_levels(first: u32) -> [u32; 12] {
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
-    let Parts { pools, .. } = parts;
     let (cells, fits) = cells(parts);
     let of_views = bricks_of(parts.config.views, cells).1 as u32;
     Header {
@@ -56,13 +55,6 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
         rows: cells[1],
         slices: cells[2],
         eye,
-        bricks_address: pools.address_of(Pool::Bricks),
-        lists_address: pools.address_of(Pool::Lists),
-        entries_address: pools.address_of(Pool::Entries),
-        sums_address: pools.address_of(Pool::Sums),
-        near_address: pools.address_of(Pool::Near),
-        records_address: pools.address_of(Pool::Records),
-        triangles_address: pools.address_of(Pool::Triangles),
         record_capacity: parts.elements(Pool::Records) as u32,
         cell_capacity: parts.elements(Pool::Lists) as u32,
         // None where bricks do not fit, so that the build is not complete.
@@ -198,19 +190,6 @@ impl Design for Passes {
         parts.rounds_with_distant_rays()
     }
 
-    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
-        match pool {
-            Pool::Entries => Some(asked.entries),
-            Pool::Near => Some(asked.near),
-            Pool::Records => Some(asked.records),
-            Pool::Lists => Some(asked.cells),
-            Pool::Bricks => Some(asked.bricks),
-            Pool::Sums => Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements_of(pool))),
-            Pool::Triangles => Some(asked.triangles),
-            _ => None,
-        }
-    }
-
     fn report(parts: &Parts<Config>, _header: &Header, asked: &Demand) -> StructureReport {
         StructureReport {
             options: parts.config.options(asked.grid),
@@ -223,13 +202,5 @@ impl Design for Passes {
 
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
-    }
-
-    pools_of_words! {
-        Contents with config;
-        Bricks => bricks,
-        Lists => lists,
-        Entries => entries,
-        Near => near,
     }
 }

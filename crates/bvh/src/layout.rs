@@ -6,7 +6,7 @@ use rasray_shaders_glsl::constants::bvh::{
     BVH_UNION,
 };
 
-use crate::{Builder, Config, Header, Pool, Record, Width};
+use crate::{Builder, Config, Pool, Record, Width};
 
 /// Name of the structure in errors.
 pub(crate) const NAME: &str = "bvh";
@@ -79,7 +79,6 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
     Sizes::of(
         NAME,
         [
-            pool(Pool::Header, 1, size_of::<Header>()),
             pool(Pool::Nodes, nodes, config.made_width().node_bytes()),
             pool(Pool::Records, triangles, size_of::<Record>()),
             pool(Pool::Scratch, scratch_words(config.builder, triangles), size_of::<u32>()),

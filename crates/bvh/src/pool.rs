@@ -1,15 +1,15 @@
 //! The pools.
 
-rasray_ads::pool_names! {
+use crate::Header;
+
+rasray_ads::pools! {
     /// Pools of a tree, in the order of their bindings.
-    pub enum Pool {
-        /// What shaders start from.
-        Header = "header",
+    pub enum Pool: Header {
         /// Inner nodes.
-        Nodes = "nodes",
+        Nodes "nodes" nodes_address,
         /// Corners of triangles, in the order of leaves.
-        Records = "records",
+        Records "records" records_address,
         /// What only the build uses.
-        Scratch = "scratch",
+        Scratch "scratch" scratch_address,
     }
 }

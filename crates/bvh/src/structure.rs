@@ -2,18 +2,17 @@
 
 use std::mem::offset_of;
 
-use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, PoolBytes, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint,
 };
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Device, Recorder, Requirements};
 use rasray_shaders_glsl::constant_ids::bvh::BVH_WIDTH;
 use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
 
 use crate::build::Build;
 use crate::host::{self, Box3};
-use crate::layout::{BOX_WORDS, NAME, formula_bytes, most_nodes, pair_elements, plan};
+use crate::layout::{BOX_WORDS, NAME, formula_bytes, pair_elements, plan};
 use crate::order::Order;
 use crate::wide::widened;
 use crate::{Builder, Config, Contents, Header, Node, Pool, Record, WideNode, Width, well_formed};
@@ -84,7 +83,7 @@ fn has_capacity(parts: &Parts<Config>) -> bool {
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, Prepared { root, nodes, triangles }: Prepared) -> Header {
-    let Parts { config, pools, .. } = parts;
+    let config = &parts.config;
     let has_capacity = has_capacity(parts);
     let capacity = |pool| if has_capacity { parts.elements(pool) as u32 } else { 0 };
     let pair_elements = if has_capacity { pair_elements(config, triangles.into()) as u32 } else { 0 };
@@ -106,9 +105,6 @@ fn first_header(parts: &Parts<Config>, Prepared { root, nodes, triangles }: Prep
         scratch_capacity: capacity(Pool::Scratch),
         order_offset,
         order_stride,
-        nodes_address: pools.address_of(Pool::Nodes),
-        records_address: pools.address_of(Pool::Records),
-        scratch_address: pools.address_of(Pool::Scratch),
         node_count: nodes,
         pair_capacity,
         ..Header::default()
@@ -207,7 +203,7 @@ impl Design for Tree {
             self.prepared = Some(unknown);
             return Ok(());
         }
-        parts.pools.set_header(&first_header(parts, unknown));
+        parts.pools.begin_unread::<Pool>(first_header(parts, unknown));
         device.submit(|recorder| self.build.record_boxes(recorder, parts.target(None)))?;
         let triangles = parts.geometry.download_count(device)?;
         let boxes = device.download_as::<Box3>(parts.pools.pool(Pool::Scratch), 0, triangles as usize)?;
@@ -296,6 +292,7 @@ impl Design for Tree {
         Some(most_rounds(parts))
     }
 
+    /// A tree may have fewer nodes than its triangles could need.
     fn used(_parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
         match pool {
             Pool::Header => None,
@@ -315,32 +312,7 @@ impl Design for Tree {
         }
     }
 
-    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
-        let triangles = header.triangle_count as usize;
-        let width = parts.config.made_width();
-        let nodes = most_nodes(width, triangles as u64).min(header.node_count.into()) as usize;
-        let [two, four] = match width {
-            Width::Two => [nodes, 0],
-            Width::Four => [0, nodes],
-        };
-        Ok(Contents {
-            header,
-            nodes: device.download_as::<Node>(parts.pools.pool(Pool::Nodes), 0, two)?,
-            wide_nodes: device.download_as::<WideNode>(parts.pools.pool(Pool::Nodes), 0, four)?,
-            records: device.download_as::<Record>(parts.pools.pool(Pool::Records), 0, triangles)?,
-        })
-    }
-
     fn fault(contents: &Contents, _triangles: u32) -> Option<String> {
         well_formed(contents).err().map(|fault| fault.to_string())
-    }
-
-    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let nodes = match contents.nodes[..] {
-            [] => cast_slice(&contents.wide_nodes),
-            _ => cast_slice(&contents.nodes),
-        };
-        let pools = vec![(Pool::Nodes, nodes), (Pool::Records, cast_slice(&contents.records))];
-        (contents.header, pools)
     }
 }

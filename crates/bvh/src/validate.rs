@@ -1,9 +1,13 @@
 //! Checks the contents of a built tree.
 
+use bytemuck::cast_slice;
+use rasray_ads::{Parts, PoolBytes, PoolContents};
+use rasray_gpu::{Device, GpuError};
 use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_LEAF_SHIFT, BVH_NONE, BVH_WIDE};
 
 use crate::host::{Box3, triangles_of, union};
-use crate::{Header, Node, Record, WideNode};
+use crate::layout::most_nodes;
+use crate::{Config, Header, Node, Pool, Record, WideNode, Width};
 
 /// A tree as downloaded.
 #[derive(Clone, Debug)]
@@ -16,6 +20,32 @@ pub struct Contents {
     pub wide_nodes: Vec<WideNode>,
     /// Triangles in the order of the leaves.
     pub records: Vec<Record>,
+}
+
+impl PoolContents<Config, Pool> for Contents {
+    fn download(parts: &Parts<Config>, device: &Device, header: Header) -> Result<Self, GpuError> {
+        let triangles = header.triangle_count as usize;
+        let width = parts.config.made_width();
+        let nodes = most_nodes(width, triangles as u64).min(header.node_count.into()) as usize;
+        let [two, four] = match width {
+            Width::Two => [nodes, 0],
+            Width::Four => [0, nodes],
+        };
+        Ok(Self {
+            header,
+            nodes: device.download_as::<Node>(parts.pools.pool(Pool::Nodes), 0, two)?,
+            wide_nodes: device.download_as::<WideNode>(parts.pools.pool(Pool::Nodes), 0, four)?,
+            records: device.download_as::<Record>(parts.pools.pool(Pool::Records), 0, triangles)?,
+        })
+    }
+
+    fn pools(&self) -> (Header, PoolBytes<'_, Pool>) {
+        let nodes = match self.nodes[..] {
+            [] => cast_slice(&self.wide_nodes),
+            _ => cast_slice(&self.nodes),
+        };
+        (self.header, vec![(Pool::Nodes, nodes), (Pool::Records, cast_slice(&self.records))])
+    }
 }
 
 impl Contents {

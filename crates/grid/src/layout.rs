@@ -2,7 +2,7 @@
 
 use rasray_ads::{AdsError, Geometry, Scan, Sizes};
 
-use crate::{Config, Header, Pool};
+use crate::{Config, Pool};
 
 /// The demand of a build.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,7 +30,6 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     let cells = cell_count(demand.cells).max(1);
     let pool = |pool, elements| (pool, elements, 4);
     let pools = [
-        (Pool::Header, 1, size_of::<Header>() as u64),
         pool(Pool::Lists, cells),
         pool(Pool::Entries, demand.entries),
         pool(Pool::Scratch, Scan::sums(cells) + demand.triangles),

@@ -1,15 +1,16 @@
 //! The pools.
 
-rasray_ads::pool_names! {
+use crate::{Config, Contents, Header};
+
+rasray_ads::pools! {
     /// Pools of a grid, in the order of their bindings.
-    pub enum Pool {
-        /// What shaders start from.
-        Header = "header",
+    pub enum Pool: Header {
         /// Where the list of each cell ends.
-        Lists = "lists",
+        Lists "lists" lists_address => lists,
         /// Triangles of all lists.
-        Entries = "entries",
+        Entries "entries" entries_address => entries,
         /// Sums of the scan, and the large-triangle queue.
-        Scratch = "scratch",
+        Scratch "scratch" scratch_address,
     }
+    Config => Contents { header }
 }

@@ -5,7 +5,6 @@ use std::mem::offset_of;
 use rasray_ads::{
     AdsError, BuildPipelines, Dependencies, Design, Geometry, ListCounts, Parts, Pooled, RecordLayout, Scan,
     SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, box_ignores_eye,
-    pools_of_words,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
@@ -36,15 +35,11 @@ fn turns(cells: [u32; 3]) -> u64 {
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
-    let Parts { pools, .. } = parts;
     let (cells, fits) = cells(parts);
     Header {
         capacity: parts.elements(Pool::Entries) as u32,
         cells,
         eye,
-        lists_address: pools.address_of(Pool::Lists),
-        entries_address: pools.address_of(Pool::Entries),
-        scratch_address: pools.address_of(Pool::Scratch),
         // None where cells do not fit, so that the build is not complete.
         triangle_capacity: if fits { queue_capacity(parts) } else { 0 },
         groups: [0, 0, bin_groups(turns(cells))],
@@ -147,16 +142,6 @@ impl Design for Passes {
         parts.rounds_with_distant_rays()
     }
 
-    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
-        match pool {
-            Pool::Header => None,
-            Pool::Entries => Some(asked.entries),
-            Pool::Lists | Pool::Scratch => {
-                Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements_of(pool)))
-            }
-        }
-    }
-
     fn report(parts: &Parts<Config>, _header: &Header, asked: &Demand) -> StructureReport {
         StructureReport {
             options: parts.config.options(asked.cells),
@@ -173,11 +158,5 @@ impl Design for Passes {
 
     fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
         Ok(vec![contents.list_counts().map_err(|fault| fault.to_string())?])
-    }
-
-    pools_of_words! {
-        Contents;
-        Lists => lists,
-        Entries => entries,
     }
 }

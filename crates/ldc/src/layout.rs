@@ -4,7 +4,7 @@ use rasray_ads::{AdsError, Scan, Scratch, Sizes};
 
 use rasray_shaders_glsl::constants::ldc::LDC_LEVEL_BLOCKS;
 
-use crate::{Builder, Config, Depth, Header, Making, Occupancy, Payload, Pool};
+use crate::{Builder, Config, Depth, Making, Occupancy, Payload, Pool};
 
 /// Cells of all three views.
 pub fn cell_count(resolution: u32) -> u64 {
@@ -53,7 +53,6 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     let (heads, conservative) =
         if config.has_conservative_lists() { (cells, demand.conservative) } else { (0, 0) };
     let sizes = [
-        (Pool::Header, 1, size_of::<Header>() as u64),
         (Pool::Lists, cells, 4),
         (Pool::Depths, depth_words, 4),
         (Pool::Payload, demand.fragments, config.payload_bytes()),

@@ -1,23 +1,24 @@
 //! The pools.
 
-rasray_ads::pool_names! {
+use crate::{Config, Contents, Header};
+
+rasray_ads::pools! {
     /// Pools of a layered depth cube, in the order of their bindings.
-    pub enum Pool {
-        /// What shaders start from.
-        Header = "header",
+    pub enum Pool: Header {
         /// Where the fragments of each cell end.
-        Lists = "lists",
+        Lists "lists" lists_address => lists,
         /// Depths of fragments.
-        Depths = "depths",
+        Depths "depths" depths_address => depths,
         /// Payload of fragments, in addition to their depth.
-        Payload = "payload",
+        Payload "payload" payload_address => payload,
         /// Depths of blocks of cells.
-        Blocks = "blocks",
+        Blocks "blocks" blocks_address => blocks,
         /// Heads of the conservative lists.
-        Heads = "heads",
+        Heads "heads" heads_address => heads,
         /// Nodes of the conservative lists.
-        Conservative = "conservative",
+        Conservative "conservative" conservative_address => conservative,
         /// Sums of the scan, long lists or counts of layers, and the large-triangle queue.
-        Scratch = "scratch",
+        Scratch "scratch" scratch_address,
     }
+    Config => Contents { header, config }
 }

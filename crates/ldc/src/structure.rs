@@ -4,13 +4,13 @@ use std::mem::offset_of;
 
 use rasray_ads::{
     AdsError, BuildPipelines, Dependencies, Design, Geometry, ListCounts, Parts, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constant_ids::ldc::LDC_RIGID;
 
 use crate::build::Build;
-use crate::layout::{Demand, first_plan, formula_bytes, layer_capacity, plan, scratch, scratch_words};
+use crate::layout::{Demand, first_plan, formula_bytes, layer_capacity, plan, scratch};
 use crate::{Accept, Config, Contents, Header, Pool, well_formed};
 
 /// Fragments of three orthographic views, each triangle in the one it faces most; made from a [`Config`].
@@ -30,13 +30,6 @@ fn first_header(parts: &Parts<Config>) -> Header {
         layer_limit: config.layers,
         resolution: config.resolution,
         tolerance_per_side: config.tolerance,
-        lists_address: pools.address_of(Pool::Lists),
-        depths_address: pools.address_of(Pool::Depths),
-        payload_address: pools.address_of(Pool::Payload),
-        blocks_address: pools.address_of(Pool::Blocks),
-        heads_address: pools.address_of(Pool::Heads),
-        conservative_address: pools.address_of(Pool::Conservative),
-        scratch_address: pools.address_of(Pool::Scratch),
         large_capacity: scratch(config).large_capacity(pools.sizes()) as u32,
         groups: [0, 0, bin_groups(u64::from(config.resolution + 2).pow(2))],
         ..Header::default()
@@ -174,17 +167,6 @@ impl Design for Build {
         parts.usual_rounds() + parts.rounds(deepest)
     }
 
-    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
-        let config = &parts.config;
-        match pool {
-            Pool::Depths => Some(asked.fragments.div_ceil(u64::from(32 / config.depth.bits()))),
-            Pool::Payload => Some(asked.fragments),
-            Pool::Conservative => Some(asked.conservative),
-            Pool::Scratch => Some(scratch_words(config, *asked)),
-            _ => None,
-        }
-    }
-
     fn report(parts: &Parts<Config>, _header: &Header, asked: &Demand) -> StructureReport {
         let formula = formula_bytes(&parts.config, *asked);
         StructureReport {
@@ -203,15 +185,5 @@ impl Design for Build {
 
     fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
         contents.list_counts().map_err(|fault| fault.to_string())
-    }
-
-    pools_of_words! {
-        Contents with config;
-        Lists => lists,
-        Depths => depths,
-        Payload => payload,
-        Blocks => blocks,
-        Heads => heads,
-        Conservative => conservative,
     }
 }

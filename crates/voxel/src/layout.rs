@@ -3,7 +3,7 @@
 use rasray_ads::{AdsError, Scan, Scratch, Sizes};
 use rasray_shaders_glsl::constants::voxel::VOXEL_NODE_LIMIT;
 
-use crate::{Axes, Builder, Config, Header, Leaves, Payload, Pool, Storage, Traversal};
+use crate::{Axes, Builder, Config, Leaves, Payload, Pool, Storage, Traversal};
 
 /// Lists of all three views: one per cell.
 pub fn list_count(resolution: u32) -> u64 {
@@ -44,7 +44,6 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         return Err(AdsError::PoolTooLarge { structure: "voxel", pool: "nodes", elements: nodes });
     }
     let sizes = [
-        (Pool::Header, 1, size_of::<Header>() as u64),
         (Pool::Voxels, voxels.div_ceil(8), 4),
         (Pool::Normals, normals, 12),
         (Pool::Lists, lists, 4),

@@ -1,23 +1,24 @@
 //! The pools.
 
-rasray_ads::pool_names! {
+use crate::{Config, Contents, Header};
+
+rasray_ads::pools! {
     /// Pools of voxels, in the order of their bindings.
-    pub enum Pool {
-        /// What shaders start from.
-        Header = "header",
+    pub enum Pool: Header {
         /// Axes of voxels.
-        Voxels = "voxels",
+        Voxels "voxels" voxels_address => voxels,
         /// Sums of normals.
-        Normals = "normals",
+        Normals "normals" normals_address,
         /// Heads or ends of lists; where voxels are the leaves, the triangles of voxels.
-        Lists = "lists",
+        Lists "lists" lists_address => lists,
         /// Fragments, or pages of them.
-        Fragments = "fragments",
+        Fragments "fragments" fragments_address => fragments,
         /// Sums of the scan, long lists, and the large-triangle queue.
-        Scratch = "scratch",
+        Scratch "scratch" scratch_address,
         /// Nodes of the octree.
-        Nodes = "nodes",
+        Nodes "nodes" nodes_address => nodes,
         /// What the octree's build counts, with sums of its scan.
-        Octants = "octants",
+        Octants "octants" octants_address,
     }
+    Config => Contents { header, config }
 }

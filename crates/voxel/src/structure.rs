@@ -4,7 +4,7 @@ use std::mem::offset_of;
 
 use rasray_ads::{
     AdsError, BuildPipelines, Dependencies, Design, Geometry, ListCounts, Parts, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
@@ -30,14 +30,7 @@ fn first_header(parts: &Parts<Config>) -> Header {
         resolution: config.resolution,
         grid: config.grid(),
         samples: config.samples,
-        voxels_address: pools.address_of(Pool::Voxels),
-        normals_address: pools.address_of(Pool::Normals),
-        lists_address: pools.address_of(Pool::Lists),
-        fragments_address: pools.address_of(Pool::Fragments),
-        scratch_address: pools.address_of(Pool::Scratch),
         large_capacity: scratch(config).large_capacity(pools.sizes()) as u32,
-        nodes_address: pools.address_of(Pool::Nodes),
-        octants_address: pools.address_of(Pool::Octants),
         node_capacity: parts.elements(Pool::Nodes) as u32,
         levels: levels(config),
         groups: [0, 0, bin_groups(widest_view(config))],
@@ -168,15 +161,6 @@ impl Design for Build {
         16 + (steps + entries).div_ceil(budget).min(u64::from(u32::MAX) - 16) as u32
     }
 
-    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
-        match pool {
-            Pool::Fragments => Some(asked.entries),
-            Pool::Nodes => Some(asked.nodes),
-            Pool::Scratch => Some(scratch(&parts.config).words(asked.large, asked.long_lists)),
-            _ => None,
-        }
-    }
-
     fn report(parts: &Parts<Config>, header: &Header, asked: &Demand) -> StructureReport {
         let formula = formula_bytes(&parts.config, *asked);
         StructureReport {
@@ -195,13 +179,5 @@ impl Design for Build {
 
     fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
         contents.list_counts().map_err(|fault| fault.to_string())
-    }
-
-    pools_of_words! {
-        Contents with config;
-        Voxels => voxels,
-        Lists => lists,
-        Fragments => fragments,
-        Nodes => nodes,
     }
 }
