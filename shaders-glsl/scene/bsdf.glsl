@@ -98,6 +98,7 @@ BsdfValue bsdf_towards(BsdfTerms terms, Surface s, vec3 i) {
         result.value = bsdf_cosine_family(terms, abs(base), side) * abs(base);
         result.pdf = family * (side > 0 ? 1.0 - through : through) * abs(base) / MICROFACET_PI;
     }
+    if (!SHADING_FACETS) return result;
     side = bsdf_side(s, i, local.z);
     if (side == 0 || terms.mirror) return result;
     float cosine, facets, pdf;
@@ -152,6 +153,7 @@ BsdfSample bsdf_choose(BsdfTerms terms, Surface s, vec4 random) {
             expected = -1;
         }
     } else {
+        if (!SHADING_FACETS) return chosen;
         vec3 h = vec3(0.0, 0.0, 1.0);
         if (!terms.mirror) {
             h = terms.ward ? ward_half(terms.alphas, random.zw) : ggx_visible_normal(terms.o, terms.alphas, random.zw);

@@ -89,6 +89,17 @@ void bsdf_set_energy(inout BsdfTerms terms) {
     terms.entering_mean = bsdf_entering_mean(terms);
 }
 
+// The same of a material without facets, which lets everything in.
+void bsdf_set_no_facets(inout BsdfTerms terms) {
+    terms.loss_o = 0.0;
+    terms.loss_mean = 1.0;
+    terms.returned = vec3(0.0);
+    terms.passed = vec3(0.0);
+    terms.returned_most = 0.0;
+    terms.entering_o = 1.0;
+    terms.entering_mean = 1.0;
+}
+
 // What left the boundary of a rough volume after several scatterings, 1/sr; as bsdf_cosine_family.
 vec3 bsdf_glass(BsdfTerms terms, float cosine, int side) {
     if (!SHADING_TRANSMISSION || !(terms.glass_mean > 0.0)) return vec3(0.0);

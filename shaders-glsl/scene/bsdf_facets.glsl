@@ -53,6 +53,7 @@ vec3 bsdf_fresnel(BsdfTerms terms, float cosine) {
 }
 
 vec3 bsdf_reflected(BsdfTerms terms, float cosine) {
+    if (!SHADING_FACETS) return vec3(0.0);
     vec3 metal = terms.base_color + (vec3(1.0) - terms.base_color) * fresnel_power(cosine);
     return mix(bsdf_fresnel(terms, cosine), metal, terms.metallic);
 }

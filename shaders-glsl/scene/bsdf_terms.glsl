@@ -94,7 +94,8 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
     terms.base = s.normal * terms.frame;
     terms.o = o * terms.frame;
     bsdf_set_glass(terms, s);
-    bsdf_set_energy(terms);
+    if (SHADING_FACETS) bsdf_set_energy(terms);
+    else bsdf_set_no_facets(terms);
     return terms;
 }
 
@@ -115,6 +116,7 @@ float bsdf_straight_probability(BsdfTerms terms, vec3 straight) {
 // Value of the cosine family, 1/sr: the diffuse base, and what left the facets after several scatterings. `cosine` of
 // the other direction is positive; `side` as of bsdf_side.
 vec3 bsdf_cosine_family(BsdfTerms terms, float cosine, int side) {
+    if (!SHADING_FACETS) return side > 0 ? terms.base_color * (1.0 / MICROFACET_PI) : vec3(0.0);
     float loss = albedo_loss(cosine, terms.alpha);
     float several = terms.loss_o > 0.0 ? terms.loss_o * loss / (terms.loss_mean * MICROFACET_PI) : 0.0;
     vec3 glass = bsdf_glass(terms, cosine, side);
@@ -127,6 +129,11 @@ vec3 bsdf_cosine_family(BsdfTerms terms, float cosine, int side) {
 
 // Probability of the cosine family, and within it of going through the surface.
 void bsdf_cosine_probability(BsdfTerms terms, out float family, out float through) {
+    if (!SHADING_FACETS) {
+        family = luminance(terms.base_color) > 0.0 ? 1.0 : 0.0;
+        through = 0.0;
+        return;
+    }
     float down = luminance(terms.passed) * terms.loss_o + luminance(terms.glass_passed) * terms.glass_o;
     float up = luminance(terms.returned) * terms.loss_o + luminance(terms.glass_returned) * terms.glass_o
              + luminance(terms.base_color) * (bsdf_diffuse_share(terms) * terms.entering_o);

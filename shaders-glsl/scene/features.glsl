@@ -51,6 +51,11 @@ layout(constant_id = 99) const bool SCENE_HAS_ENVIRONMENT_MAP = true;
 layout(constant_id = 100) const bool SCENE_HAS_COLORS = true;
 #define SHADING_COLORS SCENE_HAS_COLORS
 #endif
+// Any material reflects at facets: it is specular or metallic, or transmits. All others have their diffuse base alone.
+#ifndef SHADING_FACETS
+layout(constant_id = 101) const bool SCENE_HAS_FACETS = true;
+#define SHADING_FACETS SCENE_HAS_FACETS
+#endif
 // Facets of any material are rougher along one direction.
 #ifndef SHADING_ANISOTROPY
 layout(constant_id = 109) const bool SCENE_HAS_ANISOTROPY = true;

@@ -33,6 +33,8 @@ pub struct ShadingFeatures {
     pub environment_map: bool,
     /// Any draw has colours of its vertices.
     pub colors: bool,
+    /// Any material reflects at facets: it is specular or metallic, or transmits.
+    pub facets: bool,
     /// Facets of any material are rougher along one direction.
     pub anisotropy: bool,
 }
@@ -50,6 +52,7 @@ impl ShadingFeatures {
         emitters: true,
         environment_map: true,
         colors: true,
+        facets: true,
         anisotropy: true,
     };
 
@@ -66,12 +69,13 @@ impl ShadingFeatures {
             emitters: !tables.emissive_triangles.is_empty(),
             environment_map: tables.environment.kind != ENVIRONMENT_CONSTANT,
             colors: tables.draw_shadings.iter().any(|draw| draw.colors != ATTRIBUTE_NONE),
+            facets: tables.materials.iter().any(has_facets),
             anisotropy: tables.materials.iter().any(|material| material.anisotropy > 0.0),
         }
     }
 
     /// Each with its name.
-    fn named(self) -> [(&'static str, bool); 11] {
+    fn named(self) -> [(&'static str, bool); 12] {
         [
             ("textures", self.textures),
             ("transmission", self.transmission),
@@ -83,6 +87,7 @@ impl ShadingFeatures {
             ("surfaces that are sampled as lights", self.emitters),
             ("a map of the environment", self.environment_map),
             ("colours of vertices", self.colors),
+            ("specular or metallic materials", self.facets),
             ("anisotropic materials", self.anisotropy),
         ]
     }
@@ -107,13 +112,14 @@ impl ShadingFeatures {
             emitters: self.emitters || other.emitters,
             environment_map: self.environment_map || other.environment_map,
             colors: self.colors || other.colors,
+            facets: self.facets || other.facets,
             anisotropy: self.anisotropy || other.anisotropy,
         }
     }
 
     /// Specialisation constants of modules that read the scene (`scene/features.glsl`): id and bits. A module without
     /// one of them ignores it.
-    pub fn constants(self) -> [(u32, u32); 9] {
+    pub fn constants(self) -> [(u32, u32); 10] {
         [
             (ids::SCENE_HAS_TEXTURES, self.textures.into()),
             (ids::SCENE_HAS_TRANSMISSION, self.transmission.into()),
@@ -123,9 +129,16 @@ impl ShadingFeatures {
             (ids::SCENE_HAS_EMITTERS, self.emitters.into()),
             (ids::SCENE_HAS_ENVIRONMENT_MAP, self.environment_map.into()),
             (ids::SCENE_HAS_COLORS, self.colors.into()),
+            (ids::SCENE_HAS_FACETS, self.facets.into()),
             (ids::SCENE_HAS_ANISOTROPY, self.anisotropy.into()),
         ]
     }
+}
+
+/// Whether a surface of the material reflects or transmits other than by its diffuse base somewhere.
+fn has_facets(material: &Material) -> bool {
+    let terms = [material.specular, material.metallic, material.transmission];
+    material.flags & MATERIAL_UNLIT == 0 && terms.iter().any(|&term| term > 0.0)
 }
 
 /// Whether a surface of the material may be a smooth thin pane somewhere.

@@ -6,7 +6,8 @@ use rasray_ads::Ray;
 use rasray_gpu_scene::ShadingFeatures;
 use rasray_gpu_scene::layout::EmissiveTriangle;
 use rasray_integrators::{
-    AmbientOcclusion, AovPass, Bands, Film, Integrator, IntegratorError, Path, Raycast, Wave,
+    AmbientOcclusion, AovPass, Bands, Film, Integrator, IntegratorError, Path, Raycast, Wave, Whitted,
+    WhittedOptions,
 };
 use rasray_scene::{Light, Material, Projection, Scene};
 
@@ -248,6 +249,7 @@ fn code_that_is_left_out_does_not_change_the_picture() {
         emitters: true,
         environment_map: false,
         colors: false,
+        facets: true,
         anisotropy: false,
     };
     assert_eq!(stage.scene.features(), needed);
@@ -260,6 +262,27 @@ fn code_that_is_left_out_does_not_change_the_picture() {
             assert!((a[channel] - b[channel]).abs() <= 1e-5 * b[channel].abs(), "{a:?} {b:?}");
         }
     }
+    assert_silent(&device);
+}
+
+#[test]
+fn facets_that_no_material_has_change_nothing() {
+    let device = device();
+    let mut scene = busy_scene();
+    // A black one has neither a base nor facets; what is smooth has no mirror without them.
+    (scene.materials[2], scene.materials[3]) = (lambert(0.0, 0.0), lambert(0.7, 0.0));
+    scene.materials[3].roughness = 0.0;
+    let stage = Setup::new(&device, &scene, forward_camera(DVec3::new(0.0, 0.0, 0.9)), 24, 18, 5);
+    let features = stage.scene.features();
+    assert!(!features.facets);
+    let with = ShadingFeatures { facets: true, ..features };
+    let path = |features| Path::new(&stage.desc_with(108, features), 4).expect("valid");
+    let (lean, full) = (path(features), path(with));
+    assert!(are_same(&device, &stage.render(&lean, 4), &stage.render(&full, 4)));
+    assert!(mean(&stage.render(&lean, 4)) > 0.05);
+    let whitted =
+        |features| Whitted::new(&stage.desc_with(108, features), WhittedOptions::default()).expect("valid");
+    assert!(are_same(&device, &stage.render(&whitted(features), 2), &stage.render(&whitted(with), 2)));
     assert_silent(&device);
 }
 
