@@ -11,8 +11,8 @@
 //! count it; they never give a partial answer, nor one for triangles that it had before.
 //!
 //! This crate records commands. It never submits, never waits, and allocates only in constructors and
-//! in [`Structure::resize`]. Only a structure that is built on the host submits, in
-//! [`Structure::prepare_build`].
+//! in [`Structure::resize`]. Only two things submit: a structure that is built on the host, in [`Structure::prepare_build`],
+//! and a [`RayQueue`] that is made on a device with a queue, through which it is cleared.
 //!
 //! # Synchronisation
 //! [`Structure::record_build`], [`Structure::record_trace`] and [`Structure::record_surfaces`] end with

@@ -93,7 +93,7 @@ pub struct QueueCounters {
 }
 
 impl RayQueue {
-    /// Allocates a queue, with surfaces if requested.
+    /// Allocates a queue, with surfaces if requested. Submits and waits where the device has a queue to clear it through.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
@@ -101,7 +101,7 @@ impl RayQueue {
         Self::with_parts(device, name, capacity, QueueParts { surfaces, ..QueueParts::default() })
     }
 
-    /// Allocates a queue with the requested parts.
+    /// Allocates a queue with the requested parts. Submits and waits where the device has a queue to clear it through.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.

@@ -46,8 +46,8 @@ impl Device {
     ///   valid until the last object made from the returned device is dropped.
     /// - Every feature in `enabled` was enabled when the device was made (with its extension where it is one),
     ///   and `debug_utils` is true only if that extension is enabled.
-    /// - The queue is not used elsewhere while [`Device::submit`], [`Device::upload`] or [`Device::download`]
-    ///   run, and the pipeline cache was made without `VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT`.
+    /// - The queue is not used elsewhere while [`Device::submit`], [`Device::upload`], [`Device::download`] or whatever else
+    ///   says that it submits runs, such as what makes a queue of rays or a film; and the pipeline cache was made without `VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT`.
     ///
     /// # Errors
     /// [`GpuError::FeatureNotEnabled`] if synchronization2 is not in `enabled`, [`GpuError::InvalidUse`] if a

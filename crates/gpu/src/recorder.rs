@@ -27,7 +27,8 @@ use self::bound::Bound;
 pub use self::commands_of_pass::PassCommands;
 pub use self::render_area::RenderArea;
 
-/// Records commands into a command buffer. It never submits, waits or allocates device memory.
+/// Records commands into a command buffer. It never submits, waits or allocates device memory, but for a submission of this
+/// crate whose passes the host times one by one.
 ///
 /// Mistakes (a range beyond a buffer, a dispatch without a pipeline …) do not end the program: the first one
 /// is kept, nothing more is recorded, and [`Recorder::finish`] or the submission returns it.

@@ -120,35 +120,33 @@ impl Device {
         Ok(buffer)
     }
 
-    /// Makes a buffer that holds zeros before anything is recorded: for what shaders look at first. Device-local where
-    /// this device has a queue to clear it through, else host-visible.
+    /// Makes a buffer that holds zeros before anything is recorded: for what shaders look at first. The host writes them
+    /// without a submission, so the buffer is host-visible: on the device, where that has such memory. For what is small.
     ///
     /// # Errors
-    /// As [`Device::create_buffer`] and [`Device::submit`].
+    /// As [`Device::create_buffer`].
     pub fn create_buffer_of_zeros(&self, name: &str, usage: BufferUsage, size: u64) -> Result<Buffer> {
         let usage = usage | BufferUsage::TRANSFER_DST;
-        if !self.has_queue() {
-            let buffer =
-                self.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Upload })?;
-            buffer.write(0, &vec![0; size as usize])?;
-            return Ok(buffer);
-        }
         let buffer =
-            self.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Device })?;
-        self.submit(|recorder| recorder.fill(&buffer, 0, buffer.size(), 0))?;
+            self.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Upload })?;
+        buffer.write(0, &vec![0; size as usize])?;
         Ok(buffer)
     }
 
-    /// Makes a device-local buffer, cleared where this device has a queue to clear it through. Without one its content is
-    /// undefined until it is recorded: for what is large, and read only where something was written.
+    /// Makes a device-local buffer, cleared where this device has a queue to clear it through: then it submits and waits.
+    /// Without one its content is undefined until it is recorded: for what is large, and read only where something was
+    /// written.
     ///
     /// # Errors
     /// As [`Device::create_buffer`] and [`Device::submit`].
     pub fn create_cleared_buffer(&self, name: &str, usage: BufferUsage, size: u64) -> Result<Buffer> {
+        let usage = usage | BufferUsage::TRANSFER_DST;
+        let buffer =
+            self.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Device })?;
         if self.has_queue() {
-            return self.create_buffer_of_zeros(name, usage, size);
+            self.submit(|recorder| recorder.fill(&buffer, 0, buffer.size(), 0))?;
         }
-        self.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Device })
+        Ok(buffer)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
-use rasray_faults::{Failure, device, finish, picture, spec};
+use rasray_faults::{Failure, device, finish, picture, spec, specs, stage};
 use rasray_gpu::faults::{At, Injected, With, calls_of, inject, live_objects};
 use rasray_gpu::{BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, vk};
 use rasray_tests::tier::Counts;
@@ -218,4 +218,28 @@ fn a_leak_is_noticed() {
     assert_ne!(inventory(&device).objects, before.objects);
     let messages = finish(device);
     assert!(messages.iter().any(|message| message.contains("not been destroyed")), "{messages:?}");
+}
+
+/// Structures are made and grow between frames of a host, whose queue may be in use. A tree that the host builds reads back
+/// triangles where a build is prepared, and not here.
+#[test]
+fn structures_are_made_and_grow_without_a_submission() {
+    let device = device().expect("a device");
+    let scene = stage(&device).expect("a scene");
+    for spec in specs().expect("all are registered") {
+        let ((), calls) = calls_of(|| {
+            let binding = Some(scene.binding());
+            let mut structure =
+                spec.create(&device, scene.geometry(), binding).expect("the options are valid");
+            let mut sizes = structure.sizes().clone();
+            sizes.pools.iter_mut().skip(1).for_each(|pool| pool.elements *= 2);
+            structure.resize(&device, &sizes).expect("it fits");
+            structure.set_geometry(&device, scene.geometry()).expect("it is the same");
+        });
+        assert!(calls.len() > 4, "{}: {calls:?}", spec.system().name);
+        let submits = |call: &&&str| call.contains("Submit") || call.contains("Wait");
+        assert_eq!(calls.iter().find(submits), None, "{}", spec.system().name);
+    }
+    drop(scene);
+    assert_eq!(finish(device), Vec::<String>::new());
 }
