@@ -412,7 +412,7 @@ mod tests {
 
     #[test]
     fn out_of_range_options_are_named() {
-        let message = |config: &Config, demand| plan(config, demand).unwrap_err().to_string();
+        let message = |config: &Config, demand| plan(config, demand).expect_err("it is refused").to_string();
         let config = Config { buckets: 33, ..Config::at_centres(64) };
         assert!(message(&config, Demand::default()).contains("buckets is 33"));
         let config = Config { resolution: 0, ..Config::at_centres(64) };

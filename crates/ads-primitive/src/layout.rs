@@ -196,13 +196,16 @@ mod tests {
 
     #[test]
     fn out_of_range_options_are_named() {
-        let message = |config: Config| plan(&config, &Demand::default()).unwrap_err().to_string();
+        let message =
+            |config: Config| plan(&config, &Demand::default()).expect_err("it is refused").to_string();
         assert!(message(Config { buckets: 65, ..Config::robust(64) }).contains("buckets is 65"));
         assert!(message(Config { tile: 0, ..Config::robust(64) }).contains("tile is 0"));
         assert!(message(Config { resolution: 0, ..Config::robust(64) }).contains("resolution is 0"));
         let budget = Config { work_budget: Some(0), ..Config::robust(64) };
         assert!(message(budget).contains("work budget is 0"));
         let demand = Demand { entries: 1 << 32, ..Demand::default() };
-        assert!(plan(&Config::robust(64), &demand).unwrap_err().to_string().contains("entries"));
+        assert!(
+            plan(&Config::robust(64), &demand).expect_err("it is refused").to_string().contains("entries")
+        );
     }
 }

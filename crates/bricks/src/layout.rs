@@ -154,7 +154,8 @@ mod tests {
 
     #[test]
     fn out_of_range_options_are_named() {
-        let message = |config: Config| plan(&config, &Demand::default()).unwrap_err().to_string();
+        let message =
+            |config: Config| plan(&config, &Demand::default()).expect_err("it is refused").to_string();
         let cube = Config::new(Views::Cube);
         assert!(message(Config { grid: Some(1025), ..cube }).contains("grid is 1025"));
         assert!(message(Config { grid: Some(0), ..cube }).contains("grid is 0"));
@@ -163,6 +164,6 @@ mod tests {
         let axes = Config::new(Views::Axes);
         assert!(message(Config { slices: Some(8), ..axes }).contains("use `grid`"));
         let demand = Demand { entries: 1 << 32, ..Demand::default() };
-        assert!(plan(&cube, &demand).unwrap_err().to_string().contains("entries"));
+        assert!(plan(&cube, &demand).expect_err("it is refused").to_string().contains("entries"));
     }
 }

@@ -152,7 +152,7 @@ mod tests {
     fn what_cannot_be_named_is_refused() {
         let config = Config::new(Builder::Sah);
         assert!(plan(&config, 0).is_ok());
-        assert!(plan(&config, 1 << 27).unwrap_err().to_string().contains("records"));
+        assert!(plan(&config, 1 << 27).expect_err("it is refused").to_string().contains("records"));
         let refused = |config| plan(&config, 1).expect_err("the option is out of range").to_string();
         assert!(refused(Config { leaf: Some(17), ..config }).contains("leaf is 17"));
         assert!(refused(Config { leaf: Some(0), ..config }).contains("leaf is 0"));

@@ -94,12 +94,13 @@ mod tests {
 
     #[test]
     fn out_of_range_options_are_named() {
-        let message = |config: Config| plan(&config, &Demand::default()).unwrap_err().to_string();
+        let message =
+            |config: Config| plan(&config, &Demand::default()).expect_err("it is refused").to_string();
         let plain = Config::new();
         assert!(message(Config { cells: Some(1025), ..plain }).contains("grid is 1025"));
         assert!(message(Config { cells: Some(0), ..plain }).contains("grid is 0"));
         assert!(message(Config { work_budget: Some(0), ..plain }).contains("work budget is 0"));
         let demand = Demand { entries: 1 << 32, ..Demand::default() };
-        assert!(plan(&plain, &demand).unwrap_err().to_string().contains("entries"));
+        assert!(plan(&plain, &demand).expect_err("it is refused").to_string().contains("entries"));
     }
 }

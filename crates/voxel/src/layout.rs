@@ -227,7 +227,8 @@ mod tests {
 
     #[test]
     fn out_of_range_options_are_named() {
-        let message = |config: Config| plan(&config, Demand::default()).unwrap_err().to_string();
+        let message =
+            |config: Config| plan(&config, Demand::default()).expect_err("it is refused").to_string();
         assert!(message(Config { resolution: 0, ..Config::at_centres(64) }).contains("resolution is 0"));
         assert!(message(Config { grid: Some(1025), ..Config::at_centres(64) }).contains("grid is 1025"));
         assert!(message(Config { samples: 0, ..Config::at_centres(64) }).contains("samples is 0"));
@@ -241,16 +242,18 @@ mod tests {
         let nameless = message(Config { payload: Payload::Material, ..Config::at_centres(64) });
         assert!(nameless.contains("accept") && nameless.contains("payload"), "{nameless}");
         let many = Demand { entries: 1 << 32, ..Demand::default() };
-        assert!(plan(&Config::at_centres(64), many).unwrap_err().to_string().contains("fragments"));
+        assert!(
+            plan(&Config::at_centres(64), many).expect_err("it is refused").to_string().contains("fragments")
+        );
         let sparse = Config { traversal: Traversal::Octree, ..Config::at_centres(64) };
         let nodes = u64::from(VOXEL_NODE_LIMIT);
         assert!(plan(&sparse, Demand { nodes, ..Demand::default() }).is_ok());
         let many = Demand { nodes: nodes + 1, ..Demand::default() };
-        assert!(plan(&sparse, many).unwrap_err().to_string().contains("nodes"));
+        assert!(plan(&sparse, many).expect_err("it is refused").to_string().contains("nodes"));
         // A word of a list can address fewer pages than 32 bits could.
         let paged = Config { storage: Storage::Paged, page: 1, ..Config::at_centres(64) };
         let many = Demand { entries: u64::from(PAGE_LIMIT) + 1, ..Demand::default() };
-        assert!(plan(&paged, many).unwrap_err().to_string().contains("fragments"));
+        assert!(plan(&paged, many).expect_err("it is refused").to_string().contains("fragments"));
         assert!(plan(&paged, Demand { entries: PAGE_LIMIT.into(), ..many }).is_ok());
     }
 }
