@@ -187,7 +187,7 @@ impl Slot {
         }
         let is_complete = bricks.finish(device, number as u32)? == FrameOutcome::Complete;
         if is_complete {
-            host.compare(&self.found.read::<Hit>(), &self.expected.read::<Hit>(), 0.0)?;
+            host.compare(&self.found.read::<Hit>(), &self.expected.read::<Hit>())?;
         }
         Ok(is_complete)
     }

@@ -22,5 +22,5 @@ pub fn main() -> Result<()> {
     let geometry = host.geometry(&device, &mesh, host.buffer(&mesh.positions)?)?;
     let found = hits(&host, &device, &mut LayeredDepthCube::new(&device, config, &geometry, None)?)?;
     let expected = hits(&host, &device, &mut BruteForce::new(&device, &geometry, None, false)?)?;
-    host.compare(&found, &expected, 0.0)
+    host.compare(&found, &expected)
 }

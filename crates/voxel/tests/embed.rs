@@ -1,4 +1,4 @@
-//! The example runs, its hits are nearly all those of brute force, and the validation layer is silent.
+//! The example runs, its hits are those of brute force, and the validation layer is silent.
 
 #[path = "../examples/embed.rs"]
 mod embed;

@@ -259,16 +259,13 @@ impl Host {
         }
     }
 
-    /// An error where the validation layer complained, or hits are not the expected ones: all of them, or where
-    /// distances may differ by a `tolerance` 95 in 100.
-    pub fn compare(&self, found: &[Hit], expected: &[Hit], tolerance: f32) -> Result<()> {
-        let near = |a: &Hit, b: &Hit| a.is_hit() == b.is_hit() && (a.t - b.t).abs() < tolerance;
-        let same = found.iter().zip(expected).filter(|(a, b)| a == b || near(a, b)).count();
+    /// An error where the validation layer complained, or hits are not the expected ones.
+    pub fn compare(&self, found: &[Hit], expected: &[Hit]) -> Result<()> {
+        let same = found.iter().zip(expected).filter(|(found, expected)| found == expected).count();
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
         println!("{hit} of {} rays hit, {same} answers are those of brute force", expected.len());
-        let enough = if tolerance > 0.0 { expected.len() * 95 / 100 } else { expected.len() };
         self.is_silent()?;
-        (same >= enough && hit > 100).then_some(()).ok_or("hits differ".into())
+        (same == expected.len() && hit > 100).then_some(()).ok_or("hits differ".into())
     }
 
     /// An error where the validation layer complained.
