@@ -147,11 +147,14 @@ impl<D: Design> Pooled<D> {
     }
 
     /// Writes back what [`Pooled::download`] returned, or what was made of it. Submits and waits: for tests and tools.
-    /// Traces end within their bounds whatever the other pools say; the header is trusted.
+    /// Traces end within their bounds whatever the other pools say.
+    ///
+    /// # Safety
+    /// Capacities and addresses in the header are those that were downloaded from this structure since its last resize.
     ///
     /// # Errors
     /// A pool is larger than what was allocated, or the device failed.
-    pub fn upload(&self, device: &Device, contents: &D::Contents) -> Result<(), GpuError> {
+    pub unsafe fn upload(&self, device: &Device, contents: &D::Contents) -> Result<(), GpuError> {
         self.design.overwritten();
         let (header, pools) = contents.pools();
         device.upload(self.parts.pools.header_buffer(), 0, bytes_of(&header))?;
@@ -433,7 +436,8 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn inline_trace(&self) -> Option<InlineTrace<'_>> {
-        Some(self.parts.pools.inline_trace(D::constants(&self.parts.config)))
+        // Where it was built in a space of its own rays have to be mapped.
+        (!self.follows).then(|| self.parts.pools.inline_trace(D::constants(&self.parts.config)))
     }
 
     fn download_pools(&self, device: &Device) -> Result<Vec<(&'static str, Vec<u32>)>, GpuError> {
@@ -441,10 +445,18 @@ impl<D: Design> Structure for Pooled<D> {
         D::Pool::ALL.iter().map(words).collect()
     }
 
-    fn upload_pools(&self, device: &Device, pools: &[(&'static str, Vec<u32>)]) -> Result<(), GpuError> {
+    unsafe fn upload_pools(
+        &self,
+        device: &Device,
+        pools: &[(&'static str, Vec<u32>)],
+    ) -> Result<(), GpuError> {
         self.design.overwritten();
-        let named = |name| D::Pool::ALL.iter().find(|pool| pool.name() == name);
-        pools.iter().filter_map(|(name, words)| Some((named(*name)?, words))).try_for_each(|(pool, words)| {
+        pools.iter().try_for_each(|(name, words)| {
+            let pool = D::Pool::ALL.iter().find(|pool| pool.name() == *name);
+            let pool = pool.ok_or_else(|| GpuError::InvalidUse {
+                name: (*name).to_owned(),
+                reason: format!("is no pool of {}", D::TITLE),
+            })?;
             device.upload(self.parts.pools.pool(*pool), 0, bytemuck::cast_slice(words))
         })
     }

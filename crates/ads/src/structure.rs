@@ -317,11 +317,18 @@ pub trait Structure {
     }
 
     /// Writes back what [`Structure::download_pools`] returned, or what was made of it. Submits and waits: for tests and
-    /// tools. Traces end within their bounds whatever the other pools say; the header is trusted.
+    /// tools. Traces end within their bounds whatever the other pools say.
+    ///
+    /// # Safety
+    /// Capacities and addresses in the header are those that were downloaded from this structure since its last resize.
     ///
     /// # Errors
-    /// A pool is larger than what was allocated, or the device failed.
-    fn upload_pools(&self, _device: &Device, _pools: &[(&'static str, Vec<u32>)]) -> Result<(), GpuError> {
+    /// There is no such pool, one is larger than what was allocated, or the device failed.
+    unsafe fn upload_pools(
+        &self,
+        _device: &Device,
+        _pools: &[(&'static str, Vec<u32>)],
+    ) -> Result<(), GpuError> {
         Ok(())
     }
 
