@@ -1,4 +1,4 @@
-//! Compiles GLSL to SPIR-V with shaderc, for build scripts and for shader hot reload.
+//! Compiles GLSL to SPIR-V with shaderc, for build scripts.
 //!
 //! This crate exists to hold the link line that Debian 12's libshaderc needs (see its build script)
 //! and the options that every module of rasray is compiled with: Vulkan 1.2, no optimisation, debug names kept,
