@@ -1,5 +1,6 @@
 //! What options choose between, and their numbers in shaders.
 
+use rasray_ads::words;
 use rasray_shaders_glsl::constants::abuffer as numbers;
 
 /// How a ray steps through cells.
@@ -15,6 +16,8 @@ pub enum March {
     /// The same hits with skips over blocks of cells that hold nothing at the ray's depths.
     Pyramid,
 }
+
+words! { March { Samples "samples", Dda "dda", Exact "exact", Pyramid "pyramid" } }
 
 impl March {
     pub(crate) fn number(self) -> u32 {
@@ -39,6 +42,8 @@ pub enum Accept {
     /// The ray intersects the plane of its triangle within the cell. Needs [`Payload::Index`] or [`Payload::Plane`].
     Plane,
 }
+
+words! { Accept { Interval "interval", Thickness "thickness", Slope "slope", Plane "plane" } }
 
 impl Accept {
     /// Whether it looks at more of the fragment's triangle than its depth; then cells store how far triangles
@@ -72,20 +77,9 @@ pub enum Payload {
     Plane,
 }
 
+words! { Payload { Index "index", Attributes "attributes", Normal "normal", Plane "plane" } }
+
 impl Payload {
-    /// Every payload.
-    pub const ALL: [Self; 4] = [Self::Index, Self::Attributes, Self::Normal, Self::Plane];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Index => "index",
-            Self::Attributes => "attributes",
-            Self::Normal => "normal",
-            Self::Plane => "plane",
-        }
-    }
-
     /// Whether it is read from a scene while fragments are stored.
     pub fn needs_scene(self) -> bool {
         matches!(self, Self::Attributes | Self::Normal)
@@ -120,20 +114,9 @@ pub enum Coverage {
     EdgeOn,
 }
 
+words! { Coverage { Hardware "hardware", Exact "exact", Conservative "conservative", EdgeOn "edge-on" } }
+
 impl Coverage {
-    /// Every coverage.
-    pub const ALL: [Self; 4] = [Self::Hardware, Self::Exact, Self::Conservative, Self::EdgeOn];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Hardware => "hardware",
-            Self::Exact => "exact",
-            Self::Conservative => "conservative",
-            Self::EdgeOn => "edge-on",
-        }
-    }
-
     pub(crate) fn number(self) -> u32 {
         match self {
             Self::Hardware => numbers::ABUFFER_COVERAGE_HARDWARE,
@@ -154,18 +137,9 @@ pub enum Bounds {
     Boxes,
 }
 
+words! { Bounds { Geometry "geometry", Boxes "boxes" } }
+
 impl Bounds {
-    /// Every choice.
-    pub const ALL: [Self; 2] = [Self::Geometry, Self::Boxes];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Geometry => "geometry",
-            Self::Boxes => "boxes",
-        }
-    }
-
     pub(crate) fn number(self) -> u32 {
         match self {
             Self::Geometry => numbers::ABUFFER_BOUNDS_GEOMETRY,
@@ -186,19 +160,9 @@ pub enum Views {
     Camera,
 }
 
+words! { Views { Cube "cube", CubeCamera "cube+camera", Camera "camera" } }
+
 impl Views {
-    /// Every choice.
-    pub const ALL: [Self; 3] = [Self::Cube, Self::CubeCamera, Self::Camera];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Cube => "cube",
-            Self::CubeCamera => "cube+camera",
-            Self::Camera => "camera",
-        }
-    }
-
     /// Whether the faces of the cube are among them.
     pub fn has_cube(self) -> bool {
         self != Self::Camera
@@ -227,18 +191,9 @@ pub enum ViewSwitching {
     Snap,
 }
 
+words! { ViewSwitching { Exact "exact", Snap "snap" } }
+
 impl ViewSwitching {
-    /// Every choice.
-    pub const ALL: [Self; 2] = [Self::Exact, Self::Snap];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::Snap => "snap",
-        }
-    }
-
     pub(crate) fn number(self) -> u32 {
         match self {
             Self::Exact => numbers::ABUFFER_SWITCH_EXACT,
@@ -264,22 +219,9 @@ pub enum Storage {
     Paged,
 }
 
+words! { Storage { Ll "ll", Dll "dll", Llb "llb", Dllb "dllb", Sb "sb", Paged "paged" } }
+
 impl Storage {
-    /// Every storage.
-    pub const ALL: [Self; 6] = [Self::Ll, Self::Dll, Self::Llb, Self::Dllb, Self::Sb, Self::Paged];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ll => "ll",
-            Self::Dll => "dll",
-            Self::Llb => "llb",
-            Self::Dllb => "dllb",
-            Self::Sb => "sb",
-            Self::Paged => "paged",
-        }
-    }
-
     /// Whether a cell has depth bounds and a list per bucket.
     pub fn is_bucketed(self) -> bool {
         matches!(self, Self::Llb | Self::Dllb | Self::Paged)

@@ -162,7 +162,7 @@ impl Config {
         if self.accept.needs_triangles() && self.payload != Payload::Index && !plane {
             return Err(AdsError::Option {
                 option: "accept",
-                value: format!("{:?}", self.accept).to_lowercase(),
+                value: self.accept.name().to_owned(),
                 expected: "the acceptances plane and slope need the payload `index`, which identifies the triangle; \
                            plane also goes with the payload `plane`",
             });
@@ -319,14 +319,13 @@ impl Config {
 
     /// Options as name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
-        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         let switch = |on: bool| if on { "on" } else { "off" }.to_owned();
         let mut options = vec![
             ("storage", self.storage.name().to_owned()),
             ("inline", switch(self.inline)),
             ("resolution", self.resolution.to_string()),
-            ("march", lower(&self.march)),
-            ("accept", lower(&self.accept)),
+            ("march", self.march.name().to_owned()),
+            ("accept", self.accept.name().to_owned()),
             ("payload", self.payload.name().to_owned()),
             ("single-layer", switch(self.single_layer)),
             ("views", self.views.name().to_owned()),

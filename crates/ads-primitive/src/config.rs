@@ -1,5 +1,6 @@
 //! Options of primitive lists and the presets.
 
+use rasray_ads::words;
 use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::primitive as ids;
 use rasray_shaders_glsl::constants::primitive as numbers;
@@ -15,6 +16,8 @@ pub enum Storage {
     Contiguous,
 }
 
+words! { Storage { Linked "llb", Contiguous "sb" } }
+
 /// The point at which the faces of the cube touch. Changes no hit where [`Config::is_exact`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Centre {
@@ -28,6 +31,8 @@ pub enum Centre {
     Fixed,
 }
 
+words! { Centre { Eye "eye", Scene "scene", Fixed "fixed" } }
+
 /// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Views {
@@ -38,6 +43,8 @@ pub enum Views {
     Camera,
 }
 
+words! { Views { Cube "cube", Camera "camera" } }
+
 /// With a pyramid, the level that a ray compares its depths with first. Changes no hit where [`Config::is_exact`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PyramidStart {
@@ -46,6 +53,8 @@ pub enum PyramidStart {
     /// The coarsest, as in the paper: down until a block holds nothing.
     Coarsest,
 }
+
+words! { PyramidStart { Finest "finest", Coarsest "coarsest" } }
 
 /// All options.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -257,27 +266,22 @@ impl Config {
 
     /// Options as name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
-        let storage = match self.storage {
-            Storage::Linked => "llb",
-            Storage::Contiguous => "sb",
-        };
         let switch = |on| if on { "on" } else { "off" }.to_owned();
-        let lower = |rule: &dyn std::fmt::Debug| format!("{rule:?}").to_lowercase();
         vec![
-            ("storage", storage.to_owned()),
+            ("storage", self.storage.name().to_owned()),
             ("resolution", self.resolution.to_string()),
             ("tile", self.tile.to_string()),
             ("buckets", self.buckets.to_string()),
             ("pyramid", switch(self.has_pyramid())),
-            ("pyramid-start", lower(&self.pyramid_start)),
+            ("pyramid-start", self.pyramid_start.name().to_owned()),
             ("coverage", self.coverage.name().to_owned()),
-            ("accept", lower(&self.accept)),
-            ("stop", lower(&self.stop)),
-            ("depths", lower(&self.depths)),
-            ("march", lower(&self.march)),
+            ("accept", self.accept.name().to_owned()),
+            ("stop", self.stop.name().to_owned()),
+            ("depths", self.depths.name().to_owned()),
+            ("march", self.march.name().to_owned()),
             ("skip", switch(self.skip)),
-            ("centre", lower(&self.centre())),
-            ("views", lower(&self.views)),
+            ("centre", self.centre().name().to_owned()),
+            ("views", self.views.name().to_owned()),
         ]
     }
 

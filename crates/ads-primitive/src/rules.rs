@@ -1,5 +1,7 @@
 //! The paper's rules, each next to the exact one that replaces it.
 
+use rasray_ads::words;
+
 /// Which cells list a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
@@ -13,17 +15,11 @@ pub enum Coverage {
     Hardware,
 }
 
-impl Coverage {
-    /// Every coverage.
-    pub const ALL: [Self; 3] = [Self::Conservative, Self::ConservativeExtension, Self::Hardware];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Conservative => "conservative",
-            Self::ConservativeExtension => "conservative-extension",
-            Self::Hardware => "hardware",
-        }
+words! {
+    Coverage {
+        Conservative "conservative",
+        ConservativeExtension "conservative-extension",
+        Hardware "hardware",
     }
 }
 
@@ -37,6 +33,8 @@ pub enum Accept {
     Tile,
 }
 
+words! { Accept { T "t", Tile "tile" } }
+
 /// Where the search of a tile ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
@@ -45,6 +43,8 @@ pub enum Stop {
     /// After the first bucket with a hit (section 4.2.1): a nearer hit may be in the next bucket only.
     Bucket,
 }
+
+words! { Stop { Best "best", Bucket "bucket" } }
 
 /// What the depths of a triangle in a tile are, which choose its buckets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +56,8 @@ pub enum Depths {
     Corners,
 }
 
+words! { Depths { Clipped "clipped", Corners "corners" } }
+
 /// How a ray goes on from a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
@@ -65,3 +67,5 @@ pub enum March {
     /// are skipped.
     Jump,
 }
+
+words! { March { Exact "exact", Jump "jump" } }

@@ -1,5 +1,6 @@
 //! How shaders reach the pools of a structure, and which modules a structure uses for it.
 
+use crate::words;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
@@ -18,15 +19,9 @@ pub enum Addressing {
     Address,
 }
 
-impl Addressing {
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Descriptor => "descriptor",
-            Self::Address => "address",
-        }
-    }
+words! { Addressing { Descriptor "descriptor", Address "address" } }
 
+impl Addressing {
     /// Adds the device features that it needs.
     pub fn add_to(self, requirements: &mut Requirements) {
         if self == Self::Address {

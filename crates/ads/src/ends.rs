@@ -1,5 +1,6 @@
 //! What rays hit at their ends.
 
+use crate::words;
 use rasray_shaders_glsl::constants::ads::{ENDS_CLEAR, ENDS_TOUCHING};
 
 /// Whether fragments count that are as close to an end of a ray as those of the surface there. Of structures whose fragments
@@ -12,18 +13,9 @@ pub enum Ends {
     Clear,
 }
 
+words! { Ends { Touching "touching", Clear "clear" } }
+
 impl Ends {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Touching, Self::Clear];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Touching => "touching",
-            Self::Clear => "clear",
-        }
-    }
-
     /// The number of specialisation constants.
     pub fn number(self) -> u32 {
         match self {

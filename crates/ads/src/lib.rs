@@ -55,6 +55,7 @@ mod steps;
 mod structure;
 mod viewpoint;
 mod visit;
+mod words;
 
 pub use addressing::{Addressing, Modules, TraceModules};
 pub use bounds_pass::BoundsPass;

@@ -1,5 +1,6 @@
 //! Passes that visit the cells of every triangle, by drawing or by computing.
 
+use crate::words;
 use rasray_gpu::{Access, ComputePipeline, Feature, RasterPipeline, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{BIN_GROUP_SIZE, BIN_TURNS};
 
@@ -14,18 +15,9 @@ pub enum Builder {
     Binning,
 }
 
+words! { Builder { Raster "raster", Binning "binning" } }
+
 impl Builder {
-    /// Every builder.
-    pub const ALL: [Self; 2] = [Self::Raster, Self::Binning];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Raster => "raster",
-            Self::Binning => "binning",
-        }
-    }
-
     /// What it needs of a device: to compute, or to draw with stores of fragment shaders.
     pub fn requirements(self) -> Requirements {
         match self {

@@ -1,5 +1,6 @@
 //! The views of bricks, and their numbers of columns, rows and slices.
 
+use rasray_ads::words;
 use rasray_shaders_glsl::constants::bricks::BRICK_SIDE_LIMIT;
 
 /// Cells along a side of a brick.
@@ -18,23 +19,14 @@ pub enum Views {
     Axes,
 }
 
-impl Views {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Cube, Self::Axes];
+words! { Views { Cube "cube", Axes "axes" } }
 
+impl Views {
     /// How many views there are.
     pub(crate) fn count(self) -> u32 {
         match self {
             Self::Cube => 6,
             Self::Axes => 1,
-        }
-    }
-
-    /// The word of options.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Cube => "cube",
-            Self::Axes => "axes",
         }
     }
 }

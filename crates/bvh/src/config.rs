@@ -1,5 +1,6 @@
 //! Options of the BVH.
 
+use rasray_ads::words;
 use rasray_ads::{Addressing, AdsError, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constants::bvh::{BVH_LEAF_LIMIT, BVH_WIDE};
 
@@ -19,17 +20,7 @@ pub enum Builder {
     Refit,
 }
 
-impl Builder {
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sah => "sah",
-            Self::Lbvh => "lbvh",
-            Self::Trbvh => "trbvh",
-            Self::Refit => "refit",
-        }
-    }
-}
+words! { Builder { Sah "sah", Lbvh "lbvh", Trbvh "trbvh", Refit "refit" } }
 
 /// Children of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +30,8 @@ pub enum Width {
     /// Four, tested together: fewer nodes to read, and the fastest to trace.
     Four,
 }
+
+words! { Width { Two "2", Four "4" } }
 
 impl Width {
     /// The number.

@@ -1,5 +1,6 @@
 //! Options of the layered depth cube and the two presets.
 
+use rasray_ads::words;
 use rasray_ads::{Addressing, AdsError, Builder, Counters, Ends, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::ldc as ids;
 use rasray_shaders_glsl::constants::ldc as numbers;
@@ -18,6 +19,8 @@ pub enum Accept {
     Triangle,
 }
 
+words! { Accept { Tolerance "tolerance", Slope "slope", Plane "plane", Triangle "triangle" } }
+
 /// In which cells a triangle gets a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
@@ -30,6 +33,8 @@ pub enum Coverage {
     Conservative,
 }
 
+words! { Coverage { Hardware "hardware", Exact "exact", Conservative "conservative" } }
+
 /// How fragments keep their depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
@@ -38,6 +43,8 @@ pub enum Depth {
     /// A float in metres: 4 bytes.
     Bits32,
 }
+
+words! { Depth { Bits16 "16", Bits32 "32" } }
 
 /// What blocks say of the depths in them. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +55,8 @@ pub enum Occupancy {
     Slices,
 }
 
+words! { Occupancy { Bounds "bounds", Slices "slices" } }
+
 /// How layers are made. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Making {
@@ -56,6 +65,8 @@ pub enum Making {
     /// One after the other by peeling, the paper's way, two draws each.
     Peel,
 }
+
+words! { Making { Single "single", Peel "peel" } }
 
 /// What a fragment carries in addition to its depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,6 +77,8 @@ pub enum Payload {
     /// what else a surface has takes its default. Needs [`Accept::Tolerance`]: the others read the triangle.
     Attributes,
 }
+
+words! { Payload { Index "index", Attributes "attributes" } }
 
 /// All options.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,7 +188,7 @@ impl Config {
         if self.payload == Payload::Attributes && self.accept != Accept::Tolerance {
             return refused(
                 "accept",
-                format!("{:?}", self.accept).to_lowercase(),
+                self.accept.name().to_owned(),
                 "the acceptances triangle, plane and slope need the payload `index`, which identifies the triangle",
             );
         }
@@ -274,17 +287,16 @@ impl Config {
 
     /// Options as name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
-        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         let mut options = vec![
             ("storage", "sb".to_owned()),
             ("resolution", self.resolution.to_string()),
             ("block", self.block_name()),
             ("levels", self.levels.to_string()),
-            ("occupancy", lower(&self.occupancy)),
-            ("build", lower(&self.making)),
-            ("accept", lower(&self.accept)),
+            ("occupancy", self.occupancy.name().to_owned()),
+            ("build", self.making.name().to_owned()),
+            ("accept", self.accept.name().to_owned()),
             ("depth", self.depth.bits().to_string()),
-            ("payload", lower(&self.payload)),
+            ("payload", self.payload.name().to_owned()),
             ("views", "axes".to_owned()),
             ("skip", if self.skip { "on" } else { "off" }.to_owned()),
         ];
@@ -308,7 +320,7 @@ impl Config {
         vec![
             ("builder", self.builder.name().to_owned()),
             ("geometry-passes", self.passes.to_string()),
-            ("coverage", format!("{:?}", self.coverage).to_lowercase()),
+            ("coverage", self.coverage.name().to_owned()),
             ("addressing", self.addressing.name().to_owned()),
         ]
     }

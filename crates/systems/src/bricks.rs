@@ -27,19 +27,13 @@ pub(crate) const SYSTEM: System = System {
 
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
-    ("views", |config, given| {
-        given.choice(&Views::ALL.map(|views| (views.name(), views))).map(|value| config.views = value)
-    }),
+    ("views", |config, given| given.choice(Views::WORDS).map(|value| config.views = value)),
     ("grid", |config, given| given.whole().map(|value| config.grid = Some(value))),
     ("divisions", |config, given| given.whole().map(|value| config.divisions = Some(value))),
     ("slices", |config, given| given.whole().map(|value| config.slices = Some(value))),
     ("corners", |config, given| given.switch().map(|value| config.corners = value)),
     ("skip", |config, given| given.switch().map(|value| config.skip = value)),
-    ("builder", |config, given| {
-        given
-            .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
-            .map(|value| config.builder = value)
-    }),
+    ("builder", |config, given| given.choice(Builder::WORDS).map(|value| config.builder = value)),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
     ("capacity", |config, given| given.whole().map(|value| config.entries = Some(value.into()))),
 ];

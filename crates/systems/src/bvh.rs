@@ -25,14 +25,8 @@ pub(crate) const SYSTEM: System = System {
 
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
-    ("builder", |config, given| {
-        let builders = [Builder::Sah, Builder::Lbvh, Builder::Trbvh, Builder::Refit];
-        let builders = builders.map(|builder| (builder.name(), builder));
-        given.choice(&builders).map(|value| config.builder = value)
-    }),
-    ("children", |config, given| {
-        given.choice(&[("2", Width::Two), ("4", Width::Four)]).map(|value| config.width = Some(value))
-    }),
+    ("builder", |config, given| given.choice(Builder::WORDS).map(|value| config.builder = value)),
+    ("children", |config, given| given.choice(Width::WORDS).map(|value| config.width = Some(value))),
     ("leaf", |config, given| given.whole().map(|value| config.leaf = Some(value))),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];

@@ -40,49 +40,19 @@ const OPTIONS: &[Setter<Config>] = &[
     ("buckets", |config, given| given.whole().map(|value| config.buckets = value)),
     ("capacity", |config, given| given.whole().map(|value| config.entries = Some(value.into()))),
     ("skip", |config, given| given.switch().map(|value| config.skip = value)),
-    ("storage", |config, given| {
-        given
-            .choice(&[("llb", Storage::Linked), ("sb", Storage::Contiguous)])
-            .map(|value| config.storage = value)
-    }),
-    ("coverage", |config, given| {
-        given
-            .choice(&Coverage::ALL.map(|coverage| (coverage.name(), coverage)))
-            .map(|value| config.coverage = value)
-    }),
-    ("accept", |config, given| {
-        given.choice(&[("t", Accept::T), ("tile", Accept::Tile)]).map(|value| config.accept = value)
-    }),
-    ("stop", |config, given| {
-        given.choice(&[("best", Stop::Best), ("bucket", Stop::Bucket)]).map(|value| config.stop = value)
-    }),
-    ("depths", |config, given| {
-        given
-            .choice(&[("clipped", Depths::Clipped), ("corners", Depths::Corners)])
-            .map(|value| config.depths = value)
-    }),
-    ("march", |config, given| {
-        given.choice(&[("exact", March::Exact), ("jump", March::Jump)]).map(|value| config.march = value)
-    }),
+    ("storage", |config, given| given.choice(Storage::WORDS).map(|value| config.storage = value)),
+    ("coverage", |config, given| given.choice(Coverage::WORDS).map(|value| config.coverage = value)),
+    ("accept", |config, given| given.choice(Accept::WORDS).map(|value| config.accept = value)),
+    ("stop", |config, given| given.choice(Stop::WORDS).map(|value| config.stop = value)),
+    ("depths", |config, given| given.choice(Depths::WORDS).map(|value| config.depths = value)),
+    ("march", |config, given| given.choice(March::WORDS).map(|value| config.march = value)),
     ("pyramid", |config, given| given.switch().map(|value| config.pyramid = value)),
     ("pyramid-start", |config, given| {
-        given
-            .choice(&[("finest", PyramidStart::Finest), ("coarsest", PyramidStart::Coarsest)])
-            .map(|value| config.pyramid_start = value)
+        given.choice(PyramidStart::WORDS).map(|value| config.pyramid_start = value)
     }),
-    ("views", |config, given| {
-        given.choice(&[("cube", Views::Cube), ("camera", Views::Camera)]).map(|value| config.views = value)
-    }),
-    ("centre", |config, given| {
-        given
-            .choice(&[("eye", Centre::Eye), ("scene", Centre::Scene), ("fixed", Centre::Fixed)])
-            .map(|value| config.centre = value)
-    }),
-    ("builder", |config, given| {
-        given
-            .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
-            .map(|value| config.builder = value)
-    }),
+    ("views", |config, given| given.choice(Views::WORDS).map(|value| config.views = value)),
+    ("centre", |config, given| given.choice(Centre::WORDS).map(|value| config.centre = value)),
+    ("builder", |config, given| given.choice(Builder::WORDS).map(|value| config.builder = value)),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 

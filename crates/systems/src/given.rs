@@ -68,9 +68,7 @@ impl Given {
 
     /// How shaders reach the pools.
     pub(crate) fn addressing(&self) -> Result<Addressing, SystemsError> {
-        self.choice(
-            &[Addressing::Descriptor, Addressing::Address].map(|addressing| (addressing.name(), addressing)),
-        )
+        self.choice(Addressing::WORDS)
     }
 
     /// A value that the system does not take.

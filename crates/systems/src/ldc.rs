@@ -37,23 +37,13 @@ const OPTIONS: &[Setter<Config>] = &[
     ("resolution", |config, given| given.whole().map(|value| config.resolution = value)),
     ("block", |config, given| given.cells().map(|value| config.block = value)),
     ("layers", |config, given| given.whole().map(|value| config.layers = value)),
-    ("build", |config, given| {
-        given.choice(&[("single", Making::Single), ("peel", Making::Peel)]).map(|value| config.making = value)
-    }),
+    ("build", |config, given| given.choice(Making::WORDS).map(|value| config.making = value)),
     ("levels", |config, given| given.whole().map(|value| config.levels = value)),
-    ("occupancy", |config, given| {
-        given
-            .choice(&[("bounds", Occupancy::Bounds), ("slices", Occupancy::Slices)])
-            .map(|value| config.occupancy = value)
-    }),
+    ("occupancy", |config, given| given.choice(Occupancy::WORDS).map(|value| config.occupancy = value)),
     ("capacity", |config, given| given.whole().map(|value| config.fragments = Some(value.into()))),
     ("tolerance", |config, given| given.number().map(|value| config.tolerance = value)),
     ("skip", |config, given| given.switch().map(|value| config.skip = value)),
-    ("builder", |config, given| {
-        given
-            .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
-            .map(|value| config.builder = value)
-    }),
+    ("builder", |config, given| given.choice(Builder::WORDS).map(|value| config.builder = value)),
     ("geometry-passes", |config, given| {
         given.choice(&[("1", 1), ("3", 3)]).map(|value| config.passes = value)
     }),
@@ -61,36 +51,11 @@ const OPTIONS: &[Setter<Config>] = &[
     ("storage", |_, given| given.choice(&[("sb", ())])),
     ("views", |_, given| given.choice(&[("axes", ())])),
     ("ids", |config, given| given.switch().map(|value| config.ids = value)),
-    ("payload", |config, given| {
-        given
-            .choice(&[("index", Payload::Index), ("attributes", Payload::Attributes)])
-            .map(|value| config.payload = value)
-    }),
-    ("depth", |config, given| {
-        given.choice(&[("16", Depth::Bits16), ("32", Depth::Bits32)]).map(|value| config.depth = value)
-    }),
-    ("accept", |config, given| {
-        given
-            .choice(&[
-                ("tolerance", Accept::Tolerance),
-                ("slope", Accept::Slope),
-                ("plane", Accept::Plane),
-                ("triangle", Accept::Triangle),
-            ])
-            .map(|value| config.accept = value)
-    }),
-    ("ends", |config, given| {
-        given.choice(&Ends::ALL.map(|ends| (ends.name(), ends))).map(|value| config.ends = value)
-    }),
-    ("coverage", |config, given| {
-        given
-            .choice(&[
-                ("exact", Coverage::Exact),
-                ("hardware", Coverage::Hardware),
-                ("conservative", Coverage::Conservative),
-            ])
-            .map(|value| config.coverage = value)
-    }),
+    ("payload", |config, given| given.choice(Payload::WORDS).map(|value| config.payload = value)),
+    ("depth", |config, given| given.choice(Depth::WORDS).map(|value| config.depth = value)),
+    ("accept", |config, given| given.choice(Accept::WORDS).map(|value| config.accept = value)),
+    ("ends", |config, given| given.choice(Ends::WORDS).map(|value| config.ends = value)),
+    ("coverage", |config, given| given.choice(Coverage::WORDS).map(|value| config.coverage = value)),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 

@@ -38,61 +38,21 @@ const OPTIONS: &[Setter<Config>] = &[
     ("single-layer", |config, given| given.switch().map(|value| config.single_layer = value)),
     ("sort", |config, given| given.switch().map(|value| config.sort = value)),
     ("skip", |config, given| given.switch().map(|value| config.skip = value)),
-    ("storage", |config, given| {
-        given
-            .choice(&Storage::ALL.map(|storage| (storage.name(), storage)))
-            .map(|value| config.storage = value)
-    }),
-    ("bounds", |config, given| {
-        given.choice(&Bounds::ALL.map(|bounds| (bounds.name(), bounds))).map(|value| config.bounds = value)
-    }),
-    ("builder", |config, given| {
-        given
-            .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
-            .map(|value| config.builder = value)
-    }),
+    ("storage", |config, given| given.choice(Storage::WORDS).map(|value| config.storage = value)),
+    ("bounds", |config, given| given.choice(Bounds::WORDS).map(|value| config.bounds = value)),
+    ("builder", |config, given| given.choice(Builder::WORDS).map(|value| config.builder = value)),
     ("inline", |config, given| given.switch().map(|value| config.inline = value)),
     ("page", |config, given| given.whole().map(|value| config.page = value)),
-    ("views", |config, given| {
-        given.choice(&Views::ALL.map(|views| (views.name(), views))).map(|value| config.views = value)
-    }),
+    ("views", |config, given| given.choice(Views::WORDS).map(|value| config.views = value)),
     ("view-switching", |config, given| {
-        given
-            .choice(&ViewSwitching::ALL.map(|switching| (switching.name(), switching)))
-            .map(|value| config.view_switching = value)
+        given.choice(ViewSwitching::WORDS).map(|value| config.view_switching = value)
     }),
     ("camera-resolution", |config, given| given.cells().map(|value| config.camera_resolution = value)),
     ("ids", |config, given| given.switch().map(|value| config.ids = value)),
-    ("payload", |config, given| {
-        given
-            .choice(&Payload::ALL.map(|payload| (payload.name(), payload)))
-            .map(|value| config.payload = value)
-    }),
-    ("march", |config, given| {
-        given
-            .choice(&[
-                ("samples", March::Samples),
-                ("dda", March::Dda),
-                ("exact", March::Exact),
-                ("pyramid", March::Pyramid),
-            ])
-            .map(|value| config.march = value)
-    }),
-    ("accept", |config, given| {
-        given
-            .choice(&[
-                ("interval", Accept::Interval),
-                ("thickness", Accept::Thickness),
-                ("slope", Accept::Slope),
-                ("plane", Accept::Plane),
-            ])
-            .map(|value| config.accept = value)
-    }),
-    ("coverage", |config, given| {
-        given
-            .choice(&Coverage::ALL.map(|coverage| (coverage.name(), coverage)))
-            .map(|value| config.coverage = value)
-    }),
+    ("payload", |config, given| given.choice(Payload::WORDS).map(|value| config.payload = value)),
+    ("march", |config, given| given.choice(March::WORDS).map(|value| config.march = value)),
+    ("accept", |config, given| given.choice(Accept::WORDS).map(|value| config.accept = value)),
+    ("coverage", |config, given| given.choice(Coverage::WORDS).map(|value| config.coverage = value)),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 

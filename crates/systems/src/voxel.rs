@@ -16,49 +16,15 @@ const OPTIONS: &[Setter<Config>] = &[
     ("page", |config, given| given.whole().map(|value| config.page = value)),
     ("capacity", |config, given| given.whole().map(|value| config.fragments = Some(value.into()))),
     ("sort", |config, given| given.switch().map(|value| config.sort = value)),
-    ("builder", |config, given| {
-        given
-            .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
-            .map(|value| config.builder = value)
-    }),
-    ("axes", |config, given| {
-        given
-            .choice(&[("all", Axes::All), ("voxel", Axes::Voxel), ("triangle", Axes::Triangle)])
-            .map(|value| config.axes = value)
-    }),
-    ("voxels", |config, given| {
-        given
-            .choice(&[("fragments", Marking::Fragments), ("triangles", Marking::Triangles)])
-            .map(|value| config.voxels = Some(value))
-    }),
-    ("leaves", |config, given| {
-        given
-            .choice(&[("fragments", Leaves::Fragments), ("voxels", Leaves::Voxels)])
-            .map(|value| config.leaves = value)
-    }),
-    ("traversal", |config, given| {
-        given
-            .choice(&[("dda", Traversal::Dda), ("octree", Traversal::Octree)])
-            .map(|value| config.traversal = value)
-    }),
-    ("march", |config, given| {
-        given
-            .choice(&[("samples", March::Samples), ("exact", March::Exact)])
-            .map(|value| config.march = value)
-    }),
-    ("accept", |config, given| {
-        given
-            .choice(&[("parity", Accept::Parity), ("plane", Accept::Plane)])
-            .map(|value| config.accept = value)
-    }),
-    ("ends", |config, given| {
-        given.choice(&Ends::ALL.map(|ends| (ends.name(), ends))).map(|value| config.ends = value)
-    }),
-    ("inside", |config, given| {
-        given
-            .choice(&[("column", Inside::Column), ("voxel", Inside::Voxel)])
-            .map(|value| config.inside = value)
-    }),
+    ("builder", |config, given| given.choice(Builder::WORDS).map(|value| config.builder = value)),
+    ("axes", |config, given| given.choice(Axes::WORDS).map(|value| config.axes = value)),
+    ("voxels", |config, given| given.choice(Marking::WORDS).map(|value| config.voxels = Some(value))),
+    ("leaves", |config, given| given.choice(Leaves::WORDS).map(|value| config.leaves = value)),
+    ("traversal", |config, given| given.choice(Traversal::WORDS).map(|value| config.traversal = value)),
+    ("march", |config, given| given.choice(March::WORDS).map(|value| config.march = value)),
+    ("accept", |config, given| given.choice(Accept::WORDS).map(|value| config.accept = value)),
+    ("ends", |config, given| given.choice(Ends::WORDS).map(|value| config.ends = value)),
+    ("inside", |config, given| given.choice(Inside::WORDS).map(|value| config.inside = value)),
     ("ids", |config, given| given.switch().map(|value| config.ids = value)),
     // Attributes are those of the system's paper, which the configuration is made with.
     ("payload", |config, given| {
@@ -66,20 +32,8 @@ const OPTIONS: &[Setter<Config>] = &[
             .choice(&[("index", Payload::Index), ("attributes", Payload::Material)])
             .map(|value| config.payload = value)
     }),
-    ("coverage", |config, given| {
-        given
-            .choice(&[
-                ("exact", Coverage::Exact),
-                ("hardware", Coverage::Hardware),
-                ("conservative", Coverage::Conservative),
-            ])
-            .map(|value| config.coverage = value)
-    }),
-    ("storage", |config, given| {
-        given
-            .choice(&Storage::ALL.map(|storage| (storage.name(), storage)))
-            .map(|value| config.storage = value)
-    }),
+    ("coverage", |config, given| given.choice(Coverage::WORDS).map(|value| config.coverage = value)),
+    ("storage", |config, given| given.choice(Storage::WORDS).map(|value| config.storage = value)),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 

@@ -1,5 +1,6 @@
 //! Options of voxels with axis A-buffers, and the presets.
 
+use rasray_ads::words;
 use rasray_ads::{Addressing, AdsError, Builder, Counters, Ends, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::voxel as ids;
 use rasray_shaders_glsl::constants::voxel as numbers;
@@ -15,6 +16,8 @@ pub enum Axes {
     Triangle,
 }
 
+words! { Axes { All "all", Voxel "voxel", Triangle "triangle" } }
+
 /// What makes a voxel occupied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marking {
@@ -24,6 +27,8 @@ pub enum Marking {
     /// The triangles that reach into it, in a pass before: no voxel with a part of one counts as empty.
     Triangles,
 }
+
+words! { Marking { Fragments "fragments", Triangles "triangles" } }
 
 /// What a ray hits in an occupied voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +40,8 @@ pub enum Leaves {
     Voxels,
 }
 
+words! { Leaves { Fragments "fragments", Voxels "voxels" } }
+
 /// How a ray goes from voxel to voxel. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Traversal {
@@ -43,6 +50,8 @@ pub enum Traversal {
     /// The same, over the empty nodes of a sparse octree, which is built from the voxels.
     Octree,
 }
+
+words! { Traversal { Dda "dda", Octree "octree" } }
 
 /// How a ray steps within a voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,6 +62,8 @@ pub enum March {
     Exact,
 }
 
+words! { March { Samples "samples", Exact "exact" } }
+
 /// When a fragment counts as hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accept {
@@ -62,6 +73,8 @@ pub enum Accept {
     Plane,
 }
 
+words! { Accept { Parity "parity", Plane "plane" } }
+
 /// Which fragments decide whether a point is inside. Needs [`Accept::Parity`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inside {
@@ -70,6 +83,8 @@ pub enum Inside {
     /// Those of them at the depths of the voxel, which need not be of closed objects: elsewhere nothing flips.
     Voxel,
 }
+
+words! { Inside { Column "column", Voxel "voxel" } }
 
 /// Which cells keep a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,6 +98,8 @@ pub enum Coverage {
     Conservative,
 }
 
+words! { Coverage { Hardware "hardware", Exact "exact", Conservative "conservative" } }
+
 /// How the lists of cells are kept. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
@@ -94,19 +111,9 @@ pub enum Storage {
     Paged,
 }
 
+words! { Storage { Contiguous "sb", Linked "ll", Paged "paged" } }
+
 impl Storage {
-    /// Every storage.
-    pub const ALL: [Self; 3] = [Self::Contiguous, Self::Linked, Self::Paged];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Contiguous => "sb",
-            Self::Linked => "ll",
-            Self::Paged => "paged",
-        }
-    }
-
     fn number(self) -> u32 {
         match self {
             Self::Contiguous => numbers::VOXEL_STORAGE_CONTIGUOUS,
@@ -418,11 +425,10 @@ impl Config {
 
     /// Options as name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
-        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         let payload = if self.payload == Payload::Index { "index" } else { "attributes" };
         if self.leaves == Leaves::Voxels {
             return vec![
-                ("leaves", lower(&self.leaves)),
+                ("leaves", self.leaves.name().to_owned()),
                 ("grid", self.grid().to_string()),
                 ("ends", self.ends.name().to_owned()),
             ];
@@ -431,14 +437,14 @@ impl Config {
             ("storage", self.storage.name().to_owned()),
             ("resolution", self.resolution.to_string()),
             ("grid", self.grid().to_string()),
-            ("axes", lower(&self.axes)),
-            ("voxels", lower(&self.marking())),
-            ("march", lower(&self.march)),
-            ("accept", lower(&self.accept)),
+            ("axes", self.axes.name().to_owned()),
+            ("voxels", self.marking().name().to_owned()),
+            ("march", self.march.name().to_owned()),
+            ("accept", self.accept.name().to_owned()),
             ("payload", payload.to_owned()),
         ];
         if self.accept == Accept::Parity {
-            options.push(("inside", lower(&self.inside)));
+            options.push(("inside", self.inside.name().to_owned()));
             options.push(("ends", self.ends.name().to_owned()));
         }
         if self.payload == Payload::Material {
@@ -458,11 +464,10 @@ impl Config {
 
     /// Paths as name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
-        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         vec![
             ("builder", self.builder.name().to_owned()),
-            ("coverage", lower(&self.coverage)),
-            ("traversal", lower(&self.traversal)),
+            ("coverage", self.coverage.name().to_owned()),
+            ("traversal", self.traversal.name().to_owned()),
             ("addressing", self.addressing.name().to_owned()),
         ]
     }
