@@ -19,9 +19,13 @@ use crate::{
     rendered_with, settings, source_of, system,
 };
 
+/// What whoever opens scenes says to do where one cannot be opened.
+const HELP: &str = "name another file";
+
 /// What a session of a scene begins with, with the settings of these tests.
 fn opened(scene: &OsStr) -> Result<Opened, Failure> {
-    let loaded = load(scene).map_err(|error| Failure::without_help(&error))?;
+    let loaded =
+        load(scene).map_err(|error| Failure { message: error.to_string(), help: HELP.to_owned() })?;
     let opening = Opening {
         scene: scene.to_owned(),
         camera_words: Vec::new(),
@@ -106,7 +110,7 @@ fn a_dropped_file_is_shown_and_one_that_cannot_be_read_leaves_the_scene_before()
         running.session().drop_file(path);
         running.until("an error", |session| session.not_opened().is_some());
         let failure = running.session().not_opened().expect("an error");
-        assert!(failure.message.contains(word) && !failure.help.is_empty(), "{failure:?}");
+        assert!(failure.message.contains(word) && failure.help == HELP, "{failure:?}");
         assert_eq!(running.session().scene_name(), "cornell");
         assert!(radiance(running.finish()) == before, "the picture stays");
     }
