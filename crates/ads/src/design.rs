@@ -210,8 +210,9 @@ pub trait Design: fmt::Debug + Sized {
     /// Pools were written from outside: nothing that an earlier build left in them can be relied on.
     fn overwritten(&self) {}
 
-    /// The header that the next build starts from: options, capacities, eye. [`Pools::begin`] adds the addresses. What follows from the bounds of the
-    /// geometry, which only the device knows, is worked out there: by the structure's `from_bounds.glsl`.
+    /// The header that the next build starts from: options, capacities, eye. [`Pools::begin`] adds the addresses. What
+    /// follows from the bounds of the geometry, which only the device knows, is worked out there: by the structure's
+    /// `from_bounds.glsl`.
     ///
     /// # Errors
     /// The viewpoint lacks what the configuration needs, or the build was not prepared.

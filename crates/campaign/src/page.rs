@@ -193,9 +193,9 @@ mod tests {
     use super::*;
     use rasray_report::{Device, Origin, Report, Run, SceneRecord};
 
-    type Pairs<T> = &'static [(&'static str, T)];
+    type Pairs<'a, T> = &'a [(&'a str, T)];
 
-    fn row(key: &str, settings: Pairs<&str>, results: Pairs<f64>) -> Row {
+    fn row(key: &str, settings: Pairs<'_, &str>, results: Pairs<'_, f64>) -> Row {
         let ray_set = settings.iter().find(|(name, _)| *name == "ray-set").map(|(_, set)| (*set).to_owned());
         let run = Run { ray_set, ..Run::default() };
         let (origin, scene) = (Origin::default(), SceneRecord::default());
@@ -233,43 +233,23 @@ mod tests {
     #[test]
     fn settings_and_runs_are_said_once() {
         let rows = || {
+            let of_pool = |key, system, fetch, trace_ms, wrong| {
+                let settings = [
+                    ("scene", "pool"),
+                    ("camera", "deck"),
+                    ("size", "4x3"),
+                    ("system", system),
+                    ("ray-set", "eye"),
+                    ("fetch", fetch),
+                ];
+                let results =
+                    [("trace_ms", trace_ms), ("error_share", wrong), ("memory.structure_bytes", 64.0)];
+                row(key, &settings, &results)
+            };
             vec![
-                row(
-                    "a",
-                    &[
-                        ("scene", "pool"),
-                        ("camera", "deck"),
-                        ("size", "4x3"),
-                        ("system", "hu"),
-                        ("ray-set", "eye"),
-                        ("fetch", "raster"),
-                    ],
-                    &[("trace_ms", 1.0), ("error_share", 0.25), ("memory.structure_bytes", 64.0)],
-                ),
-                row(
-                    "a",
-                    &[
-                        ("scene", "pool"),
-                        ("camera", "deck"),
-                        ("size", "4x3"),
-                        ("system", "hu"),
-                        ("ray-set", "eye"),
-                        ("fetch", "direct"),
-                    ],
-                    &[("trace_ms", 1.0), ("error_share", 0.25), ("memory.structure_bytes", 64.0)],
-                ),
-                row(
-                    "b",
-                    &[
-                        ("scene", "pool"),
-                        ("camera", "deck"),
-                        ("size", "4x3"),
-                        ("system", "bvh"),
-                        ("ray-set", "eye"),
-                        ("fetch", "raster"),
-                    ],
-                    &[("trace_ms", 2.0), ("error_share", 0.0), ("memory.structure_bytes", 64.0)],
-                ),
+                of_pool("a", "hu", "raster", 1.0, 0.25),
+                of_pool("a", "hu", "direct", 1.0, 0.25),
+                of_pool("b", "bvh", "raster", 2.0, 0.0),
                 row(
                     "c",
                     &[

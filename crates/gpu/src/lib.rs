@@ -13,8 +13,9 @@
 //! Pipelines of the same making are one; [`Device::keep_pipelines`] keeps some that are not in use.
 //!
 //! **Who waits.** A [`Recorder`] only records: it never submits, never waits, never allocates device memory.
-//! [`Device::submit`], [`Device::upload`], [`Device::download`] and [`Device::create_cleared_buffer`] submit and wait with a
-//! timeout; they are for applications, tests and what is made before frames begin. [`Flights`] submits without waiting, frame after frame. Code that is to run inside somebody else's frame uses a [`Recorder`] alone.
+//! [`Device::submit`], [`Device::upload`], [`Device::download`] and [`Device::create_cleared_buffer`] submit and wait
+//! with a timeout; they are for applications, tests and what is made before frames begin. [`Flights`] submits without
+//! waiting, frame after frame. Code that is to run inside somebody else's frame uses a [`Recorder`] alone.
 //! Submissions keep what they use alive until the device is done with it.
 //!
 //! **Synchronisation.** Within one command buffer the caller records [`Recorder::barrier`]. Every submission of

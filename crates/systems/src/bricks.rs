@@ -1,6 +1,6 @@
 //! Bricks: the structure that is in no paper, and the default.
 
-use rasray_bricks::{Bricks, Builder, Config, Views};
+use rasray_bricks::{Addressing, Bricks, Builder, Config, Views};
 
 use crate::given::{Given, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
@@ -34,7 +34,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("corners", |config, given| given.switch().map(|value| config.corners = value)),
     ("skip", |config, given| given.switch().map(|value| config.skip = value)),
     ("builder", |config, given| given.choice(Builder::WORDS).map(|value| config.builder = value)),
-    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
+    ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
     ("capacity", |config, given| given.whole().map(|value| config.entries = Some(value.into()))),
 ];
 

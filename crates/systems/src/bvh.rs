@@ -1,6 +1,6 @@
 //! Bounding volume hierarchies: the baseline.
 
-use rasray_bvh::{Builder, Bvh, Config, Width};
+use rasray_bvh::{Addressing, Builder, Bvh, Config, Width};
 
 use crate::given::{Given, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
@@ -28,7 +28,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("builder", |config, given| given.choice(Builder::WORDS).map(|value| config.builder = value)),
     ("children", |config, given| given.choice(Width::WORDS).map(|value| config.width = Some(value))),
     ("leaf", |config, given| given.whole().map(|value| config.leaf = Some(value))),
-    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
+    ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
 ];
 
 /// The configuration that a spec stands for.

@@ -1,8 +1,8 @@
 //! DIRT: primitive lists with the paper's presets.
 
 use rasray_ads_primitive::{
-    Accept, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, PyramidStart, Stop, Storage,
-    Views,
+    Accept, Addressing, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, PyramidStart, Stop,
+    Storage, Views,
 };
 
 use crate::given::{Given, Setter, names};
@@ -53,7 +53,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("views", |config, given| given.choice(Views::WORDS).map(|value| config.views = value)),
     ("centre", |config, given| given.choice(Centre::WORDS).map(|value| config.centre = value)),
     ("builder", |config, given| given.choice(Builder::WORDS).map(|value| config.builder = value)),
-    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
+    ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
 ];
 
 /// Default number of pixels along a side of a face.

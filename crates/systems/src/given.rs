@@ -1,6 +1,5 @@
 //! What is given for one option, and what a system makes of it.
 
-use rasray_ads::Addressing;
 use rasray_options::{Value, ValueError};
 
 use crate::{Spec, SystemsError};
@@ -64,11 +63,6 @@ impl Given {
             let known: Vec<_> = words.iter().map(|(word, _)| *word).collect();
             self.refused(format!("must be one of: {}", known.join(", ")))
         })
-    }
-
-    /// How shaders reach the pools.
-    pub(crate) fn addressing(&self) -> Result<Addressing, SystemsError> {
-        self.choice(Addressing::WORDS)
     }
 
     /// A value that the system does not take.

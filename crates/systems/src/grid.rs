@@ -1,6 +1,6 @@
 //! The uniform grid, the baseline of structures made of cells.
 
-use rasray_grid::{Config, Grid};
+use rasray_grid::{Addressing, Config, Grid};
 
 use crate::given::{Given, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
@@ -26,7 +26,7 @@ pub(crate) const SYSTEM: System = System {
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
     ("grid", |config, given| given.whole().map(|value| config.cells = Some(value))),
-    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
+    ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
     ("capacity", |config, given| given.whole().map(|value| config.entries = Some(value.into()))),
 ];
 

@@ -1,7 +1,7 @@
 //! LDC: the layered depth cube with the paper's presets.
 
 use rasray_ldc::{
-    Accept, Builder, Config, Coverage, Depth, Ends, LayeredDepthCube, Making, Occupancy, Payload,
+    Accept, Addressing, Builder, Config, Coverage, Depth, Ends, LayeredDepthCube, Making, Occupancy, Payload,
 };
 
 use crate::given::{Given, Setter, names};
@@ -56,7 +56,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("accept", |config, given| given.choice(Accept::WORDS).map(|value| config.accept = value)),
     ("ends", |config, given| given.choice(Ends::WORDS).map(|value| config.ends = value)),
     ("coverage", |config, given| given.choice(Coverage::WORDS).map(|value| config.coverage = value)),
-    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
+    ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
 ];
 
 /// Default number of cells along a side of a view.

@@ -1,7 +1,8 @@
 //! MMRT: the A-buffer with the paper's presets.
 
 use rasray_abuffer::{
-    ABuffer, Accept, Bounds, Builder, Config, Coverage, March, Payload, Storage, ViewSwitching, Views,
+    ABuffer, Accept, Addressing, Bounds, Builder, Config, Coverage, March, Payload, Storage, ViewSwitching,
+    Views,
 };
 
 use crate::given::{Given, Setter, names};
@@ -53,7 +54,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("march", |config, given| given.choice(March::WORDS).map(|value| config.march = value)),
     ("accept", |config, given| given.choice(Accept::WORDS).map(|value| config.accept = value)),
     ("coverage", |config, given| given.choice(Coverage::WORDS).map(|value| config.coverage = value)),
-    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
+    ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
 ];
 
 /// Default number of cells along a side.

@@ -1,8 +1,8 @@
 //! Options of the systems that trace voxels with axis A-buffers.
 
 use rasray_voxel::{
-    Accept, Axes, Builder, Config, Coverage, Ends, Inside, Leaves, March, Marking, Payload, Storage,
-    Traversal,
+    Accept, Addressing, Axes, Builder, Config, Coverage, Ends, Inside, Leaves, March, Marking, Payload,
+    Storage, Traversal,
 };
 
 use crate::given::{Given, Setter};
@@ -34,7 +34,7 @@ const OPTIONS: &[Setter<Config>] = &[
     }),
     ("coverage", |config, given| given.choice(Coverage::WORDS).map(|value| config.coverage = value)),
     ("storage", |config, given| given.choice(Storage::WORDS).map(|value| config.storage = value)),
-    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
+    ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
 ];
 
 /// Their names.
