@@ -87,7 +87,7 @@ impl Device {
             .collect();
         let device = make_device(&instance.raw, candidate, &enabled)?;
         tracing::info!("device {} ({}): {why_chosen}", candidate.name, candidate.driver);
-        let debug_utils = instance.debug_utils;
+        let (debug_utils, labels) = (instance.debug_utils, instance.labels);
         Self::assemble(Parts {
             instance: instance.raw.clone(),
             log: instance.log().clone(),
@@ -97,6 +97,7 @@ impl Device {
             queue: None,
             enabled,
             debug_utils,
+            labels,
             pipeline_cache: vk::PipelineCache::null(),
             memory: None,
             memory_limit: None,
@@ -158,7 +159,8 @@ impl Device {
         let limits = unsafe { Limits::read(&instance, candidate.physical, family.timestamp_valid_bits) };
         #[cfg(feature = "fault-injection")]
         let limits = crate::faults::lower(limits);
-        let labels = parts.debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
+        let names = parts.debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
+        let labels = names.clone().filter(|_| parts.labels);
         let core = Core {
             physical: candidate.physical,
             queue: Mutex::new(queue),
@@ -166,6 +168,7 @@ impl Device {
             graphics: family.graphics,
             api_version: parts.api_version,
             commands,
+            names,
             labels,
             pipeline_cache: parts.pipeline_cache,
             pipelines: PipelineStore::default(),
@@ -330,6 +333,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) queue: Option<vk::Queue>,
     pub(crate) enabled: BTreeSet<Feature>,
     pub(crate) debug_utils: bool,
+    /// Whether passes have labels, where `debug_utils` is enabled.
+    pub(crate) labels: bool,
     pub(crate) pipeline_cache: vk::PipelineCache,
     pub(crate) memory: Option<Arc<dyn crate::Memory>>,
     pub(crate) memory_limit: Option<u64>,

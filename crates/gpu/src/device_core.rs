@@ -71,7 +71,9 @@ pub(crate) struct Core {
     pub(crate) graphics: bool,
     pub(crate) api_version: u32,
     pub(crate) commands: Commands,
-    /// Names and labels, where `VK_EXT_debug_utils` is enabled.
+    /// Names of objects, where `VK_EXT_debug_utils` is enabled.
+    pub(crate) names: Option<ash::ext::debug_utils::Device>,
+    /// Labels of passes, where it is and they do no harm.
     pub(crate) labels: Option<ash::ext::debug_utils::Device>,
     pub(crate) pipeline_cache: vk::PipelineCache,
     pub(crate) pipelines: PipelineStore,
@@ -146,12 +148,12 @@ impl Core {
 
     /// Gives an object the name under which tools and validation show it.
     pub(crate) fn name_object<H: vk::Handle>(&self, handle: H, name: &str) {
-        let Some(labels) = &self.labels else { return };
+        let Some(names) = &self.names else { return };
         let name = c_name(name);
         let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
         // SAFETY: the handle was just made from this device and is not shared yet. A name that could not be
         // stored is only a loss for debugging.
-        let _ = unsafe { labels.set_debug_utils_object_name(&info) };
+        let _ = unsafe { names.set_debug_utils_object_name(&info) };
     }
 }
 

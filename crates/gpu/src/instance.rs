@@ -9,11 +9,18 @@ use crate::messages::{ValidationLog, messenger_info};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
+/// The first version of the layer whose thread for a queue locks the labels of command buffers. Earlier ones, such as 1.3.239 of
+/// Debian 12, forget those of a destroyed command buffer without a lock, some time after a wait for its fence ended: where its
+/// handle is in use again by then, labels are written to freed memory (Vulkan-ValidationLayers, issue 5172).
+const LABELS_ARE_LOCKED: u32 = vk::make_api_version(0, 1, 3, 242);
+
 /// An instance made here, with the library it came from.
 pub(crate) struct Instance {
     pub(crate) raw: ash::Instance,
     /// Whether `VK_EXT_debug_utils` is enabled.
     pub(crate) debug_utils: bool,
+    /// Whether passes may have labels.
+    pub(crate) labels: bool,
     /// Boxed because the messenger holds its address.
     log: Box<ValidationLog>,
     messenger: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
@@ -36,11 +43,10 @@ impl Instance {
         let extensions = extension_names(&entry, None)?;
         let mut enabled: Vec<&CStr> = Vec::new();
         let mut layers: Vec<*const std::ffi::c_char> = Vec::new();
-        let mut debug_utils = false;
+        let (mut debug_utils, mut labels) = (false, false);
         if validation {
-            if !has_validation_layer(&entry)? {
-                return Err(GpuError::ValidationLayerMissing);
-            }
+            let version = validation_layer(&entry)?.ok_or(GpuError::ValidationLayerMissing)?;
+            labels = version >= LABELS_ARE_LOCKED;
             layers.push(VALIDATION_LAYER.as_ptr());
             let of_layer = extension_names(&entry, Some(VALIDATION_LAYER))?;
             let name = ash::ext::debug_utils::NAME;
@@ -80,7 +86,7 @@ impl Instance {
             vk::Result::ERROR_LAYER_NOT_PRESENT => GpuError::ValidationLayerMissing,
             other => GpuError::from_vulkan(other, "vkCreateInstance", &application.to_string_lossy()),
         })?;
-        let mut instance = Self { raw, debug_utils, log, messenger: None, _entry: entry };
+        let mut instance = Self { raw, debug_utils, labels, log, messenger: None, _entry: entry };
         if debug_utils {
             let functions = ash::ext::debug_utils::Instance::new(&instance._entry, &instance.raw);
             let info = messenger_info(&instance.log);
@@ -123,11 +129,13 @@ fn load() -> Result<ash::Entry> {
     crate::faults::entry()
 }
 
-fn has_validation_layer(entry: &ash::Entry) -> Result<bool> {
+/// The version of the validation layer, where it is installed.
+fn validation_layer(entry: &ash::Entry) -> Result<Option<u32>> {
     // SAFETY: global-level command of a loaded library.
     let layers = unsafe { entry.enumerate_instance_layer_properties() }
         .during("vkEnumerateInstanceLayerProperties", "the list of layers")?;
-    Ok(layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER)))
+    let layer = layers.iter().find(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER));
+    Ok(layer.map(|layer| layer.spec_version))
 }
 
 fn extension_names(entry: &ash::Entry, layer: Option<&CStr>) -> Result<Vec<CString>> {
