@@ -6,6 +6,9 @@ const IN_SIGHT: f32 = 32.0;
 /// Least and greatest window pixels per pixel of a picture, where it was zoomed.
 const SCALES: [f32; 2] = [1.0 / 64.0, 64.0];
 
+/// Window pixels per pixel of a picture from which on its pixels are squares.
+const SQUARES: f32 = 2.0;
+
 /// A rectangle of a window, pixels: the left top corner, then width and height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
@@ -29,6 +32,37 @@ impl Area {
     /// The point at shares of width and height.
     pub fn at(&self, share: [f32; 2]) -> [f32; 2] {
         [0, 1].map(|axis| self.corner[axis] + share[axis] * self.size[axis])
+    }
+
+    /// The whole pixels of the window that it touches.
+    pub fn whole(&self) -> Self {
+        let corner = self.corner.map(f32::floor);
+        Self { corner, size: [0, 1].map(|axis| (self.corner[axis] + self.size[axis]).ceil() - corner[axis]) }
+    }
+
+    /// What a window shows of a picture that lies here, whose pixels are squares: per pixel of `window`, which are whole ones,
+    /// the pixel of the picture that its centre is in, and `around` beside the picture. `pixels` has the picture's rows from
+    /// the top.
+    pub fn squares<Pixel: Copy>(
+        &self,
+        (picture, pixels): ([u32; 2], &[Pixel]),
+        window: Self,
+        around: Pixel,
+    ) -> Vec<Pixel> {
+        let along = |axis: usize| {
+            let first = window.corner[axis] - self.corner[axis] + 0.5;
+            (0..window.size[axis] as usize).map(move |pixel| {
+                let share = (first + pixel as f32) / self.size[axis];
+                let place = (share * picture[axis] as f32) as usize;
+                (0.0..1.0).contains(&share).then(|| place.min(picture[axis].saturating_sub(1) as usize))
+            })
+        };
+        let columns: Vec<_> = along(0).collect();
+        let rows = along(1).flat_map(|row| columns.iter().map(move |column| row.zip(*column)));
+        let at = |place: Option<(usize, usize)>| {
+            place.and_then(|(row, column)| pixels.get(row * picture[0] as usize + column)).copied()
+        };
+        rows.map(|place| at(place).unwrap_or(around)).collect()
     }
 }
 
@@ -71,6 +105,11 @@ impl PictureView {
     pub fn scale(&self, area: Area, picture: [u32; 2]) -> f32 {
         let fit = |axis: usize| area.size[axis] / picture[axis].max(1) as f32;
         self.scale.unwrap_or_else(|| fit(0).min(fit(1))).max(f32::MIN_POSITIVE)
+    }
+
+    /// Whether pixels of a picture of this size are squares; smaller ones are interpolated.
+    pub fn shows_squares(&self, area: Area, picture: [u32; 2]) -> bool {
+        self.scale(area, picture) >= SQUARES
     }
 
     /// Where a picture of this size lies; its corner is on a whole pixel of the window.
@@ -168,6 +207,32 @@ mod tests {
         assert!(place.corner[0] < 910.0 - 16.0 && place.corner[1] + 48.0 > 16.0, "{place:?}");
         view.shift([-8.0, 0.0], AREA, [64, 48]);
         assert_eq!(view.place(AREA, [64, 48]).corner[0], place.corner[0] - 8.0, "and comes back at once");
+    }
+
+    #[test]
+    fn pixels_are_squares_where_they_are_two_of_the_window_or_more() {
+        let mut view = PictureView::default();
+        assert!(view.shows_squares(AREA, [450, 100]) && !view.shows_squares(AREA, [451, 100]), "fitted");
+        assert!(!PictureView::at_one_to_one().shows_squares(AREA, [40, 30]));
+        view.toggle();
+        view.zoom(1.99, [0.0; 2], AREA, [40, 30]);
+        assert!(!view.shows_squares(AREA, [40, 30]));
+        view.zoom(1.01, [0.0; 2], AREA, [40, 30]);
+        assert!(view.shows_squares(AREA, [40, 30]));
+    }
+
+    #[test]
+    fn squares_are_of_one_colour_and_lie_where_the_picture_does() {
+        let place = Area { corner: [2.0, -1.0], size: [6.0, 4.0] };
+        let window = Area { corner: [1.25, 0.0], size: [5.5, 3.5] }.whole();
+        assert_eq!(window, Area { corner: [1.0, 0.0], size: [6.0, 4.0] });
+        let shown = place.squares(([3, 2], b"abcdef"), window, b'.');
+        let rows: Vec<_> = shown.chunks(6).map(|row| std::str::from_utf8(row).expect("letters")).collect();
+        assert_eq!(rows, [".aabbc", ".ddeef", ".ddeef", "......"]);
+        // A picture that is larger than the window, and one of no pixels.
+        let large = Area { corner: [-1.0e4, -1.0e4], size: [3.0e4, 2.0e4] };
+        assert_eq!(large.squares(([3, 2], b"abcdef"), window, b'.'), [b'e'; 24]);
+        assert_eq!(place.squares(([0, 0], b""), window, b'.'), [b'.'; 24]);
     }
 
     #[test]

@@ -20,12 +20,21 @@ const SPEED: f64 = 0.5;
 /// What a key makes the picture larger by.
 const STEP: f32 = 1.25;
 
+/// Grey around the picture.
+const AROUND: Color32 = Color32::from_gray(24);
+
+/// Of which picture something is, by its number, and how its colours are shown.
+type Of = (u64, Tone);
+
 /// The picture as a texture, and where it lies.
 #[derive(Default)]
 pub(super) struct PictureArea {
+    /// The picture's pixels.
+    colours: Vec<Color32>,
+    colours_of: Option<Of>,
     texture: Option<TextureHandle>,
-    /// Of which picture, by its number, and how shown the texture is.
-    of: Option<(u64, Tone)>,
+    /// Of what the texture is: the picture's pixels, or those of the window where a picture lies whose pixels are squares.
+    texture_of: Option<(Of, Option<Squares>)>,
     /// The scene that the picture is laid for.
     scene: u32,
     pub(super) view: PictureView,
@@ -40,7 +49,7 @@ impl PictureArea {
     pub(super) fn show(&mut self, ui: &mut egui::Ui, session: &mut Session, moment: Moment) {
         let area = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(area, Sense::click_and_drag());
-        ui.painter().rect_filled(area, 0.0, Color32::from_gray(24));
+        ui.painter().rect_filled(area, 0.0, AROUND);
         let points = ui.ctx().pixels_per_point();
         let within = pixels_of(area, points);
         self.pixels = within.size.map(|side| side.max(1.0) as u32);
@@ -54,13 +63,20 @@ impl PictureArea {
                 self.scene = picture.settings.scene;
                 self.view.fit();
             }
-            self.update(ui.ctx(), picture, session.pictures, session.tone);
+            let place = self.view.place(within, full);
+            // What is shown while something moves has fewer pixels, and is smooth as it is.
+            let has_squares = !picture.settings.moving && self.view.shows_squares(within, full);
+            let window = within.whole();
+            // A window may have no room for a picture.
+            let has_room = window.size.iter().all(|side| *side >= 1.0);
+            let squares = (has_squares && has_room).then_some(Squares { place, window });
+            self.update(ui.ctx(), picture, (session.pictures, session.tone), squares);
             if let Some(texture) = &self.texture {
-                let place = points_of(self.view.place(within, full), points);
+                let drawn = points_of(squares.map_or(place, |squares| squares.window), points);
                 let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
                 let painter = ui.painter().with_clip_rect(area);
-                painter.image(texture.id(), place, whole, Color32::WHITE);
-                show_picked(&painter, session, picture, place);
+                painter.image(texture.id(), drawn, whole, Color32::WHITE);
+                show_picked(&painter, session, picture, points_of(place, points));
             }
         }
         let pointer = response.hover_pos().map(|at| [at.x * points, at.y * points]);
@@ -85,15 +101,26 @@ impl PictureArea {
     }
 
     /// Takes the picture over where it is another. The window's renderer interpolates between pixels; where a pixel of the
-    /// picture is one of the window, that changes none.
-    fn update(&mut self, context: &egui::Context, picture: &Picture, number: u64, tone: Tone) {
-        let of = Some((number, tone));
-        if self.of == of {
+    /// texture is one of the window, that changes none.
+    fn update(&mut self, context: &egui::Context, picture: &Picture, of: Of, squares: Option<Squares>) {
+        if self.texture_of == Some((of, squares)) {
             return;
         }
-        self.of = of;
-        let size = [picture.width as usize, picture.height as usize];
-        let image = ColorImage::from_rgb(size, &picture.pixels.bytes(tone));
+        self.texture_of = Some((of, squares));
+        if self.colours_of != Some(of) {
+            let bytes = picture.pixels.bytes(of.1);
+            self.colours =
+                bytes.chunks_exact(3).map(|rgb| Color32::from_rgb(rgb[0], rgb[1], rgb[2])).collect();
+            self.colours_of = Some(of);
+        }
+        let own = [picture.width, picture.height];
+        let (size, colours) = match squares {
+            Some(Squares { place, window }) => {
+                (window.size.map(|side| side as usize), place.squares((own, &self.colours), window, AROUND))
+            }
+            None => (own.map(|side| side as usize), self.colours.clone()),
+        };
+        let image = ColorImage::new(size, colours);
         match &mut self.texture {
             Some(texture) if texture.size() == size => {
                 texture.set_partial([0, 0], image, TextureOptions::LINEAR)
@@ -139,6 +166,15 @@ impl PictureArea {
             self.view.toggle();
         }
     }
+}
+
+/// How a picture lies whose pixels are squares.
+#[derive(Clone, Copy, PartialEq)]
+struct Squares {
+    /// The picture.
+    place: Area,
+    /// Whole pixels of the window.
+    window: Area,
 }
 
 fn pixels_of(area: Rect, points: f32) -> Area {
