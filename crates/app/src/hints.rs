@@ -1,6 +1,7 @@
 //! What libraries' errors are on the command line: what to do about them by options of the command, and exit codes.
 
 use crate::error::EXIT_REFUSED;
+use rasray_denoise::DenoiseError;
 use rasray_experiment::{
     AdsError, ExperimentError, FrameError, GpuError, GpuSceneError, IntegratorError, OccluderError,
     OracleError, ReferenceError, SelectionError, SystemsError,
@@ -344,6 +345,22 @@ pub(crate) fn help_of_rays(error: &FileError) -> &'static str {
             _ => "",
         },
         _ => "",
+    }
+}
+
+/// What is wrong with `--denoise`.
+pub(crate) fn message_of_denoiser(error: &DenoiseError) -> String {
+    format!("--denoise: {error}")
+}
+
+/// What to do about it.
+pub(crate) fn help_of_denoiser(error: &DenoiseError) -> &'static str {
+    match error {
+        DenoiseError::Missing { .. } | DenoiseError::Unsuitable { .. } => {
+            "get version 2 from openimagedenoise.org or with `pip install pyoidn`, and where it is not found name \
+             libOpenImageDenoise.so.2 in RASRAY_OIDN; or leave --denoise out"
+        }
+        _ => "leave --denoise out",
     }
 }
 

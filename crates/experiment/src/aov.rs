@@ -55,6 +55,9 @@ impl Aov {
         Self::Variance,
     ];
 
+    /// What a denoiser is fed with, beside the colours.
+    pub const FOR_DENOISING: [Self; 2] = [Self::Albedo, Self::Normal];
+
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {

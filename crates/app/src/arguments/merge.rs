@@ -10,6 +10,7 @@ Examples:
   rasray render scene.glb --spp 256 --shard 2/2 --output part.2.exr
   rasray merge scene.exr part.1.exr part.2.exr
   rasray merge scene.png part.*.exr --exposure 1
+  rasray merge scene.png part.*.exr --denoise    (of parts that --aov albedo,normal was given for)
   rasray merge walk.jsonl walk.1.jsonl walk.2.jsonl
   rasray merge hard.json hard.1.jsonl hard.2.jsonl    (shares of rasray compare)
 
@@ -33,4 +34,8 @@ pub struct MergeArguments {
     /// How a .png shows colours.
     #[command(flatten)]
     pub tone: ToneArguments,
+    /// Take what noise is left out of the picture, with the library Open Image Denoise where it is installed; shares are to
+    /// have --aov albedo,normal
+    #[arg(long)]
+    pub denoise: bool,
 }

@@ -154,7 +154,7 @@ impl RenderArguments {
         if self.denoise && self.shard.is_some() && self.frames.is_none() {
             return Err(AppError::usage(
                 "--denoise is of a whole picture, and a --shard has some samples of it",
-                LEAVE_ONE,
+                "make the share with --aov albedo,normal in place of --denoise, which rasray merge takes then",
             ));
         }
         for aov in aovs.iter() {

@@ -1,5 +1,6 @@
 //! `rasray merge`.
 
+use super::denoise::{denoise, denoiser, key_of_denoised};
 use super::images::write_image;
 use super::merge_cells::{cells_are_in, merge_cells};
 use super::picture_targets::check_format;
@@ -11,7 +12,7 @@ use crate::output::{
     Destination, ImageFormat, Metadata, PartFile, Row, Rows, decode_part, image_key, lines, read_rows,
 };
 use crate::terminal;
-use rasray_experiment::{RenderOutput, Shard};
+use rasray_experiment::{Aov, RenderOutput, Shard};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -25,7 +26,8 @@ pub(crate) fn merge(given: &MergeArguments, interrupt: &Interrupt) -> Result<(),
         return Err(AppError::input(part, "is a part and the result as well", "name another file first"));
     }
     if Rows::are_in(&given.out) || Form::named(&given.out).is_some() {
-        if let Some(option) = given.tone.given() {
+        let denoise = given.denoise.then_some("--denoise");
+        if let Some(option) = given.tone.given().or(denoise) {
             let what = format!("{option} is of pictures, and these are reports");
             return Err(AppError::usage(what, "leave it out"));
         }
@@ -37,13 +39,31 @@ pub(crate) fn merge(given: &MergeArguments, interrupt: &Interrupt) -> Result<(),
     }
     let format = ImageFormat::of(&given.out)?;
     check_format(&given.out, format, false, given.tone)?;
+    let denoiser = denoiser(given.denoise)?;
     let parts = in_order(&given.parts)?;
     let (mut output, metadata) = add(&parts)?;
     let tone = given.tone.tone();
-    check_format(&given.out, format, !output.aovs.is_empty(), given.tone)?;
+    // A PNG is not asked to hold what the denoiser reads.
+    let is_read = |aov: &Aov| denoiser.is_some() && Aov::FOR_DENOISING.contains(aov);
+    let is_kept = |aov: &Aov| format == ImageFormat::Exr || !is_read(aov);
+    check_format(&given.out, format, output.aovs.keys().any(is_kept), given.tone)?;
+    if let Some(denoiser) = &denoiser {
+        // Further images are in the part with the first sample.
+        if let (Some(lacking), Some(first)) =
+            (Aov::FOR_DENOISING.into_iter().find(|aov| !output.aovs.contains_key(aov)), parts.first())
+        {
+            let message = format!("has no {}, which --denoise reads", lacking.name());
+            let help = "make the parts again with --aov albedo,normal, or leave --denoise out";
+            return Err(AppError::input(first, message, help));
+        }
+        denoise(denoiser, &mut output)?;
+        output.aovs.retain(|aov, _| is_kept(aov));
+    }
     output.samples_done = metadata.spp;
-    let key = metadata.part.as_ref().map(|part| image_key(&part.picture, format, tone, None));
-    let metadata = Metadata { key, part: None, samples: metadata.spp, ..metadata };
+    let picture = metadata.part.as_ref().map(|part| key_of_denoised(part.picture.clone(), denoiser.as_ref()));
+    let key = picture.map(|picture| image_key(&picture, format, tone, None));
+    let denoised = denoiser.as_ref().map(|denoiser| denoiser.version().to_owned());
+    let metadata = Metadata { key, part: None, samples: metadata.spp, denoised, ..metadata };
     write_image((&place, format), &output, &metadata, tone, interrupt)?;
     terminal::note(&format!("{} parts hold {} samples per pixel", parts.len(), metadata.spp));
     Ok(())

@@ -1,6 +1,6 @@
 //! Pictures of one command: what they have in common, and how one is made and written.
 
-use super::denoise::{FED, denoise};
+use super::denoise::{denoise, key_of_denoised};
 use super::images::{named, write_image};
 use super::picture_targets::Targets;
 use super::steps::with_progress;
@@ -12,11 +12,11 @@ use crate::terminal::{self, Talk};
 use crate::version::{origin, version_text};
 use rasray_denoise::Denoiser;
 use rasray_experiment::{
-    AovSelection, Backend, Frame, FrameBefore, KeptScene, Progress, RenderJob, RenderOutput, Shard,
+    Aov, AovSelection, Backend, Frame, FrameBefore, KeptScene, Progress, RenderJob, RenderOutput, Shard,
     SystemConfig, check_run, count_not_uploaded, picture_key,
 };
 use rasray_report::{FramesRecord, Report, json_shown, table_within};
-use rasray_scene_source::{Chosen, KeyHash, LoadedScene};
+use rasray_scene_source::{Chosen, LoadedScene};
 
 /// What the pictures of a command have in common.
 pub(super) struct Pictures<'a> {
@@ -65,18 +65,13 @@ impl Pictures<'_> {
 
     /// The images that are rendered in addition to the colours: those that were asked for, and what a denoiser needs.
     fn rendered_aovs(&self) -> AovSelection {
-        self.aovs.with(self.denoiser.iter().flat_map(|_| FED))
+        self.aovs.with(self.denoiser.iter().flat_map(|_| Aov::FOR_DENOISING))
     }
 
     /// The key of the picture of the scene as it is shown.
     pub(super) fn key(&self) -> String {
         let key = picture_key(version_text(), &self.loaded, &self.job(&self.loaded));
-        match &self.denoiser {
-            Some(denoiser) => {
-                KeyHash::default().with("picture", key).with("denoised", denoiser.version()).finish()
-            }
-            None => key,
-        }
+        key_of_denoised(key, self.denoiser.as_ref())
     }
 
     /// Renders the scene as it is and writes what was asked for; `key` is the picture's. `keeps_part`: a signal keeps

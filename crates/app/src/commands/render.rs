@@ -1,6 +1,6 @@
 //! `rasray render`.
 
-use super::denoise::{FED, denoiser};
+use super::denoise::denoiser;
 use super::frames::{dealt, seconds};
 use super::picture_targets::{Targets, rows, samples_shard};
 use super::pictures::Pictures;
@@ -10,7 +10,7 @@ use crate::error::AppError;
 use crate::hints::with_flags;
 use crate::interrupt::Interrupt;
 use crate::terminal;
-use rasray_experiment::{KeptScene, OpenBackend};
+use rasray_experiment::{Aov, KeptScene, OpenBackend};
 use rasray_report::FramesRecord;
 use rasray_scene_source::KeyHash;
 
@@ -27,7 +27,7 @@ pub(crate) fn render(
     let frame = given.frame()?;
     let aovs = given.aovs(&frame)?;
     let system = given.system()?.serving(frame.workload());
-    let denoiser = denoiser(given)?;
+    let denoiser = denoiser(given.denoise)?;
     let shard = samples_shard(given)?;
     // All shares of the frames begin alike: a camera that nothing moves stays where it is for the first of all.
     let first = given.frames.as_ref().map(|range| *range.start());
@@ -51,7 +51,7 @@ pub(crate) fn render(
     let backend = open_device(open, &given.work.device)?;
     stop_if_requested(interrupt)?;
     // Images stay as they are at all times.
-    let rendered = aovs.with(denoiser.iter().flat_map(|_| FED));
+    let rendered = aovs.with(denoiser.iter().flat_map(|_| Aov::FOR_DENOISING));
     let needs = given.work.reading.needs(&loaded.scene, frame.workload(), rendered);
     fit_images(&mut loaded, &needs, backend.as_ref())?;
     let mut pictures = Pictures {

@@ -52,15 +52,20 @@ fn a_png_has_the_curve_that_was_asked_for_and_says_so() {
 #[test]
 fn a_denoiser_that_is_missing_is_named_before_anything_is_rendered() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut command = command(folder.path(), "render cornell --size 16x16 --denoise -o a.exr --device stuck");
-    let output = command.env("RASRAY_OIDN", "/nowhere/libOpenImageDenoise.so.2").output().expect("it starts");
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    for word in
-        ["--denoise", "/nowhere/libOpenImageDenoise.so.2", "help: ", "RASRAY_OIDN", "pip install pyoidn"]
+    for line in
+        ["render cornell --size 16x16 --denoise -o a.exr --device stuck", "merge a.exr b.exr --denoise"]
     {
-        assert!(stderr(&output).contains(word), "{word}: {}", stderr(&output));
+        let mut command = command(folder.path(), line);
+        let output =
+            command.env("RASRAY_OIDN", "/nowhere/libOpenImageDenoise.so.2").output().expect("it starts");
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        for word in
+            ["--denoise", "/nowhere/libOpenImageDenoise.so.2", "help: ", "RASRAY_OIDN", "pip install pyoidn"]
+        {
+            assert!(stderr(&output).contains(word), "{word}: {}", stderr(&output));
+        }
+        assert!(entries(folder.path()).is_empty());
     }
-    assert!(entries(folder.path()).is_empty());
 }
 
 #[test]

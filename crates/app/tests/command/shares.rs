@@ -104,6 +104,43 @@ fn a_merged_picture_is_taken_for_that_of_one_process() {
     assert!(report.runs[0].key.as_ref().is_some_and(|key| key.len() == 64));
 }
 
+/// One share of one is the picture, bit for bit, and so are both without noise.
+#[test]
+fn a_merged_picture_is_denoised_as_one_of_one_process() {
+    if let Err(error) = rasray_denoise::Denoiser::find() {
+        return eprintln!("skipped: {error}");
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |line: &str| {
+        let output = scripted(folder.path(), line);
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
+        stderr(&output)
+    };
+    let bytes = |name: &str| std::fs::read(folder.path().join(name)).expect("a file");
+    let line = "render cornell --size 16x16 --spp 3";
+    run(&format!("{line} --aov albedo,normal --output part.exr --shard 1/1"));
+    for (name, aovs) in [("a.png", ""), ("a.exr", "--aov albedo,normal")] {
+        let whole = format!("{line} {aovs} --denoise --output");
+        run(&format!("{whole} {name}"));
+        run(&format!("merge merged.{name} part.exr --denoise"));
+        assert_eq!(bytes(&format!("merged.{name}")), bytes(name), "the file with its key");
+        if name.ends_with("png") {
+            let output = scripted(folder.path(), "merge noisy.png part.exr");
+            assert!(stderr(&output).contains("--aov"), "a PNG holds no albedo: {}", stderr(&output));
+        } else {
+            run("merge noisy.exr part.exr");
+            assert!(run(&format!("{whole} noisy.exr --resume")).contains("something else"));
+        }
+        assert!(run(&format!("{whole} merged.{name} --resume")).contains("there already"));
+    }
+    run(&format!("{line} --aov albedo --output part.exr --shard 1/1"));
+    let output = scripted(folder.path(), "merge lacking.png part.exr --denoise");
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("part.exr: has no normal") && !folder.path().join("lacking.png").exists()
+    );
+}
+
 #[test]
 fn parts_that_make_no_picture_are_refused_by_name() {
     let folder = tempfile::tempdir().expect("a folder");
