@@ -370,6 +370,7 @@ pub(crate) fn help_of_viewer(error: &rasray_viewer::ViewerError) -> Cow<'static,
     use rasray_viewer::ViewerError;
     match error {
         ViewerError::Experiment(error) => help(error),
+        ViewerError::Denoise(error) => help_of_denoiser(error).into(),
         ViewerError::NoCamera { .. } => "choose another camera".into(),
         ViewerError::Nowhere => "reset it".into(),
         ViewerError::NotCounted { .. } => "choose another system".into(),

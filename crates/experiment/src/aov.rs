@@ -174,13 +174,17 @@ impl AovSelection {
         self.contains(Aov::Direct) || self.contains(Aov::Indirect)
     }
 
-    /// What a picture with these needs of a scene.
-    pub fn needs(self, scene: &Scene, workload: Workload) -> Needs {
-        let workload = match self.contains(Aov::Albedo) {
+    /// What a picture of this workload does where it has these.
+    pub fn workload(self, workload: Workload) -> Workload {
+        match self.contains(Aov::Albedo) {
             true => Workload { emission: true, shades: true, ..workload },
             false => workload,
-        };
-        let needs = Needs::of(scene, workload);
+        }
+    }
+
+    /// What a picture with these needs of a scene.
+    pub fn needs(self, scene: &Scene, workload: Workload) -> Needs {
+        let needs = Needs::of(scene, self.workload(workload));
         match self.contains(Aov::Uv) {
             true => needs.with(Term::Uv0, "texture coordinates were asked for"),
             false => needs,

@@ -79,6 +79,29 @@ pub(super) fn further_images(
     Ok(images)
 }
 
+impl Rendering {
+    /// What a denoiser is fed with beside the colours, of the scene and the structure that it renders: the images
+    /// [`Aov::FOR_DENOISING`] as a render has them, one entry per pixel, rows from the top. The scene was uploaded with what
+    /// these need ([`AovSelection::needs`](crate::AovSelection::needs)).
+    ///
+    /// # Errors
+    /// The device fails, or rays have no answer.
+    pub fn for_denoising(
+        &self,
+        stage: &DeviceScene,
+        built: &Built,
+    ) -> Result<[Vec<[f32; 3]>; 2], ExperimentError> {
+        let pixels = self.image.film().pixel_count() as usize;
+        let mut images = Aov::FOR_DENOISING.map(|aov| (aov, AovImage::with_room(aov, pixels)));
+        self.image.aovs_with_surfaces(&stage.scene, built.structure(), |met, surfaces| {
+            for (aov, image) in &mut images {
+                add_centres(*aov, image, (met, surfaces), stage.scene.frame_origin());
+            }
+        })?;
+        Ok(images.map(|(_, image)| image.triples().unwrap_or_default()))
+    }
+}
+
 /// Adds a band of rays through pixels' centres to an image that is of these alone.
 fn add_centres(
     aov: Aov,

@@ -58,8 +58,8 @@ fn opened(name: &OsStr) -> Result<Opened, LoadError> {
     };
     let system = SystemConfig::new(&SYSTEMS[0], Preset::Robust, OptionValues::default());
     let standpoint = Standpoint::AsGiven;
-    let settings =
-        Settings { scene: 0, standpoint, seconds: None, system, frame, shown: Shown::Picture, moving: false };
+    let (shown, denoised, moving) = (Shown::Picture, false, false);
+    let settings = Settings { scene: 0, standpoint, seconds: None, system, frame, shown, denoised, moving };
     let opening = Opening {
         scene: name.to_owned(),
         camera_words: Vec::new(),

@@ -13,6 +13,7 @@ use rasray_scene::Camera;
 use rasray_scene::needs::Needs;
 use rasray_scene_source::LoadedScene;
 
+use crate::denoising::Denoising;
 use crate::error::ViewerError;
 use crate::picked::{Answer, Pick};
 use crate::picture::{Picture, Pixels};
@@ -63,6 +64,10 @@ pub struct Engine {
     /// Of the whole picture.
     film: Option<Rendering>,
     exact_film: Option<Rendering>,
+    /// What takes noise out of the whole picture, once that was asked for.
+    denoising: Option<Denoising>,
+    /// Of the whole picture, once it is complete: [`Picture::cut_rays`].
+    cut_rays: u32,
     /// Of pictures while something moves.
     preview: Option<Preview>,
     preview_size: PreviewSize,
@@ -93,6 +98,8 @@ impl Engine {
             exact: None,
             film: None,
             exact_film: None,
+            denoising: None,
+            cut_rays: 0,
             preview: None,
             preview_size: PreviewSize::default(),
             preview_ms: 0.0,
@@ -130,6 +137,8 @@ impl Engine {
         }
         if redo.samples {
             self.stale = true;
+        }
+        if redo.pixels {
             self.done = false;
         }
     }
@@ -145,7 +154,10 @@ impl Engine {
         if self.done {
             return Ok(Step::Done);
         }
-        let step = self.make(say)?;
+        let made = self.make(say);
+        // Films may lack what failed; those whose noise cannot be taken out are whole.
+        self.stale |= made.as_ref().is_err_and(|error| !matches!(error, ViewerError::Denoise(_)));
+        let step = made?;
         match self.device.validation_messages().first() {
             Some(message) if self.validation => {
                 Err(ExperimentError::Validation { message: message.clone() }.into())
@@ -156,6 +168,10 @@ impl Engine {
 
     fn make(&mut self, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         self.settings.system.spec()?;
+        if self.settings.denoised && self.denoising.is_none() {
+            // Before anything is rendered in vain.
+            self.denoising = Some(Denoising::find()?);
+        }
         let camera = self.prepare_scene(say)?;
         let size = self.picture_size();
         self.look(&camera, size)?;
@@ -164,6 +180,9 @@ impl Engine {
         if self.stale {
             for film in self.films() {
                 film.clear()?;
+            }
+            if let Some(denoising) = &mut self.denoising {
+                denoising.begin();
             }
             self.preview_ms = 0.0;
             self.stale = false;
@@ -209,7 +228,7 @@ impl Engine {
             let needs = if self.needs_all {
                 Needs::all()
             } else {
-                Needs::of(&self.scene.loaded().scene, self.settings.frame.workload())
+                Needs::of(&self.scene.loaded().scene, self.settings.workload())
             };
             let capacity = TexelCapacity::of(&self.device);
             if let Some(text) = texels::fit(self.scene.loaded_mut(), &needs, &capacity)? {
@@ -252,22 +271,38 @@ impl Engine {
         system.clone().serving(frame.workload()).seen_by(camera, frame)
     }
 
-    /// One wave of the whole picture.
+    /// One wave of the whole picture. One that is complete is shown in another way.
     fn refine(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
-        let Self { device, stage, traced, film, settings, .. } = self;
+        let Self { device, stage, traced, film, settings, denoising, .. } = self;
         let (Some((stage, needs)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
         let film = opened(device, stage, film, &settings.frame, needs, &traced.built, say)?;
-        if !advance(device, film, traced, &mut self.sample_ms)? {
+        let is_complete = |film: &Rendering| film.image().samples_done() >= settings.frame.spp;
+        if !is_complete(film) {
+            if !advance(device, film, traced, &mut self.sample_ms)? {
+                return Ok(Step::Working);
+            }
+            // Once, as a render does.
+            self.cut_rays = if is_complete(film) { film.warn_of_faults(device)?.cut } else { 0 };
+        }
+        self.done = is_complete(film);
+        let denoising = denoising.as_mut().filter(|_| settings.denoised);
+        if !self.done && denoising.as_ref().is_some_and(|denoising| !denoising.is_due()) {
             return Ok(Step::Working);
         }
-        self.done = film.image().samples_done() >= settings.frame.spp;
-        // Once, as a render does.
-        let cut_rays = if self.done { film.warn_of_faults(device)?.cut } else { 0 };
-        let pixels = Pixels::Radiance(film.read(device)?);
+        let mut radiance = film.read(device)?;
+        let mut denoised = None;
+        if let Some(denoising) = denoising {
+            if !denoising.is_fed() {
+                say("albedo and normal, for taking out noise");
+                denoising.feed(film, stage, &traced.built)?;
+            }
+            radiance = denoising.denoised([settings.frame.width, settings.frame.height], &radiance)?;
+            denoised = Some(denoising.version().to_owned());
+        }
         let (samples, passes) = (film.image().samples_done(), film.pass_times());
-        let mut step = self.picture(camera, pixels, samples, passes)?;
+        let mut step = self.picture(camera, Pixels::Radiance(radiance), samples, passes)?;
         if let Step::Picture(picture) = &mut step {
-            picture.cut_rays = cut_rays;
+            (picture.cut_rays, picture.denoised) = (self.cut_rays, denoised);
         }
         Ok(step)
     }
@@ -394,6 +429,7 @@ impl Engine {
             pixels,
             settings: self.settings.clone(),
             samples,
+            denoised: None,
             cut_rays: 0,
             camera,
             sample_ms: self.sample_ms,

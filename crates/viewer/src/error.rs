@@ -1,5 +1,6 @@
 //! Why there is no picture, or no window.
 
+use rasray_denoise::DenoiseError;
 use rasray_experiment::ExperimentError;
 use rasray_scene_source::LoadError;
 
@@ -10,6 +11,9 @@ pub enum ViewerError {
     /// What makes pictures failed.
     #[error(transparent)]
     Experiment(#[from] ExperimentError),
+    /// Noise cannot be taken out of the picture.
+    #[error(transparent)]
+    Denoise(#[from] DenoiseError),
     /// The scene has no such camera.
     #[error("the scene has no camera {index}")]
     NoCamera {

@@ -9,6 +9,7 @@
 
 mod camera_control;
 mod command_line;
+mod denoising;
 mod engine;
 mod error;
 mod option_controls;

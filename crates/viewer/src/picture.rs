@@ -104,6 +104,8 @@ pub struct Picture {
     pub settings: Settings,
     /// Samples per pixel in it.
     pub samples: u32,
+    /// What took the noise out of it, by name and version; absent where nothing did.
+    pub denoised: Option<String>,
     /// Rays that would have passed more transparent surfaces than a ray may, once refinement has ended: what lies behind
     /// is left out.
     pub cut_rays: u32,

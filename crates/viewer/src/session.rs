@@ -15,7 +15,7 @@ use crate::picked::{Pick, Picked};
 use crate::picture::Picture;
 use crate::playback::Playback;
 use crate::rate::Rate;
-use crate::settings::{Settings, Standpoint};
+use crate::settings::{Settings, Shown, Standpoint};
 use crate::worker::{Opened, Update};
 use cameras::Stand;
 pub use opening::{Opening, camera_names};
@@ -61,7 +61,9 @@ pub struct Session {
     /// Integrator, samples, seed; its size is the picture's.
     pub frame: Frame,
     /// What is shown.
-    pub shown: crate::settings::Shown,
+    pub shown: Shown,
+    /// Whether noise is taken out of the picture.
+    pub denoised: bool,
     /// How colours are shown, and saved.
     pub tone: Tone,
     /// The time.
@@ -102,12 +104,13 @@ pub struct Session {
 impl Session {
     /// Begins a session, whose errors `explain` says in words.
     pub fn new(opening: Opening, explain: Explain) -> Self {
-        let Settings { system, frame, shown, seconds, .. } = opening.settings.clone();
+        let Settings { system, frame, shown, denoised, seconds, .. } = opening.settings.clone();
         Self {
             system: SystemChoice::new(&system),
             config: system,
             frame,
             shown,
+            denoised,
             tone: opening.tone,
             playback: Playback::new(seconds, opening.duration),
             stand: Stand::AsGiven,
@@ -180,6 +183,7 @@ impl Session {
             system: self.config.clone(),
             frame: self.frame.clone(),
             shown: self.shown,
+            denoised: self.denoised && self.shown == Shown::Picture,
             moving: self.playback.playing || now < self.moving_until,
         };
         if self.asked.as_ref() == Some(&settings) {
@@ -275,6 +279,9 @@ impl Session {
         }
         if curve != ToneCurve::default() {
             words.extend(["--tone".to_owned(), curve.name().to_owned()]);
+        }
+        if settings.denoised {
+            words.push("--denoise".to_owned());
         }
         words.extend(["--output".to_owned(), output.to_string_lossy().into_owned()]);
         words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")

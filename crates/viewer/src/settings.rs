@@ -1,7 +1,8 @@
 //! What a picture is made from, and what must be made anew where it changes.
 
 use crate::camera_control::Rounded;
-use rasray_experiment::{Frame, SystemConfig};
+use rasray_experiment::{Aov, AovSelection, Frame, SystemConfig};
+use rasray_scene::needs::Workload;
 
 /// What is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,8 +80,18 @@ pub struct Settings {
     pub frame: Frame,
     /// What is shown.
     pub shown: Shown,
+    /// Whether noise is taken out of the picture; maps and pictures while something moves have none of it.
+    pub denoised: bool,
     /// Whether something moves: the picture then has fewer pixels where that is needed to follow.
     pub moving: bool,
+}
+
+impl Settings {
+    /// What its pictures take of a scene.
+    pub(crate) fn workload(&self) -> Workload {
+        let fed = self.denoised.then_some(Aov::FOR_DENOISING).into_iter().flatten();
+        AovSelection::from_iter(fed).workload(self.frame.workload())
+    }
 }
 
 /// What must be made anew. What is made from something that is made anew is made anew as well.
@@ -94,11 +105,13 @@ pub struct Redo {
     pub film: bool,
     /// The samples on the films.
     pub samples: bool,
+    /// What is shown of the samples.
+    pub pixels: bool,
 }
 
 impl Redo {
     /// Everything.
-    pub const ALL: Self = Self { scene: true, structure: true, film: true, samples: true };
+    pub const ALL: Self = Self { scene: true, structure: true, film: true, samples: true, pixels: true };
 
     /// What must be made anew for `new` where everything is there for `old`.
     pub fn between(old: &Settings, new: &Settings) -> Self {
@@ -109,12 +122,14 @@ impl Redo {
             return Self::ALL;
         }
         // The scene on the device holds what its pictures can show, and no more.
-        let scene = old.frame.workload() != new.frame.workload();
+        let scene = old.workload() != new.workload();
         let structure = scene || old.system != new.system;
         let size = |frame: &Frame| [frame.width, frame.height];
         let film =
             scene || old.frame.integrator != new.frame.integrator || size(&old.frame) != size(&new.frame);
-        Self { scene, structure, film, samples: true }
+        // Noise is taken out of the samples that are there.
+        let samples = scene || *old != Settings { denoised: old.denoised, ..new.clone() };
+        Self { scene, structure, film, samples, pixels: true }
     }
 }
 
@@ -145,7 +160,8 @@ pub(crate) mod tests {
         };
         let system = SystemConfig::new(&SYSTEMS[0], Preset::Robust, OptionValues::default());
         let standpoint = Standpoint::AsGiven;
-        Settings { scene: 0, standpoint, seconds: None, system, frame, shown: Shown::Picture, moving: false }
+        let (shown, denoised, moving) = (Shown::Picture, false, false);
+        Settings { scene: 0, standpoint, seconds: None, system, frame, shown, denoised, moving }
     }
 
     fn redo(change: impl FnOnce(&mut Settings)) -> Redo {
@@ -162,7 +178,7 @@ pub(crate) mod tests {
 
     #[test]
     fn a_camera_and_a_time_cost_samples_alone() {
-        let samples = Redo { samples: true, ..Redo::default() };
+        let samples = Redo { samples: true, pixels: true, ..Redo::default() };
         let from = |eye: &str| {
             Standpoint::Placed(Rounded {
                 eye: eye.into(),
@@ -188,7 +204,7 @@ pub(crate) mod tests {
 
     #[test]
     fn an_option_costs_the_structure_and_not_the_film() {
-        let structure = Redo { structure: true, samples: true, ..Redo::default() };
+        let structure = Redo { structure: true, samples: true, pixels: true, ..Redo::default() };
         assert_eq!(redo(|new| new.system.system = &SYSTEMS[1]), structure);
         let options = OptionValues::default().with("grid", 8);
         assert_eq!(redo(|new| new.system.options = options), structure);
@@ -196,8 +212,21 @@ pub(crate) mod tests {
 
     #[test]
     fn a_size_costs_the_film_and_not_the_structure() {
-        let film = Redo { film: true, samples: true, ..Redo::default() };
+        let film = Redo { film: true, samples: true, pixels: true, ..Redo::default() };
         assert_eq!(redo(|new| new.frame.width = 41), film);
+    }
+
+    #[test]
+    fn noise_is_taken_out_of_the_samples_that_are_there() {
+        let pixels = Redo { pixels: true, ..Redo::default() };
+        assert_eq!(redo(|new| new.denoised = true), pixels);
+        let with_seed = Redo { samples: true, ..pixels };
+        assert_eq!(redo(|new| (new.denoised, new.frame.seed) = (true, 2)), with_seed);
+        // A picture without materials has none on the device, and a denoiser reads their colours.
+        let mut old = some();
+        old.frame.integrator = integrator("ao");
+        let new = Settings { denoised: true, ..old.clone() };
+        assert_eq!(Redo::between(&old, &new), Redo { film: true, structure: true, ..Redo::ALL });
     }
 
     #[test]

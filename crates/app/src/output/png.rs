@@ -16,8 +16,7 @@ pub fn encode(output: &RenderOutput, tone: Tone, metadata: &Metadata) -> Result<
     let rows = output.beauty.chunks(output.width.max(1) as usize);
     let shown = tone_text(tone);
     let texts =
-        [(KEY, metadata.key.as_deref()), (TONE, Some(&shown)), (DENOISED, metadata.denoised.as_deref())];
-    let texts = texts.into_iter().filter_map(|(name, text)| Some((name, text?)));
+        [(KEY, metadata.key.as_deref()), (TONE, Some(&*shown)), (DENOISED, metadata.denoised.as_deref())];
     encode_rows(rows.map(|row| tone_map(row, tone)), [output.width, output.height], texts)
 }
 
@@ -26,25 +25,30 @@ pub fn encode(output: &RenderOutput, tone: Tone, metadata: &Metadata) -> Result<
 /// # Errors
 /// [`AppError::Refused`] with what the encoder says.
 pub(crate) fn encode_picture(pixels: &[u8], size: [u32; 2]) -> Result<Vec<u8>, AppError> {
-    encode_shown(pixels, size, None)
+    encode_shown(pixels, size, None, None)
 }
 
-/// The same, with how linear colours became these, where they did.
+/// The same, with how linear colours became these, and what denoised them, where that is so.
 ///
 /// # Errors
 /// As [`encode_picture`].
-pub(crate) fn encode_shown(pixels: &[u8], size: [u32; 2], tone: Option<Tone>) -> Result<Vec<u8>, AppError> {
+pub(crate) fn encode_shown(
+    pixels: &[u8],
+    size: [u32; 2],
+    tone: Option<Tone>,
+    denoised: Option<&str>,
+) -> Result<Vec<u8>, AppError> {
     let rows = pixels.chunks(3 * size[0].max(1) as usize);
     let shown = tone.map(tone_text);
-    encode_rows(rows, size, shown.as_deref().map(|shown| (TONE, shown)))
+    encode_rows(rows, size, [(TONE, shown.as_deref()), (DENOISED, denoised)])
         .map_err(|error| AppError::refused(format!("the picture could not be encoded: {error}"), ""))
 }
 
-/// The same of rows, with texts, each by its name, and the error in words.
+/// The same of rows, with those texts that there are, each by its name, and the error in words.
 fn encode_rows<'a>(
     rows: impl Iterator<Item = impl AsRef<[u8]>>,
     size: [u32; 2],
-    texts: impl IntoIterator<Item = (&'a str, &'a str)>,
+    texts: impl IntoIterator<Item = (&'a str, Option<&'a str>)>,
 ) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     write_rows(&mut bytes, rows, size, texts).map_err(|error| error.to_string())?;
@@ -55,13 +59,13 @@ fn write_rows<'a>(
     bytes: &mut Vec<u8>,
     rows: impl Iterator<Item = impl AsRef<[u8]>>,
     [width, height]: [u32; 2],
-    texts: impl IntoIterator<Item = (&'a str, &'a str)>,
+    texts: impl IntoIterator<Item = (&'a str, Option<&'a str>)>,
 ) -> Result<(), png::EncodingError> {
     let mut encoder = png::Encoder::new(bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Fast);
-    for (name, text) in texts {
+    for (name, text) in texts.into_iter().filter_map(|(name, text)| Some((name, text?))) {
         encoder.add_text_chunk(name.to_owned(), text.to_owned())?;
     }
     let mut writer = encoder.write_header()?;

@@ -1,5 +1,7 @@
 //! The panel: systems, options and maps, chosen with the mouse. Places are those in a window for a small picture.
 
+use std::path::Path;
+
 use crate::window::{Display, Window, made_by, pixels};
 
 /// The left and right end of the way of the slider of the time, and how far down it is.
@@ -10,6 +12,9 @@ const SHOWN: [i32; 2] = [438, 119];
 
 /// That of tones.
 const TONE: [i32; 2] = [580, 119];
+
+/// What switches the taking out of noise on and off.
+const DENOISE: [i32; 2] = [442, 188];
 
 /// The list of systems, what opens the options of `bvh`, and its list of builders, of a scene that does not move.
 const SYSTEM: [i32; 2] = [430, 314];
@@ -71,6 +76,37 @@ fn systems_options_and_maps_are_chosen_with_the_mouse() {
     let cells = pixels(&cells);
     assert!(cells != difference && cells.chunks_exact(3).any(|colour| colour != &cells[..3]));
 
+    display.xdotool("key ctrl+q");
+    assert_eq!(window.end().code(), Some(0), "a message of the validation layers is an error");
+}
+
+/// Saved pictures are those on the screen, and say what denoised them.
+#[test]
+fn noise_is_taken_out_with_the_mouse() {
+    if let Err(error) = rasray_denoise::Denoiser::find() {
+        return eprintln!("skipped: noise_is_taken_out_with_the_mouse: {error}");
+    }
+    let Some(display) = Display::start("noise_is_taken_out_with_the_mouse") else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let line = "view cornell --size 60x40 --spp 2 --bounces 1 --system bvh --validation";
+    let mut window = Window::open(&display, folder.path(), line);
+    let says_so = |path: &Path| {
+        let bytes = std::fs::read(path).expect("a picture");
+        bytes.windows(14).any(|text| text == b"rasrayDenoised")
+    };
+    let (first, _) = window.save();
+    assert!(!says_so(&first));
+    let first = pixels(&first);
+
+    window.click(DENOISE);
+    let (clean, line) = window.save_when(|line| line.contains(" --denoise "));
+    assert!(says_so(&clean), "{line}");
+    let clean = pixels(&clean);
+    assert!(made_by(folder.path(), &line) == clean && clean != first, "{line}");
+
+    window.click(DENOISE);
+    let (back, line) = window.save_when(|line| !line.contains(" --denoise "));
+    assert!(pixels(&back) == first && !says_so(&back), "{line}");
     display.xdotool("key ctrl+q");
     assert_eq!(window.end().code(), Some(0), "a message of the validation layers is an error");
 }

@@ -4,7 +4,7 @@ use super::*;
 use crate::camera_control::Side;
 use crate::picked::{Answer, PickedHit};
 use crate::picture::Pixels;
-use crate::settings::{Shown, tests::some};
+use crate::settings::tests::some;
 use glam::DVec3;
 use rasray_experiment::OptionValues;
 use rasray_scene::default_view::camera_looking_at;
@@ -45,6 +45,7 @@ fn picture(session: &mut Session) {
             pixels: Pixels::Radiance(vec![[0.0; 3]]),
             settings,
             samples: 1,
+            denoised: None,
             cut_rays: 0,
             camera: camera_looking_at("", DVec3::new(0.0, 0.0, 4.0), DVec3::ZERO, 0.7),
             sample_ms: 1.0,
@@ -160,6 +161,22 @@ fn the_command_line_names_everything() {
         line.contains(" --time 0.25 --clip walk ") && line.contains(" --exposure -1.5 --tone agx "),
         "{line}"
     );
+}
+
+#[test]
+fn noise_is_taken_out_of_pictures_alone() {
+    let mut session = session();
+    session.changed_settings(0.0);
+    session.denoised = true;
+    let settings = session.changed_settings(0.1).expect("changed");
+    let line = session.command_line(&settings, Path::new("p.png"));
+    assert!(settings.denoised && line.ends_with(" --alpha off --denoise --output p.png"), "{line}");
+    for shown in Shown::ALL {
+        session.shown = shown;
+        session.changed_settings(0.2);
+        let denoised = session.asked.as_ref().map(|asked| asked.denoised);
+        assert_eq!(denoised, Some(shown == Shown::Picture), "{shown:?}");
+    }
 }
 
 #[test]

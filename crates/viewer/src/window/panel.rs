@@ -306,6 +306,7 @@ impl Panel {
             size: [picture.width, picture.height],
             pixels: &picture.pixels.bytes(session.tone),
             tone: matches!(picture.pixels, Pixels::Radiance(_)).then_some(session.tone),
+            denoised: picture.denoised.as_deref(),
             command_line: line.as_deref(),
             scale: match &picture.pixels {
                 Pixels::Map(_, legend) => Some(legend.described()),

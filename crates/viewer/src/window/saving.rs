@@ -15,6 +15,8 @@ pub struct SavedPicture<'a> {
     pub pixels: &'a [u8],
     /// How its colours are shown; absent for maps.
     pub tone: Option<Tone>,
+    /// What took the noise out of it, by name and version; absent where nothing did.
+    pub denoised: Option<&'a str>,
     /// The command line that makes it when its refinement has ended; absent for maps, which `rasray compare --html` makes.
     pub command_line: Option<&'a str>,
     /// What the colours of a map mean, in a sentence; absent for pictures.

@@ -39,7 +39,11 @@ pub(super) fn show_view(ui: &mut egui::Ui, session: &mut Session, area: &mut Pic
         show_integrator(ui, session);
         ui.end_row();
         ui.label("Samples");
-        ui.add(DragValue::new(&mut session.frame.spp).range(1..=1_048_576).speed(1.0));
+        ui.horizontal(|ui| {
+            ui.add(DragValue::new(&mut session.frame.spp).range(1..=1_048_576).speed(1.0));
+            let doc = "Takes what noise is left out of the picture, with the library Open Image Denoise where it is installed";
+            ui.checkbox(&mut session.denoised, "denoise").on_hover_text(doc);
+        });
         ui.end_row();
         ui.label("Size");
         ui.horizontal(|ui| {

@@ -1,5 +1,6 @@
 //! Pictures of an engine on a device, without a window: those of a render, bit by bit, after every kind of change.
 
+mod denoised;
 mod viewing;
 
 use std::ffi::OsStr;
@@ -10,13 +11,13 @@ use std::time::Duration;
 use glam::{DQuat, DVec3};
 use rasray_experiment::{
     AovSelection, Backend, DeviceChoice, Frame, IntegratorRow, IntegratorSpec, KeptScene, OccluderKind,
-    OptionValues, Primary, Progress, Refresh, RenderJob, Sampler, SystemConfig, open, open_device,
+    OptionValues, Primary, Progress, Refresh, RenderJob, RenderOutput, Sampler, SystemConfig, open,
+    open_device,
 };
 use rasray_scene::Moment;
 use rasray_scene::animation::{
     Channel, ChannelValues, Clip, Interpolation, NodeTransform, Placement, Rig, RigNode,
 };
-use rasray_scene::needs::Needs;
 use rasray_scene_source::{LoadedScene, load};
 use rasray_systems::{Preset, System};
 use rasray_viewer::{
@@ -55,6 +56,7 @@ fn settings() -> Settings {
         system,
         frame,
         shown: Shown::Picture,
+        denoised: false,
         moving: false,
     }
 }
@@ -126,7 +128,17 @@ fn rendered_of(scene: &OsStr, backend: &mut dyn Backend, settings: &Settings) ->
     rendered_with(load(scene).expect("a scene"), backend, settings)
 }
 
-fn rendered_with(mut loaded: LoadedScene, backend: &mut dyn Backend, settings: &Settings) -> Vec<[f32; 3]> {
+fn rendered_with(loaded: LoadedScene, backend: &mut dyn Backend, settings: &Settings) -> Vec<[f32; 3]> {
+    rendered_as(loaded, backend, settings, AovSelection::default()).beauty
+}
+
+/// With further images.
+fn rendered_as(
+    mut loaded: LoadedScene,
+    backend: &mut dyn Backend,
+    settings: &Settings,
+    aovs: AovSelection,
+) -> RenderOutput {
     if let Some(seconds) = settings.seconds {
         loaded.show(seconds, None).expect("it moves");
     }
@@ -144,13 +156,13 @@ fn rendered_with(mut loaded: LoadedScene, backend: &mut dyn Backend, settings: &
         system: settings.system.clone(),
         refresh: Refresh::All,
         frame: settings.frame.clone(),
-        aovs: AovSelection::default(),
+        aovs,
         before: None,
-        needs: Needs::of(&loaded.scene, settings.frame.workload()),
+        needs: aovs.needs(&loaded.scene, settings.frame.workload()),
         repetitions: 0,
     };
     let (mut kept, mut progress) = (KeptScene::default(), |_: Progress<'_>| ControlFlow::Continue(()));
-    backend.render(&job, &mut kept, &mut progress).expect("a picture").beauty
+    backend.render(&job, &mut kept, &mut progress).expect("a picture")
 }
 
 #[test]

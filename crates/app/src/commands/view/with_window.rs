@@ -64,6 +64,7 @@ fn failure(error: &AppError) -> Failure {
 fn explain(error: &ViewerError) -> Failure {
     let message = match error {
         ViewerError::Experiment(error) => hints::message(error),
+        ViewerError::Denoise(error) => hints::message_of_denoiser(error),
         other => other.to_string(),
     };
     Failure { message, help: hints::help_of_viewer(error).into_owned() }
@@ -117,6 +118,7 @@ impl Opener {
             system,
             frame: self.frame.clone(),
             shown: Shown::Picture,
+            denoised: false,
             moving: false,
         };
         let opening = Opening {
@@ -175,7 +177,7 @@ impl Opener {
 
 /// Writes a picture and says how to make it again.
 fn save(saved: &SavedPicture<'_>, interrupt: &Interrupt) -> Result<(), AppError> {
-    let png = output::encode_shown(saved.pixels, saved.size, saved.tone)?;
+    let png = output::encode_shown(saved.pixels, saved.size, saved.tone, saved.denoised)?;
     Destination::check(saved.place)?.write(&png, interrupt)?;
     if let Some(scale) = &saved.scale {
         terminal::note(scale);
@@ -214,6 +216,20 @@ fn camera_words(view: &ViewArguments) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasray_denoise::DenoiseError;
+
+    #[test]
+    fn a_missing_denoiser_is_told_as_the_command_tells_it() {
+        let reason = || "no such file".to_owned();
+        let missing = DenoiseError::Missing { reason: reason() };
+        let expected = Failure {
+            message: hints::message_of_denoiser(&missing),
+            help: hints::help_of_denoiser(&missing).to_owned(),
+        };
+        assert_eq!(explain(&missing.into()), expected);
+        assert!(expected.message.starts_with("--denoise: ") && expected.message.ends_with(&reason()));
+        assert!(expected.help.contains("pip install pyoidn"), "{}", expected.help);
+    }
 
     #[test]
     fn pictures_are_named_after_the_scene() {
