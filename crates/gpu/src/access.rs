@@ -33,8 +33,12 @@ impl Access {
     pub const HOST_READ: Access = Access(1 << 9);
     /// Writes by the host.
     pub const HOST_WRITE: Access = Access(1 << 10);
+    /// Builds of the driver's trees: what they read and write. Only where [`crate::Feature::AccelerationStructure`] is enabled.
+    pub const TREE_BUILD: Access = Access(1 << 11);
+    /// Ray queries of compute shaders. Only where [`crate::Feature::RayQuery`] is enabled.
+    pub const TREE_TRACE: Access = Access(1 << 12);
     /// Anything.
-    pub const ALL: Access = Access((1 << 11) - 1);
+    pub const ALL: Access = Access((1 << 13) - 1);
 
     /// Reads and writes of compute shaders.
     pub const COMPUTE: Access = Access(Self::COMPUTE_READ.0 | Self::COMPUTE_WRITE.0);
@@ -77,6 +81,15 @@ impl Access {
             (Self::INDIRECT_READ, Stages::DRAW_INDIRECT, Flags::INDIRECT_COMMAND_READ),
             (Self::HOST_READ, Stages::HOST, Flags::HOST_READ),
             (Self::HOST_WRITE, Stages::HOST, Flags::HOST_WRITE),
+            (
+                Self::TREE_BUILD,
+                Stages::ACCELERATION_STRUCTURE_BUILD_KHR,
+                // Boxes and instances are read as shaders read.
+                Flags::ACCELERATION_STRUCTURE_READ_KHR
+                    | Flags::ACCELERATION_STRUCTURE_WRITE_KHR
+                    | Flags::SHADER_READ,
+            ),
+            (Self::TREE_TRACE, Stages::COMPUTE_SHADER, Flags::ACCELERATION_STRUCTURE_READ_KHR),
         ];
         let mut scope = (Stages::NONE, Flags::NONE);
         for (access, stages, flags) in table {

@@ -17,7 +17,8 @@ use crate::memory::{Allocation, MemoryLocation};
 pub struct BufferUsage(u32);
 
 impl BufferUsage {
-    /// Read and written by shaders; also by address where [`Feature::BufferDeviceAddress`] is enabled.
+    /// Read and written by shaders; also by address where [`Feature::BufferDeviceAddress`] is enabled, and read by builds of the
+    /// driver's trees where [`Feature::AccelerationStructure`] is.
     pub const STORAGE: BufferUsage = BufferUsage(1);
     /// Arguments of indirect dispatches and draws.
     pub const INDIRECT: BufferUsage = BufferUsage(1 << 1);
@@ -27,15 +28,18 @@ impl BufferUsage {
     pub const TRANSFER_DST: BufferUsage = BufferUsage(1 << 3);
     /// All of them.
     pub const ALL: BufferUsage = BufferUsage((1 << 4) - 1);
+    /// Memory of a tree of the driver.
+    pub(crate) const TREE: BufferUsage = BufferUsage(1 << 4);
 
     /// Whether every use of `other` is in this one.
     pub const fn contains(self, other: BufferUsage) -> bool {
         self.0 & other.0 == other.0
     }
 
-    fn flags(self, addresses: bool) -> vk::BufferUsageFlags {
+    fn flags(self, addresses: bool, trees: bool) -> vk::BufferUsageFlags {
         let mut flags = vk::BufferUsageFlags::empty();
         let table = [
+            (Self::TREE, vk::BufferUsageFlags::ACCELERATION_STRUCTURE_STORAGE_KHR),
             (Self::STORAGE, vk::BufferUsageFlags::STORAGE_BUFFER),
             (Self::INDIRECT, vk::BufferUsageFlags::INDIRECT_BUFFER),
             (Self::TRANSFER_SRC, vk::BufferUsageFlags::TRANSFER_SRC),
@@ -48,6 +52,9 @@ impl BufferUsage {
         }
         if addresses && self.contains(Self::STORAGE) {
             flags |= vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
+        }
+        if trees && addresses && self.contains(Self::STORAGE) {
+            flags |= vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR;
         }
         flags
     }
@@ -140,7 +147,9 @@ impl Device {
     pub fn create_buffer(&self, desc: &BufferDesc<'_>) -> Result<Buffer> {
         let core = &self.core;
         let size = if desc.size == 0 { 16 } else { desc.size };
-        let usage = desc.usage.flags(self.has(Feature::BufferDeviceAddress));
+        let usage = desc
+            .usage
+            .flags(self.has(Feature::BufferDeviceAddress), self.has(Feature::AccelerationStructure));
         if usage.is_empty() {
             return Err(GpuError::InvalidUse {
                 name: desc.name.to_owned(),
@@ -250,6 +259,12 @@ impl Buffer {
         self.inner.address
     }
 
+    /// The address of the first byte for builds of the driver's trees; none for a buffer of a host, which may not be made for
+    /// them.
+    pub(crate) fn input_address(&self) -> Option<u64> {
+        self.inner.owned.as_ref().and(self.inner.address)
+    }
+
     /// Whether the host can read and write it.
     pub fn is_host_visible(&self) -> bool {
         self.inner.mapped.is_some()
@@ -349,9 +364,13 @@ mod tests {
     #[test]
     fn addresses_are_asked_for_only_where_enabled_and_useful() {
         let address = vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
-        assert!(!BufferUsage::STORAGE.flags(false).contains(address));
-        assert!(BufferUsage::STORAGE.flags(true).contains(address));
-        assert!(!BufferUsage::TRANSFER_SRC.flags(true).contains(address));
+        assert!(!BufferUsage::STORAGE.flags(false, false).contains(address));
+        assert!(BufferUsage::STORAGE.flags(true, false).contains(address));
+        assert!(!BufferUsage::TRANSFER_SRC.flags(true, true).contains(address));
+        let input = vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR;
+        let with_input = [(true, true), (true, false), (false, true)]
+            .map(|(addresses, trees)| BufferUsage::STORAGE.flags(addresses, trees).contains(input));
+        assert_eq!(with_input, [true, false, false]);
         assert!((BufferUsage::STORAGE | BufferUsage::INDIRECT).contains(BufferUsage::INDIRECT));
     }
 }

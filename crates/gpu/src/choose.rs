@@ -191,7 +191,7 @@ impl Candidate {
         for feature in Feature::ALL {
             let switched = feature.switch(&mut structs).is_none_or(|switch| *switch == vk::TRUE);
             let extended =
-                feature.extension(self.api_version).is_none_or(|name| self.extensions.contains(name));
+                feature.extensions(self.api_version).iter().all(|name| self.extensions.contains(*name));
             let queued = match feature {
                 Feature::TimestampQueries => family.is_some_and(|family| family.timestamp_valid_bits > 0),
                 Feature::SubgroupOperations => subgroups,

@@ -161,6 +161,8 @@ impl Device {
         let limits = crate::faults::lower(limits);
         let names = parts.debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
         let labels = names.clone().filter(|_| parts.labels);
+        let trees = parts.enabled.contains(&Feature::AccelerationStructure);
+        let trees = trees.then(|| ash::khr::acceleration_structure::Device::new(&instance, &device));
         let core = Core {
             physical: candidate.physical,
             queue: Mutex::new(queue),
@@ -170,6 +172,7 @@ impl Device {
             commands,
             names,
             labels,
+            trees,
             pipeline_cache: parts.pipeline_cache,
             pipelines: PipelineStore::default(),
             set_layouts: SetLayouts::default(),
@@ -349,7 +352,7 @@ fn make_device(
     enabled: &BTreeSet<Feature>,
 ) -> Result<ash::Device> {
     let mut extensions: BTreeSet<&CStr> =
-        enabled.iter().filter_map(|feature| feature.extension(candidate.api_version)).collect();
+        enabled.iter().flat_map(|feature| feature.extensions(candidate.api_version)).copied().collect();
     let portability = ash::khr::portability_subset::NAME;
     if candidate.has_extension(portability) {
         // Vulkan demands it wherever it is offered.

@@ -75,6 +75,8 @@ pub(crate) struct Core {
     pub(crate) names: Option<ash::ext::debug_utils::Device>,
     /// Labels of passes, where it is and they do no harm.
     pub(crate) labels: Option<ash::ext::debug_utils::Device>,
+    /// Trees of the driver, where [`Feature::AccelerationStructure`] is enabled.
+    pub(crate) trees: Option<ash::khr::acceleration_structure::Device>,
     pub(crate) pipeline_cache: vk::PipelineCache,
     pub(crate) pipelines: PipelineStore,
     pub(crate) set_layouts: SetLayouts,

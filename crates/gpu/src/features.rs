@@ -23,6 +23,11 @@ pub enum Feature {
     ConservativeRasterization,
     /// Buffers reached by 64-bit address (`bufferDeviceAddress`).
     BufferDeviceAddress,
+    /// Trees that the driver builds (`VK_KHR_acceleration_structure`); also needs
+    /// [`Feature::BufferDeviceAddress`].
+    AccelerationStructure,
+    /// Shaders that traverse such a tree (`VK_KHR_ray_query`).
+    RayQuery,
     /// Basic, vote, ballot, shuffle and arithmetic subgroup operations in compute shaders.
     SubgroupOperations,
     /// Timestamps on the queue. Nothing has to be enabled for it: pools are reset in the command buffer.
@@ -31,7 +36,7 @@ pub enum Feature {
 
 impl Feature {
     /// Every feature this crate knows.
-    pub const ALL: [Feature; 9] = [
+    pub const ALL: [Feature; 11] = [
         Self::ScalarBlockLayout,
         Self::Synchronization2,
         Self::DynamicRendering,
@@ -39,6 +44,8 @@ impl Feature {
         Self::Multiview,
         Self::ConservativeRasterization,
         Self::BufferDeviceAddress,
+        Self::AccelerationStructure,
+        Self::RayQuery,
         Self::SubgroupOperations,
         Self::TimestampQueries,
     ];
@@ -53,22 +60,33 @@ impl Feature {
             Self::Multiview => "multiview",
             Self::ConservativeRasterization => "VK_EXT_conservative_rasterization",
             Self::BufferDeviceAddress => "bufferDeviceAddress",
+            Self::AccelerationStructure => "accelerationStructure",
+            Self::RayQuery => "rayQuery",
             Self::SubgroupOperations => "subgroup operations",
             Self::TimestampQueries => "timestamp queries",
         }
     }
 
-    /// The extension that brings this feature to a device of the given API version; `None` where it is core.
-    pub(crate) fn extension(self, api_version: u32) -> Option<&'static CStr> {
+    /// The extensions that bring this feature to a device of the given API version; none where it is core.
+    pub(crate) fn extensions(self, api_version: u32) -> &'static [&'static CStr] {
         match self {
             Self::Synchronization2 if api_version < vk::API_VERSION_1_3 => {
-                Some(ash::khr::synchronization2::NAME)
+                &[ash::khr::synchronization2::NAME]
             }
             Self::DynamicRendering if api_version < vk::API_VERSION_1_3 => {
-                Some(ash::khr::dynamic_rendering::NAME)
+                &[ash::khr::dynamic_rendering::NAME]
             }
-            Self::ConservativeRasterization => Some(ash::ext::conservative_rasterization::NAME),
-            _ => None,
+            Self::ConservativeRasterization => &[ash::ext::conservative_rasterization::NAME],
+            // Each with those that it depends on.
+            Self::AccelerationStructure => {
+                &[ash::khr::acceleration_structure::NAME, ash::khr::deferred_host_operations::NAME]
+            }
+            Self::RayQuery => &[
+                ash::khr::ray_query::NAME,
+                ash::khr::acceleration_structure::NAME,
+                ash::khr::deferred_host_operations::NAME,
+            ],
+            _ => &[],
         }
     }
 
@@ -92,6 +110,8 @@ impl Feature {
             Self::FragmentStoresAndAtomics => Some(&mut structs.core.fragment_stores_and_atomics),
             Self::Multiview => Some(&mut structs.v11.multiview),
             Self::BufferDeviceAddress => Some(&mut structs.v12.buffer_device_address),
+            Self::AccelerationStructure => Some(&mut structs.acceleration_structure.acceleration_structure),
+            Self::RayQuery => Some(&mut structs.ray_query.ray_query),
             Self::ConservativeRasterization | Self::SubgroupOperations | Self::TimestampQueries => None,
         }
     }
@@ -111,6 +131,8 @@ pub(crate) struct FeatureStructs {
     v12: vk::PhysicalDeviceVulkan12Features<'static>,
     synchronization2: vk::PhysicalDeviceSynchronization2Features<'static>,
     dynamic_rendering: vk::PhysicalDeviceDynamicRenderingFeatures<'static>,
+    acceleration_structure: vk::PhysicalDeviceAccelerationStructureFeaturesKHR<'static>,
+    ray_query: vk::PhysicalDeviceRayQueryFeaturesKHR<'static>,
 }
 
 impl FeatureStructs {
@@ -122,7 +144,9 @@ impl FeatureStructs {
         has_extension: &dyn Fn(&CStr) -> bool,
         body: impl FnOnce(&mut vk::PhysicalDeviceFeatures2<'_>) -> R,
     ) -> R {
-        let knows = |feature: Feature| feature.extension(api_version).is_none_or(has_extension);
+        let knows = |feature: Feature| {
+            feature.extensions(api_version).iter().all(|extension| has_extension(extension))
+        };
         let mut chain = vk::PhysicalDeviceFeatures2::default().features(self.core);
         if api_version >= vk::API_VERSION_1_2 {
             chain = chain.push_next(&mut self.v11).push_next(&mut self.v12);
@@ -132,6 +156,12 @@ impl FeatureStructs {
         }
         if knows(Feature::DynamicRendering) {
             chain = chain.push_next(&mut self.dynamic_rendering);
+        }
+        if knows(Feature::AccelerationStructure) {
+            chain = chain.push_next(&mut self.acceleration_structure);
+        }
+        if knows(Feature::RayQuery) {
+            chain = chain.push_next(&mut self.ray_query);
         }
         let answer = body(&mut chain);
         self.core = chain.features;

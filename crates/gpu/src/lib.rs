@@ -60,6 +60,7 @@ mod buffer;
 mod choose;
 mod device;
 mod device_core;
+mod driver_tree;
 mod error;
 #[cfg(feature = "fault-injection")]
 pub mod faults;
@@ -93,6 +94,7 @@ pub use binding::{BindingSet, BufferRange};
 pub use buffer::{Buffer, BufferDesc, BufferUsage, RawBuffer};
 pub use choose::{DeviceKind, DeviceSummary};
 pub use device::{Device, DeviceDesc};
+pub use driver_tree::{DRIVER_BOX_BYTES, DriverTree, DriverTreeDesc, DriverTreeGoal};
 pub use error::{GpuError, Result};
 pub use features::Feature;
 pub use flights::Flights;

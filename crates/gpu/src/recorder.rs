@@ -4,6 +4,7 @@ mod bind;
 mod bound;
 mod commands_of_pass;
 mod compute;
+mod driver_tree;
 mod ownership;
 mod raster;
 mod render_area;
@@ -18,6 +19,7 @@ use crate::access::Access;
 use crate::buffer::{Buffer, BufferUsage};
 use crate::device::Device;
 use crate::device_core::{Core, c_name};
+use crate::driver_tree::DriverTree;
 use crate::error::{GpuError, Result};
 use crate::one_time::OneTime;
 use crate::stage::Stage;
@@ -147,6 +149,11 @@ impl<'a> Recorder<'a> {
     /// Keeps a buffer alive until the device is done, for one that shaders reach by its address.
     pub fn keep_buffer(&mut self, buffer: &Buffer) {
         self.keep(buffer.inner.clone());
+    }
+
+    /// Keeps a tree alive until the device is done, for ray queries of shaders.
+    pub fn keep_driver_tree(&mut self, tree: &DriverTree) {
+        self.keep(tree.kept());
     }
 
     /// Refuses what was asked for: as a mistake of the recording it is, nothing more is recorded.

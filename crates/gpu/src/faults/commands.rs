@@ -189,6 +189,7 @@ fallible! {
     vkCreateFence(device: vk::Device, info: *const vk::FenceCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::Fence) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
     vkResetFences(device: vk::Device, count: u32, fences: *const vk::Fence) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
     vkWaitForFences(device: vk::Device, count: u32, fences: *const vk::Fence, all: vk::Bool32, timeout: u64) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
+    vkCreateAccelerationStructureKHR(device: vk::Device, info: *const vk::AccelerationStructureCreateInfoKHR<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::AccelerationStructureKHR) [ERROR_OUT_OF_HOST_MEMORY] makes(made, 1);
     vkQueueWaitIdle(queue: vk::Queue) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
     vkDeviceWaitIdle(device: vk::Device) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
     vkQueueSubmit(queue: vk::Queue, count: u32, submits: *const vk::SubmitInfo<'_>, fence: vk::Fence) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
@@ -208,12 +209,13 @@ destroying! {
     vkDestroyQueryPool[vk::Device] vk::QueryPool;
     vkDestroyCommandPool[vk::Device] vk::CommandPool;
     vkDestroyFence[vk::Device] vk::Fence;
+    vkDestroyAccelerationStructureKHR[vk::Device] vk::AccelerationStructureKHR;
     vkFreeMemory[vk::Device] vk::DeviceMemory;
 }
 
 /// Functions without a result, of which nothing is to be noted.
 fn harmless(name: &CStr) -> bool {
-    const NAMES: [&str; 12] = [
+    const NAMES: [&str; 14] = [
         "vkGetPhysicalDeviceProperties",
         "vkGetPhysicalDeviceProperties2",
         "vkGetPhysicalDeviceFeatures",
@@ -223,6 +225,8 @@ fn harmless(name: &CStr) -> bool {
         "vkGetDeviceQueue",
         "vkGetBufferMemoryRequirements",
         "vkGetBufferDeviceAddress",
+        "vkGetAccelerationStructureBuildSizesKHR",
+        "vkGetAccelerationStructureDeviceAddressKHR",
         "vkUpdateDescriptorSets",
         "vkUnmapMemory",
         "vkFreeCommandBuffers",

@@ -21,6 +21,8 @@ pub struct PassCommands {
     pub vertices: u64,
     /// Fills, updates and copies of buffers.
     pub transfers: u32,
+    /// Trees that the driver builds.
+    pub trees: u32,
 }
 
 impl PassCommands {
@@ -35,6 +37,7 @@ impl PassCommands {
             draws: 0,
             vertices: 0,
             transfers: 0,
+            trees: 0,
         }
     }
 }

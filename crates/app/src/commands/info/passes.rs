@@ -15,13 +15,15 @@ pub(super) fn passes_json(passes: &[PassCommands]) -> Value {
             "draws": pass.draws,
             "vertices": pass.vertices,
             "transfers": pass.transfers,
+            "trees": pass.trees,
         })
     });
     json!({ "passes": rows.collect::<Vec<_>>() })
 }
 
 pub(super) fn passes_text(passes: &[PassCommands]) -> String {
-    let head = ["pass", "stage", "dispatches", "workgroups", "indirect", "draws", "vertices", "transfers"];
+    let head =
+        ["pass", "stage", "dispatches", "workgroups", "indirect", "draws", "vertices", "transfers", "trees"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(passes.iter().map(|pass| {
         let counts = [
@@ -31,6 +33,7 @@ pub(super) fn passes_text(passes: &[PassCommands]) -> String {
             pass.draws.into(),
             pass.vertices,
             pass.transfers.into(),
+            pass.trees.into(),
         ];
         let shown = counts.iter().map(|count| if *count == 0 { String::new() } else { grouped(*count) });
         [pass.label.clone(), pass.stage.to_string()].into_iter().chain(shown).collect()
