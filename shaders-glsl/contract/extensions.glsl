@@ -6,3 +6,6 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 #endif
+#ifdef RAY_QUERY
+#extension GL_EXT_ray_query : require
+#endif

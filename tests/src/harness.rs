@@ -1,5 +1,6 @@
 //! A device shared by the tests of one binary, geometry from plain triangles, and traces of both sides.
 
+use std::collections::BTreeSet;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use rasray_ads::{
@@ -9,6 +10,7 @@ use rasray_ads::{
 pub use rasray_experiment::oracle_ray;
 use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Requirements, Timing};
 use rasray_reference::oracle;
+use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
 
 /// A device with the validation layer watching. Dropping it fails the test if the layer said anything.
@@ -28,8 +30,39 @@ pub fn requirements() -> Requirements {
     let mut requirements = Requirements::floor();
     requirements.required.push(Feature::FragmentStoresAndAtomics);
     requirements.optional.push((Feature::BufferDeviceAddress, "pools reached by address"));
+    let queried = "the driver's tree";
+    requirements.optional.push((Feature::AccelerationStructure, queried));
+    requirements.optional.push((Feature::RayQuery, queried));
     requirements.optional.push((Feature::ConservativeRasterization, "lists of tiles that it touches"));
     requirements
+}
+
+/// The device of the tests of one binary.
+fn shared_device() -> &'static Device {
+    static DEVICE: OnceLock<Device> = OnceLock::new();
+    DEVICE.get_or_init(|| {
+        let desc = DeviceDesc { requirements: requirements(), validation: true, ..DeviceDesc::default() };
+        let device = Device::create(&desc).expect("tests need a Vulkan device and the validation layer");
+        device.keep_pipelines(KEPT_PIPELINES);
+        device
+    })
+}
+
+/// Whether the device of the tests can have a structure. Where it cannot, that is said once, as a test that is skipped.
+///
+/// # Panics
+/// If there is no suitable device, or an option has an impossible value.
+pub fn is_offered(spec: &Spec) -> bool {
+    let requirements = spec.requirements().expect("the options are valid");
+    let lacks = shared_device().lacks(&requirements);
+    if !lacks.is_empty() {
+        static SAID: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
+        let name = spec.system().name;
+        if SAID.lock().unwrap_or_else(PoisonError::into_inner).insert(name) {
+            eprintln!("skipped: {name} needs {}, which the device has not", lacks.join(" and "));
+        }
+    }
+    lacks.is_empty()
 }
 
 impl Bench {
@@ -39,15 +72,8 @@ impl Bench {
     /// If there is no suitable device or no validation layer.
     pub fn new() -> Self {
         static TURN: Mutex<()> = Mutex::new(());
-        static DEVICE: OnceLock<Device> = OnceLock::new();
         let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
-        let device = DEVICE.get_or_init(|| {
-            let desc = DeviceDesc { requirements: requirements(), validation: true, ..DeviceDesc::default() };
-            let device = Device::create(&desc).expect("tests need a Vulkan device and the validation layer");
-            device.keep_pipelines(KEPT_PIPELINES);
-            device
-        });
-        Self { device: device.clone(), begun: processor_seconds(), _turn: turn }
+        Self { device: shared_device().clone(), begun: processor_seconds(), _turn: turn }
     }
 
     /// The device.

@@ -230,6 +230,9 @@ pub trait Design: fmt::Debug + Sized {
         scene: Option<&BindingSet>,
     );
 
+    /// Keeps what traces use beside the pools alive until the device is done with a recording.
+    fn keep(&self, _recorder: &mut Recorder<'_>) {}
+
     /// The demand of the last build.
     fn asked(&self, parts: &Parts<Self::Config>, header: &Self::Header) -> Self::Demand;
 
@@ -254,6 +257,11 @@ pub trait Design: fmt::Debug + Sized {
     /// can be planned for it.
     fn used(parts: &Parts<Self::Config>, asked: &Self::Demand, pool: Self::Pool) -> Option<u64> {
         Some(Self::plan(&parts.config, asked).ok()?.elements_of(pool))
+    }
+
+    /// Bytes allocated beside the pools, by part.
+    fn bytes_outside_of_pools(&self) -> Vec<(&'static str, u64)> {
+        Vec::new()
     }
 
     /// The report, but for [`StructureReport::bytes_by_part`].

@@ -179,6 +179,7 @@ impl<D: Design> Pooled<D> {
         if self.is_scene_new {
             pools.record_forget(recorder);
         }
+        self.design.keep(recorder);
         pools.record_trace(recorder, kernels, geometry, queue, domain, mode, rounds, part, corrupted);
     }
 }
@@ -477,7 +478,8 @@ impl<D: Design> Structure for Pooled<D> {
             let pool = D::Pool::ALL.iter().find(|pool| pool.name() == size.name);
             pool.and_then(|pool| D::used(&self.parts, &asked, *pool)).unwrap_or(size.elements)
         };
-        let bytes_by_part = self.parts.pools.bytes_by_part(used);
+        let mut bytes_by_part = self.parts.pools.bytes_by_part(used);
+        bytes_by_part.extend(self.design.bytes_outside_of_pools());
         Ok(StructureReport { bytes_by_part, ..D::report(&self.parts, &header, &asked) })
     }
 }

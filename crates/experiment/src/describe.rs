@@ -17,6 +17,9 @@ pub fn requirements() -> Requirements {
     requirements
         .optional
         .push((GpuFeature::BufferDeviceAddress, "pools beyond the binding limit (`addressing` address)"));
+    for feature in [GpuFeature::AccelerationStructure, GpuFeature::RayQuery] {
+        requirements.optional.push((feature, "driver-rt, the driver's own tree"));
+    }
     requirements
         .optional
         .push((GpuFeature::ConservativeRasterization, "`coverage` conservative-extension of dirt"));

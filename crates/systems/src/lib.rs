@@ -5,6 +5,7 @@ mod bricks;
 mod brute_force;
 mod bvh;
 mod dirt;
+mod driver_rt;
 mod error;
 mod given;
 mod grid;

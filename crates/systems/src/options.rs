@@ -449,6 +449,13 @@ pub const OPTIONS: &[StructureOption] = &[
         ],
         "How a ray goes from voxel to voxel",
     ),
+    words(
+        "goal",
+        Speed,
+        Same,
+        &[("trace", "Rays"), ("build", "Builds")],
+        "What the driver is asked to make its tree fast for",
+    ),
     switch("corners", Speed, Same, "Keep a contiguous copy of triangles' corners"),
     words(
         "addressing",

@@ -1,7 +1,8 @@
 //! The registry: every system, found by name.
 
 use crate::{
-    Preset, Spec, System, SystemsError, bricks, brute_force, bvh, dirt, grid, hu, ldc, mmrt, selective,
+    Preset, Spec, System, SystemsError, bricks, brute_force, bvh, dirt, driver_rt, grid, hu, ldc, mmrt,
+    selective,
 };
 
 /// Every system.
@@ -14,6 +15,7 @@ pub static SYSTEMS: &[System] = &[
     ldc::SYSTEM,
     bvh::SYSTEM,
     grid::SYSTEM,
+    driver_rt::SYSTEM,
     brute_force::SYSTEM,
 ];
 

@@ -14,5 +14,7 @@ pub(super) const ROWS: &[Row] = &[
     Row::exact("bvh-refit", "bvh", &[("builder", "refit")], Tier::Full, Cases::All),
     Row::exact("bvh-refit-four", "bvh", &[("builder", "refit"), ("children", "4")], Tier::Full, Cases::All),
     Row::exact("grid", "grid", &[], Tier::Quick, Cases::All),
+    Row::exact("driver-rt", "driver-rt", &[], Tier::Quick, Cases::All),
+    Row::exact("driver-rt-build", "driver-rt", &[("goal", "build")], Tier::Full, Cases::All),
     Row::exact("brute-force", "brute-force", &[], Tier::Quick, Cases::All),
 ];

@@ -1,7 +1,7 @@
 use rasray_ads::{Geometry, Hit, Ray, Structure, StructureKind};
 use rasray_systems::{Preset, SYSTEMS, Spec, System};
 
-use crate::harness::Bench;
+use crate::harness::{Bench, is_offered};
 use crate::shapes::Triangle;
 use crate::tier::{in_turn, is_full};
 
@@ -57,7 +57,7 @@ pub struct Answers {
 
 impl Subject {
     /// Every preset of every system of the registry, and the presets of the registry with options that make
-    /// more of them.
+    /// more of them. Those that the device of the tests cannot have are left out, which is said.
     ///
     /// # Panics
     /// If a preset is none.
@@ -81,6 +81,7 @@ impl Subject {
                 let kind = spec.kind().expect("the options are valid");
                 Self { spec, kind }
             })
+            .filter(|subject| is_offered(&subject.spec))
             .collect()
     }
 
@@ -91,8 +92,8 @@ impl Subject {
             let own = all.iter().filter(|subject| subject.spec.system().name == system.name);
             own.cloned().collect::<Vec<_>>()
         };
-        let turns = SYSTEMS.iter().enumerate();
-        turns.flat_map(|(turn, system)| in_turn(&of_system(system), turn).to_vec()).collect()
+        let own: Vec<_> = SYSTEMS.iter().map(of_system).filter(|own| !own.is_empty()).collect();
+        own.iter().enumerate().flat_map(|(turn, own)| in_turn(own, turn).to_vec()).collect()
     }
 
     /// `system preset`, with the options that make it one of several of that name.

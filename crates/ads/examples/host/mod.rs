@@ -29,6 +29,8 @@ pub struct Host {
     pub device: ash::Device,
     queue: vk::Queue,
     family: u32,
+    /// Whether buffers have addresses.
+    addresses: bool,
     pool: vk::CommandPool,
     frames: Vec<(vk::CommandBuffer, vk::Fence)>,
     made: RefCell<Vec<Made>>,
@@ -81,15 +83,28 @@ impl Host {
             let core = vk::PhysicalDeviceFeatures::default()
                 .fragment_stores_and_atomics(has(Feature::FragmentStoresAndAtomics));
             let mut features_12 = vk::PhysicalDeviceVulkan12Features::default()
-                .scalar_block_layout(has(Feature::ScalarBlockLayout));
+                .scalar_block_layout(has(Feature::ScalarBlockLayout))
+                .buffer_device_address(has(Feature::BufferDeviceAddress));
             let mut features_13 = vk::PhysicalDeviceVulkan13Features::default()
                 .synchronization2(has(Feature::Synchronization2))
                 .dynamic_rendering(draws);
-            let info = vk::DeviceCreateInfo::default()
+            // What ray queries need, where a structure asks for them.
+            let mut trees =
+                vk::PhysicalDeviceAccelerationStructureFeaturesKHR::default().acceleration_structure(true);
+            let mut queries = vk::PhysicalDeviceRayQueryFeaturesKHR::default().ray_query(true);
+            let names = [
+                ash::khr::acceleration_structure::NAME.as_ptr(),
+                ash::khr::deferred_host_operations::NAME.as_ptr(),
+                ash::khr::ray_query::NAME.as_ptr(),
+            ];
+            let mut info = vk::DeviceCreateInfo::default()
                 .queue_create_infos(&queues)
                 .enabled_features(&core)
                 .push_next(&mut features_12)
                 .push_next(&mut features_13);
+            if has(Feature::RayQuery) {
+                info = info.enabled_extension_names(&names).push_next(&mut trees).push_next(&mut queries);
+            }
             let device = instance.create_device(physical, &info, None)?;
             let queue = device.get_device_queue(family, 0);
             let info = vk::CommandPoolCreateInfo::default()
@@ -114,6 +129,7 @@ impl Host {
                 device,
                 queue,
                 family,
+                addresses: has(Feature::BufferDeviceAddress),
                 pool,
                 frames,
                 made,
@@ -172,9 +188,14 @@ impl Host {
     /// A storage buffer with that in it.
     pub fn buffer<T: bytemuck::NoUninit>(&self, values: &[T]) -> Result<HostBuffer> {
         let bytes: &[u8] = bytemuck::cast_slice(values);
-        let usage = vk::BufferUsageFlags::STORAGE_BUFFER
+        let mut usage = vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::TRANSFER_DST
             | vk::BufferUsageFlags::TRANSFER_SRC;
+        let mut flags = vk::MemoryAllocateFlagsInfo::default();
+        if self.addresses {
+            usage |= vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
+            flags = flags.flags(vk::MemoryAllocateFlags::DEVICE_ADDRESS);
+        }
         let info = vk::BufferCreateInfo::default().size(bytes.len() as u64).usage(usage);
         let seen = vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
         // SAFETY: the memory is of a type that suits the buffer, and stays mapped as long as it is there.
@@ -188,6 +209,7 @@ impl Host {
             });
             let kind = kind.ok_or("no host-visible memory")? as u32;
             let info = vk::MemoryAllocateInfo::default().allocation_size(needs.size).memory_type_index(kind);
+            let info = info.push_next(&mut flags);
             let memory = self.device.allocate_memory(&info, None)?;
             self.device.bind_buffer_memory(raw, memory, 0)?;
             self.made.borrow_mut().push(Made::Buffer(raw, memory));

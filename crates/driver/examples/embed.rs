@@ -1,0 +1,25 @@
+//! The driver's tree in a plain ash program with its own device: built, traced, compared with brute force.
+
+use rasray_ads::BruteForce;
+use rasray_driver::{Config, Driver};
+use rasray_gpu::Device;
+
+#[path = "../../ads/examples/host/mod.rs"]
+mod host;
+
+use host::hits::hits;
+use host::{Host, Result, staircase};
+
+/// Runs the program; an error where hits differ or the validation layer complains.
+pub fn main() -> Result<()> {
+    let config = Config::new();
+    let enabled = Driver::requirements_of(&config).required;
+    let host = Host::new(&enabled)?;
+    // SAFETY: the device was made with these features, by the host, which goes last.
+    let device = unsafe { Device::from_raw(host.raw_device(&enabled)) }?;
+    let mesh = staircase(500);
+    let geometry = host.geometry(&device, &mesh, host.buffer(&mesh.positions)?)?;
+    let found = hits(&host, &device, &mut Driver::new(&device, config, &geometry, None)?)?;
+    let expected = hits(&host, &device, &mut BruteForce::new(&device, &geometry, None, false)?)?;
+    host.compare(&found, &expected)
+}

@@ -1,0 +1,175 @@
+//! The driver's tree as a structure.
+
+use std::mem::offset_of;
+
+use rasray_ads::{
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint, box_ignores_eye,
+};
+use rasray_gpu::{
+    Access, BindingSet, ComputePipeline, Device, DriverTree, DriverTreeDesc, Feature, Recorder, Requirements,
+    Stage,
+};
+use rasray_shaders_glsl::constants::driver::DRIVER_GROUP_SIZE;
+
+use crate::layout::{Demand, formula_bytes, plan};
+use crate::{Config, Contents, Header, Pool, well_formed};
+
+/// The driver's tree over boxes of triangles; made from a [`Config`].
+pub type Driver = Pooled<Passes>;
+
+/// Pipelines of the build, and the tree: the design of [`Driver`].
+#[derive(Debug)]
+pub struct Passes {
+    boxes: ComputePipeline,
+    status: ComputePipeline,
+    /// Made when a build is prepared, over as many boxes as the pool then holds.
+    tree: Option<DriverTree>,
+}
+
+impl rasray_ads::Demand for Demand {
+    /// All demand follows from the triangles, which the host knows.
+    fn zip(self, _other: Self, _with: impl FnMut(&'static str, u64, u64) -> u64) -> Self {
+        self
+    }
+}
+
+impl Design for Passes {
+    type Config = Config;
+    type Header = Header;
+    type Demand = Demand;
+    type Pool = Pool;
+    type Contents = Contents;
+
+    const NAME: &'static str = "driver";
+    const TITLE: &'static str = "the driver's tree";
+    const BUILD_READS_SCENE: bool = false;
+    const CORRUPTED: usize = offset_of!(Header, corrupted);
+    const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
+    const HAS_SURFACES_OF_TRIANGLES: bool = true;
+
+    fn kind(_config: &Config) -> StructureKind {
+        StructureKind::Primitive
+    }
+
+    fn depends_on(_config: &Config) -> Dependencies {
+        Dependencies { eye: true, camera: false }
+    }
+
+    /// Boxes have a margin for the eye only where that is far away.
+    fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
+        let is_near = |viewpoint: Viewpoint| box_ignores_eye(&parts.geometry, viewpoint.eye);
+        let both_near = is_near(built) && is_near(wanted);
+        !both_near && Self::depends_on(&parts.config).are_stale(built, wanted)
+    }
+
+    fn requirements(_config: &Config) -> Requirements {
+        let mut requirements = Requirements::compute();
+        requirements.required.extend([
+            Feature::BufferDeviceAddress,
+            Feature::AccelerationStructure,
+            Feature::RayQuery,
+        ]);
+        requirements
+    }
+
+    fn constants(_config: &Config) -> Vec<(u32, u32)> {
+        Vec::new()
+    }
+
+    fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
+        plan(config, &Demand { triangles: geometry.triangle_count().into() })
+    }
+
+    fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
+        plan(config, demand)
+    }
+
+    fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
+        let sizes = Self::first_plan(&parts.config, geometry)?;
+        Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
+    }
+
+    fn make(
+        pipelines: &BuildPipelines<'_>,
+        _config: &Config,
+        _scene: Option<&SceneBinding>,
+    ) -> Result<Self, AdsError> {
+        Ok(Self {
+            boxes: pipelines.compute("build_1_boxes")?,
+            status: pipelines.compute("build_3_status")?,
+            tree: None,
+        })
+    }
+
+    fn prepare(&mut self, parts: &mut Parts<Config>, device: &Device) -> Result<(), AdsError> {
+        let boxes = parts.elements(Pool::Boxes) as u32;
+        if self.tree.as_ref().is_none_or(|tree| tree.boxes() != boxes) {
+            let desc = DriverTreeDesc { name: "driver tree", boxes, goal: parts.config.goal.into() };
+            self.tree = Some(device.create_driver_tree(&desc)?);
+        }
+        Ok(())
+    }
+
+    fn first_header(&mut self, parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
+        let tree = self.tree.as_ref().ok_or(AdsError::NotPrepared { structure: Self::NAME })?.address();
+        Ok(Header {
+            capacity: parts.elements(Pool::Boxes) as u32,
+            eye: viewpoint.eye,
+            tree: [tree as u32, (tree >> 32) as u32],
+            ..Header::default()
+        })
+    }
+
+    fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
+        let target = parts.target(scene);
+        let Some(tree) = &self.tree else {
+            return recorder.refuse("the build of the driver's tree was not prepared");
+        };
+        target.record_header(recorder, "driver/build_0_header", &[] as &[Pool], Access::COMPUTE);
+        // Fewer than the pool holds where it once held others; the status tells where they do not fit.
+        let boxes = parts.geometry.triangle_count().min(tree.boxes());
+        let groups = u64::from(boxes).div_ceil(DRIVER_GROUP_SIZE.into());
+        target.compute_pass(recorder, "driver/build_1_boxes", &self.boxes, groups, 0, Access::TREE_BUILD);
+        recorder.begin_pass(Stage::Build, "driver/build_2_tree");
+        recorder.build_driver_tree(tree, parts.pools.pool(Pool::Boxes), boxes);
+        recorder.end_pass();
+        target.status_pass(recorder, "driver/build_3_status", &self.status);
+    }
+
+    fn keep(&self, recorder: &mut Recorder<'_>) {
+        if let Some(tree) = &self.tree {
+            recorder.keep_driver_tree(tree);
+        }
+    }
+
+    fn asked(&self, parts: &Parts<Config>, _header: &Header) -> Demand {
+        Demand { triangles: parts.geometry.triangle_count().into() }
+    }
+
+    fn capacity(parts: &Parts<Config>) -> Demand {
+        Demand { triangles: parts.elements(Pool::Boxes) }
+    }
+
+    fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
+        parts.rounds_with_distant_rays()
+    }
+
+    fn bytes_outside_of_pools(&self) -> Vec<(&'static str, u64)> {
+        let of = |bytes: fn(&DriverTree) -> u64| self.tree.as_ref().map_or(0, bytes);
+        vec![("tree", of(DriverTree::bytes)), ("tree scratch", of(DriverTree::scratch_bytes))]
+    }
+
+    fn report(parts: &Parts<Config>, _header: &Header, asked: &Demand) -> StructureReport {
+        StructureReport {
+            options: parts.config.options(),
+            formula_bytes: formula_bytes(asked),
+            stored: Some(asked.triangles),
+            ..StructureReport::default()
+        }
+    }
+
+    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
+        well_formed(contents, triangles).err().map(|fault| fault.to_string())
+    }
+}

@@ -1,0 +1,45 @@
+// What: the box of every triangle, wider than it by what rounding may move a ray against it in the driver's tests and in ours.
+// Reads: geometry, header. Writes: boxes.
+// Source: docs/systems/driver-rt.md, "Margins".
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/geometry.glsl"
+#include "driver/accessors.glsl"
+#include "driver/names.glsl"
+#include "ads/build_constants.glsl"
+
+layout(local_size_x = DRIVER_GROUP_SIZE) in;
+
+// Margins of a box, in those of rounding.
+#define DRIVER_MARGINS 4.0
+
+void store(uint box, vec3 lower, vec3 upper) {
+    uint first = DRIVER_BOX_WORDS * box;
+    for (uint axis = 0u; axis < 3u; axis++) {
+        DRIVER_POOL(build.structure, boxes)[first + axis] = floatBitsToUint(lower[axis]);
+        DRIVER_POOL(build.structure, boxes)[first + 3u + axis] = floatBitsToUint(upper[axis]);
+    }
+}
+
+void main() {
+    uint box = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * DRIVER_GROUP_SIZE + gl_GlobalInvocationID.x;
+    if (box >= DRIVER_HEADER(build.structure).capacity) {
+        return;
+    }
+    if (box >= geometry_triangle_count()) {
+        // Fewer than the host knows of. Boxes of NaN should be left out; Mesa 25's tree then answers with nothing. So they are a
+        // point at a corner of the bounds, and rays ignore them.
+        vec3 corner = DRIVER_HEADER(build.structure).upper * DRIVER_HEADER(build.structure).scale;
+        store(box, corner, corner);
+        return;
+    }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(box, a, b, c);
+    vec3 centre = DRIVER_HEADER(build.structure).centre;
+    float scale = DRIVER_HEADER(build.structure).scale;
+    precise vec3 lower = min(a, min(b, c)) - centre - DRIVER_MARGINS * DRIVER_HEADER(build.structure).rounding;
+    precise vec3 upper = max(a, max(b, c)) - centre + DRIVER_MARGINS * DRIVER_HEADER(build.structure).rounding;
+    store(box, lower * scale, upper * scale);
+}

@@ -1,0 +1,7 @@
+// What: what the contract's plain names are called here, for shaders that are compiled for one structure after the other.
+// Reads, writes: nothing.
+// No include guard: a shader with two structures includes the names of each in turn, and undefines them.
+#define StructureRef DriverRef
+#define STRUCTURE_NAME(name) driver_##name
+// Words of the cursor that a paused ray keeps.
+#define STRUCTURE_CURSOR_WORDS 2u
