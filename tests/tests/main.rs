@@ -7,6 +7,7 @@ mod abuffer;
 mod bvh;
 #[path = "conformance/main.rs"]
 mod conformance;
+mod driver_rt;
 mod drivers;
 #[path = "frames/main.rs"]
 mod frames;

@@ -7,7 +7,7 @@ use crate::driver_tree::{DRIVER_BOX_BYTES, DriverTree};
 
 impl Recorder<'_> {
     /// Builds a tree over the first `count` boxes of a buffer, [`DRIVER_BOX_BYTES`] each, which are visible to
-    /// [`Access::TREE_BUILD`]. It is visible to ray queries of compute shaders afterwards.
+    /// [`Access::TREE_BUILD`] and have no upper corner below their lower one. It is visible to ray queries of compute shaders afterwards.
     pub fn build_driver_tree(&mut self, tree: &DriverTree, boxes: &Buffer, count: u32) {
         if !self.outside_rendering("build_driver_tree") {
             return;

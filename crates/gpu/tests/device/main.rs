@@ -2,6 +2,7 @@
 
 mod common;
 mod compute;
+mod driver_tree;
 mod embedding;
 mod errors;
 mod flights;
