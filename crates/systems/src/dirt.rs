@@ -1,6 +1,6 @@
 //! DIRT: primitive lists with the paper's presets.
 
-use rasray_ads_primitive::{
+use rasray_primitive::{
     Accept, Addressing, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, PyramidStart, Stop,
     Storage, Views,
 };

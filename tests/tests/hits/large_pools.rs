@@ -2,9 +2,9 @@
 //! same hits; and, in the full tier, a million triangles through every system.
 
 use rasray_ads::{AdsError, BruteForce, Hit, Ray, Structure, StructureKind};
-use rasray_ads_primitive::{Addressing, Config, PrimitiveLists};
 use rasray_bvh::{Builder, Bvh};
 use rasray_gpu::{Feature, GpuError, Timing};
+use rasray_primitive::{Addressing, Config, PrimitiveLists};
 use rasray_systems::{SYSTEMS, Spec, System, SystemsError};
 use rasray_tests::harness::{Bench, bits, is_offered};
 use rasray_tests::random::Random;

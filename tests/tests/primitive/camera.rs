@@ -2,8 +2,8 @@
 //! is missed.
 
 use rasray_ads::{AdsError, BruteForce, CameraView, Hit, Ray, Structure, StructureKind, Viewpoint};
-use rasray_ads_primitive::{Addressing, Builder, Config, PrimitiveLists, Storage, Views};
 use rasray_gpu::Timing;
+use rasray_primitive::{Addressing, Builder, Config, PrimitiveLists, Storage, Views};
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::rays::towards;
@@ -133,7 +133,7 @@ fn a_view_of_the_camera_needs_one() {
     let config = Config { views: Views::Camera, ..Config::robust(16) };
     let refused = lists(&bench, config, &triangles, [0.0; 3].into()).expect_err("there is no camera");
     assert!(refused.to_string().contains("views is camera"), "{refused}");
-    let fixed = Config { centre: rasray_ads_primitive::Centre::Fixed, ..config };
+    let fixed = Config { centre: rasray_primitive::Centre::Fixed, ..config };
     let refused = PrimitiveLists::new(bench.device(), fixed, &bench.geometry(&triangles), None);
     assert!(matches!(refused, Err(AdsError::Option { option: "centre", .. })));
 }

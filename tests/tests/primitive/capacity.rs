@@ -2,7 +2,7 @@
 //! well formed; and the check of lists notices every fault.
 
 use rasray_ads::{Check, Structure};
-use rasray_ads_primitive::{
+use rasray_primitive::{
     Addressing, Builder, Config, Contents, Demand, Fault, Passes, PrimitiveLists, Storage, formula_bytes,
     plan, well_formed,
 };

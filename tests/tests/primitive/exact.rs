@@ -2,11 +2,11 @@
 //! and origin, with every budget; and lists that cover too little are noticed.
 
 use rasray_ads::{BruteForce, Counters, Hit, Ray, Structure, TraceMode};
-use rasray_ads_primitive::{
-    Accept, Addressing, Builder, Config, Coverage, Depths, March, PrimitiveLists, PyramidStart, Stop, Storage,
-};
 use rasray_bricks::{Bricks, Config as BricksConfig, Views};
 use rasray_gpu::{Feature, Timing};
+use rasray_primitive::{
+    Accept, Addressing, Builder, Config, Coverage, Depths, March, PrimitiveLists, PyramidStart, Stop, Storage,
+};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rasray_abuffer::{ABuffer, Config as ABufferConfig, Coverage, Storage, Views};
 use rasray_ads::{CameraView, ListCounts, Structure, Viewpoint};
-use rasray_ads_primitive::{Centre, Config as PrimitiveConfig, PrimitiveLists};
 use rasray_gpu::Timing;
 use rasray_ldc::{Config as LdcConfig, Depth, LayeredDepthCube, Making};
+use rasray_primitive::{Centre, Config as PrimitiveConfig, PrimitiveLists};
 use rasray_tests::harness::Bench;
 use rasray_tests::invariance::Subject;
 use rasray_tests::shapes::{Triangle, sphere};

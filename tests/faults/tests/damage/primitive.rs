@@ -1,7 +1,7 @@
 //! Damaged primitive lists, linked and contiguous.
 
-use rasray_ads_primitive::{Addressing, Config, Contents, PrimitiveLists, Storage};
 use rasray_faults::{in_child, scrambled};
+use rasray_primitive::{Addressing, Config, Contents, PrimitiveLists, Storage};
 
 use crate::damage::survive::{self, Flag, survive};
 

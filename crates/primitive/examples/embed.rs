@@ -2,8 +2,8 @@
 //! force.
 
 use rasray_ads::BruteForce;
-use rasray_ads_primitive::{Config, PrimitiveLists};
 use rasray_gpu::Device;
+use rasray_primitive::{Config, PrimitiveLists};
 
 #[path = "../../ads/examples/host/mod.rs"]
 mod host;
