@@ -51,6 +51,8 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
     let rays = rays(1000);
     for subject in Subject::by_turns() {
         let name = subject.name();
+        // A ray query counts boxes alone, and many rays meet just one.
+        let least = if name == "driver-rt robust" { 1000 } else { 2000 };
         let [off, sums, per_ray] = [Counters::Off, Counters::Sums, Counters::PerRay]
             .map(|counters| trace(&bench, &subject, counters, &rays));
         for (place, mode) in MODES.into_iter().enumerate() {
@@ -65,9 +67,9 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
                 assert_eq!(of_any_order(sums.counters), of_any_order(per_ray.counters), "{name}, {mode:?}");
             }
             assert!(sums.counters.searched <= sums.counters.cells, "{name}: {:?}", sums.counters);
-            assert!(sums.counters.cells + sums.counters.tests > 2000, "{:?}", sums.counters);
+            assert!(sums.counters.cells + sums.counters.tests > least, "{:?}", sums.counters);
             assert_eq!(difference(&per_ray.work, &per_ray.counters), None, "{name}, {mode:?}");
-            assert!(per_ray.counters.cells + per_ray.counters.tests > 2000, "{:?}", per_ray.counters);
+            assert!(per_ray.counters.cells + per_ray.counters.tests > least, "{:?}", per_ray.counters);
             assert!(per_ray.work.iter().all(|work| work.rounds >= 1));
             let nothing = RayWork { rounds: 1, ..RayWork::default() };
             assert_eq!([per_ray.work[7], per_ray.work[8]], [nothing; 2], "{name}: inactive rays");
