@@ -50,7 +50,7 @@ impl BufferUsage {
                 flags |= flag;
             }
         }
-        if addresses && self.contains(Self::STORAGE) {
+        if addresses && (self.contains(Self::STORAGE) || self.contains(Self::TREE)) {
             flags |= vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
         }
         if trees && addresses && self.contains(Self::STORAGE) {
@@ -367,6 +367,7 @@ mod tests {
         assert!(!BufferUsage::STORAGE.flags(false, false).contains(address));
         assert!(BufferUsage::STORAGE.flags(true, false).contains(address));
         assert!(!BufferUsage::TRANSFER_SRC.flags(true, true).contains(address));
+        assert!(BufferUsage::TREE.flags(true, true).contains(address), "trees have addresses as well");
         let input = vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR;
         let with_input = [(true, true), (true, false), (false, true)]
             .map(|(addresses, trees)| BufferUsage::STORAGE.flags(addresses, trees).contains(input));

@@ -106,7 +106,8 @@ fn hits_in_parts_are_those_of_all_triangles() {
     let rays = rays(&mut random, &triangles);
     let whole = bench.geometry(&triangles);
     let subjects = that_find_all();
-    assert_eq!(subjects.len(), 11, "{subjects:?}");
+    let by_queries = subjects.iter().filter(|subject| subject.spec.system().name == "driver-rt").count();
+    assert_eq!(subjects.len() - by_queries, 11, "{subjects:?}");
     for subject in &subjects {
         let name = subject.name();
         let expected = subject.answers(&bench, [0.5; 3], &triangles, &rays);
