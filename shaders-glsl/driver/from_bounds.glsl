@@ -14,9 +14,7 @@ void driver_from_bounds(DriverRef s, vec3 lower, vec3 upper) {
     DRIVER_HEADER(s).centre = at.centre;
     DRIVER_HEADER(s).reach = at.reach;
     DRIVER_HEADER(s).rounding = at.rounding;
-    // Two to the negative exponent of the reach, and at least the smallest normal number.
-    uint exponent = floatBitsToUint(at.reach) >> 23;
-    DRIVER_HEADER(s).scale = uintBitsToFloat(max(254u - min(exponent, 254u), 1u) << 23);
+    DRIVER_HEADER(s).scale = driver_scale_of(at.reach);
     DRIVER_HEADER(s).lower = lower - at.centre - at.rounding;
     DRIVER_HEADER(s).upper = upper - at.centre + at.rounding;
 }

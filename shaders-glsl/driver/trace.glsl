@@ -26,9 +26,9 @@
 // direction whose largest component is from 1 to 2.
 void driver_trace_boxes(DriverRef s, Ray ray, vec3 origin, vec2 clip, float slack, bool any_hit, inout TraceState state) {
     float scale = DRIVER_HEADER(s).scale;
-    uint exponent = floatBitsToUint(largest_coordinate(ray.direction)) >> 23;
-    float longer = uintBitsToFloat(exponent << 23);
-    vec3 direction = ray.direction * uintBitsToFloat(max(254u - min(exponent, 254u), 1u) << 23);
+    float size = largest_coordinate(ray.direction);
+    float longer = uintBitsToFloat(floatBitsToUint(size) >> 23 << 23);
+    vec3 direction = ray.direction * driver_scale_of(size);
     vec2 range = clamp(clip * longer * scale, vec2(0.0), vec2(1.0e30));
     uint count = geometry_triangle_count();
     trace_log_visit(STEP_VIEW, 0u, 0u, 0u, clip.x, clip.y);

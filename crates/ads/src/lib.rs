@@ -93,7 +93,7 @@ pub use sizes::{PoolSize, Sizes};
 pub use status::{BuildStatus, Check, Growth, PoolStatus};
 pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
 pub use structure::{Dependencies, InlineTrace, Structure, StructureKind, StructureReport};
-pub use viewpoint::{CameraView, Viewpoint, box_ignores_eye};
+pub use viewpoint::{CameraView, Viewpoint, box_is_same};
 pub use visit::{Builder, LargePass, Visit, Visits, bin_groups};
 
 /// "No primitive": a miss.

@@ -66,10 +66,15 @@ impl From<[f32; 3]> for Viewpoint {
     }
 }
 
+/// Whether cells of one box over the stated bounds of a geometry are the same for both viewpoints.
+pub fn box_is_same(geometry: &Geometry, built: Viewpoint, wanted: Viewpoint) -> bool {
+    [built, wanted].iter().all(|viewpoint| box_ignores_eye(geometry, viewpoint.eye))
+}
+
 /// Whether cells of one box over the stated bounds of a geometry are the same for this eye as for every other one as near:
 /// those of an eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest side, and outside of the whole of which
 /// the geometry is a part, have wider margins (`box_placement` in `ads/placement.glsl`).
-pub fn box_ignores_eye(geometry: &Geometry, eye: [f32; 3]) -> bool {
+fn box_ignores_eye(geometry: &Geometry, eye: [f32; 3]) -> bool {
     let [lower, upper] = geometry.bounds();
     let [around_lower, around_upper] = geometry.whole().bounds();
     let along = |of: &dyn Fn(usize) -> f32| (0..3).map(of).fold(0.0_f32, f32::max);

@@ -4,7 +4,7 @@ use std::mem::offset_of;
 
 use rasray_ads::{
     AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, box_ignores_eye,
+    Sizes, StructureKind, StructureReport, Viewpoint, box_is_same,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
@@ -101,9 +101,8 @@ impl Design for Passes {
 
     /// Cells along the axes have a margin for the eye only where that is far away.
     fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
-        let is_near = |viewpoint: Viewpoint| box_ignores_eye(&parts.geometry, viewpoint.eye);
-        let both_near = parts.config.views == Views::Axes && is_near(built) && is_near(wanted);
-        !both_near && Self::depends_on(&parts.config).are_stale(built, wanted)
+        let is_same = parts.config.views == Views::Axes && box_is_same(&parts.geometry, built, wanted);
+        !is_same && Self::depends_on(&parts.config).are_stale(built, wanted)
     }
 
     fn requirements(config: &Config) -> Requirements {

@@ -4,7 +4,7 @@ use std::mem::offset_of;
 
 use rasray_ads::{
     AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, box_ignores_eye,
+    Sizes, StructureKind, StructureReport, Viewpoint, box_is_same,
 };
 use rasray_gpu::{
     Access, BindingSet, ComputePipeline, Device, DriverTree, DriverTreeDesc, Feature, Recorder, Requirements,
@@ -57,9 +57,8 @@ impl Design for Passes {
 
     /// Boxes have a margin for the eye only where that is far away.
     fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
-        let is_near = |viewpoint: Viewpoint| box_ignores_eye(&parts.geometry, viewpoint.eye);
-        let both_near = is_near(built) && is_near(wanted);
-        !both_near && Self::depends_on(&parts.config).are_stale(built, wanted)
+        !box_is_same(&parts.geometry, built, wanted)
+            && Self::depends_on(&parts.config).are_stale(built, wanted)
     }
 
     fn requirements(_config: &Config) -> Requirements {

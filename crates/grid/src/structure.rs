@@ -4,7 +4,7 @@ use std::mem::offset_of;
 
 use rasray_ads::{
     AdsError, BuildPipelines, Dependencies, Design, Geometry, ListCounts, Parts, Pooled, RecordLayout, Scan,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, box_ignores_eye,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, box_is_same,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
@@ -83,9 +83,8 @@ impl Design for Passes {
 
     /// Cells along the axes have a margin for the eye only where that is far away.
     fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
-        let is_near = |viewpoint: Viewpoint| box_ignores_eye(&parts.geometry, viewpoint.eye);
-        let both_near = is_near(built) && is_near(wanted);
-        !both_near && Self::depends_on(&parts.config).are_stale(built, wanted)
+        !box_is_same(&parts.geometry, built, wanted)
+            && Self::depends_on(&parts.config).are_stale(built, wanted)
     }
 
     fn requirements(_config: &Config) -> Requirements {
