@@ -29,9 +29,10 @@
 #define ENDS_TOUCHING 0u
 #define ENDS_CLEAR 1u
 
-// Numbers that one workgroup of a scan adds up, and its threads.
+// Numbers that one workgroup of a scan adds up, its threads, and those that make a row.
 #define SCAN_BLOCK 1024u
 #define SCAN_THREADS 256u
+#define SCAN_ROW 16u
 
 // Threads in a workgroup of the passes that sort lists.
 #define SORT_GROUP_SIZE 64u

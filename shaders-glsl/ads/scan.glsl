@@ -8,13 +8,16 @@
 //   void scan_set_total(StructureRef s, uint step, uint total)    the sum of all, 2^32 - 1 where it exceeds 32 bits
 // A structure with several scans tells them apart by the step.
 // Reads, writes: shared memory.
-// Source: Hillis and Steele 1986.
+// Source: Sengupta et al. 2007 (sums of rows, then within them), with one level of rows: barriers cost more than additions.
 #ifndef ADS_SCAN_GLSL
 #define ADS_SCAN_GLSL
 
 #include "ads/constants.glsl"
 
+const uint SCAN_ROWS = SCAN_THREADS / SCAN_ROW;
+
 shared uint scan_values[SCAN_THREADS];
+shared uint scan_rows[SCAN_ROWS];
 
 // The sum of `value` over all threads up to and including this one. Every thread of the group calls it.
 uint scan_inclusive(uint value) {
@@ -22,18 +25,32 @@ uint scan_inclusive(uint value) {
     barrier();
     scan_values[thread] = value;
     barrier();
-    for (uint reach = 1u; reach < SCAN_THREADS; reach *= 2u) {
-        uint before = thread >= reach ? scan_values[thread - reach] : 0u;
-        barrier();
-        scan_values[thread] += before;
-        barrier();
+    if (thread < SCAN_ROWS) {
+        uint sum = 0u;
+        for (uint i = 0u; i < SCAN_ROW; i++) {
+            sum += scan_values[SCAN_ROW * thread + i];
+        }
+        scan_rows[thread] = sum;
     }
-    return scan_values[thread];
+    barrier();
+    uint row = thread / SCAN_ROW;
+    uint sum = 0u;
+    for (uint before = 0u; before < row; before++) {
+        sum += scan_rows[before];
+    }
+    for (uint i = SCAN_ROW * row; i <= thread; i++) {
+        sum += scan_values[i];
+    }
+    return sum;
 }
 
 // The sum over all threads, after scan_inclusive.
 uint scan_total() {
-    return scan_values[SCAN_THREADS - 1u];
+    uint sum = 0u;
+    for (uint row = 0u; row < SCAN_ROWS; row++) {
+        sum += scan_rows[row];
+    }
+    return sum;
 }
 
 #endif
