@@ -28,9 +28,10 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 /// Systems, an option of some, and whether what moves is a part by itself, the only one that is built with every frame; the
 /// first is what the others are divided by.
-const SYSTEMS: [(&str, Option<[&str; 2]>, bool); 12] = [
+const SYSTEMS: [(&str, Option<[&str; 2]>, bool); 13] = [
     ("bvh", Some(["builder", "lbvh"]), false),
     ("bvh", Some(["builder", "lbvh"]), true),
+    ("bvh", Some(["builder", "ploc"]), false),
     ("bvh", Some(["builder", "refit"]), false),
     ("bvh", Some(["builder", "sah"]), false),
     ("bricks", None, false),

@@ -26,8 +26,9 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 const REPETITIONS: usize = 5;
 
 /// Ours: the name of the row, the system, and an option. The first is what speeds are divided by.
-const SYSTEMS: [(&str, &str, Option<[&str; 2]>); 4] = [
+const SYSTEMS: [(&str, &str, Option<[&str; 2]>); 5] = [
     ("bvh, sah", "bvh", Some(["builder", "sah"])),
+    ("bvh, ploc", "bvh", Some(["builder", "ploc"])),
     ("bvh, trbvh", "bvh", Some(["builder", "trbvh"])),
     ("bvh, lbvh", "bvh", Some(["builder", "lbvh"])),
     ("bricks", "bricks", None),

@@ -127,6 +127,13 @@ BvhNode bvh_node(BvhRef s, uint node) {
     return BVH_NODES(s)[bvh_pair_place(s, node)];
 }
 
+// Sets all of a node of two.
+void bvh_set_node(BvhRef s, uint node, BvhNode value) {
+    if (node < BVH_HEADER(s).pair_capacity) {
+        BVH_NODES(s)[bvh_pair_place(s, node)] = value;
+    }
+}
+
 // Sets both children of a node of two. Boxes are left as they are.
 void bvh_set_children(BvhRef s, uint node, uint child_0, uint child_1) {
     if (node < BVH_HEADER(s).pair_capacity) {
@@ -166,20 +173,18 @@ void bvh_set_box(BvhRef s, uint link, vec3 lower, vec3 upper) {
     }
 }
 
-// Sets the child of a node of four that a link refers to: its reference, BVH_NONE where there is none, and its box.
-void bvh_set_wide_child(BvhRef s, uint link, uint reference, vec3 lower, vec3 upper) {
-    uint node = link / BVH_WIDE;
-    uint slot = link % BVH_WIDE;
+// Sets the children of a node of four and their boxes, side by side. The link by which it is reached is left as it is.
+void bvh_set_wide_children(BvhRef s, uint node, uvec4 children, mat3x4 lower, mat3x4 upper) {
     if (node >= BVH_HEADER(s).node_capacity) {
         return;
     }
-    BVH_WIDE_NODES(s)[node].lower_x[slot] = lower.x;
-    BVH_WIDE_NODES(s)[node].upper_x[slot] = upper.x;
-    BVH_WIDE_NODES(s)[node].lower_y[slot] = lower.y;
-    BVH_WIDE_NODES(s)[node].upper_y[slot] = upper.y;
-    BVH_WIDE_NODES(s)[node].lower_z[slot] = lower.z;
-    BVH_WIDE_NODES(s)[node].upper_z[slot] = upper.z;
-    BVH_WIDE_NODES(s)[node].children[slot] = reference;
+    BVH_WIDE_NODES(s)[node].lower_x = lower[0];
+    BVH_WIDE_NODES(s)[node].upper_x = upper[0];
+    BVH_WIDE_NODES(s)[node].lower_y = lower[1];
+    BVH_WIDE_NODES(s)[node].upper_y = upper[1];
+    BVH_WIDE_NODES(s)[node].lower_z = lower[2];
+    BVH_WIDE_NODES(s)[node].upper_z = upper[2];
+    BVH_WIDE_NODES(s)[node].children = children;
 }
 
 // Sets the link by which a node of four is reached.
@@ -196,6 +201,22 @@ uint bvh_scratch(BvhRef s, uint word) {
 void bvh_set_scratch(BvhRef s, uint word, uint value) {
     if (word < BVH_HEADER(s).scratch_capacity) {
         BVH_POOL(s, scratch)[word] = value;
+    }
+}
+
+// Three words that follow each other, as a point.
+vec3 bvh_scratch_point(BvhRef s, uint word) {
+    if (word + 3u > BVH_HEADER(s).scratch_capacity) {
+        return vec3(0.0);
+    }
+    return uintBitsToFloat(uvec3(BVH_POOL(s, scratch)[word], BVH_POOL(s, scratch)[word + 1u], BVH_POOL(s, scratch)[word + 2u]));
+}
+
+void bvh_set_scratch_point(BvhRef s, uint word, vec3 point) {
+    if (word + 3u <= BVH_HEADER(s).scratch_capacity) {
+        BVH_POOL(s, scratch)[word] = floatBitsToUint(point.x);
+        BVH_POOL(s, scratch)[word + 1u] = floatBitsToUint(point.y);
+        BVH_POOL(s, scratch)[word + 2u] = floatBitsToUint(point.z);
     }
 }
 

@@ -1,5 +1,5 @@
 // What: the nodes of four: children and boxes of each, from those nodes of two that are opened for it.
-// Reads: nodes of two, scratch (openings, numbers, list). Writes: nodes of four, header.node_count.
+// Reads: nodes of two, scratch (openings, numbers, list). Writes: nodes of four, header.node_count, header.root.
 // Source: none; docs/systems/bvh.md, "Opening".
 #version 460
 #include "contract/extensions.glsl"
@@ -7,24 +7,34 @@
 
 layout(local_size_x = BVH_GROUP_SIZE) in;
 
-// The node of four, its children so far, and the box of the first.
+// The node of four, and its children so far with their boxes, side by side.
 uint number;
 uint count = 0u;
-vec3 first_lower;
-vec3 first_upper;
+uvec4 children;
+mat3x4 lower_sides;
+mat3x4 upper_sides;
+
+// Puts a child at a place.
+void put(uint place, uint reference, vec3 lower, vec3 upper) {
+    children[place] = reference;
+    for (uint axis = 0u; axis < 3u; axis++) {
+        lower_sides[axis][place] = lower[axis];
+        upper_sides[axis][place] = upper[axis];
+    }
+}
 
 // Adds a child of a node of two.
 void add(uint reference, vec3 lower, vec3 upper) {
-    uint link = BVH_WIDE * number + count;
     if ((reference & BVH_LEAF) == 0u) {
         reference = bvh_scratch(build.structure, number_word(reference));
-        bvh_set_wide_parent(build.structure, reference, link);
+        bvh_set_wide_parent(build.structure, reference, BVH_WIDE * number + count);
     }
-    if (count == 0u) {
-        first_lower = lower;
-        first_upper = upper;
+    // Constant places stay in registers. The box of an absent child is that of the first, which changes no union.
+    [[unroll]] for (uint place = 0u; place < BVH_WIDE; place++) {
+        if (place == count || (count == 0u && place > 0u)) {
+            put(place, place == count ? reference : BVH_NONE, lower, upper);
+        }
     }
-    bvh_set_wide_child(build.structure, link, reference, lower, upper);
     count++;
 }
 
@@ -34,7 +44,6 @@ void main() {
     uint nodes = bvh_scratch(build.structure, number_word(triangles - 1u));
     if (number == 0u) {
         BVH_HEADER(build.structure).node_count = nodes;
-        bvh_set_wide_parent(build.structure, 0u, BVH_NONE);
     }
     if (number >= nodes) {
         return;
@@ -42,6 +51,10 @@ void main() {
     uint node = bvh_scratch(build.structure, list_word(number));
     uint openings = bvh_scratch(build.structure, openings_word(node));
     BvhNode top = bvh_node(build.structure, node);
+    if (top.parent == BVH_NONE) {
+        BVH_HEADER(build.structure).root = number;
+        bvh_set_wide_parent(build.structure, number, BVH_NONE);
+    }
     for (uint slot = 0u; slot < 2u; slot++) {
         uint child = slot == 0u ? top.child_0 : top.child_1;
         if (!opens_child(openings, slot)) {
@@ -61,8 +74,5 @@ void main() {
             add(lowest.child_1, lowest.lower_1, lowest.upper_1);
         }
     }
-    // The box of an absent child changes no union.
-    for (; count < BVH_WIDE; count++) {
-        bvh_set_wide_child(build.structure, BVH_WIDE * number + count, BVH_NONE, first_lower, first_upper);
-    }
+    bvh_set_wide_children(build.structure, number, children, lower_sides, upper_sides);
 }

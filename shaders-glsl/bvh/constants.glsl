@@ -46,6 +46,13 @@
 #define BVH_TREELET_ROUNDS 3u
 #define BVH_TREELET_CLASSES 32u
 
+// Clusters that are merged together, those that are left of them, words of one, and neighbours on each side with which one may
+// merge.
+#define BVH_CLUSTERS 256u
+#define BVH_CLUSTERS_KEPT 32u
+#define BVH_CLUSTER_WORDS 7u
+#define BVH_CLUSTER_REACH 6u
+
 // Threads in a workgroup of the build's passes.
 #define BVH_GROUP_SIZE 64u
 

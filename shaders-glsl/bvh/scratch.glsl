@@ -1,6 +1,7 @@
 // What: where the parts of the scratch pool are, in words. That of a build on the host: boxes (6 per triangle), then
 // the order of the leaves. That of a build on the device: keys (code and primitive) twice, counts by digit and
-// chunk, the sums of their scan, then the unions of boxes (unions.glsl); treelets.glsl and fours.glsl say what takes the place
+// chunk, the sums of their scan, then the unions of boxes (unions.glsl) or the clusters (clusters.glsl); these, treelets.glsl and
+// fours.glsl say what takes the place
 // of keys and counts.
 // Reads: header. Writes: nothing.
 #ifndef BVH_SCRATCH_GLSL
@@ -26,6 +27,7 @@ uint bvh_sums(BvhRef s) {
     return bvh_counts(s) + BVH_DIGIT_VALUES * bvh_chunks(s);
 }
 
+// The first word of the unions, or of the clusters.
 uint bvh_unions(BvhRef s) {
     return bvh_sums(s) + (BVH_DIGIT_VALUES * bvh_chunks(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK;
 }

@@ -94,7 +94,7 @@ fn one_option_at_a_time_changes_no_hit() {
 const REFUSED: &[(&str, usize)] = &[
     ("bricks robust", 10),
     ("bricks robust with views=cube", 10),
-    ("bvh robust", 3),
+    ("bvh robust", 4),
     ("ldc robust", 2),
     ("ldc robust with accept=plane", 2),
     ("mmrt robust", 4),

@@ -3,12 +3,12 @@
 use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan};
 use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::bvh::{
-    BVH_DIGIT_VALUES, BVH_DIGITS, BVH_GROUP_SIZE, BVH_SORT_CHUNK, BVH_TREELET, BVH_TREELET_CLASSES,
-    BVH_TREELET_ROUNDS,
+    BVH_CLUSTERS, BVH_DIGIT_VALUES, BVH_DIGITS, BVH_GROUP_SIZE, BVH_SORT_CHUNK, BVH_TREELET,
+    BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS,
 };
 
-use crate::layout::{most_nodes, union_levels};
-use crate::{Builder, Config, Pool, Sort, Width};
+use crate::layout::{cluster_levels, most_nodes, union_levels};
+use crate::{Builder, Chunks, Config, Pool, Width};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -27,18 +27,26 @@ enum OfBuilder {
 #[derive(Debug)]
 struct LbvhPipelines {
     codes: ComputePipeline,
-    sort: Sort,
+    chunks: Chunks,
     counts: ComputePipeline,
     scan: Scan,
     scatter: ComputePipeline,
-    unions: ComputePipeline,
-    topology: ComputePipeline,
+    tree: TreePipelines,
     /// Where treelets of the tree by Morton codes are restructured.
     treelets: Option<TreeletPipelines>,
     /// Where later builds keep the tree of the first.
     refit: Option<RefitPipelines>,
     /// Where nodes of four are made of those of two.
     fours: Option<FourPipelines>,
+}
+
+/// What makes the nodes of two over the records.
+#[derive(Debug)]
+enum TreePipelines {
+    /// Each node by itself, from the codes.
+    OfCodes { unions: ComputePipeline, topology: ComputePipeline },
+    /// By merging clusters.
+    OfClusters { clusters: ComputePipeline, chunks: Chunks },
 }
 
 #[derive(Debug)]
@@ -66,7 +74,7 @@ impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
         let of_builder = match config.builder {
             Builder::Sah => OfBuilder::Sah { boxes: pipelines.compute("build_1_boxes")? },
-            Builder::Lbvh | Builder::Trbvh | Builder::Refit => {
+            Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => {
                 OfBuilder::Lbvh(Box::new(LbvhPipelines::new(pipelines, config)?))
             }
         };
@@ -102,11 +110,11 @@ impl Build {
 impl LbvhPipelines {
     fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
         let compute = |name| pipelines.compute(name);
-        let by_device = if pipelines.is_software() { Sort::Serial } else { Sort::Shared };
-        let sort = config.sort.unwrap_or(by_device);
-        let (counts, scatter) = match sort {
-            Sort::Serial => ("build_3_counts", "build_5_scatter"),
-            Sort::Shared => ("build_3_counts.shared", "build_5_scatter.shared"),
+        let by_device = if pipelines.is_software() { Chunks::Serial } else { Chunks::Shared };
+        let chunks = config.chunks.unwrap_or(by_device);
+        let (counts, scatter) = match chunks {
+            Chunks::Serial => ("build_3_counts", "build_5_scatter"),
+            Chunks::Shared => ("build_3_counts.shared", "build_5_scatter.shared"),
         };
         let restructures = matches!(config.builder, Builder::Trbvh | Builder::Refit);
         let treelets = restructures.then(|| TreeletPipelines::new(pipelines));
@@ -114,12 +122,11 @@ impl LbvhPipelines {
         let fours = (config.made_width() == Width::Four).then(|| FourPipelines::new(pipelines));
         Ok(Self {
             codes: compute("build_2_codes")?,
-            sort,
+            chunks,
             counts: compute(counts)?,
             scan: Scan::new(pipelines, "build_4_scan")?,
             scatter: compute(scatter)?,
-            unions: compute("build_7_unions")?,
-            topology: compute("build_8_topology")?,
+            tree: TreePipelines::new(pipelines, config.builder, chunks)?,
             treelets: treelets.transpose()?,
             refit: refit.transpose()?,
             fours: fours.transpose()?,
@@ -131,11 +138,7 @@ impl LbvhPipelines {
         let triangles = target.geometry.triangle_count();
         let chunks = triangles.div_ceil(BVH_SORT_CHUNK);
         let counts = u64::from(chunks) * u64::from(BVH_DIGIT_VALUES);
-        // Invocations of the serial form, workgroups of the other.
-        let groups = match self.sort {
-            Sort::Serial => groups(chunks),
-            Sort::Shared => chunks.into(),
-        };
+        let groups = self.chunks.groups(chunks);
         let chunk_pass = |recorder: &mut Recorder<'_>, label, pipeline, digit| {
             target.compute_pass(recorder, label, pipeline, groups, digit, Access::COMPUTE);
         };
@@ -153,9 +156,7 @@ impl LbvhPipelines {
         match (&self.treelets, &self.refit) {
             (Some(treelets), Some(refit)) if keeps_tree => refit.record(recorder, target, treelets),
             (treelets, _) => {
-                let nodes = target.geometry.triangle_count().saturating_sub(1);
-                self.record_unions(recorder, target);
-                pass(recorder, target, "bvh/build_8_topology", &self.topology, 0, nodes);
+                self.tree.record(recorder, target);
                 if let Some(treelets) = treelets {
                     treelets.record(recorder, target);
                 }
@@ -165,12 +166,44 @@ impl LbvhPipelines {
             fours.record(recorder, target, &self.scan);
         }
     }
+}
 
-    /// Unions of the records' boxes.
-    fn record_unions(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
+impl TreePipelines {
+    fn new(pipelines: &BuildPipelines<'_>, builder: Builder, chunks: Chunks) -> Result<Self, AdsError> {
+        let compute = |name| pipelines.compute(name);
+        Ok(if builder == Builder::Ploc {
+            let name = match chunks {
+                Chunks::Serial => "build_8_topology.clusters",
+                Chunks::Shared => "build_8_topology.clusters.shared",
+            };
+            Self::OfClusters { clusters: compute(name)?, chunks }
+        } else {
+            Self::OfCodes { unions: compute("build_7_unions")?, topology: compute("build_8_topology")? }
+        })
+    }
+
+    fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
-        for (level, boxes) in (0..).zip(union_levels(triangles.into())) {
-            pass(recorder, target, "bvh/build_7_unions", &self.unions, level, boxes as u32);
+        match self {
+            Self::OfCodes { unions, topology } => {
+                for (level, boxes) in (0..).zip(union_levels(triangles.into())) {
+                    pass(recorder, target, "bvh/build_7_unions", unions, level, boxes as u32);
+                }
+                pass(recorder, target, "bvh/build_8_topology", topology, 0, triangles.saturating_sub(1));
+            }
+            Self::OfClusters { clusters, chunks } => {
+                for (level, count) in (0..).zip(cluster_levels(triangles.into())) {
+                    let groups = chunks.groups(count.div_ceil(BVH_CLUSTERS.into()) as u32);
+                    target.compute_pass(
+                        recorder,
+                        "bvh/build_8_topology",
+                        clusters,
+                        groups,
+                        level,
+                        Access::COMPUTE,
+                    );
+                }
+            }
         }
     }
 }
@@ -252,6 +285,16 @@ impl FourPipelines {
         pass(recorder, target, "bvh/build_15_list", &self.list, 0, nodes);
         let most = most_nodes(Width::Four, target.geometry.triangle_count().into()) as u32;
         pass(recorder, target, "bvh/build_16_fours", &self.fours, 0, most);
+    }
+}
+
+impl Chunks {
+    /// Workgroups for as many chunks.
+    fn groups(self, chunks: u32) -> u64 {
+        match self {
+            Self::Serial => groups(chunks),
+            Self::Shared => chunks.into(),
+        }
     }
 }
 

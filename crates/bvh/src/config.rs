@@ -13,14 +13,17 @@ pub enum Builder {
     Sah,
     /// The device, by Morton codes: fast to build, slower to trace.
     Lbvh,
-    /// The device: the same, and then treelets of the tree are restructured by surface area: slower to build, faster to trace.
+    /// The device: clusters of triangles merge with near ones, by surface area: slower to build than [`Builder::Lbvh`], faster to
+    /// trace.
+    Ploc,
+    /// The device: the tree by Morton codes, and then treelets of it are restructured by surface area: slower to build, faster to trace.
     Trbvh,
     /// The device: the first tree as [`Builder::Trbvh`] makes it, after that only its boxes. Fastest to build, and slower to
     /// trace the farther the triangles have moved since the first build.
     Refit,
 }
 
-words! { Builder { Sah "sah", Lbvh "lbvh", Trbvh "trbvh", Refit "refit" } }
+words! { Builder { Sah "sah", Lbvh "lbvh", Ploc "ploc", Trbvh "trbvh", Refit "refit" } }
 
 /// Children of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,12 +54,12 @@ impl Width {
     }
 }
 
-/// How the device sorts codes. The order is the same.
+/// How the device works on chunks, of keys that it sorts and of clusters that it merges. The tree is the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sort {
-    /// An invocation moves a chunk of keys alone: the least work.
+pub enum Chunks {
+    /// An invocation takes a chunk alone: the least work.
     Serial,
-    /// A workgroup moves a chunk, an invocation per key, by sets of bits in shared memory: fills a device.
+    /// A workgroup takes a chunk, in shared memory: fills a device.
     Shared,
 }
 
@@ -65,14 +68,14 @@ pub enum Sort {
 pub struct Config {
     /// What builds the tree.
     pub builder: Builder,
-    /// Children per node; by default four by [`Builder::Sah`] and [`Builder::Trbvh`], and two by the others, whose builds
-    /// are to be quick.
+    /// Children per node; by default two by [`Builder::Lbvh`] and [`Builder::Refit`], whose builds are to be quick, and four by
+    /// the others.
     pub width: Option<Width>,
     /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`], whose heuristic may use fewer, and
     /// 1 by the others, whose leaves hold one.
     pub leaf: Option<u32>,
-    /// How the device sorts; where absent [`Sort::Serial`] on software devices and [`Sort::Shared`] on others.
-    pub sort: Option<Sort>,
+    /// How the device works on chunks; where absent [`Chunks::Serial`] on software devices and [`Chunks::Shared`] on others.
+    pub chunks: Option<Chunks>,
     /// How pools are reached.
     pub addressing: Addressing,
     /// How much of their work rays record: nodes read and triangles tested.
@@ -91,7 +94,7 @@ impl Config {
             builder,
             width: None,
             leaf: None,
-            sort: None,
+            chunks: None,
             addressing: Addressing::Descriptor,
             counters: Counters::Off,
             work_budget: None,
@@ -101,7 +104,7 @@ impl Config {
     /// Children of a node of the trees that are made.
     pub fn made_width(&self) -> Width {
         self.width.unwrap_or(match self.builder {
-            Builder::Sah | Builder::Trbvh => Width::Four,
+            Builder::Sah | Builder::Ploc | Builder::Trbvh => Width::Four,
             Builder::Lbvh | Builder::Refit => Width::Two,
         })
     }
@@ -110,7 +113,7 @@ impl Config {
     pub fn made_leaf(&self) -> u32 {
         self.leaf.unwrap_or(match self.builder {
             Builder::Sah => 4,
-            Builder::Lbvh | Builder::Trbvh | Builder::Refit => 1,
+            Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => 1,
         })
     }
 
@@ -146,7 +149,7 @@ impl Config {
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         let builder = match self.builder {
             Builder::Sah => "host",
-            Builder::Lbvh | Builder::Trbvh | Builder::Refit => "device",
+            Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => "device",
         };
         vec![("builder", builder.to_owned()), ("addressing", self.addressing.name().to_owned())]
     }

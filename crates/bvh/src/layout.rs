@@ -2,8 +2,8 @@
 
 use rasray_ads::{AdsError, Scan, Sizes};
 use rasray_shaders_glsl::constants::bvh::{
-    BVH_DIGIT_VALUES, BVH_LEAF_SHIFT, BVH_SORT_CHUNK, BVH_TREELET, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS,
-    BVH_UNION,
+    BVH_CLUSTER_WORDS, BVH_CLUSTERS, BVH_CLUSTERS_KEPT, BVH_DIGIT_VALUES, BVH_GROUP_SIZE, BVH_LEAF_SHIFT,
+    BVH_SORT_CHUNK, BVH_TREELET, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS, BVH_UNION,
 };
 
 use crate::{Builder, Config, Pool, Record, Width};
@@ -18,15 +18,21 @@ pub(crate) const BOX_WORDS: u64 = 6;
 // per triangle, where the keys did (four). The list of nodes of four stands where all counts did.
 const _: () = assert!(BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES <= BVH_DIGIT_VALUES && BVH_TREELET > 1);
 const _: () = assert!(BVH_SORT_CHUNK <= BVH_DIGIT_VALUES);
+// Each invocation has as many clusters; merging makes fewer of them.
+const _: () = assert!(BVH_CLUSTERS.is_multiple_of(BVH_GROUP_SIZE) && BVH_CLUSTERS_KEPT < BVH_CLUSTERS);
 
 /// Words of the scratch pool.
 fn scratch_words(builder: Builder, triangles: u64) -> u64 {
     match builder {
         Builder::Sah => (BOX_WORDS + 1) * triangles,
-        Builder::Lbvh | Builder::Trbvh | Builder::Refit => {
+        Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => {
             let chunks = triangles.div_ceil(BVH_SORT_CHUNK.into());
             let counts = u64::from(BVH_DIGIT_VALUES) * chunks;
-            4 * triangles + counts + Scan::sums(counts) + 6 * unions(triangles)
+            let boxes = match builder {
+                Builder::Ploc => u64::from(BVH_CLUSTER_WORDS) * triangles,
+                _ => 6 * unions(triangles),
+            };
+            4 * triangles + counts + Scan::sums(counts) + boxes
         }
     }
 }
@@ -39,6 +45,14 @@ pub(crate) fn union_levels(triangles: u64) -> impl Iterator<Item = u64> {
 
 fn unions(triangles: u64) -> u64 {
     union_levels(triangles).sum()
+}
+
+/// Clusters that each level of merging begins with, the records first.
+pub(crate) fn cluster_levels(triangles: u64) -> impl Iterator<Item = u64> {
+    let (merged, kept) = (u64::from(BVH_CLUSTERS), u64::from(BVH_CLUSTERS_KEPT));
+    let above =
+        move |count: &u64| (*count > merged).then(|| kept * (count / merged) + (count % merged).min(kept));
+    std::iter::successors(Some(triangles), above)
 }
 
 /// Inner nodes of a tree over so many triangles at most. With two children per node there is one fewer than there are
@@ -61,7 +75,9 @@ pub(crate) fn pair_elements(config: &Config, triangles: u64) -> u64 {
 fn pairs(config: &Config, triangles: u64) -> u64 {
     match (config.made_width(), config.builder) {
         (Width::Two, _) | (_, Builder::Sah) => 0,
-        (Width::Four, Builder::Lbvh | Builder::Trbvh | Builder::Refit) => most_nodes(Width::Two, triangles),
+        (Width::Four, Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit) => {
+            most_nodes(Width::Two, triangles)
+        }
     }
 }
 
@@ -93,7 +109,8 @@ pub struct FormulaBytes {
     pub traced: u64,
     /// What only the build uses: 28 per triangle by [`Builder::Sah`]; by the others 16 per triangle, 1024
     /// for every 256 of them, 4 for every 1024 of them, and 24 per union of four boxes, unions of unions
-    /// included, each rounded up, and for nodes of four 128 per two triangles after the first.
+    /// included, each rounded up, or by [`Builder::Ploc`] in their place 28 per triangle, and for nodes of four 128 per two
+    /// triangles after the first.
     pub scratch: u64,
 }
 
@@ -112,15 +129,16 @@ pub fn formula_bytes(config: &Config, nodes: u64, triangles: u64) -> FormulaByte
     };
     let scratch = match config.builder {
         Builder::Sah => 28 * triangles,
-        Builder::Lbvh | Builder::Trbvh | Builder::Refit => {
-            let (mut boxes, mut level) = (0, triangles);
+        Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => {
+            let (mut unions, mut level) = (0, triangles);
             while level > 1 {
                 level = level.div_ceil(4);
-                boxes += level;
+                unions += level;
             }
+            let boxes = if config.builder == Builder::Ploc { 28 * triangles } else { 24 * unions };
             let chunks = triangles.div_ceil(256);
             let pairs = if node == 128 { 128 * (triangles.max(1) - 1).div_ceil(2) } else { 0 };
-            pairs + 16 * triangles + 1024 * chunks + 4 * chunks.div_ceil(4) + 24 * boxes
+            pairs + 16 * triangles + 1024 * chunks + 4 * chunks.div_ceil(4) + boxes
         }
     };
     FormulaBytes { traced: 96 + node * nodes + 40 * triangles, scratch }
@@ -132,7 +150,8 @@ mod tests {
 
     #[test]
     fn plan_equals_formula() {
-        let kinds = [Builder::Sah, Builder::Lbvh, Builder::Trbvh, Builder::Refit].map(Config::new);
+        let kinds =
+            [Builder::Sah, Builder::Lbvh, Builder::Ploc, Builder::Trbvh, Builder::Refit].map(Config::new);
         let widths = |config| [Width::Two, Width::Four].map(|width| Config { width: Some(width), ..config });
         for config in kinds.into_iter().flat_map(widths) {
             for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
@@ -157,7 +176,7 @@ mod tests {
         assert!(refused(Config { leaf: Some(17), ..config }).contains("leaf is 17"));
         assert!(refused(Config { leaf: Some(0), ..config }).contains("leaf is 0"));
         assert!(refused(Config { work_budget: Some(0), ..config }).contains("work budget"));
-        for builder in [Builder::Lbvh, Builder::Trbvh, Builder::Refit] {
+        for builder in [Builder::Lbvh, Builder::Ploc, Builder::Trbvh, Builder::Refit] {
             let config = Config::new(builder);
             // What such a tree has may be said.
             assert!(plan(&Config { width: Some(Width::Two), leaf: Some(1), ..config }, 1).is_ok());

@@ -4,10 +4,11 @@
 //! Builders make trees of one format, which one traversal reads: [`Builder::Sah`] lowers the expected
 //! cost by surface area on the host, [`Builder::Lbvh`] sorts triangles along a Morton curve on the device
 //! (Karras, "Maximizing parallelism in the construction of BVHs, octrees, and k-d trees", HPG 2012),
-//! [`Builder::Trbvh`] then restructures treelets of that tree by surface area (Karras and Aila, "Fast parallel
-//! construction of high-quality bounding volume hierarchies", HPG 2013), and
-//! [`Builder::Refit`] does that once and then only finds boxes anew. See
-//! `docs/systems/bvh.md` for passes, bytes, options, limits and departures.
+//! [`Builder::Ploc`] merges clusters in that order by surface area (Meister and Bittner, "Parallel locally-ordered clustering for
+//! bounding volume hierarchy construction", TVCG 24(3), 2018), [`Builder::Trbvh`] restructures treelets of the tree by Morton
+//! codes by surface area (Karras and Aila, "Fast parallel construction of high-quality bounding volume hierarchies", HPG 2013),
+//! and [`Builder::Refit`] does that once and then only finds boxes anew. See `docs/systems/bvh.md` for passes, bytes, options,
+//! limits and departures.
 //!
 //! [`Bvh`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
 
@@ -21,7 +22,7 @@ mod structure;
 mod validate;
 mod wide;
 
-pub use config::{Builder, Config, Sort, Width};
+pub use config::{Builder, Chunks, Config, Width};
 pub use layout::{FormulaBytes, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::Addressing;

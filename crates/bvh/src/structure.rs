@@ -95,7 +95,7 @@ fn first_header(parts: &Parts<Config>, Prepared { root, nodes, triangles }: Prep
     // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
     let (order_offset, order_stride) = match config.builder {
         Builder::Sah => (BOX_WORDS as u32 * triangles, 1),
-        Builder::Lbvh | Builder::Trbvh | Builder::Refit => (1, 2),
+        Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => (1, 2),
     };
     Header {
         root,
@@ -247,7 +247,7 @@ impl Design for Tree {
             // The triangles may have moved since, so a tree serves one build.
             Builder::Sah => self.prepared.take().ok_or(AdsError::NotPrepared { structure: NAME })?,
             Builder::Refit if self.keeps_tree => refitted(triangles),
-            Builder::Lbvh | Builder::Trbvh | Builder::Refit => on_device(triangles),
+            Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => on_device(triangles),
         };
         let header = Header { order: self.order.number(), ..first_header(parts, prepared) };
         // Records keep their primitives: what else the first build had in its scratch is sizes now.

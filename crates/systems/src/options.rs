@@ -366,7 +366,8 @@ pub const OPTIONS: &[StructureOption] = &[
         &[
             ("sah", "A tree by the surface area heuristic, on the host"),
             ("lbvh", "A tree by Morton codes, on the device"),
-            ("trbvh", "The same, then its treelets are restructured by surface area, on the device"),
+            ("ploc", "Clusters of triangles merge with near ones by surface area, on the device"),
+            ("trbvh", "The tree of lbvh, then its treelets are restructured by surface area, on the device"),
             (
                 "refit",
                 "The tree of trbvh, of which later builds while the triangles stay find only the boxes anew",
@@ -391,7 +392,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Speed,
         Same,
         &[("2", "Two"), ("4", "Four, tested together")],
-        "Children per node of the tree: 4 with `builder` sah and trbvh unless given, 2 with the others",
+        "Children per node of the tree: 2 with `builder` lbvh and refit unless given, 4 with the others",
     ),
     row(
         "leaf",

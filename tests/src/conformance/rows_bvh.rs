@@ -8,6 +8,8 @@ pub(super) const ROWS: &[Row] = &[
     Row::exact("bvh-sah-two", "bvh", &[("builder", "sah"), ("children", "2")], Tier::Full, Cases::All),
     Row::exact("bvh-lbvh", "bvh", &[("builder", "lbvh")], Tier::Quick, Cases::All),
     Row::exact("bvh-lbvh-four", "bvh", &[("builder", "lbvh"), ("children", "4")], Tier::Full, Cases::All),
+    Row::exact("bvh-ploc", "bvh", &[("builder", "ploc")], Tier::Quick, Cases::All),
+    Row::exact("bvh-ploc-two", "bvh", &[("builder", "ploc"), ("children", "2")], Tier::Full, Cases::All),
     Row::exact("bvh-trbvh", "bvh", &[("builder", "trbvh")], Tier::Quick, Cases::All),
     Row::exact("bvh-trbvh-two", "bvh", &[("builder", "trbvh"), ("children", "2")], Tier::Full, Cases::All),
     // On cases its first build is that by Morton codes; scenes that move have the others.

@@ -13,11 +13,13 @@ use rasray_tracer::{BatchTracer, build_until_complete};
 const RAYS: usize = 3000;
 
 /// Every builder of trees of its own, with every number of children.
-const KINDS: [(Builder, Width); 6] = [
+const KINDS: [(Builder, Width); 8] = [
     (Builder::Sah, Width::Two),
     (Builder::Sah, Width::Four),
     (Builder::Lbvh, Width::Two),
     (Builder::Lbvh, Width::Four),
+    (Builder::Ploc, Width::Two),
+    (Builder::Ploc, Width::Four),
     (Builder::Trbvh, Width::Two),
     (Builder::Trbvh, Width::Four),
 ];
@@ -149,6 +151,11 @@ fn options_change_no_hit(builder: Builder) {
 #[test]
 fn by_surface_area_no_option_changes_a_hit() {
     options_change_no_hit(Builder::Sah);
+}
+
+#[test]
+fn of_clusters_no_option_changes_a_hit() {
+    options_change_no_hit(Builder::Ploc);
 }
 
 #[test]

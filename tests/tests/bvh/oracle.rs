@@ -40,7 +40,7 @@ fn every_hit_is_the_one_of_exact_arithmetic() {
     let triangles = built_in("spheres:10k");
     assert!(triangles.len() > 9_000);
     let geometry = bench.geometry(&triangles);
-    let mut trees = [Builder::Sah, Builder::Lbvh, Builder::Trbvh].map(|builder| {
+    let mut trees = [Builder::Sah, Builder::Lbvh, Builder::Ploc, Builder::Trbvh].map(|builder| {
         Bvh::new(bench.device(), Config::new(builder), &geometry, None).expect("the options are valid")
     });
     for seed in 0..batches() as u64 {

@@ -1,11 +1,13 @@
-//! The sort on the device against one of the host.
+//! The sort on the device against one of the host, and both forms of passes over chunks.
 
-use rasray_bvh::{Builder, Config, Sort};
+use rasray_bvh::{Builder, Chunks, Config};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::Triangle;
 
-use super::trees::build;
+use super::trees::{build, checked, scattered};
+
+const CHUNKS: [Chunks; 2] = [Chunks::Serial, Chunks::Shared];
 
 /// The Morton code of a cell, bit by bit.
 fn code(cell: [u32; 3]) -> u32 {
@@ -37,11 +39,28 @@ fn triangles_are_in_the_order_of_a_stable_sort() {
         let triangles: Vec<Triangle> = cells.iter().enumerate().map(triangle).collect();
         let mut expected: Vec<u32> = (0..cells.len() as u32).collect();
         expected.sort_by_key(|index| code(cells[*index as usize]));
-        for sort in [Sort::Serial, Sort::Shared] {
-            let config = Config { sort: Some(sort), ..Config::new(Builder::Lbvh) };
+        for chunks in CHUNKS {
+            let config = Config { chunks: Some(chunks), ..Config::new(Builder::Lbvh) };
             let contents = build(&bench, config, &triangles);
             let found: Vec<u32> = contents.records.iter().map(|record| record.primitive).collect();
-            assert!(found == expected, "{sort:?}, {count} triangles in {side} cells a side");
+            assert!(found == expected, "{chunks:?}, {count} triangles in {side} cells a side");
         }
+    }
+}
+
+/// Numbers of triangles around those at which a chunk, and a level of chunks, is full.
+#[test]
+fn an_invocation_and_a_workgroup_merge_the_same_clusters() {
+    let bench = Bench::new();
+    for count in [1, 2, 255, 256, 257, 300, 2047, 2048, 2049, 2050, 20_000] {
+        let triangles = scattered(count, count as u64, 0.2);
+        let [serial, shared] = CHUNKS.map(|chunks| {
+            let contents =
+                build(&bench, Config { chunks: Some(chunks), ..Config::new(Builder::Ploc) }, &triangles);
+            checked(&contents, &triangles, &format!("{chunks:?}, {count} triangles"));
+            contents
+        });
+        assert_eq!(serial.header.root, shared.header.root, "{count} triangles");
+        assert!(serial.wide_nodes == shared.wide_nodes, "{count} triangles");
     }
 }

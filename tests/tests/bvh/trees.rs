@@ -23,7 +23,7 @@ const LBVH_LEVELS: usize = 62;
 /// By how much rounding of areas may raise the cost of a tree that is restructured where it falls.
 const ROUNDING: f64 = 1.0e-5;
 
-fn scattered(count: usize, seed: u64, size: f32) -> Vec<Triangle> {
+pub(crate) fn scattered(count: usize, seed: u64, size: f32) -> Vec<Triangle> {
     let mut random = Random::new(seed);
     (0..count)
         .map(|_| {
@@ -71,7 +71,8 @@ pub(crate) fn checked(contents: &Contents, triangles: &[Triangle], what: &str) -
 
 /// Every builder with every number of children.
 fn kinds() -> impl Iterator<Item = Config> {
-    let builders = [Builder::Sah, Builder::Lbvh, Builder::Trbvh, Builder::Refit].map(Config::new);
+    let builders =
+        [Builder::Sah, Builder::Lbvh, Builder::Ploc, Builder::Trbvh, Builder::Refit].map(Config::new);
     builders.into_iter().flat_map(|config| [of_two(config), of_four(config)])
 }
 
@@ -97,12 +98,19 @@ fn all_trees_of(config: Config) {
     let bench = Bench::new();
     let twins = vec![[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]; 700];
     let points = vec![[[0.25; 3]; 3]; 65];
+    // In a row, each four times as large as the one before: the nearest of each is the one before, so that of clusters only the
+    // first two merge in a round.
+    let row = (0..60).map(|i| {
+        let (e, x) = (2.0_f32.powi(2 * i - 60), 2.0_f32.powi(2 * i - 58));
+        [[x, 0.0, 0.0], [x + e, e, 0.0], [x, 0.0, e]]
+    });
     let mut room = sphere([0.5, 0.5, 0.5], 0.25, 20);
     room.extend(closed_box([-3.0; 3], [3.0; 3]));
     let mut scenes = vec![
         ("nothing".to_owned(), Vec::new()),
         ("the same triangle 700 times".to_owned(), twins),
         ("points".to_owned(), points),
+        ("each larger than the one before".to_owned(), row.collect()),
         ("a sphere in a room".to_owned(), room),
         ("20,000 triangles".to_owned(), scattered(20_000, 3, 0.1)),
     ];
@@ -170,6 +178,16 @@ fn trees_by_morton_codes_are_sound() {
 #[test]
 fn trees_by_morton_codes_of_four_children_per_node_are_sound() {
     all_trees_of(of_four(Config::new(Builder::Lbvh)));
+}
+
+#[test]
+fn trees_of_clusters_are_sound() {
+    all_trees_of(Config::new(Builder::Ploc));
+}
+
+#[test]
+fn trees_of_clusters_of_two_children_per_node_are_sound() {
+    all_trees_of(of_two(Config::new(Builder::Ploc)));
 }
 
 #[test]

@@ -74,7 +74,7 @@ fn check(config: Config) {
 #[test]
 fn damaged_trees_are_survived_and_told() {
     if in_child("damage::bvh::damaged_trees_are_survived_and_told") {
-        let builders = [Builder::Sah, Builder::Trbvh, Builder::Refit];
+        let builders = [Builder::Sah, Builder::Ploc, Builder::Trbvh, Builder::Refit];
         for (builder, width) in builders.into_iter().flat_map(|b| [(b, Width::Two), (b, Width::Four)]) {
             let config = Config { width: Some(width), ..Config::new(builder) };
             for addressing in [Addressing::Descriptor, Addressing::Address] {

@@ -1,0 +1,121 @@
+// What: clusters of records that are merged from the leaves up, level by level: of BVH_CLUSTERS that follow each other those
+// merge, in rounds, that are each other's nearest, by the area of their union, of the BVH_CLUSTER_REACH before and after; until
+// BVH_CLUSTERS_KEPT are left, which the next level takes, or, of the last level, the root.
+// Reads: header, records, scratch (clusters). Writes: nodes, scratch (clusters), header.root.
+// Source: Meister and Bittner 2018 (nearest clusters merge in rounds); Benthin et al. 2024, "H-PLOC" (in parts of the order, a
+// few of each being left to merge with those of other parts).
+#ifndef BVH_CLUSTERS_GLSL
+#define BVH_CLUSTERS_GLSL
+
+#include "bvh/area.glsl"
+
+// A cluster, known by its first record: what is below it.
+struct Cluster {
+    vec3 lower;
+    vec3 upper;
+    uint reference;
+};
+
+// What is nowhere near: unions with it have no finite area.
+const Cluster NO_CLUSTER = Cluster(vec3(-PLACEMENT_LONGEST), vec3(PLACEMENT_LONGEST), BVH_NONE);
+
+// The clusters of an invocation or workgroup.
+struct Part {
+    uint number;
+    uint first;     // place of the first one among those of the level
+    uint count;     // 0 where there are none
+    uint kept;      // how many are to be left
+};
+
+Part part_of(uint number) {
+    uint total = BVH_HEADER(build.structure).triangle_count;
+    for (uint level = 0u; level < build.step; level++) {
+        total = BVH_CLUSTERS_KEPT * (total / BVH_CLUSTERS) + min(total % BVH_CLUSTERS, BVH_CLUSTERS_KEPT);
+    }
+    uint first = BVH_CLUSTERS * number;
+    uint count = first < total ? min(total - first, BVH_CLUSTERS) : 0u;
+    return Part(number, first, count, total > BVH_CLUSTERS ? BVH_CLUSTERS_KEPT : 1u);
+}
+
+// Words with the first record of each cluster that a level begins with, and of those that it leaves, in turns; the same of every
+// second round; and the pairs that merge in a round. All take the place of the keys.
+uint list_word(uint level, uint place) {
+    return (level & 1u) * BVH_HEADER(build.structure).triangle_count + place;
+}
+
+uint round_word(uint place) {
+    return 2u * BVH_HEADER(build.structure).triangle_count + place;
+}
+
+uint pair_word(uint place) {
+    return 3u * BVH_HEADER(build.structure).triangle_count + place;
+}
+
+uint cluster_word(uint first_record) {
+    return bvh_unions(build.structure) + BVH_CLUSTER_WORDS * first_record;
+}
+
+Cluster cluster_of(uint first_record) {
+    uint word = cluster_word(first_record);
+    return Cluster(bvh_scratch_point(build.structure, word), bvh_scratch_point(build.structure, word + 3u),
+        bvh_scratch(build.structure, word + 6u));
+}
+
+void set_cluster(uint first_record, Cluster cluster) {
+    uint word = cluster_word(first_record);
+    bvh_set_scratch_point(build.structure, word, cluster.lower);
+    bvh_set_scratch_point(build.structure, word + 3u, cluster.upper);
+    bvh_set_scratch(build.structure, word + 6u, cluster.reference);
+}
+
+Cluster cluster_of_record(uint record) {
+    Cluster cluster;
+    cluster.lower = vec3(uintBitsToFloat(0x7F800000u));
+    cluster.upper = -cluster.lower;
+    cluster.reference = BVH_LEAF | record;
+    bvh_include_record(record, cluster.lower, cluster.upper);
+    return cluster;
+}
+
+float area_of_both(Cluster a, Cluster b, float per_metre) {
+    return area(min(a.lower, b.lower), max(a.upper, b.upper), per_metre);
+}
+
+// Takes another cluster in place of the nearest so far where it is nearer, or as near and its place differs in lower bits: so
+// clusters in one place merge two by two. `best` begins as the place itself, which is also the answer where no area is a number.
+void take_nearer(uint place, uint other, float of_both, inout uint best, inout float smallest) {
+    if (of_both < smallest || (of_both == smallest && (place ^ other) < (place ^ best))) {
+        best = other;
+        smallest = of_both;
+    }
+}
+
+// Whether the next round merges every two clusters, near or not: where few merged, or none since no area is a number. So rounds
+// have a bound. The last few do not need that.
+bool is_slow(uint count, uint merged) {
+    return merged == 0u || (count > BVH_CLUSTERS_KEPT && merged < count / 16u);
+}
+
+void adopt(uint reference, uint link) {
+    if ((reference & BVH_LEAF) == 0u) {
+        bvh_set_parent(build.structure, reference, link);
+    }
+}
+
+// Makes a node of two clusters, and answers the cluster of both. The first record of the second begins no cluster from now on,
+// so nodes are numbered by these.
+Cluster joined(Cluster a, Cluster b, uint first_record_of_b) {
+    uint node = first_record_of_b - 1u;
+    bvh_set_node(build.structure, node,
+        BvhNode(a.lower, a.reference, a.upper, b.reference, b.lower, BVH_NONE, b.upper, 0u));
+    adopt(a.reference, 2u * node);
+    adopt(b.reference, 2u * node + 1u);
+    return Cluster(min(a.lower, b.lower), max(a.upper, b.upper), node);
+}
+
+// The one that is left at last. Its node has no parent yet.
+void set_root(Cluster cluster) {
+    BVH_HEADER(build.structure).root = cluster.reference;
+}
+
+#endif
