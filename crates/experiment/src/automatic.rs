@@ -68,7 +68,7 @@ impl SystemConfig {
         if is_free && is_fastest(self.system) {
             let limit = format!("{RAYS_PER_TRIANGLE} rays per triangle");
             let reason = if rays < RAYS_PER_TRIANGLE.saturating_mul(triangles) {
-                self.options.set("builder", "lbvh");
+                self.options.set("builder", "ploc");
                 format!("its quickest build for frames of fewer than {limit}")
             } else {
                 format!("frames of {limit} and more repay a tree by surface area")
@@ -116,7 +116,7 @@ mod tests {
         let builder = |config: SystemConfig| config.options.text("builder");
         let free = chosen(&OptionValues::default());
         assert_eq!(builder(free.clone()), None);
-        assert_eq!(builder(free.clone().rebuilt_for(999_999, 1000)).as_deref(), Some("lbvh"));
+        assert_eq!(builder(free.clone().rebuilt_for(999_999, 1000)).as_deref(), Some("ploc"));
         assert_eq!(builder(free.clone().rebuilt_for(1_000_000, 1000)), None);
         assert_eq!(builder(free.rebuilt_for(u64::MAX, u64::MAX)), None);
         let given = chosen(&OptionValues::default().with("builder", "sah"));
