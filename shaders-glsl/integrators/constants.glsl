@@ -1,6 +1,6 @@
 // What: numbers that integrators share with Rust.
 // Only `#define NAME number` stands here: Rust constants of the same names are generated from it.
-// Source: docs/whitted.md, docs/cube-map.md.
+// Source: docs/whitted.md, docs/cube-map.md, docs/photons.md.
 #ifndef INTEGRATORS_CONSTANTS_GLSL
 #define INTEGRATORS_CONSTANTS_GLSL
 
@@ -31,5 +31,13 @@
 #define FETCH_PART 256u
 // WhittedNode.branch of the rays of a cube map: their random numbers are those of no camera ray.
 #define CUBE_MAP_BRANCH 1u
+
+// WaveConstants.marks of photons that are emitted, beside WAVE_ROUND_*: WaveConstants.number is the radius over the
+// diagonal of the bounds of all triangles, and not metres.
+#define PHOTON_RADIUS_IS_SHARE 4u
+// In the place of a pixel, with the number of the sample, of the random numbers of photons. No pixel has this bit.
+#define PHOTON_PIXEL 0x80000000u
+// Most photons that one surface looks at. Software drivers end the loops of an invocation after 65,535 iterations in all.
+#define PHOTON_GATHER_LIMIT 60000u
 
 #endif

@@ -1,6 +1,7 @@
-// What: path tracing with light sampling, one step per closest hit.
-// Reads: scene tables through scene/*.glsl. Writes: nothing but its state argument.
-// Source: docs/shading.md, "Paths"; Veach 1997 for the power heuristic.
+// What: path tracing with light sampling, one step per closest hit. With PATH_GATHERS light that comes by perfectly smooth
+// surfaces, or by any, is that of photons.
+// Reads: scene tables through scene/*.glsl; photons. Writes: nothing but its state argument; faults of photons.
+// Source: docs/shading.md, "Paths", docs/photons.md, "Which paths"; Veach 1997 for the power heuristic.
 #ifndef INTEGRATORS_PATH_GLSL
 #define INTEGRATORS_PATH_GLSL
 
@@ -8,6 +9,9 @@
 #include "scene/light.glsl"
 #include "scene/random.glsl"
 #include "scene/terminator.glsl"
+#ifdef PATH_GATHERS
+#include "integrators/photons.glsl"
+#endif
 
 #define PATH_INFINITY uintBitsToFloat(0x7F800000u)
 
@@ -35,8 +39,15 @@ vec3 path_transmittance(uint material_index, float distance) {
     return pow(color, vec3(distance / material.attenuation_distance));
 }
 
+// PathState.bsdf_pdf where the last scatterings were perfectly smooth and one before them was not: photons bring the light
+// that light samples know.
+#define PATH_PDF_OF_PHOTONS -1.0
+
 // Weight of emission hit by the ray of the last scattering.
 float path_emission_weight(PathState state, float light_pdf) {
+#ifdef PATH_GATHERS
+    if (state.bsdf_pdf < 0.0) return light_pdf > 0.0 ? 0.0 : 1.0;
+#endif
     return state.bsdf_pdf > 0.0 ? path_power_heuristic(state.bsdf_pdf, light_pdf) : 1.0;
 }
 
@@ -134,7 +145,12 @@ void path_scatter(inout PathState state, Ray ray, Surface s, BsdfSample chosen, 
     if (chosen.flags == 0u) return;
     state.throughput *= chosen.weight;
     bool delta = (chosen.flags & SAMPLE_DELTA) != 0u;
+#ifdef PATH_GATHERS
+    if (!delta) state.bsdf_pdf = chosen.pdf;
+    else if (state.bsdf_pdf != 0.0) state.bsdf_pdf = PATH_PDF_OF_PHOTONS;
+#else
     state.bsdf_pdf = delta ? 0.0 : chosen.pdf;
+#endif
     if ((chosen.flags & SAMPLE_TRANSMITTED) != 0u && s.thickness > 0.0) {
         state.medium = s.side == 1u ? s.material : MATERIAL_NONE;
     }
@@ -175,13 +191,17 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
     }
     if (largest_component(s.emission) > 0.0) {
         float weight = 1.0;
-        if (state.bsdf_pdf > 0.0) {
+        if (state.bsdf_pdf != 0.0) {
             // Where the last scattering was.
             vec3 origin = SHADING_PASSES ? ray.origin - state.travelled * direction : ray.origin;
             weight = path_emission_weight(state, light_pdf_emitter(s.primitive, origin, s.position));
         }
         state.radiance += state.throughput * s.emission * weight;
     }
+#ifdef PATH_GATHERS
+    // The ray of a rough surface looks for emission alone: photons brought it all other light.
+    if (PHOTONS_ARE_ALL && state.bsdf_pdf > 0.0) return asked;
+#endif
     Surface seen = s;
     BsdfTerms terms;
     BsdfSample chosen;
@@ -201,6 +221,11 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
             if (path_pass_pane(state, ray, s, terms, direction, distance, footprint, asked)) return asked;
             continue;
         }
+#ifdef PATH_GATHERS
+        if (technique == PATH_LOBES) {
+            state.radiance += state.throughput * photon_gather(terms, s, max_bounces - state.bounce - 1u);
+        }
+#endif
         bool is_light = technique == PATH_LIGHT;
         uint dimension = random_dimension(state.bounce, is_light ? RANDOM_LIGHT_KIND : RANDOM_BSDF_LOBE);
         vec4 random = random_vec4(state.pixel, state.sample_index, dimension);

@@ -19,13 +19,14 @@ struct FilmPixel {
     uint samples;             // samples in the sum
 };
 
-// What the film lacks, and how many of its samples sent a ray on. 20 bytes.
+// What the film lacks, and how many of its samples sent a ray on. 24 bytes.
 struct FilmFaults {
     uint non_finite;      // samples with a channel that is not finite, which are not added to their pixel
     uint unended;         // paths with surfaces left to pass after the last round recorded, not added to their pixel yet
     uint cut;             // rays that would have passed more than PATH_LAYER_LIMIT surfaces: what lies beyond is not seen
     uint selected_low;    // Whitted's: samples whose first surface sent a mirrored or a refracted ray on, low word
     uint selected_high;   // the same, high word
+    uint crowded;         // surfaces with more than PHOTON_GATHER_LIMIT photons around them, which lack the light of all
 };
 
 // What a path keeps while its shadow ray is traced. 72 bytes.

@@ -26,6 +26,12 @@ uint light_search_punctual(uint count, float random) {
     return low;
 }
 
+// Share of its light that a light without extent sends as far as `distance`, beside the square.
+float light_window(float distance, float range) {
+    float ratio = distance / range;
+    return clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0);
+}
+
 LightSample light_sample_punctual(Frame frame, vec3 from, float pick) {
     LightSample chosen = light_sample_none();
     uint index = light_search_punctual(frame.light_count, pick);
@@ -46,8 +52,7 @@ LightSample light_sample_punctual(Frame frame, vec3 from, float pick) {
     chosen.distance = sqrt(squared);
     chosen.direction = towards / chosen.distance;
     chosen.target = light.position;
-    float ratio = chosen.distance / light.range;
-    float window = clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0);
+    float window = light_window(chosen.distance, light.range);
     if (light.kind == LIGHT_SPOT) {
         float cone = clamp(dot(light.direction, -chosen.direction) * light.cone_scale + light.cone_offset, 0.0, 1.0);
         window *= cone * cone;

@@ -172,6 +172,8 @@ mod tests {
                 ("ads/trace.comp", "brute" | "bvh" | "bricks" | "grid") => 10_000,
                 // Anisotropic materials have a texture and tangents of their own.
                 ("integrators/path_shade.comp", _) if shader.name.ends_with(".hits") => 25_000,
+                // What photons bring asks all lobes for their value, as light samples do.
+                ("integrators/path_shade.comp", _) if shader.name.ends_with(".photons") => 25_000,
                 ("integrators/path_shade.comp", _) => 20_000,
                 _ => 32_000,
             };

@@ -176,6 +176,8 @@ fn help_of_integrator(error: &IntegratorError) -> &'static str {
     match error {
         // The message says what is possible.
         IntegratorError::Value(_) => "",
+        IntegratorError::PhotonBytes { .. } => "choose fewer --photon-paths, or fewer --bounces",
+        IntegratorError::Crowded { .. } => "choose a smaller --radius, or fewer --photon-paths",
         IntegratorError::UnknownOption { .. } => "leave it out, or choose another --integrator",
         IntegratorError::CannotFetch { .. } => "leave out --fetch raster, or choose another --device",
         IntegratorError::CannotDraw { .. } => "choose --primary trace, or another --device",

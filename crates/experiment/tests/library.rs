@@ -249,7 +249,7 @@ fn bytes_of_an_image_are_those_of_its_slots_and_pixels() {
     let output = render("cornell", ("raycast", OptionValues::default()), [32, 24]);
     assert_eq!(output.counters.expect("it was counted").selected_share, None, "nothing is traced on");
     let memory = output.memory.expect("it was counted");
-    let bytes = slots * (48 + 16 + 64 + 16 + 128) + 112 + 2 * 16 + 16 * slots + 20;
+    let bytes = slots * (48 + 16 + 64 + 16 + 128) + 112 + 2 * 16 + 16 * slots + 24;
     assert_eq!(memory.frame_bytes, Some(bytes), "{:?}", memory.by_part);
     assert_eq!(memory.frame_bytes_per_pixel, Some(bytes as f64 / slots as f64));
     let of_image = memory.by_part.iter().filter(|(name, _)| name.starts_with("image "));

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use rasray_ads::{AdsError, QueueCounters, Structure};
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, ShadingFeatures, View};
-use rasray_integrators::{Integrator, IntegratorError, Visibility, check_features};
+use rasray_integrators::{Integrator, IntegratorError, Visibility, check_faults, check_features};
 use rasray_tracer::{FrameOutcome, FrameStructure, Frames, Keeping, Refresh, TracerError};
 
 use crate::image_passes::{ImagePasses, unanswered};
@@ -278,7 +278,8 @@ impl FrameRenderer {
     ///
     /// # Errors
     /// The device failed, no sizes suffice for the structure, rays did not finish in as many rounds as there can be
-    /// ([`FrameError::Unfinished`]), or lists are damaged.
+    /// ([`FrameError::Unfinished`]), lists are damaged, or surfaces have too many photons around them
+    /// ([`IntegratorError::Crowded`]).
     pub fn take(&mut self) -> Result<Option<Taken>, FrameError> {
         let ended = self.frames.take()?;
         ended.map(|ended| self.shown(ended)).transpose()
@@ -315,6 +316,7 @@ impl FrameRenderer {
         if ended.outcome == FrameOutcome::Complete && unended > 0 && !has_more_traces() {
             return Err(FrameError::Unfinished { rays: unended });
         }
+        check_faults(&film.faults)?;
         self.film_is_right &= ended.outcome == FrameOutcome::Complete && unanswered + unended == 0;
         if !self.film_is_right {
             return Ok(Taken::Nothing);

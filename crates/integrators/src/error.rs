@@ -96,6 +96,26 @@ pub enum IntegratorError {
         /// What the scene has.
         missing: String,
     },
+    /// Photons of a sample do not fit into what one binding holds.
+    #[error(
+        "photons of a sample may take {bytes} bytes, and the device binds {limit}: emit fewer, or let them scatter less often"
+    )]
+    PhotonBytes {
+        /// Bytes of all that may be stored.
+        bytes: u64,
+        /// Most bytes of a binding.
+        limit: u64,
+    },
+    /// Surfaces have too many photons around them.
+    #[error(
+        "{surfaces} surfaces have more than {limit} photons around them: choose a smaller radius, or emit fewer photons"
+    )]
+    Crowded {
+        /// Surfaces, of all samples.
+        surfaces: u32,
+        /// Most photons of a surface.
+        limit: u32,
+    },
     /// What the camera sees cannot be found by drawing.
     #[error("what the camera sees cannot be drawn: {reason}")]
     CannotDraw {

@@ -3,6 +3,7 @@
 use rasray_ads::RayQueue;
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 use rasray_gpu_scene::{GpuScene, ShadingFeatures};
+use rasray_shaders_glsl::{constants::integrators::PHOTON_GATHER_LIMIT, records::FilmFaults};
 
 use crate::{Film, IntegratorError, Traced, WAVE_LIMIT, Wave, wave_capacity};
 
@@ -195,6 +196,17 @@ pub trait Integrator {
 pub fn check_features(made_for: ShadingFeatures, scene: &GpuScene) -> Result<(), IntegratorError> {
     let missing = made_for.lacks(scene.features());
     if missing.is_empty() { Ok(()) } else { Err(IntegratorError::LeftOut { missing: missing.join(", ") }) }
+}
+
+/// Whether a picture has all light of its samples that were added.
+///
+/// # Errors
+/// [`IntegratorError::Crowded`] where surfaces lack the light of photons.
+pub fn check_faults(faults: &FilmFaults) -> Result<(), IntegratorError> {
+    match faults.crowded {
+        0 => Ok(()),
+        surfaces => Err(IntegratorError::Crowded { surfaces, limit: PHOTON_GATHER_LIMIT }),
+    }
 }
 
 #[cfg(test)]

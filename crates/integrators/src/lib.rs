@@ -1,5 +1,5 @@
 //! From hits to radiance: ray casting, layers, ambient occlusion, environment mapping, Whitted's ray tracing, path tracing,
-//! and the film.
+//! photon maps, and the film.
 //!
 //! An [`Integrator`] records waves: runs of pixels of which one sample is taken. Each wave fills a
 //! ray queue, has it traced by whatever [`rasray_ads::Structure`] it is handed, shades what was hit,
@@ -55,10 +55,10 @@ pub use bands::{Bands, PIXEL_LIMIT};
 pub use error::IntegratorError;
 pub use fetch::{Fetch, FetchCounts};
 pub use film::Film;
-pub use integrator::{Integrator, IntegratorDesc, check_features};
+pub use integrator::{Integrator, IntegratorDesc, check_faults, check_features};
 pub use rasray_shaders_glsl::constants::scene::PATH_LAYER_LIMIT;
 pub use rasray_shaders_glsl::records::{
-    AovPixel, AovSurface, FilmFaults, FilmPixel, PathState, VisibilityCounts,
+    AovPixel, AovSurface, FilmFaults, FilmPixel, PathState, Photon, VisibilityCounts,
 };
 pub use registry::*;
 pub use traced::{FirstHits, Traced};

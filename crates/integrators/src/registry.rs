@@ -12,6 +12,7 @@ mod ambient_occlusion;
 mod cube_map;
 mod layers;
 mod path;
+mod photons;
 mod raycast;
 mod whitted;
 
@@ -19,12 +20,20 @@ pub use ambient_occlusion::AmbientOcclusion;
 pub use cube_map::{CUBE_MAP_LIMIT, CubeMap, CubeMapOptions};
 pub use layers::Layers;
 pub use path::{BOUNCE_LIMIT, Fetching, GlassShadows, Path, PathOptions, SpecularLobe};
+pub use photons::{PhotonKind, PhotonMap, PhotonOptions, Photons};
 pub use raycast::Raycast;
 pub use whitted::{RAY_DEPTH_LIMIT, Select, Shadows, Whitted, WhittedOptions};
 
 /// Every integrator; the first is the default.
-pub static INTEGRATORS: &[IntegratorRow] =
-    &[path::ROW, whitted::ROW, cube_map::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
+pub static INTEGRATORS: &[IntegratorRow] = &[
+    path::ROW,
+    whitted::ROW,
+    photons::ROW,
+    cube_map::ROW,
+    ambient_occlusion::ROW,
+    raycast::ROW,
+    layers::ROW,
+];
 
 /// Why a ray is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,10 +1,10 @@
-//! Ambient occlusion and paths through every system in every preset: where triangles are found without loss
+//! Ambient occlusion, paths and photons through every system in every preset: where triangles are found without loss
 //! the images are those of brute force, bit for bit; elsewhere they are as bright as errors of hits allow.
 
 use rasray_ads::StructureKind;
 use rasray_gpu::Timing;
 use rasray_gpu_scene::GpuScene;
-use rasray_integrators::{AmbientOcclusion, Film, IntegratorDesc, Path};
+use rasray_integrators::{AmbientOcclusion, Film, IntegratorDesc, Path, PhotonKind, PhotonOptions, Photons};
 use rasray_systems::{Preset, SYSTEMS, Spec};
 use rasray_tests::harness::{Bench, is_offered};
 use rasray_tests::pictures::{rendered, stage};
@@ -25,8 +25,8 @@ const ALLOWED: &[(&str, Preset, [[f32; 2]; 2])] = &[
     ("ldc", Preset::Published, [[0.0, 0.02], [0.0, 0.01]]),
 ];
 
-/// Occlusion and light of every pixel.
-fn images(bench: &Bench, scene: &GpuScene, spec: &Spec) -> (StructureKind, [Vec<[f32; 3]>; 2]) {
+/// Occlusion, and light by paths and by photons, of every pixel.
+fn images(bench: &Bench, scene: &GpuScene, spec: &Spec) -> (StructureKind, [Vec<[f32; 3]>; 3]) {
     let device = bench.device();
     let mut structure =
         spec.create(device, scene.geometry(), Some(scene.binding())).expect("pipelines are made");
@@ -35,9 +35,12 @@ fn images(bench: &Bench, scene: &GpuScene, spec: &Spec) -> (StructureKind, [Vec<
     let desc = IntegratorDesc::new(device, scene, &film);
     let occlusion = AmbientOcclusion::new(&desc, f32::INFINITY).expect("the range is valid");
     let path = Path::new(&desc, BOUNCES).expect("the bounces are valid");
+    let all = PhotonOptions { kind: PhotonKind::All, photon_paths: 2000, ..PhotonOptions::default() };
+    let photons = Photons::new(&desc, all).expect("the options are valid");
     let found = [
         rendered(bench, &occlusion, &film, SAMPLES, structure.as_mut()),
         rendered(bench, &path, &film, SAMPLES, structure.as_mut()),
+        rendered(bench, &photons, &film, SAMPLES, structure.as_mut()),
     ];
     (structure.kind(), found)
 }
@@ -56,8 +59,9 @@ fn every_system_renders_what_brute_force_renders() {
     let scene = stage(&bench, "cornell", SIZE);
     let reference = Spec::new("brute-force", "robust", []).expect("the registry has brute force");
     let (_, expected) = images(&bench, &scene, &reference);
-    let [occlusion, light] = [mean(&expected[0]), mean(&expected[1])];
+    let [occlusion, light, photons] = expected.each_ref().map(|image| mean(image));
     assert!(0.1 < occlusion && occlusion < 0.9 && light > 0.05, "{occlusion}, {light}");
+    assert!(photons > light, "photons are scattered more often: {photons}, {light}");
     let (mut exact, mut faults) = (0, Vec::new());
     for system in SYSTEMS.iter().filter(|system| system.name != "brute-force") {
         for preset in system.presets {
@@ -70,7 +74,7 @@ fn every_system_renders_what_brute_force_renders() {
                 continue;
             }
             let (kind, found) = images(&bench, &scene, &spec);
-            let off: [f32; 2] =
+            let off: [f32; 3] =
                 std::array::from_fn(|image| (mean(&found[image]) / mean(&expected[image]) - 1.0).abs());
             println!("{name}: occlusion {:.4} off, light {:.4}", off[0], off[1]);
             if kind == StructureKind::Primitive {

@@ -149,6 +149,10 @@ fn what_was_asked_for_or_is_in_a_file_ends_with_2() {
     check(2, "log steps", "defect", E::from(TracerError::NoSteps { structure: "bvh" }));
     let integrator = IntegratorError::UnknownOption { integrator: "ao", option: "bounces" };
     check(2, "no option `bounces`", "--integrator", E::from(integrator));
+    let crowded = IntegratorError::Crowded { surfaces: 3, limit: 9 };
+    check(2, "3 surfaces have more than 9 photons", "--radius", E::from(FrameError::Integrator(crowded)));
+    let photons = IntegratorError::PhotonBytes { bytes: 7, limit: 5 };
+    check(2, "7 bytes", "--photon-paths", E::from(photons));
     let size = IntegratorError::ImageSize { width: 0, height: 1, limit: 9 };
     check(2, "0 x 1", "--size", E::from(size));
     check(2, "--primary raster draws through", "--primary trace", E::Pinhole { primary: "raster" });

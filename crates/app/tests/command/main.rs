@@ -13,6 +13,7 @@ mod moments;
 mod motion;
 mod occluder;
 mod output;
+mod photons;
 mod published;
 mod replay;
 mod results;

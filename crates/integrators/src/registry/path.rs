@@ -9,8 +9,8 @@ use rasray_scene::needs::Workload;
 use rasray_shaders_glsl::{
     INTEGRATORS_FILM_ACCUMULATE, INTEGRATORS_PATH_RESOLVE, INTEGRATORS_PATH_SHADE,
     INTEGRATORS_PATH_SHADE_HITS, INTEGRATORS_PATH_SHADE_PASSING, INTEGRATORS_PATH_SHADE_PASSING_HITS,
-    INTEGRATORS_PRIMARY,
-    constant_ids::integrators::PATHS_PASS_PANES,
+    INTEGRATORS_PATH_SHADE_PASSING_PHOTONS, INTEGRATORS_PATH_SHADE_PHOTONS, INTEGRATORS_PRIMARY,
+    constant_ids::integrators::{PATHS_PASS_PANES, PHOTONS_ARE_ALL},
     constant_ids::scene::{SPECULAR_IS_WARD, TERMINATOR_IS_SMOOTH},
     constants::scene::PATH_LAYER_LIMIT,
     records::{PathState, PathWaiting},
@@ -28,7 +28,8 @@ use crate::{
 mod options;
 
 pub use options::{BOUNCE_LIMIT, Fetching, GlassShadows, PathOptions, SpecularLobe};
-use options::{BOUNCES, FETCH, GLASS_SHADOWS, SHADOW_TERMINATOR, SPECULAR};
+pub(super) use options::{BOUNCES, SHADOW_TERMINATOR, SPECULAR};
+use options::{FETCH, GLASS_SHADOWS};
 
 /// The registry's row.
 pub(super) const ROW: IntegratorRow = IntegratorRow {
@@ -49,10 +50,10 @@ pub(super) const ROW: IntegratorRow = IntegratorRow {
 };
 
 /// Surfaces passed in a straight line that the rounds of a wave allow for at first.
-const USUAL_LAYERS: u32 = 8;
+pub(super) const USUAL_LAYERS: u32 = 8;
 
 /// Most rounds that one recording of a wave has; more are recorded as its rest.
-const ROUND_LIMIT: u32 = 2 * BOUNCE_LIMIT + 1 + 2 * PATH_LAYER_LIMIT;
+pub(super) const ROUND_LIMIT: u32 = 2 * BOUNCE_LIMIT + 1 + 2 * PATH_LAYER_LIMIT;
 
 /// Paths of at most so many scatterings. In every round each path that goes on traces one
 /// closest-hit ray and at most one shadow ray; paths that have ended take part in no pass.
@@ -89,6 +90,15 @@ enum Shadows {
     Passing { waiting: Buffer },
 }
 
+/// A photon map that paths gather.
+#[derive(Clone, Copy)]
+pub(super) struct Gathered<'a> {
+    /// What kernels bind of it.
+    pub bound: &'a [Bound<'a>],
+    /// It has all indirect light, and not caustics alone.
+    pub all: bool,
+}
+
 impl Path {
     /// Makes queues, states and kernels. A number of bounces will do for the options.
     ///
@@ -96,9 +106,20 @@ impl Path {
     /// More than [`BOUNCE_LIMIT`] bounces, sizes that do not fit, out of memory, or the device
     /// refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, options: impl Into<PathOptions>) -> Result<Self, IntegratorError> {
-        let PathOptions { bounces, glass_shadows, shadow_terminator, specular, fetch } = options.into();
+        Self::gathering(desc, options.into(), None)
+    }
+
+    /// The same with light that is that of photons: light then goes through panes by scattering alone, and surfaces are in
+    /// the queue.
+    pub(super) fn gathering(
+        desc: &IntegratorDesc<'_>,
+        options: PathOptions,
+        gathered: Option<Gathered<'_>>,
+    ) -> Result<Self, IntegratorError> {
+        let PathOptions { bounces, glass_shadows, shadow_terminator, specular, fetch } = options;
         BOUNCES.check(Value::Whole(bounces))?;
-        let panes = desc.features.panes && bounces > 0 && glass_shadows == GlassShadows::Tint;
+        let tints = glass_shadows == GlassShadows::Tint && gathered.is_none();
+        let panes = desc.features.panes && bounces > 0 && tints;
         let passing = desc.features.blend || panes;
         let capacity = desc.check()?;
         let device = desc.device;
@@ -107,7 +128,8 @@ impl Path {
         let buffer = |name, bytes: usize| device_buffer(device, name, slots * bytes as u64);
         let states = buffer("path states", size_of::<PathState>())?;
         let bind = |more: &[Bound<'_>]| {
-            let own = [&[(binding::PATH_STATES, &states)], more].concat();
+            let photons = gathered.map_or(&[][..], |gathered| gathered.bound);
+            let own = [&[(binding::PATH_STATES, &states)], more, photons].concat();
             Bindings::new(device, desc.scene, &film(desc.film), &own)
         };
         let (shadows, bindings) = if passing {
@@ -123,8 +145,10 @@ impl Path {
             let accumulate = bindings.kernel(device, &INTEGRATORS_FILM_ACCUMULATE, &[])?.of_film();
             (Shadows::Occluded { queue, pending, resolve, accumulate }, bindings)
         };
-        let of_hits = desc.surfaces_of_hits && fetch == Fetching::Direct;
+        let of_hits = desc.surfaces_of_hits && fetch == Fetching::Direct && gathered.is_none();
         let shader = match (passing, of_hits) {
+            (false, _) if gathered.is_some() => &INTEGRATORS_PATH_SHADE_PHOTONS,
+            (true, _) if gathered.is_some() => &INTEGRATORS_PATH_SHADE_PASSING_PHOTONS,
             (false, false) => &INTEGRATORS_PATH_SHADE,
             (false, true) => &INTEGRATORS_PATH_SHADE_HITS,
             (true, false) => &INTEGRATORS_PATH_SHADE_PASSING,
@@ -134,6 +158,7 @@ impl Path {
         constants.push((PATHS_PASS_PANES, panes.into()));
         constants.push((TERMINATOR_IS_SMOOTH, (shadow_terminator == ShadowTerminator::Offset).into()));
         constants.push((SPECULAR_IS_WARD, (specular == SpecularLobe::Ward).into()));
+        constants.extend(gathered.map(|gathered| (PHOTONS_ARE_ALL, gathered.all.into())));
         Ok(Self {
             bounces,
             rounds: Rounds::new(rounds(bounces, passing), ROUND_LIMIT),

@@ -10,8 +10,8 @@ fn page() -> String {
         "# Integrators\n\n\
          Every integrator of the command's `--integrator` and every option that one has, from the rows of\n\
          `crates/integrators/src/registry.rs`. What they compute is in [shading](shading.md), and of\n\
-         [`whitted`](whitted.md) and [`cube-map`](cube-map.md) on pages of their own. Each has a naive one of its name in\n\
-         `rasray_reference::integrators`, to which its images are held. This page is made by\n\
+         [`whitted`](whitted.md), [`photons`](photons.md) and [`cube-map`](cube-map.md) on pages of their own. Each has a\n\
+         naive one of its name in `rasray_reference::integrators`, to which its images are held. This page is made by\n\
          `RASRAY_WRITE_PAGES=1 cargo test -p rasray-integrators --test all -- pages::`.\n\n\
          | integrator | says | rays |\n|---|---|---|\n",
     );

@@ -9,6 +9,7 @@ mod layers;
 mod lens;
 mod needs;
 mod passing;
+mod photons;
 mod reference;
 mod registry;
 mod texel_runs;

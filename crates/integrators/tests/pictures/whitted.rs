@@ -19,7 +19,7 @@ pub(super) fn mirror(tint: f32) -> Material {
 }
 
 /// Clear and thick, with an index of 1.5: perpendicular light is reflected with a share of 0.04.
-fn glass() -> Material {
+pub(super) fn glass() -> Material {
     Material {
         transmission: 1.0,
         roughness: 0.0,
@@ -39,7 +39,7 @@ fn plate(front: f64, back: f64, half: f64, material: usize) -> [Mesh; 2] {
 }
 
 /// Shares of light by Schlick's curve, the device's: at the boundary of an index of 1.5, by the cosine in air.
-fn reflected(cosine: f64) -> f64 {
+pub(super) fn reflected(cosine: f64) -> f64 {
     0.04 + 0.96 * (1.0 - cosine).powi(5)
 }
 

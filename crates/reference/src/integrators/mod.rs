@@ -13,6 +13,7 @@ mod cube_map;
 mod image;
 mod layers;
 mod path;
+mod photons;
 mod raycast;
 mod whitted;
 
@@ -47,8 +48,15 @@ pub struct NaiveIntegrator {
 }
 
 /// Every naive integrator.
-pub static INTEGRATORS: &[NaiveIntegrator] =
-    &[path::ROW, whitted::ROW, cube_map::ROW, ambient_occlusion::ROW, raycast::ROW, layers::ROW];
+pub static INTEGRATORS: &[NaiveIntegrator] = &[
+    path::ROW,
+    whitted::ROW,
+    photons::ROW,
+    cube_map::ROW,
+    ambient_occlusion::ROW,
+    raycast::ROW,
+    layers::ROW,
+];
 
 impl NaiveIntegrator {
     /// The one of that name.
@@ -131,8 +139,19 @@ impl PosedScene<'_> {
     fn render_smoothed(
         &self,
         view: &View,
-        (passes_panes, mirror_roughness): (bool, f32),
+        smoothed: (bool, f32),
         sample: impl Fn(&Tracer<'_>, Numbers) -> glam::Vec3 + Sync,
+    ) -> Result<Image, ReferenceError> {
+        self.render_prepared(view, smoothed, |_| (), |tracer, (), random| sample(tracer, random))
+    }
+
+    /// The same with what all samples share.
+    fn render_prepared<P: Sync>(
+        &self,
+        view: &View,
+        (passes_panes, mirror_roughness): (bool, f32),
+        prepare: impl FnOnce(&Tracer<'_>) -> P,
+        sample: impl Fn(&Tracer<'_>, &P, Numbers) -> glam::Vec3 + Sync,
     ) -> Result<Image, ReferenceError> {
         view.check()?;
         let accept = |primitive: u32, barycentrics: [f64; 2]| self.alpha_accepts(primitive, barycentrics);
@@ -140,7 +159,8 @@ impl PosedScene<'_> {
             if self.has_alpha_masks() { Some(&accept) } else { None };
         let oracle = Oracle::new(self.positions(), self.indices(), accept)?.with_backs(|id| self.back_of(id));
         let tracer = Tracer { posed: self, oracle, passes_panes, mirror_roughness };
-        Ok(Image::render(view, |random| sample(&tracer, random)))
+        let prepared = prepare(&tracer);
+        Ok(Image::render(view, |random| sample(&tracer, &prepared, random)))
     }
 }
 

@@ -4,9 +4,9 @@ use glam::Vec3;
 use rasray_options::{OptionValues, Value};
 use rasray_scene::{Camera, Scene, ShadowTerminator};
 
-use super::{Image, NaiveIntegrator, Tracer, eye};
+use super::{Image, NaiveIntegrator, Tracer, eye, photons::Map};
 use crate::shading::{
-    LightSample, PosedScene, Ray, ReferenceError, Sampler, Surface, View, bsdf_pdf, bsdf_sample,
+    BsdfSample, LightSample, PosedScene, Ray, ReferenceError, Sampler, Surface, View, bsdf_pdf, bsdf_sample,
     bsdf_straight, bsdf_times_cosine,
     random::{
         Numbers, RANDOM_BSDF_LOBE, RANDOM_LIGHT_KIND, RANDOM_OPACITY_FIRST, RANDOM_ROULETTE, random_dimension,
@@ -40,7 +40,7 @@ impl From<u32> for PathOptions {
     }
 }
 
-fn path_options(values: &OptionValues) -> PathOptions {
+pub(super) fn path_options(values: &OptionValues) -> PathOptions {
     let is = |option, word: &str| values.get(option).and_then(Value::word) == Some(word);
     let offset = ShadowTerminator::Offset;
     PathOptions {
@@ -60,22 +60,24 @@ const ROULETTE_BOUNCE: u32 = 3;
 /// Surfaces that one ray passes in a straight line.
 pub(super) const LAYER_LIMIT: u32 = 4096;
 
-struct PathState {
-    random: Numbers,
-    throughput: Vec3,
+pub(super) struct PathState {
+    pub random: Numbers,
+    pub throughput: Vec3,
     radiance: Vec3,
     /// 1/sr of the last scattering; `None`: emission hit next counts fully.
     bsdf_pdf: Option<f32>,
+    /// Photons bring the light that light samples know: the last scatterings were perfectly smooth and one before was not.
+    is_of_photons: bool,
     /// Material whose inside the path is in.
-    medium: Option<usize>,
+    pub medium: Option<usize>,
     /// Scatterings so far.
-    bounce: u32,
+    pub bounce: u32,
     /// So far, of going straight on through a surface or not.
     choices: u32,
     /// Surfaces that the ray has passed in a straight line.
     passed: u32,
     /// Where the last scattering was.
-    origin: Vec3,
+    pub origin: Vec3,
     shadow_terminator: ShadowTerminator,
 }
 
@@ -89,15 +91,32 @@ fn power_heuristic(used: f32, other: f32) -> f32 {
 }
 
 impl PathState {
+    /// A path before its first ray.
+    pub fn new(random: Numbers, shadow_terminator: ShadowTerminator) -> Self {
+        Self {
+            random,
+            throughput: Vec3::ONE,
+            radiance: Vec3::ZERO,
+            bsdf_pdf: None,
+            is_of_photons: false,
+            medium: None,
+            bounce: 0,
+            choices: 0,
+            passed: 0,
+            origin: Vec3::ZERO,
+            shadow_terminator,
+        }
+    }
+
     /// Whether the path goes straight on through a surface, with this probability.
-    fn chooses(&mut self, probability: f32) -> bool {
+    pub fn chooses(&mut self, probability: f32) -> bool {
         let dimension = RANDOM_OPACITY_FIRST + self.choices;
         self.choices += 1;
         self.random.float(dimension) < probability
     }
 
     /// Straight on behind the surface: no scattering, since shadow rays go through as well.
-    fn pass(&mut self, ray: &Ray, surface: &Surface, footprint: f32) -> Option<Ray> {
+    pub fn pass(&mut self, ray: &Ray, surface: &Surface, footprint: f32) -> Option<Ray> {
         if self.passed >= LAYER_LIMIT {
             return None;
         }
@@ -109,30 +128,22 @@ impl PathState {
     }
 
     fn emission_weight(&self, light_pdf: impl FnOnce() -> f32) -> f32 {
+        if self.is_of_photons {
+            return if light_pdf() > 0.0 { 0.0 } else { 1.0 };
+        }
         self.bsdf_pdf.map_or(1.0, |used| power_heuristic(used, light_pdf()))
     }
 }
 
 impl Tracer<'_> {
-    /// One sample, W/(sr m^2).
-    pub(super) fn path(&self, view: &View, options: PathOptions, random: Numbers) -> Vec3 {
-        let PathOptions { bounces, shadow_terminator, is_ward, .. } = options;
-        let mut state = PathState {
-            random,
-            throughput: Vec3::ONE,
-            radiance: Vec3::ZERO,
-            bsdf_pdf: None,
-            medium: None,
-            bounce: 0,
-            choices: 0,
-            passed: 0,
-            origin: Vec3::ZERO,
-            shadow_terminator,
-        };
+    /// One sample, W/(sr m^2); with a map, some light is that of its photons.
+    pub(super) fn path(&self, view: &View, options: PathOptions, map: Option<&Map>, random: Numbers) -> Vec3 {
+        let PathOptions { shadow_terminator, is_ward, .. } = options;
+        let mut state = PathState::new(random, shadow_terminator);
         let mut next = Some(self.camera_ray(view, random));
         while let Some(ray) = next {
             next = match self.closest(&ray) {
-                Some(surface) => self.step(&mut state, &ray, &Surface { is_ward, ..surface }, bounces),
+                Some(surface) => self.step(&mut state, &ray, &Surface { is_ward, ..surface }, (options, map)),
                 None => {
                     let weight = state.emission_weight(|| self.posed.environment_pdf(ray.direction));
                     state.radiance +=
@@ -144,7 +155,13 @@ impl Tracer<'_> {
         state.radiance
     }
 
-    fn step(&self, state: &mut PathState, ray: &Ray, surface: &Surface, max_bounces: u32) -> Option<Ray> {
+    fn step(
+        &self,
+        state: &mut PathState,
+        ray: &Ray,
+        surface: &Surface,
+        (options, map): (PathOptions, Option<&Map>),
+    ) -> Option<Ray> {
         let footprint = ray.cone_width + ray.cone_spread * surface.t;
         if let Some(medium) = state.medium {
             state.throughput *= self.posed.transmittance(medium, surface.t);
@@ -159,6 +176,9 @@ impl Tracer<'_> {
             };
             state.radiance += state.throughput * surface.emission * state.emission_weight(pdf);
         }
+        if map.is_some_and(|map| map.has_all) && state.bsdf_pdf.is_some() {
+            return None;
+        }
         let (straight, probability) = bsdf_straight(surface, -ray.direction);
         if probability > 0.0 {
             if state.chooses(probability) {
@@ -167,11 +187,20 @@ impl Tracer<'_> {
             }
             state.throughput /= 1.0 - probability;
         }
-        if state.bounce >= max_bounces {
+        if state.bounce >= options.bounces {
             return None;
         }
         state.radiance += self.direct_light(state, surface, -ray.direction);
-        scatter(state, ray, surface, footprint).map(|ray| self.spawned(ray))
+        if let Some(map) = map {
+            let scatterings = options.bounces - state.bounce - 1;
+            state.radiance += state.throughput * map.gathered(surface, -ray.direction, scatterings);
+        }
+        let is_rough = state.bsdf_pdf.is_some() || state.is_of_photons;
+        let random = state.random.four(random_dimension(state.bounce, RANDOM_BSDF_LOBE));
+        let chosen = bsdf_sample(surface, -ray.direction, random)?;
+        let next = scatter(state, ray, surface, footprint, &chosen);
+        state.is_of_photons = map.is_some() && chosen.delta && is_rough;
+        next.map(|ray| self.spawned(ray))
     }
 
     /// One light sample, seen from the surface.
@@ -225,9 +254,14 @@ fn reflected(surface: &Surface, o: Vec3, light: &LightSample, is_found: bool) ->
     value * light.radiance * (weight / light.pdf)
 }
 
-fn scatter(state: &mut PathState, ray: &Ray, surface: &Surface, footprint: f32) -> Option<Ray> {
-    let random = state.random.four(random_dimension(state.bounce, RANDOM_BSDF_LOBE));
-    let chosen = bsdf_sample(surface, -ray.direction, random)?;
+/// Goes on in the direction that was chosen, unless the path ends.
+pub(super) fn scatter(
+    state: &mut PathState,
+    ray: &Ray,
+    surface: &Surface,
+    footprint: f32,
+    chosen: &BsdfSample,
+) -> Option<Ray> {
     state.throughput *= chosen.weight;
     state.bsdf_pdf = (!chosen.delta).then_some(chosen.pdf);
     if chosen.transmitted && surface.thickness > 0.0 {
@@ -257,7 +291,7 @@ impl PosedScene<'_> {
     pub fn render_path(&self, view: &View, options: impl Into<PathOptions>) -> Result<Image, ReferenceError> {
         let options = options.into();
         let passes_panes = options.passes_panes && options.bounces > 0;
-        self.render(view, passes_panes, |tracer, random| tracer.path(view, options, random))
+        self.render(view, passes_panes, |tracer, random| tracer.path(view, options, None, random))
     }
 }
 

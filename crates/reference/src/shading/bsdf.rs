@@ -165,6 +165,12 @@ pub fn bsdf_pdf(surface: &Surface, o: Vec3, i: Vec3) -> f32 {
     towards(&Terms::new(surface, o), surface, i).1
 }
 
+/// Whether a surface scatters otherwise than in one direction; `o` as in [`bsdf_times_cosine`].
+pub fn bsdf_is_rough(surface: &Surface, o: Vec3) -> bool {
+    let terms = Terms::new(surface, o);
+    terms.cosine_probability().family > 0.0 || !terms.mirror
+}
+
 /// Share of the light that goes straight through a pane ([`Surface::is_pane`]) towards `o`, and the probability with which
 /// paths take it; 0 for every other surface.
 pub fn bsdf_straight(surface: &Surface, o: Vec3) -> (Vec3, f32) {

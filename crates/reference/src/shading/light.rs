@@ -136,8 +136,9 @@ fn punctual_power(light: &Light, disk: f64) -> f64 {
     }
 }
 
-/// Area of the circle around the box of all triangles, m^2.
-fn disk(posed: &PosedScene<'_>) -> f64 {
+/// Corners of the box of all triangles, metres relative to the frame origin; the upper ones are below the lower ones where
+/// there are none.
+pub(super) fn bounds(posed: &PosedScene<'_>) -> [DVec3; 2] {
     let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for index in posed.indices() {
         let position = DVec3::from(posed.positions()[*index as usize].map(f64::from));
@@ -145,6 +146,12 @@ fn disk(posed: &PosedScene<'_>) -> f64 {
             (lower, upper) = (lower.min(position), upper.max(position));
         }
     }
+    [lower, upper]
+}
+
+/// Area of the circle around the box of all triangles, m^2.
+fn disk(posed: &PosedScene<'_>) -> f64 {
+    let [lower, upper] = bounds(posed);
     if lower.x <= upper.x { 0.25 * PI * (upper - lower).length_squared() } else { 0.0 }
 }
 
@@ -160,6 +167,19 @@ fn kind_shares(powers: [Option<f64>; 3]) -> [f32; 3] {
         shares[last] = 1.0 - shares[..last].iter().sum::<f32>();
     }
     shares
+}
+
+/// Factor of the cosine to the direction of a spot, and what is added after it.
+pub(super) fn cone(inner: f32, outer: f32) -> [f32; 2] {
+    let (inner, outer) = (f64::from(inner).cos(), f64::from(outer).cos());
+    let scale = 1.0 / (inner - outer).max(0.001);
+    [scale as f32, (-outer * scale) as f32]
+}
+
+/// Share of its light that a light without extent sends so far, beside the square of the distance.
+pub fn window(distance: f32, range: f32) -> f32 {
+    let ratio = distance / range;
+    (1.0 - ratio * ratio * ratio * ratio).clamp(0.0, 1.0)
 }
 
 /// 1/sr of a point uniform on a triangle, as seen along the unit `direction` from `distance` away.
@@ -201,10 +221,9 @@ impl PosedScene<'_> {
             }
             Light::Point { position, intensity, range } => (position, intensity, range, None),
             Light::Spot { position, direction, intensity, range, inner_cone, outer_cone } => {
-                let (inner, outer) = (f64::from(inner_cone).cos(), f64::from(outer_cone).cos());
-                let scale = 1.0 / (inner - outer).max(0.001);
                 let axis = direction.normalize_or(DVec3::NEG_Z).as_vec3();
-                (position, intensity, range, Some((axis, scale as f32, (-outer * scale) as f32)))
+                let [scale, offset] = cone(inner_cone, outer_cone);
+                (position, intensity, range, Some((axis, scale, offset)))
             }
         };
         let position = (position - self.frame_origin()).as_vec3();
@@ -215,8 +234,7 @@ impl PosedScene<'_> {
         }
         let distance = squared.sqrt();
         let direction = towards / distance;
-        let ratio = distance / range;
-        let mut window = (1.0 - ratio * ratio * ratio * ratio).clamp(0.0, 1.0);
+        let mut window = window(distance, range);
         if let Some((axis, scale, offset)) = cone {
             let inside = (axis.dot(-direction) * scale + offset).clamp(0.0, 1.0);
             window *= inside * inside;

@@ -19,6 +19,7 @@ mod attributes;
 pub mod bsdf;
 mod bsdf_terms;
 mod camera;
+mod emission;
 mod environment;
 mod error;
 mod facet_normal;
@@ -40,11 +41,14 @@ mod ward;
 #[cfg(test)]
 mod tests;
 
-pub use bsdf::{BsdfSample, bsdf_evaluate, bsdf_pdf, bsdf_sample, bsdf_straight, bsdf_times_cosine};
+pub use bsdf::{
+    BsdfSample, bsdf_evaluate, bsdf_is_rough, bsdf_pdf, bsdf_sample, bsdf_straight, bsdf_times_cosine,
+};
 pub use camera::{View, camera_ray, lens_numbers, pixel_position, through_lens};
+pub use emission::Emission;
 pub use environment::EnvironmentTable;
 pub use error::ReferenceError;
-pub use light::LightSample;
+pub use light::{LightSample, window};
 pub use light_table::LightTable;
 pub use microfacet::{basis_around, cosine_hemisphere, luminance};
 pub use posed::PosedScene;

@@ -10,7 +10,7 @@ pub const BOUNCE_LIMIT: u32 = 1024;
 
 /// By default so many that light, which enters and leaves a glass with two walls and so has scattered four times before it is
 /// seen on what stands behind, can go through two such glasses in a row.
-pub(super) const BOUNCES: OptionRow = OptionRow::new(
+pub(in crate::registry) const BOUNCES: OptionRow = OptionRow::new(
     "bounces",
     Values::Whole(0, BOUNCE_LIMIT),
     "At most this many scatterings (0: emission alone, 1: direct light; through thick or rough glass each surface is one)",
@@ -25,14 +25,14 @@ pub(super) const GLASS_SHADOWS: OptionRow = OptionRow::words(
 )
 .by_default(Value::Word(GlassShadows::Tint.name()));
 
-pub(super) const SHADOW_TERMINATOR: OptionRow = OptionRow::words(
+pub(in crate::registry) const SHADOW_TERMINATOR: OptionRow = OptionRow::words(
     "shadow-terminator",
     &[terminator_word(ShadowTerminator::None), terminator_word(ShadowTerminator::Offset)],
     "Where shadow rays of smooth surfaces start",
 )
 .by_default(Value::Word(ShadowTerminator::None.name()));
 
-pub(super) const SPECULAR: OptionRow = OptionRow::words(
+pub(in crate::registry) const SPECULAR: OptionRow = OptionRow::words(
     "specular",
     &[SpecularLobe::Ggx.word(), SpecularLobe::Ward.word()],
     "How rough surfaces that let no light through reflect",
@@ -178,7 +178,7 @@ pub struct PathOptions {
 
 impl PathOptions {
     /// As a spec has them.
-    pub(super) fn of(spec: &IntegratorSpec) -> Self {
+    pub(in crate::registry) fn of(spec: &IntegratorSpec) -> Self {
         Self {
             bounces: spec.get(BOUNCES.name).and_then(Value::whole).unwrap_or_default(),
             glass_shadows: spec.choice(&GLASS_SHADOWS, &GlassShadows::ALL, GlassShadows::name),

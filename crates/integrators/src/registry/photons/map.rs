@@ -1,0 +1,241 @@
+//! The photon map of a sample.
+
+use rasray_ads::{Domain, RayQueue};
+use rasray_gpu::{Access, Buffer, Device, Recorder};
+use rasray_gpu_scene::GpuScene;
+use rasray_shaders_glsl::{
+    INTEGRATORS_PHOTON_EMIT, INTEGRATORS_PHOTON_SHADE,
+    constant_ids::{integrators::PHOTONS_ARE_ALL, scene::SPECULAR_IS_WARD},
+    constants::integrators::PHOTON_RADIUS_IS_SHARE,
+    records::{PathState, Photon, PhotonHeader},
+};
+
+use super::options::{PhotonKind, PhotonOptions};
+use crate::registry::path::{ROUND_LIMIT, USUAL_LAYERS};
+use crate::{
+    IntegratorDesc, IntegratorError, SpecularLobe, Traced, Wave,
+    kernels::{Bindings, Bound, Kernel, WaveConstants, binding, device_buffer, film},
+    rounds::Rounds,
+};
+
+/// Bindings of the map, as `integrators/photons.glsl` declares them.
+const HEADER: u32 = 9;
+const LISTS: u32 = 10;
+const PHOTONS: u32 = 11;
+
+/// The radius of the first sample over the diagonal of the bounds of all triangles, where none is given.
+const RADIUS_SHARE: f64 = 0.01;
+/// Share of the photons of a sample that the radius of the next one keeps: alpha of Knaus and Zwicker.
+const KEPT_SHARE: f64 = 2.0 / 3.0;
+/// 1 / gamma(1 + `KEPT_SHARE`).
+const KEPT_SHARE_GAMMA: f64 = 1.107_732_167_432_472_5;
+/// Lists at least.
+const LEAST_LISTS: u32 = 1024;
+
+/// A photon map as it is on the device, for those who look at it.
+#[derive(Clone, Debug, Default)]
+pub struct PhotonMap {
+    /// Metres within which a photon counts.
+    pub radius: f32,
+    /// Photons that are stored, in no particular order.
+    pub photons: Vec<Photon>,
+}
+
+/// What makes the map of each sample: photons that are emitted and traced through the structure, in waves of their own.
+#[derive(Debug)]
+pub(super) struct MapPasses {
+    options: PhotonOptions,
+    rounds: Rounds,
+    queue: RayQueue,
+    states: Buffer,
+    header: Buffer,
+    lists: Buffer,
+    photons: Buffer,
+    bindings: Bindings,
+    emit: Kernel,
+    shade: Kernel,
+}
+
+impl MapPasses {
+    pub fn new(desc: &IntegratorDesc<'_>, options: PhotonOptions) -> Result<Self, IntegratorError> {
+        let PhotonOptions { paths, kind, photon_paths, .. } = options;
+        let device = desc.device;
+        // Each photon of a path has a place of its own: none is ever left out.
+        let bytes = u64::from(photon_paths) * u64::from(stored(paths.bounces)) * size_of::<Photon>() as u64;
+        let limit = device.limits().max_storage_buffer_range;
+        if bytes > limit {
+            return Err(IntegratorError::PhotonBytes { bytes, limit });
+        }
+        let queue = RayQueue::new(device, "photon rays", photon_paths, true)?;
+        let buffer = |name, bytes: u64| device_buffer(device, name, bytes.max(4));
+        let states = buffer("photon states", u64::from(photon_paths) * size_of::<PathState>() as u64)?;
+        let header = buffer("photon map", size_of::<PhotonHeader>() as u64)?;
+        let lists = buffer("photon lists", 4 * u64::from(lists(photon_paths)))?;
+        let photons = buffer("photons", bytes)?;
+        let own = [(binding::PATH_STATES, &states), (HEADER, &header), (LISTS, &lists), (PHOTONS, &photons)];
+        let bindings = Bindings::new(device, desc.scene, &film(desc.film), &own)?;
+        let mut constants = Vec::from(desc.features.constants());
+        constants.push((SPECULAR_IS_WARD, (paths.specular == SpecularLobe::Ward).into()));
+        constants.push((PHOTONS_ARE_ALL, (kind == PhotonKind::All).into()));
+        let [first, most] = rounds(paths.bounces, desc.features.blend);
+        Ok(Self {
+            rounds: Rounds::new(first, most),
+            emit: bindings.kernel(device, &INTEGRATORS_PHOTON_EMIT, &desc.features.constants())?,
+            shade: bindings.kernel(device, &INTEGRATORS_PHOTON_SHADE, &constants)?,
+            options,
+            queue,
+            states,
+            header,
+            lists,
+            photons,
+            bindings,
+        })
+    }
+
+    /// What kernels that gather bind.
+    pub fn bound(&self) -> [Bound<'_>; 3] {
+        [(HEADER, &self.header), (LISTS, &self.lists), (PHOTONS, &self.photons)]
+    }
+
+    pub fn queue(&self) -> &RayQueue {
+        &self.queue
+    }
+
+    pub fn rounds(&self) -> &Rounds {
+        &self.rounds
+    }
+
+    pub fn bytes(&self) -> u64 {
+        [&self.states, &self.header, &self.lists, &self.photons].iter().map(|buffer| buffer.size()).sum()
+    }
+
+    pub fn set_scene(&mut self, scene: &GpuScene) {
+        self.bindings.set_scene(scene);
+    }
+
+    /// Whether photons that are emitted could ever be stored.
+    fn stores_any(&self) -> bool {
+        stored(self.options.paths.bounces) > 0
+    }
+
+    fn wave(&self, sample: u32) -> Wave {
+        Wave { first_pixel: 0, pixel_count: self.options.photon_paths, sample }
+    }
+
+    /// Records the map of a sample, or the rounds that photons of the one recorded last still need.
+    ///
+    /// # Errors
+    /// The structure was made without a scene.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        traced: Traced<'_>,
+        sample: u32,
+        is_rest: bool,
+    ) -> Result<(), IntegratorError> {
+        if !self.stores_any() {
+            return Ok(());
+        }
+        let wave = self.wave(sample);
+        if !is_rest {
+            self.record_emission(recorder, wave);
+        }
+        // Photons do not leave the eye, so drawing does not answer them.
+        let traced = traced.with_primary(None);
+        self.rounds.record(recorder, (traced, wave), &self.queue, is_rest, |recorder, live, constants| {
+            let constants = WaveConstants { limit: self.options.paths.bounces, ..constants };
+            self.bindings.record(recorder, &self.shade, &self.queue, live, &constants);
+        })
+    }
+
+    fn record_emission(&self, recorder: &mut Recorder<'_>, wave: Wave) {
+        // Kernels of the sample before read the lists.
+        recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
+        recorder.fill(&self.lists, 0, self.lists.size(), 0);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
+        let (radius, marks) = match self.options.radius {
+            Some(radius) => (f64::from(radius), 0),
+            None => (RADIUS_SHARE, PHOTON_RADIUS_IS_SHARE),
+        };
+        let number = (radius * shrunk(wave.sample)) as f32;
+        let constants = WaveConstants { number, marks, ..WaveConstants::from(wave) };
+        self.bindings.record(recorder, &self.emit, &self.queue, Domain::First(wave.pixel_count), &constants);
+        self.queue.record_select_none(recorder);
+    }
+
+    /// Downloads the map of the sample recorded last.
+    pub fn read(&self, device: &Device) -> Result<PhotonMap, IntegratorError> {
+        if !self.stores_any() {
+            return Ok(PhotonMap::default());
+        }
+        let header: Vec<PhotonHeader> = device.download_as(&self.header, 0, 1)?;
+        let lists: Vec<u32> = device.download_as(&self.lists, 0, self.lists.size() as usize / 4)?;
+        let count = self.photons.size() as usize / size_of::<Photon>();
+        let all: Vec<Photon> = device.download_as(&self.photons, 0, count)?;
+        let mut photons = Vec::new();
+        for mut link in lists {
+            while let Some(photon) = (link as usize).checked_sub(1).and_then(|number| all.get(number)) {
+                photons.push(*photon);
+                link = photon.next;
+            }
+        }
+        let radius = header.first().map_or(0.0, |header| header.radius);
+        Ok(PhotonMap { radius, photons })
+    }
+}
+
+/// Photons that are stored of a path, at most: one after each scattering but the last, which is where it is gathered.
+fn stored(bounces: u32) -> u32 {
+    bounces.saturating_sub(1)
+}
+
+/// Lists that cells are hashed to: a power of two, two to four per path.
+fn lists(photon_paths: u32) -> u32 {
+    (2 * photon_paths.next_power_of_two()).max(LEAST_LISTS)
+}
+
+/// Rounds of a map at first, and at most: a photon may pass any number of blended surfaces.
+fn rounds(bounces: u32, blend: bool) -> [u32; 2] {
+    if blend { [bounces + USUAL_LAYERS, ROUND_LIMIT] } else { [bounces; 2] }
+}
+
+/// The radius of a sample, numbered from 0, over that of the first: the root of the product of (k + alpha) / (k + 1) over
+/// all k from 1 to its number.
+fn shrunk(sample: u32) -> f64 {
+    // From there on the quotient of gamma functions that it is, which Stirling's series gives to 10 digits.
+    const EXACT: u32 = 4096;
+    if sample <= EXACT {
+        let factors = (1..=sample).map(|k| (f64::from(k) + KEPT_SHARE) / (f64::from(k) + 1.0));
+        return factors.product::<f64>().sqrt();
+    }
+    let middle = f64::from(sample) + 1.0 + 0.5 * KEPT_SHARE;
+    (KEPT_SHARE_GAMMA * middle.powf(KEPT_SHARE - 1.0)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn radii_shrink_as_the_product_says() {
+        assert_eq!(shrunk(0), 1.0);
+        let first = ((1.0 + KEPT_SHARE) / 2.0).sqrt();
+        assert!((shrunk(1) - first).abs() < 1.0e-15);
+        // Where one way to compute them ends and the other begins.
+        for sample in [4096, 4097, 4098] {
+            let k = f64::from(sample) + 1.0;
+            let next = shrunk(sample) * ((k + KEPT_SHARE) / (k + 1.0)).sqrt();
+            assert!((shrunk(sample + 1) / next - 1.0).abs() < 1.0e-9, "{sample}");
+        }
+        let last = shrunk(u32::MAX);
+        assert!(0.0 < last && last < 0.03, "{last}");
+    }
+
+    #[test]
+    fn a_photon_of_each_scattering_but_the_last_is_stored() {
+        assert_eq!([0, 1, 2, 8].map(stored), [0, 0, 1, 7]);
+        assert_eq!([1, 512, 513, 16_384].map(lists), [1024, 1024, 2048, 32_768]);
+        assert_eq!(rounds(3, false), [3, 3]);
+        assert_eq!(rounds(3, true), [3 + USUAL_LAYERS, ROUND_LIMIT]);
+    }
+}

@@ -1,0 +1,157 @@
+// What: the photon map of a sample: photons in lists of the cells of a uniform grid, cells hashed into a table, and the
+// radiance that a surface scatters of the photons around it.
+// Reads: header, lists and photons of INTEGRATOR_SET. Writes: the same with PHOTONS_WRITTEN, else film faults.
+// Source: docs/photons.md; Jensen 1996, Teschner et al. 2003 for the hash, Silverman 1986 for the kernel.
+#ifndef INTEGRATORS_PHOTONS_GLSL
+#define INTEGRATORS_PHOTONS_GLSL
+
+#include "integrators/constants.glsl"
+#include "integrators/storage.glsl"
+#include "scene/bsdf.glsl"
+
+// Most cells along an axis on each side of the origin.
+#define PHOTON_GRID_MOST 1048576.0
+// Largest number of a sum of PHOTON_GATHER_LIMIT of them.
+#define PHOTON_SUM_MOST 1.0e14
+
+// Photons come to any rough surface after any scattering; else to those met after perfectly smooth ones alone.
+layout(constant_id = 102) const bool PHOTONS_ARE_ALL = false;
+
+// Light that arrived at a surface after at least one scattering. 44 bytes.
+struct Photon {
+    vec3 position;            // metres relative to the frame origin
+    uint next;                // number of the next photon of its list plus 1; 0: it is the last
+    vec3 direction;           // unit, to where it came from
+    uint bounce;              // scatterings so far, from 1
+    vec3 flux;                // W
+};
+
+// The map of a sample. 8 bytes.
+struct PhotonHeader {
+    float radius;             // metres around a surface within which photons count
+    float cell;               // side of a cell, metres
+};
+
+#ifdef PHOTONS_WRITTEN
+#define PHOTON_ACCESS
+#else
+#define PHOTON_ACCESS readonly
+#endif
+layout(set = INTEGRATOR_SET, binding = 9, scalar) PHOTON_ACCESS buffer PhotonHeaderBuffer { PhotonHeader photon_header; };
+// For each list the number of its first photon plus 1; 0: it is empty. A power of two of them.
+layout(set = INTEGRATOR_SET, binding = 10, scalar) PHOTON_ACCESS buffer PhotonListBuffer { uint photon_lists[]; };
+// Of path p the photon after k scatterings is entry (k - 1) * paths + p, so that each has a place of its own.
+layout(set = INTEGRATOR_SET, binding = 11, scalar) PHOTON_ACCESS buffer PhotonBuffer { Photon photons[]; };
+
+// Whether a surface scatters otherwise than in one direction: photons are stored there.
+bool photon_is_stored_at(BsdfTerms terms) {
+    float family, through;
+    bsdf_cosine_probability(terms, family, through);
+    return family > 0.0 || (SHADING_FACETS && !terms.mirror);
+}
+
+// The cell of a position. Its numbers are exact: there are no more than PHOTON_GRID_MOST.
+ivec3 photon_cell(vec3 position) {
+    vec3 place = floor(position / photon_header.cell);
+    return ivec3(clamp(place, -PHOTON_GRID_MOST, PHOTON_GRID_MOST));
+}
+
+// The list of a cell, which other cells may have as well.
+uint photon_list(ivec3 cell) {
+    uvec3 place = uvec3(cell);
+    uint hash = (place.x * 73856093u) ^ (place.y * 19349663u) ^ (place.z * 83492791u);
+    hash ^= hash >> 16;
+    return hash & (uint(photon_lists.length()) - 1u);
+}
+
+#ifdef PHOTONS_WRITTEN
+void photon_store(uint entry, Photon photon) {
+    photon.next = atomicExchange(photon_lists[photon_list(photon_cell(photon.position))], entry + 1u);
+    photons[entry] = photon;
+}
+#else
+// A sum of numbers from 0 to PHOTON_SUM_MOST in fixed point, in units of 2^-64: it is exact down to there, so that it does
+// not depend on the order of what is added.
+struct PhotonSum {
+    uvec4 words;              // lowest first
+};
+
+void photon_sum_word(inout uint word, uint added, inout uint carry) {
+    uint of_added, of_carry;
+    word = uaddCarry(word, added, of_added);
+    word = uaddCarry(word, carry, of_carry);
+    carry = of_added + of_carry;
+}
+
+// No loops: drivers end those of an invocation after 65,535 iterations in all.
+void photon_sum_add(inout PhotonSum sum, float number) {
+    uint bits = floatBitsToUint(number);
+    uint mantissa = (bits & 0x7FFFFFu) | 0x800000u;
+    // Of the lowest bit of the mantissa, which is worth 2^(exponent - 150).
+    int place = int(bits >> 23) - 150 + 64;
+    if (place < 0) {
+        mantissa = place > -24 ? mantissa >> uint(-place) : 0u;
+        place = 0;
+    }
+    uint first = uint(place) >> 5;
+    uint shift = uint(place) & 31u;
+    uint low = mantissa << shift;
+    uint high = shift > 8u ? mantissa >> (32u - shift) : 0u;
+    uint carry = 0u;
+    photon_sum_word(sum.words.x, first == 0u ? low : 0u, carry);
+    photon_sum_word(sum.words.y, first == 1u ? low : (first == 0u ? high : 0u), carry);
+    photon_sum_word(sum.words.z, first == 2u ? low : (first == 1u ? high : 0u), carry);
+    photon_sum_word(sum.words.w, first == 3u ? low : (first == 2u ? high : 0u), carry);
+}
+
+float photon_sum_value(PhotonSum sum) {
+    vec4 words = vec4(sum.words);
+    return words.w * 4294967296.0 + (words.z + (words.y + words.x / 4294967296.0) / 4294967296.0);
+}
+
+// W/(sr m^2) that a surface sends along its `terms` of the photons around it that were scattered at most so often.
+// Its perfectly smooth lobes are left out.
+vec3 photon_gather(BsdfTerms terms, Surface s, uint scatterings) {
+    if (scatterings == 0u || !photon_is_stored_at(terms)) return vec3(0.0);
+    float radius = photon_header.radius;
+    // A little more, for what rounding moves over the border of a cell.
+    float reach = radius * 1.0001;
+    ivec3 lower = photon_cell(s.position - reach);
+    ivec3 upper = photon_cell(s.position + reach);
+    float scale = 2.0 / (MICROFACET_PI * radius * radius);
+    PhotonSum red = PhotonSum(uvec4(0u)), green = red, blue = red;
+    bool fits = true;
+    uint left = PHOTON_GATHER_LIMIT;
+    ivec3 cell;
+    for (cell.z = lower.z; cell.z <= upper.z; cell.z++)
+    for (cell.y = lower.y; cell.y <= upper.y; cell.y++)
+    for (cell.x = lower.x; cell.x <= upper.x; cell.x++) {
+        uint link = photon_lists[photon_list(cell)];
+        for (; link != 0u && left > 0u; left--) {
+            Photon photon = photons[link - 1u];
+            link = photon.next;
+            vec3 apart = (photon.position - s.position) / radius;
+            float share = 1.0 - dot(apart, apart);
+            float cosine = abs(dot(s.geometric_normal, photon.direction));
+            if (!(share > 0.0) || !(cosine > 0.0) || photon.bounce > scatterings) continue;
+            // Photons of another cell with the same list are met there, or are too far away.
+            if (photon_cell(photon.position) != cell) continue;
+            vec3 light = bsdf_towards(terms, s, photon.direction).value * photon.flux * (scale * share / cosine);
+            if (!(largest_component(light) < PHOTON_SUM_MOST)) fits = false;
+            if (!fits) continue;
+            photon_sum_add(red, light.r);
+            photon_sum_add(green, light.g);
+            photon_sum_add(blue, light.b);
+        }
+        if (link != 0u) {
+            atomicAdd(film_faults.crowded, 1u);
+            return vec3(0.0);
+        }
+    }
+    // Such a sample is counted as one that is not finite.
+    if (!fits) return vec3(uintBitsToFloat(0x7F800000u));
+    return vec3(photon_sum_value(red), photon_sum_value(green), photon_sum_value(blue));
+}
+#endif
+
+#endif
