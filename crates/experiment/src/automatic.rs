@@ -1,5 +1,5 @@
 //! The structure of a job that names none: the one that is exact and fastest for it, as measured in
-//! docs/measurements/automatic.md.
+//! docs/measurements/speed.md.
 
 use rasray_options::OptionValues;
 use rasray_systems::{Preset, System};
@@ -69,7 +69,7 @@ impl SystemConfig {
             let limit = format!("{RAYS_PER_TRIANGLE} rays per triangle");
             let reason = if rays < RAYS_PER_TRIANGLE.saturating_mul(triangles) {
                 self.options.set("builder", "ploc");
-                format!("its quickest build for frames of fewer than {limit}")
+                format!("a tree built on the device, for frames of fewer than {limit}")
             } else {
                 format!("frames of {limit} and more repay a tree by surface area")
             };
