@@ -105,7 +105,7 @@ fn fixed_help(error: &ExperimentError) -> &'static str {
         ExperimentError::Systems(SystemsError::Value { .. }) => LEAVE,
         ExperimentError::Systems(_) => "see `rasray render --help`",
         ExperimentError::Opening(_) => "`rasray info` lists the devices and what they lack",
-        ExperimentError::Gpu(_) => SMALLER,
+        ExperimentError::Gpu(error) => help_of_gpu(error, SMALLER),
         ExperimentError::Ads(error) => help_of_ads(error),
         ExperimentError::GpuScene(error) => help_of_tables(error),
         ExperimentError::Integrator(error) => help_of_integrator(error),
@@ -148,9 +148,21 @@ fn fixed_help(error: &ExperimentError) -> &'static str {
     }
 }
 
+/// What was asked for is too much, unless the call itself was wrong.
+fn help_of_gpu(error: &GpuError, smaller: &'static str) -> &'static str {
+    match error {
+        GpuError::InvalidUse { .. }
+        | GpuError::InvalidShader { .. }
+        | GpuError::OutOfRange { .. }
+        | GpuError::FeatureNotEnabled { .. } => DEFECT,
+        _ => smaller,
+    }
+}
+
 fn help_of_ads(error: &AdsError) -> &'static str {
     match error {
-        AdsError::Gpu(_) | AdsError::PoolTooLarge { .. } => SMALLER,
+        AdsError::Gpu(error) => help_of_gpu(error, SMALLER),
+        AdsError::PoolTooLarge { .. } => SMALLER,
         AdsError::Option { .. } => LEAVE,
         AdsError::NoFirstHits { .. } => "write --primary trace",
         AdsError::InParts { .. } => "leave out --refresh, or choose another --system",
@@ -167,6 +179,7 @@ fn help_of_tables(error: &GpuSceneError) -> &'static str {
         | GpuSceneError::Ads(AdsError::Gpu(GpuError::OutOfDeviceMemory { .. })) => SMALLER_SCENE,
         GpuSceneError::OtherTriangles { .. } => "show the scene at one --time",
         GpuSceneError::DeformedTwice { .. } | GpuSceneError::Malformed { .. } => DAMAGED,
+        GpuSceneError::Gpu(error) => help_of_gpu(error, SMALLER),
         GpuSceneError::Ads(error) => help_of_ads(error),
         _ => SMALLER,
     }
@@ -184,7 +197,14 @@ fn help_of_integrator(error: &IntegratorError) -> &'static str {
         IntegratorError::Ads(AdsError::Option { option: "fetch", .. }) => {
             "leave out --fetch raster, or choose another --system"
         }
-        _ => SMALLER_IMAGE,
+        IntegratorError::Gpu(error) | IntegratorError::Ads(AdsError::Gpu(error)) => {
+            help_of_gpu(error, SMALLER_IMAGE)
+        }
+        IntegratorError::Ads(_)
+        | IntegratorError::WaveSize { .. }
+        | IntegratorError::ImageSize { .. }
+        | IntegratorError::WaveCapacity { .. } => SMALLER_IMAGE,
+        _ => DEFECT,
     }
 }
 

@@ -49,6 +49,15 @@ fn only_what_a_device_lacks_or_fails_at_ends_with_3() {
     use ExperimentError as E;
     check(3, "no Vulkan device", "rasray info", E::Opening(GpuError::NoDevice));
     check(3, "the device was lost", "another --device", E::Gpu(gpu()));
+    let misused = || GpuError::InvalidUse { name: "queue".to_owned(), reason: "it has no slots".to_owned() };
+    check(3, "it has no slots", "a defect", E::Gpu(misused()));
+    check(3, "it has no slots", "a defect", E::Integrator(misused().into()));
+    check(
+        2,
+        "leave out `surfaces_of_hits`",
+        "a defect",
+        E::Integrator(IntegratorError::SurfacesOfHits { structure: "hu" }),
+    );
     check(3, "the device was lost", "--resolution", E::Ads(gpu().into()));
     check(3, "the device was lost", "--size", E::Integrator(gpu().into()));
     check(3, "the device was lost", "--resolution", E::from(FrameError::Gpu(gpu())));
