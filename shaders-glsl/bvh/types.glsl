@@ -6,7 +6,7 @@
 #include "contract/types.glsl"
 #include "bvh/constants.glsl"
 
-// Constant ids 80 to 89 belong to hierarchies. Children of a node: 2 or 4.
+// Constant id 80 belongs to hierarchies. Children of a node: 2 or 4.
 layout(constant_id = 80) const uint BVH_WIDTH = 2u;
 
 // State and sizes of one tree. 96 bytes.

@@ -8,7 +8,7 @@
 #include "contract/types.glsl"
 #include "voxel/constants.glsl"
 
-// Constant ids 70 to 89 belong to voxels.
+// Constant ids 70 to 79 and 81 to 89 belong to voxels.
 layout(constant_id = 70) const uint VOXEL_AXES = VOXEL_AXES_TRIANGLE;
 layout(constant_id = 71) const uint VOXEL_MARCH = VOXEL_MARCH_EXACT;
 layout(constant_id = 72) const uint VOXEL_ACCEPT = VOXEL_ACCEPT_PLANE;

@@ -10,9 +10,10 @@
 //! resize and record again. Until a build of the triangles that a structure has is complete, traces answer "not ready" and
 //! count it; they never give a partial answer, nor one for triangles that it had before.
 //!
-//! This crate records commands. It never submits, never waits, and allocates only in constructors and
-//! in [`Structure::resize`]. Only two things submit: a structure that is built on the host, in [`Structure::prepare_build`],
-//! and a [`RayQueue`] that is made on a device with a queue, through which it is cleared.
+//! This crate records commands. What is recorded never submits, waits or allocates. Memory is allocated by constructors,
+//! [`Structure::resize`], [`Structure::set_slots`], and [`Structure::set_geometry`] where there are more triangles than before.
+//! These submit and wait: [`Structure::prepare_build`] of a structure that is built on the host, a [`RayQueue`] that is made on
+//! a device with a queue, through which it is cleared, and whatever reads pools or writes them for tests and reports.
 //!
 //! # Synchronisation
 //! [`Structure::record_build`], [`Structure::record_trace`] and [`Structure::record_surfaces`] end with

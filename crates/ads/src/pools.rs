@@ -22,7 +22,8 @@ const NOTED: u64 = offset_of!(QueueHeader, corrupted) as u64;
 /// Factor by which the number of rounds grows where rays did not finish.
 const MORE_ROUNDS: u32 = 4;
 
-/// Maximum number of rounds: 2^26 units of work per ray, and 2^15 dispatches per trace.
+/// Maximum number of rounds: 2^15 dispatches per trace, and as many times the work budget per ray, on software drivers 2^26
+/// units.
 const MOST_ROUNDS: u32 = 1 << 14;
 
 /// Buffers of one size, one per pool, in the order of [`Sizes::pools`]. The first is the header, of one element.

@@ -220,7 +220,7 @@ pub trait Structure {
         false
     }
 
-    /// Records a trace of the slots of `domain` of `queue`, in at most `rounds` dispatches.
+    /// Records a trace of the slots of `domain` of `queue`, in at most `rounds` rounds.
     fn record_trace(
         &self,
         recorder: &mut Recorder<'_>,

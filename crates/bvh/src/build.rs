@@ -21,11 +21,11 @@ pub(crate) struct Build {
 #[derive(Debug)]
 enum OfBuilder {
     Sah { boxes: ComputePipeline },
-    Lbvh(Box<LbvhPipelines>),
+    Device(Box<DevicePipelines>),
 }
 
 #[derive(Debug)]
-struct LbvhPipelines {
+struct DevicePipelines {
     codes: ComputePipeline,
     chunks: Chunks,
     counts: ComputePipeline,
@@ -75,7 +75,7 @@ impl Build {
         let of_builder = match config.builder {
             Builder::Sah => OfBuilder::Sah { boxes: pipelines.compute("build_1_boxes")? },
             Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => {
-                OfBuilder::Lbvh(Box::new(LbvhPipelines::new(pipelines, config)?))
+                OfBuilder::Device(Box::new(DevicePipelines::new(pipelines, config)?))
             }
         };
         let records = pipelines.compute("build_6_records")?;
@@ -96,18 +96,18 @@ impl Build {
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, keeps_tree: bool) {
         record_header(recorder, target);
         let triangles = target.geometry.triangle_count();
-        if let (OfBuilder::Lbvh(pipelines), false) = (&self.of_builder, keeps_tree) {
+        if let (OfBuilder::Device(pipelines), false) = (&self.of_builder, keeps_tree) {
             pipelines.record_order(recorder, target);
         }
         pass(recorder, target, "bvh/build_6_records", &self.records, 0, triangles);
-        if let OfBuilder::Lbvh(pipelines) = &self.of_builder {
+        if let OfBuilder::Device(pipelines) = &self.of_builder {
             pipelines.record_tree(recorder, target, keeps_tree);
         }
         target.status_pass(recorder, "bvh/build_17_status", &self.status);
     }
 }
 
-impl LbvhPipelines {
+impl DevicePipelines {
     fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
         let compute = |name| pipelines.compute(name);
         let by_device = if pipelines.is_software() { Chunks::Serial } else { Chunks::Shared };
