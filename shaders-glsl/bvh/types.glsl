@@ -44,7 +44,7 @@ struct BvhNode {
     uint parent;
     vec3 upper_1;           // upper corner of the second child
     // the other end of the run of records below this node, one end of which has the node's number; zero in a tree of the
-    // host, and without a meaning where treelets were restructured
+    // host or of clusters, and without a meaning where treelets were restructured
     uint other_end;
 };
 

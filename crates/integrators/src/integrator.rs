@@ -57,6 +57,24 @@ pub(crate) fn check_capacity(wave_capacity: u32) -> Result<u32, IntegratorError>
     }
 }
 
+/// Submits what is recorded, and then its rest, which `record` is told, for as long as there is any. Returns the times of all
+/// passes.
+pub(crate) fn submit_with_rest(
+    (device, timing): (&Device, Timing),
+    record: impl Fn(&mut Recorder<'_>, bool) -> Result<(), IntegratorError>,
+    has_rest: impl Fn() -> Result<bool, IntegratorError>,
+) -> Result<Vec<PassTiming>, IntegratorError> {
+    let mut timings = Vec::new();
+    let mut is_rest = false;
+    while !is_rest || has_rest()? {
+        let submitted = device.submit_passes(timing, |recorder| record(recorder, is_rest))?;
+        submitted.value?;
+        timings.extend(submitted.passes);
+        is_rest = true;
+    }
+    Ok(timings)
+}
+
 /// Turns rays through a structure into radiance on a film, wave by wave. It depends on no particular structure.
 ///
 /// Recording only records: it never submits, waits or allocates. What is traced must be complete and
@@ -114,15 +132,14 @@ pub trait Integrator {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<Vec<PassTiming>, IntegratorError> {
-        let begun = device.submit_passes(timing, |recorder| self.record_wave(recorder, traced, wave))?;
-        begun.value?;
-        let mut timings = begun.passes;
-        while self.has_rest(device)? {
-            let rest = device.submit_passes(timing, |recorder| self.record_rest(recorder, traced, wave))?;
-            rest.value?;
-            timings.extend(rest.passes);
-        }
-        Ok(timings)
+        submit_with_rest(
+            (device, timing),
+            |recorder, is_rest| match is_rest {
+                false => self.record_wave(recorder, traced, wave),
+                true => self.record_rest(recorder, traced, wave),
+            },
+            || self.has_rest(device),
+        )
     }
 
     /// Records more rounds from the next wave on, for those who record frames as a whole and repeat one with paths left; false

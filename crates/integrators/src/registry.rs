@@ -14,6 +14,7 @@ mod layers;
 mod path;
 mod photons;
 mod raycast;
+mod sample_map;
 mod whitted;
 
 pub use ambient_occlusion::AmbientOcclusion;

@@ -1,7 +1,5 @@
 //! Environment mapping: mirrored and refracted rays are looked up by their direction in a cube map of the scene.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use bytemuck::bytes_of;
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Access, Buffer, Device, PassTiming, Recorder, Timing};
@@ -22,6 +20,7 @@ use crate::{
     wave_capacity,
 };
 
+use super::sample_map::SampleMap;
 use super::whitted::{MIRROR_ROUGHNESS, SHADOWS, TreeKernels};
 
 /// The registry's row.
@@ -112,8 +111,7 @@ pub struct CubeMap {
     drawn: Whitted,
     /// What the camera sees.
     seen: Whitted,
-    /// The sample that was drawn last, plus 1.
-    sample: AtomicU64,
+    of_sample: SampleMap,
 }
 
 impl CubeMap {
@@ -163,14 +161,8 @@ impl CubeMap {
             header_buffer,
             drawn,
             seen,
-            sample: AtomicU64::new(0),
+            of_sample: SampleMap::default(),
         })
-    }
-
-    /// Whether the map has to be drawn for a wave: it is that of another sample, or the scene may have moved.
-    fn takes_map(&self, wave: Wave) -> bool {
-        let sample = u64::from(wave.sample) + 1;
-        self.sample.swap(sample, Ordering::Relaxed) != sample || wave.first_pixel == 0
     }
 
     /// Waves of the map for a sample.
@@ -222,11 +214,12 @@ impl Integrator for CubeMap {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        if self.takes_map(wave) {
+        if self.of_sample.is_needed(wave) {
             self.record_position(recorder);
             for map in self.map_waves(wave.sample) {
                 self.drawn.record_wave(recorder, of_map(traced), map)?;
             }
+            self.of_sample.was_made(wave);
         }
         self.seen.record_wave(recorder, traced, wave)
     }
@@ -252,11 +245,12 @@ impl Integrator for CubeMap {
         wave: Wave,
     ) -> Result<Vec<PassTiming>, IntegratorError> {
         let mut timings = Vec::new();
-        if self.takes_map(wave) {
+        if self.of_sample.is_needed(wave) {
             timings.extend(device.submit_passes(timing, |recorder| self.record_position(recorder))?.passes);
             for map in self.map_waves(wave.sample) {
                 timings.extend(self.drawn.render_wave(device, timing, of_map(traced), map)?);
             }
+            self.of_sample.was_made(wave);
         }
         timings.extend(self.seen.render_wave(device, timing, traced, wave)?);
         Ok(timings)
@@ -276,7 +270,7 @@ impl Integrator for CubeMap {
         self.drawn.set_scene(scene)?;
         self.seen.set_scene(scene)?;
         self.header = header(self.header.resolution, self.position, scene);
-        *self.sample.get_mut() = 0;
+        self.of_sample.forget();
         Ok(())
     }
 

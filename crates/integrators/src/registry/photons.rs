@@ -1,16 +1,15 @@
 //! Photon maps: light that photons bring by mirrors and glass, or by any surface, and paths for the rest.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use rasray_ads::RayQueue;
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 use rasray_gpu_scene::GpuScene;
 use rasray_scene::needs::Workload;
 
 use super::path::{BOUNCES, Gathered, SHADOW_TERMINATOR, SPECULAR};
+use super::sample_map::SampleMap;
 use crate::{
     Film, Integrator, IntegratorDesc, IntegratorError, IntegratorRow, Path, RayKind, Traced, Wave,
-    check_faults,
+    check_faults, integrator::submit_with_rest,
 };
 
 mod map;
@@ -43,8 +42,7 @@ pub struct Photons {
     map: MapPasses,
     /// What the camera sees.
     seen: Path,
-    /// The sample whose map was made last, plus 1.
-    sample: AtomicU64,
+    of_sample: SampleMap,
 }
 
 impl Photons {
@@ -59,7 +57,7 @@ impl Photons {
         let map = MapPasses::new(desc, options)?;
         let gathered = Gathered { bound: &map.bound(), all: options.kind == PhotonKind::All };
         let seen = Path::gathering(desc, options.paths, Some(gathered))?;
-        Ok(Self { map, seen, sample: AtomicU64::new(0) })
+        Ok(Self { map, seen, of_sample: SampleMap::default() })
     }
 
     /// Downloads the photons of the sample that was recorded last: submits and waits.
@@ -69,21 +67,6 @@ impl Photons {
     pub fn read_map(&self, device: &Device) -> Result<PhotonMap, IntegratorError> {
         self.map.read(device)
     }
-
-    /// A wave needs a map of its own if that at hand is of another sample, or the scene may have moved.
-    fn needs_map(&self, wave: Wave) -> bool {
-        self.sample.load(Ordering::Relaxed) != number_of(wave) || wave.first_pixel == 0
-    }
-
-    /// Notes that the map at hand is the wave's.
-    fn has_map(&self, wave: Wave) {
-        self.sample.store(number_of(wave), Ordering::Relaxed);
-    }
-}
-
-/// The wave's sample, plus 1.
-fn number_of(wave: Wave) -> u64 {
-    u64::from(wave.sample) + 1
 }
 
 impl Integrator for Photons {
@@ -97,9 +80,9 @@ impl Integrator for Photons {
         traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
-        if self.needs_map(wave) {
+        if self.of_sample.is_needed(wave) {
             self.map.record(recorder, traced, wave.sample, false)?;
-            self.has_map(wave);
+            self.of_sample.was_made(wave);
         }
         self.seen.record_wave(recorder, traced, wave)
     }
@@ -125,20 +108,13 @@ impl Integrator for Photons {
         wave: Wave,
     ) -> Result<Vec<PassTiming>, IntegratorError> {
         let mut timings = Vec::new();
-        if self.needs_map(wave) {
-            let mut is_rest = false;
-            loop {
-                let record =
-                    |recorder: &mut Recorder<'_>| self.map.record(recorder, traced, wave.sample, is_rest);
-                let submitted = device.submit_passes(timing, record)?;
-                submitted.value?;
-                timings.extend(submitted.passes);
-                is_rest = true;
-                if !self.seen.has_rest(device)? {
-                    break;
-                }
-            }
-            self.has_map(wave);
+        if self.of_sample.is_needed(wave) {
+            timings = submit_with_rest(
+                (device, timing),
+                |recorder, is_rest| self.map.record(recorder, traced, wave.sample, is_rest),
+                || self.seen.has_rest(device),
+            )?;
+            self.of_sample.was_made(wave);
         }
         timings.extend(self.seen.render_wave(device, timing, traced, wave)?);
         check_faults(&self.film().read_faults(device)?)?;
@@ -158,7 +134,7 @@ impl Integrator for Photons {
     fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
         self.seen.set_scene(scene)?;
         self.map.set_scene(scene);
-        *self.sample.get_mut() = 0;
+        self.of_sample.forget();
         Ok(())
     }
 
