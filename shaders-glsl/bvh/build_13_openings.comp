@@ -25,6 +25,9 @@ void main() {
     }
     float per_metre = scene_lengths_per_metre();
     BvhNode top = bvh_node(build.structure, node);
+    if (!is_node(top)) {
+        return;
+    }
     float area_0 = area(top.lower_0, top.upper_0, per_metre);
     float area_1 = area(top.lower_1, top.upper_1, per_metre);
     uint openings = 0u;

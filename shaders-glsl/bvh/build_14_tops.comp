@@ -13,10 +13,15 @@ void main() {
     if (node + 1u >= BVH_HEADER(build.structure).triangle_count) {
         return;
     }
+    BvhNode lowest = bvh_node(build.structure, node);
+    if (!is_node(lowest)) {
+        bvh_set_scratch(build.structure, number_word(node), 0u);
+        return;
+    }
     // Whether this node becomes a node of four if the one that is looked at does, is opened as a child of one, or as a
     // grandchild of one, which is opened no further.
     bvec3 becomes = bvec3(true, false, false);
-    uint link = bvh_node(build.structure, node).parent;
+    uint link = lowest.parent;
     while (link != BVH_NONE && any(becomes) && !all(becomes)) {
         uint slot = link & 1u;
         uint above = link >> 1u;

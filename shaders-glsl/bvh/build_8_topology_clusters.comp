@@ -102,7 +102,7 @@ void main() {
         for (uint pair = 0u; pair < merged; pair++) {
             uint a = bvh_scratch(build.structure, pair_word(part.first + 2u * pair));
             uint b = bvh_scratch(build.structure, pair_word(part.first + 2u * pair + 1u));
-            set_cluster(a, joined(cluster_of(a), cluster_of(b), b));
+            set_cluster(a, joined(cluster_of(a), cluster_of(b), b, per_metre));
         }
         every_two = is_slow(part.count, merged);
         part.count -= merged;

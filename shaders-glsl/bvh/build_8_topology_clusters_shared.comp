@@ -113,7 +113,7 @@ void main() {
                     next[i] = cluster_at(place);
                 }
                 if (partner > place && seconds_before(turn, partner) < merged) {
-                    next[i] = joined(next[i], cluster_at(partner), records[partner]);
+                    next[i] = joined(next[i], cluster_at(partner), records[partner], per_metre);
                 }
             }
         }

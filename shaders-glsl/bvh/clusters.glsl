@@ -102,10 +102,32 @@ void adopt(uint reference, uint link) {
     }
 }
 
-// Makes a node of two clusters, and answers the cluster of both. The first record of the second begins no cluster from now on,
-// so nodes are numbered by these.
-Cluster joined(Cluster a, Cluster b, uint first_record_of_b) {
+uint leaf_count(uint reference) {
+    return ((reference & ~BVH_LEAF) >> BVH_LEAF_SHIFT) + 1u;
+}
+
+// True where two leaves whose records follow each other cost less as one by surface area, a triangle as much as a node.
+bool become_leaf(Cluster a, Cluster b, uint first_record_of_b, float per_metre) {
+    uint count_a = leaf_count(a.reference);
+    uint count_b = leaf_count(b.reference);
+    uint first_record_of_a = a.reference & ((1u << BVH_LEAF_SHIFT) - 1u);
+    if ((a.reference & b.reference & BVH_LEAF) == 0u || count_a + count_b > BVH_CLUSTER_LEAF
+        || first_record_of_a + count_a != first_record_of_b) {
+        return false;
+    }
+    return float(count_a + count_b - 1u) * area_of_both(a, b, per_metre)
+        <= float(count_a) * area(a.lower, a.upper, per_metre) + float(count_b) * area(b.lower, b.upper, per_metre);
+}
+
+// Makes a leaf or a node of two clusters, and answers the cluster of both. The first record of the second begins no cluster from
+// now on, so nodes are numbered by these.
+Cluster joined(Cluster a, Cluster b, uint first_record_of_b, float per_metre) {
     uint node = first_record_of_b - 1u;
+    if (become_leaf(a, b, first_record_of_b, per_metre)) {
+        bvh_set_parent(build.structure, node, BVH_HOLE);
+        uint reference = a.reference + (leaf_count(b.reference) << BVH_LEAF_SHIFT);
+        return Cluster(min(a.lower, b.lower), max(a.upper, b.upper), reference);
+    }
     bvh_set_node(build.structure, node,
         BvhNode(a.lower, a.reference, a.upper, b.reference, b.lower, BVH_NONE, b.upper, 0u));
     adopt(a.reference, 2u * node);

@@ -46,6 +46,9 @@
 #define BVH_TREELET_ROUNDS 3u
 #define BVH_TREELET_CLASSES 32u
 
+// In place of the parent of a node of two: there is none of that number, since clusters became a leaf.
+#define BVH_HOLE 0xFFFFFFFEu
+
 // Clusters that are merged together, those that are left of them, words of one, and neighbours on each side with which one may
 // merge.
 #define BVH_CLUSTERS 256u

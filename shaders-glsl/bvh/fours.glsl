@@ -24,6 +24,11 @@ uint list_word(uint number) {
     return bvh_counts(build.structure) + number;
 }
 
+// False where clusters became a leaf in place of a node of this number.
+bool is_node(BvhNode node) {
+    return BVH_CLUSTER_LEAF == 1u || node.parent != BVH_HOLE;
+}
+
 bool opens_child(uint openings, uint slot) {
     return bitfieldExtract(openings, int(slot), 1) != 0u;
 }

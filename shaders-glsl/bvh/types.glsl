@@ -6,8 +6,11 @@
 #include "contract/types.glsl"
 #include "bvh/constants.glsl"
 
-// Constant id 80 belongs to hierarchies. Children of a node: 2 or 4.
+// Constant ids 80 and 85 belong to hierarchies. Children of a node: 2 or 4.
 layout(constant_id = 80) const uint BVH_WIDTH = 2u;
+
+// Constant id 85: maximum triangles of a leaf that clusters become; 1 where each is a leaf of its own.
+layout(constant_id = 85) const uint BVH_CLUSTER_LEAF = 1u;
 
 // State and sizes of one tree. 96 bytes.
 struct BvhHeader {

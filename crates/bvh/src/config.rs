@@ -71,8 +71,8 @@ pub struct Config {
     /// Children per node; by default two by [`Builder::Lbvh`] and [`Builder::Refit`], whose builds are to be quick, and four by
     /// the others.
     pub width: Option<Width>,
-    /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`], whose heuristic may use fewer, and
-    /// 1 by the others, whose leaves hold one.
+    /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`] and, with four children per node, by
+    /// [`Builder::Ploc`], whose heuristic may use fewer, and 1 by the others, whose leaves hold one.
     pub leaf: Option<u32>,
     /// How the device works on chunks; where absent [`Chunks::Serial`] on software devices and [`Chunks::Shared`] on others.
     pub chunks: Option<Chunks>,
@@ -111,10 +111,16 @@ impl Config {
 
     /// Maximum number of triangles per leaf of the trees that are made.
     pub fn made_leaf(&self) -> u32 {
-        self.leaf.unwrap_or(match self.builder {
-            Builder::Sah => 4,
-            Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => 1,
-        })
+        self.leaf.unwrap_or(if self.chooses_leaves() { 4 } else { 1 })
+    }
+
+    /// True where triangles may share a leaf.
+    fn chooses_leaves(&self) -> bool {
+        match self.builder {
+            Builder::Sah => true,
+            Builder::Ploc => self.made_width() == Width::Four,
+            Builder::Lbvh | Builder::Trbvh | Builder::Refit => false,
+        }
     }
 
     /// Checks ranges, and that the builder makes such trees.
@@ -123,14 +129,14 @@ impl Config {
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
         let leaf = self.made_leaf();
-        if self.builder == Builder::Sah {
+        if self.chooses_leaves() {
             check_range("leaf", leaf, 1..=BVH_LEAF_LIMIT, "1 to 16 triangles per leaf")?;
         } else {
             check_range(
                 "leaf",
                 leaf,
                 1..=1,
-                "1 triangle per leaf of a tree that the device builds, or builder `sah`",
+                "1 triangle per leaf of such a tree, or builder `sah`, or `ploc` with 4 children per node",
             )?;
         }
         check_work_budget(self.work_budget, false)

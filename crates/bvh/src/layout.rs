@@ -180,7 +180,8 @@ mod tests {
             let config = Config::new(builder);
             // What such a tree has may be said.
             assert!(plan(&Config { width: Some(Width::Two), leaf: Some(1), ..config }, 1).is_ok());
-            let leaf = refused(Config { leaf: Some(4), ..config });
+            let two = Config { width: Some(Width::Two), ..config };
+            let leaf = refused(Config { leaf: Some(4), ..two });
             assert!(leaf.contains("leaf is 4") && leaf.contains("builder `sah`"), "{leaf}");
         }
     }

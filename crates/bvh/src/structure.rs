@@ -7,7 +7,7 @@ use rasray_ads::{
     Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Recorder, Requirements};
-use rasray_shaders_glsl::constant_ids::bvh::BVH_WIDTH;
+use rasray_shaders_glsl::constant_ids::bvh::{BVH_CLUSTER_LEAF, BVH_WIDTH};
 use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
 
 use crate::build::Build;
@@ -158,7 +158,8 @@ impl Design for Tree {
     }
 
     fn constants(config: &Config) -> Vec<(u32, u32)> {
-        vec![(BVH_WIDTH, config.made_width().children())]
+        let cluster_leaf = if config.builder == Builder::Ploc { config.made_leaf() } else { 1 };
+        vec![(BVH_WIDTH, config.made_width().children()), (BVH_CLUSTER_LEAF, cluster_leaf)]
     }
 
     fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {

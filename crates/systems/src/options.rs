@@ -400,7 +400,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Same,
         Values::Whole(1, 16),
         &["1", "16"],
-        "Maximum triangles per leaf: 4 with `builder` sah unless given, 1 with the others",
+        "Maximum triangles per leaf: 4 with `builder` sah unless given, and with ploc where nodes have four children; 1 with the others",
     ),
     switch("sort", Speed, Same, "Sort the fragments of a cell by depth"),
     switch("skip", Speed, SameWithoutLoss, "Skip empty space"),

@@ -113,7 +113,7 @@ fn configurations(builder: Builder) -> Vec<(String, Config, Option<u32>)> {
             ));
         }
     }
-    if builder == Builder::Sah {
+    if matches!(builder, Builder::Sah | Builder::Ploc) {
         for leaf in [1, 2, 8, 16] {
             configurations.push((
                 format!("{leaf} triangles per leaf"),
