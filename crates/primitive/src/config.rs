@@ -112,7 +112,7 @@ impl Config {
             views: Views::Cube,
             storage: Storage::Contiguous,
             centre: Centre::Scene,
-            builder: Builder::Raster,
+            builder: Builder::Binning,
             pyramid: true,
             pyramid_start: PyramidStart::Finest,
             coverage: Coverage::Conservative,
@@ -131,6 +131,7 @@ impl Config {
     /// The paper's structure: linked lists, 20 buckets, and its rules, by which hits are lost.
     pub fn published(resolution: u32) -> Self {
         Self {
+            builder: Builder::Raster,
             buckets: 20,
             storage: Storage::Linked,
             centre: Centre::Eye,

@@ -71,6 +71,10 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
     Given::apply_all(spec, OPTIONS, &mut config)?;
+    // Other coverages are drawn.
+    if spec.options().get("builder").is_none() && config.coverage != Coverage::Conservative {
+        config.builder = Builder::Raster;
+    }
     config.validate()?;
     Ok(config)
 }

@@ -223,7 +223,7 @@ fn every_published_rule_loses_hits() {
     };
     let (coarse, fine) = (lists_of(1, 4), lists_of(64, 8));
     for (rule, config, least) in [
-        ("coverage", Config { coverage: Coverage::Hardware, ..fine }, 100),
+        ("coverage", Config { coverage: Coverage::Hardware, builder: Builder::Raster, ..fine }, 100),
         ("stop", Config { stop: Stop::Bucket, ..coarse }, 10),
         ("depths", Config { depths: Depths::Corners, ..fine }, 10),
         ("march", Config { march: March::Jump, ..fine }, 10),
@@ -261,7 +261,8 @@ fn what_the_extension_touches_is_part_of_conservative_lists() {
     let bench = Bench::new();
     let (triangles, rays) = (crossing(), Random::new(5).rays(20_000, -9.0, 9.0));
     let conservative = Config { tile: 1, buckets: 1, ..Config::robust(64) };
-    let extension = Config { coverage: Coverage::ConservativeExtension, ..conservative };
+    let extension =
+        Config { coverage: Coverage::ConservativeExtension, builder: Builder::Raster, ..conservative };
     assert!(conservative.is_exact() && !extension.is_exact());
     if !bench.device().has(Feature::ConservativeRasterization) {
         let made = PrimitiveLists::new(bench.device(), extension, &bench.geometry(&triangles), None);
