@@ -1,19 +1,19 @@
-//! What options choose between, and their numbers in shaders.
+//! Values that options choose between, and their numbers in shaders.
 
 use rasray_ads::words;
 use rasray_shaders_glsl::constants::abuffer as numbers;
 
-/// How a ray steps through cells.
+/// Method of stepping a ray through cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
     /// Steps of equal length on the screen, at most [`Config::samples`](crate::Config::samples) per face. Cells
     /// between are not visited.
     Samples,
-    /// The same with as many steps as keep each to a cell of the longer axis, as the paper's march without its limit.
+    /// As many steps as keep each to a cell of the longer axis, as the paper's march without its limit.
     Dda,
     /// Every cell the ray crosses.
     Exact,
-    /// The same hits with skips over blocks of cells that hold nothing at the ray's depths.
+    /// The hits of [`March::Exact`] with skips over blocks of cells that hold nothing at the ray's depths.
     Pyramid,
 }
 
@@ -35,7 +35,8 @@ impl March {
 pub enum Accept {
     /// Its depth lies in the ray's half-open depth interval within the cell.
     Interval,
-    /// The same, with each fragment extended away from the eye by [`Config::thickness`](crate::Config::thickness).
+    /// As [`Accept::Interval`], with each fragment extended away from the eye by
+    /// [`Config::thickness`](crate::Config::thickness).
     Thickness,
     /// The depths that its triangle takes within the cell overlap those of the ray. Needs [`Payload::Index`].
     Slope,
@@ -46,7 +47,7 @@ pub enum Accept {
 words! { Accept { Interval "interval", Thickness "thickness", Slope "slope", Plane "plane" } }
 
 impl Accept {
-    /// Whether it looks at more of the fragment's triangle than its depth; then cells store how far triangles
+    /// True if it looks at more of the fragment's triangle than its depth; then cells store how far triangles
     /// reach in depth.
     pub fn needs_triangles(self) -> bool {
         matches!(self, Self::Slope | Self::Plane)
@@ -62,7 +63,7 @@ impl Accept {
     }
 }
 
-/// What a fragment carries in addition to its node.
+/// Data that a fragment carries in addition to its node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
     /// The triangle's id, 4 bytes: plane and surface come from the posed triangle.
@@ -80,7 +81,7 @@ pub enum Payload {
 words! { Payload { Index "index", Attributes "attributes", Normal "normal", Plane "plane" } }
 
 impl Payload {
-    /// Whether it is read from a scene while fragments are stored.
+    /// True if it is read from a scene while fragments are stored.
     pub fn needs_scene(self) -> bool {
         matches!(self, Self::Attributes | Self::Normal)
     }
@@ -95,16 +96,16 @@ impl Payload {
     }
 }
 
-/// How it is decided which cells a triangle covers.
+/// Test of which cells a triangle covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
     /// The rasterizer, with its sub-pixel grid.
     Hardware,
     /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
     Exact,
-    /// The same, and a triangle that reaches into a cell outside of its centre is kept in the cell's conservative list:
-    /// edge-on ones, silhouettes, and what is smaller than a cell. Rays then test triangles, not their
-    /// planes, and find what brute force finds ([`Config::is_exact`](crate::Config::is_exact)). Needs
+    /// As [`Coverage::Exact`], and a triangle that reaches into a cell outside of its centre is kept in the cell's
+    /// conservative list: edge-on ones, silhouettes, and what is smaller than a cell. Rays then test triangles, not
+    /// their planes, and find what brute force finds ([`Config::is_exact`](crate::Config::is_exact)). Needs
     /// [`Accept::Plane`].
     Conservative,
     /// As [`Coverage::Exact`], and of the triangles that reach into a cell outside of its centre, those are kept
@@ -127,7 +128,7 @@ impl Coverage {
     }
 }
 
-/// What the depth bounds of a cell enclose before its fragments are stored. Changes no hit.
+/// Enclosure of the depth bounds of a cell before its fragments are stored. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bounds {
     /// The fragments that it will have: all triangles are drawn once more.
@@ -153,22 +154,22 @@ impl Bounds {
 pub enum Views {
     /// Six faces of a cube around the eye: all that is around it.
     Cube,
-    /// The same, and what the camera sees, with
+    /// The faces of the cube, and the camera's view with
     /// [`Config::camera_resolution`](crate::Config::camera_resolution) columns and rows.
     CubeCamera,
-    /// What the camera sees and nothing else: rays hit nothing outside of its pyramid.
+    /// The camera's view and nothing else: rays hit nothing outside of its pyramid.
     Camera,
 }
 
 words! { Views { Cube "cube", CubeCamera "cube+camera", Camera "camera" } }
 
 impl Views {
-    /// Whether the faces of the cube are among them.
+    /// True if the faces of the cube are among them.
     pub fn has_cube(self) -> bool {
         self != Self::Camera
     }
 
-    /// Whether the camera's view is among them.
+    /// True if the camera's view is among them.
     pub fn has_camera(self) -> bool {
         self != Self::Cube
     }
@@ -179,7 +180,7 @@ impl Views {
     }
 }
 
-/// How a ray passes from one view to the next.
+/// Switching of a ray from one view to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ViewSwitching {
     /// At the sides of the views' pyramids, which leave nothing out; every view that sees a part of the ray is searched
@@ -202,7 +203,7 @@ impl ViewSwitching {
     }
 }
 
-/// How the fragments of a cell are kept (MMRT table 2). Changes no hit.
+/// Storage of the fragments of a cell (MMRT table 2). Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
     /// One linked list per cell, read from its near end.
@@ -222,12 +223,12 @@ pub enum Storage {
 words! { Storage { Ll "ll", Dll "dll", Llb "llb", Dllb "dllb", Sb "sb", Paged "paged" } }
 
 impl Storage {
-    /// Whether a cell has depth bounds and a list per bucket.
+    /// True if a cell has depth bounds and a list per bucket.
     pub fn is_bucketed(self) -> bool {
         matches!(self, Self::Llb | Self::Dllb | Self::Paged)
     }
 
-    /// Whether nodes link both ways.
+    /// True if nodes link both ways.
     pub fn is_doubly_linked(self) -> bool {
         matches!(self, Self::Dll | Self::Dllb)
     }

@@ -16,9 +16,9 @@ pub struct Config {
     /// other odd, the smaller one is increased by one ([`Config::camera_cells`]), so that the cells lie evenly around
     /// the axis.
     pub camera_resolution: [u32; 2],
-    /// How rays pass from view to view.
+    /// Switching of rays from view to view.
     pub view_switching: ViewSwitching,
-    /// How a cell's fragments are kept. Changes no hit.
+    /// Storage of a cell's fragments. Changes no hit.
     pub storage: Storage,
     /// Payload within the nodes instead of in a pool of its own. Changes no hit.
     pub inline: bool,
@@ -31,7 +31,7 @@ pub struct Config {
     /// [`Coverage::Conservative`] and [`Coverage::EdgeOn`]. Rays then hit nothing that is behind something
     /// else as seen from the eye.
     pub single_layer: bool,
-    /// How rays step.
+    /// Stepping of rays.
     pub march: March,
     /// Maximum of samples per face, 1 to 65535; only for [`March::Samples`].
     pub samples: u32,
@@ -44,28 +44,28 @@ pub struct Config {
     /// geometry: `f / n` for `n` cells along a side, or samples per face where these are fewer, and `f` the largest
     /// coordinate of the geometry relative to the eye; more for a camera's view with wider cells.
     pub thickness: Option<f32>,
-    /// What a fragment carries.
+    /// Data that a fragment carries.
     pub payload: Payload,
     /// For diagnostics: keep the triangle of each fragment behind a payload without it. Hits then name it,
     /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
     pub ids: bool,
-    /// How coverage is decided.
+    /// Coverage test.
     pub coverage: Coverage,
-    /// What the depth bounds of cells enclose. [`Bounds::Boxes`] goes with lists by depth bucket only, with
+    /// Enclosure of the depth bounds of cells. [`Bounds::Boxes`] goes with lists by depth bucket only, with
     /// [`Builder::Raster`], and not with [`Coverage::Hardware`]. Changes no hit.
     pub bounds: Bounds,
-    /// How triangles are binned into cells. Changes no hit.
+    /// Builder that bins triangles into cells. Changes no hit.
     pub builder: Builder,
     /// Sort lists, so that a search can end early. Changes no hit.
     pub sort: bool,
     /// Skip cells and buckets that the ray's depths cannot overlap. Changes no hit.
     pub skip: bool,
-    /// How pools are reached. Changes no hit.
+    /// Addressing of pools. Changes no hit.
     pub addressing: Addressing,
     /// Fragments, or pages of them, to allocate for the first build; a guess from the resolution where
     /// absent.
     pub fragments: Option<u64>,
-    /// How much of their work rays record. Changes no hit.
+    /// Counters that rays record of their work. Changes no hit.
     pub counters: Counters,
     /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
     pub work_budget: Option<u32>,
@@ -217,8 +217,8 @@ impl Config {
         Err(AdsError::Option { option: "bounds", value: self.bounds.name().to_owned(), expected })
     }
 
-    /// Whether every hit equals that of brute force: cells keep every triangle that reaches into them, and rays
-    /// visit every cell that they cross, all around the eye.
+    /// True if every hit equals that of brute force: cells keep every triangle that reaches into them, and rays visit
+    /// every cell that they cross, all around the eye.
     pub fn is_exact(&self) -> bool {
         self.tests_triangles()
             && matches!(self.march, March::Exact | March::Pyramid)
@@ -238,17 +238,17 @@ impl Config {
         }
     }
 
-    /// Whether cells may keep triangles outside of their centres, with the other options that there are.
+    /// True if cells may keep triangles outside of their centres, with the other options that there are.
     pub fn may_test_triangles(&self) -> bool {
         self.accept == Accept::Plane && self.payload == Payload::Index && !self.single_layer
     }
 
-    /// Whether cells keep triangles outside of their centres.
+    /// True if cells keep triangles outside of their centres.
     pub(crate) fn has_conservative_lists(&self) -> bool {
         matches!(self.coverage, Coverage::Conservative | Coverage::EdgeOn)
     }
 
-    /// Whether rays intersect fragments by their triangles, not by the planes of these.
+    /// True if rays intersect fragments by their triangles, not by the planes of these.
     pub(crate) fn tests_triangles(&self) -> bool {
         self.coverage == Coverage::Conservative
     }
@@ -259,18 +259,18 @@ impl Config {
         if self.coverage == Coverage::EdgeOn { 2 } else { 1 }
     }
 
-    /// Whether cells know the smallest and largest depth of their fragments.
+    /// True if cells know the smallest and largest depth of their fragments.
     pub(crate) fn has_ends(&self) -> bool {
         self.storage.is_bucketed() || self.march == March::Pyramid || self.single_layer
     }
 
-    /// Whether depth bounds are found before fragments are stored.
+    /// True if depth bounds are found before fragments are stored.
     pub(crate) fn has_bounds_pass(&self) -> bool {
         self.storage.is_bucketed() || self.single_layer
     }
 
-    /// Whether the fragments of a cell are kept by depth in several lists: a single layer has one list,
-    /// whatever the storage.
+    /// True if the fragments of a cell are kept by depth in several lists: a single layer has one list, whatever the
+    /// storage.
     pub(crate) fn has_buckets(&self) -> bool {
         self.storage.is_bucketed() && !self.single_layer
     }

@@ -1,6 +1,6 @@
-//! What the check of a built A-buffer may find.
+//! Faults that the check of a built A-buffer may find.
 
-/// What is wrong with a list.
+/// Fault of a list.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -39,9 +39,9 @@ pub enum Fault {
         bucket: usize,
         /// The node's link.
         link: u32,
-        /// What is stored.
+        /// Backward link stored.
         prev: u32,
-        /// What should be.
+        /// Backward link expected.
         expected: u32,
     },
     /// A contiguous list does not begin where the one before it ends.
@@ -49,9 +49,9 @@ pub enum Fault {
     Place {
         /// Cell.
         cell: usize,
-        /// What is stored.
+        /// Beginning stored.
         first: u32,
-        /// What should be.
+        /// Beginning expected.
         expected: usize,
     },
     /// A page is in two lists, or has more or fewer used slots than the word that leads to it says.
@@ -73,7 +73,7 @@ pub enum Fault {
         cell: usize,
         /// The node's link.
         link: u32,
-        /// What is stored.
+        /// Payload stored.
         place: u32,
     },
     /// The tail is not the last node.
@@ -83,7 +83,7 @@ pub enum Fault {
         cell: usize,
         /// Bucket.
         bucket: usize,
-        /// What is stored.
+        /// Tail stored.
         tail: u32,
         /// The last node's link.
         last: u32,

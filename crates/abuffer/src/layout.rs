@@ -137,14 +137,14 @@ pub(crate) fn bounds_and_blocks(config: &Config) -> u64 {
     cell_count(config) * bounds_words(config) + pyramid_words(config) + box_words(config)
 }
 
-/// What the pool of scratch holds: the sums of the scan of contiguous lists, and the words that binning and sorting use.
+/// Contents of the scratch pool: the sums of the scan of contiguous lists, and the words that binning and sorting use.
 pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
     let lists = cell_count(config) * u64::from(config.lists());
     let sums = if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 };
     Scratch { pool: Pool::Scratch, sums, builder: config.builder, sorts: true }
 }
 
-/// What an A-buffer of this configuration allocates for a demand.
+/// Sizes of the pools of an A-buffer of this configuration for a demand.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit links can address.

@@ -29,7 +29,7 @@ pub use rasray_shaders_glsl::records::AbufferHeader as Header;
 pub use structure::ABuffer;
 pub use validate::{Contents, Fragment, well_formed};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

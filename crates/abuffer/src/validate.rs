@@ -48,7 +48,7 @@ impl Contents {
         self.header.demand.min(self.header.capacity) as usize * self.slots()
     }
 
-    /// Whether all that the build found was stored.
+    /// True if all that the build found was stored.
     fn complete(&self) -> bool {
         self.header.demand <= self.header.capacity
     }
@@ -144,7 +144,7 @@ impl Contents {
         Ok(cells)
     }
 
-    /// What the cells of each view hold; triangles of conservative lists are no layers.
+    /// Counts what the cells of each view hold; triangles of conservative lists are no layers.
     ///
     /// # Errors
     /// As [`Contents::fragments`].
@@ -187,7 +187,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     let config = &contents.config;
     let buckets = config.lists() as usize;
     let stored = contents.stored();
-    // What is not complete is not sorted.
+    // Incomplete lists are not sorted.
     let sorted = config.sort && contents.header.unsorted == 0 && contents.complete();
     let mut named = vec![false; stored];
     let mut pages = vec![false; stored / contents.slots()];

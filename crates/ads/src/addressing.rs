@@ -1,4 +1,4 @@
-//! How shaders reach the pools of a structure, and which modules a structure uses for it.
+//! Addressing of the pools of a structure by shaders, and the modules that a structure uses for it.
 
 use crate::words;
 use std::collections::BTreeMap;
@@ -9,7 +9,7 @@ use rasray_shaders_glsl::Shader;
 
 use crate::{AdsError, SceneBinding};
 
-/// How shaders reach the pools. Changes no hit.
+/// Way in which shaders reach the pools. Changes no hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Addressing {
     /// Storage-buffer descriptors; a pool is limited to `maxStorageBufferRange`.
@@ -57,7 +57,7 @@ pub struct Modules {
     pub structure: &'static str,
     /// Folder of its shaders.
     pub prefix: &'static str,
-    /// How its shaders reach the pools.
+    /// Addressing of the pools by its shaders.
     pub addressing: Addressing,
 }
 
@@ -118,8 +118,8 @@ impl Modules {
         self.trace_variant("", scene)
     }
 
-    /// The same for a structure whose trace modules are compiled once per option value: `variant` is the suffix of
-    /// their names, such as `.cells`.
+    /// Modules of [`Modules::trace`] for a structure whose trace modules are compiled once per option value: `variant`
+    /// is the suffix of their names, such as `.cells`.
     ///
     /// # Errors
     /// As [`Modules::trace`].

@@ -19,7 +19,7 @@ const KEY_BYTES: u64 = size_of::<[u32; 3]>() as u64;
 #[derive(Debug)]
 pub struct BoundsPass {
     measure: ComputePipeline,
-    /// The same, before indices are gathered.
+    /// As `measure`, before indices are gathered.
     measure_gathered: ComputePipeline,
     end: ComputePipeline,
     unite: ComputePipeline,

@@ -20,12 +20,12 @@ pub struct BruteForce {
     sizes: Sizes,
     work_budget: u32,
     slots: u32,
-    /// Whether a build of these triangles was recorded, or none is needed.
+    /// True if a build of these triangles was recorded, or none is needed.
     is_readable: bool,
 }
 
 impl BruteForce {
-    /// What a device must offer.
+    /// Requirements of a device.
     pub fn requirements_of() -> Requirements {
         let mut requirements = Requirements::compute();
         MODULES.add_to(&mut requirements);

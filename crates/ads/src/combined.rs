@@ -28,7 +28,7 @@ impl Combined {
     /// Makes the structures, the static one first.
     ///
     /// # Errors
-    /// What `make` returns, or [`AdsError::InParts`] for structures that are not of a kind.
+    /// The error of `make`, or [`AdsError::InParts`] for structures that are not of a kind.
     pub fn new<E: From<AdsError>>(
         geometry: &GeometryParts,
         make: impl FnMut(&Geometry) -> Result<Box<dyn Structure>, E>,
@@ -64,7 +64,7 @@ impl Combined {
     /// Changes the structure of a part, which is numbered as for [`Combined::part`].
     ///
     /// # Errors
-    /// What `change` returns.
+    /// The error of `change`.
     ///
     /// # Panics
     /// There is no such part.

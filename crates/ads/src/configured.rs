@@ -1,15 +1,15 @@
-//! What the configurations and the contents of all structures have in common.
+//! Common options and methods of the configurations and contents of all structures.
 
 use std::ops::RangeInclusive;
 
 use crate::{Addressing, AdsError, Counters};
 
-/// What every configuration has.
+/// Options of every configuration.
 #[derive(Clone, Copy, Debug)]
 pub struct Common {
-    /// How shaders reach the pools.
+    /// Addressing of the pools by shaders.
     pub addressing: Addressing,
-    /// How much of their work rays record.
+    /// Counters that rays record of their work.
     pub counters: Counters,
     /// Work units per dispatch; [`default_work_budget`](crate::default_work_budget) where absent.
     pub work_budget: Option<u32>,
@@ -17,7 +17,7 @@ pub struct Common {
 
 /// A configuration of a structure; [`configured!`](crate::configured) makes one of a struct.
 pub trait Configured {
-    /// What every configuration has.
+    /// Options that every configuration has.
     fn common(&self) -> Common;
 }
 

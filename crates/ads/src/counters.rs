@@ -1,6 +1,6 @@
 use rasray_shaders_glsl::constants::contract;
 
-/// How much of their work rays record. Changes no hit. Each value includes those before it.
+/// Amount of their work that rays record. Changes no hit. Each value includes those before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Counters {
     /// Nothing.

@@ -1,4 +1,4 @@
-//! What defines one structure: the part that it shares with no other.
+//! Definition of one structure: the part that it shares with no other.
 
 use std::fmt;
 
@@ -29,7 +29,7 @@ pub trait Demand: Copy {
     fn zip(self, other: Self, with: impl FnMut(&'static str, u64, u64) -> u64) -> Self;
 }
 
-/// What a structure is made of and works on, except its passes.
+/// Parts that a structure is made of and works on, except its passes.
 #[derive(Debug)]
 pub struct Parts<C> {
     /// The configuration.
@@ -61,12 +61,13 @@ impl<C> Parts<C> {
         usual_rounds(self.work_budget)
     }
 
-    /// The same for structures of triangles in cells, which test rays from far outside against every triangle.
+    /// As [`Parts::usual_rounds`] for structures of triangles in cells, which test rays from far outside against every
+    /// triangle.
     pub fn rounds_with_distant_rays(&self) -> u32 {
         self.usual_rounds() + 2 * self.rounds(self.geometry.triangle_count())
     }
 
-    /// What passes work on.
+    /// Target of the passes of a build.
     pub fn target<'a>(&'a self, scene: Option<&'a BindingSet>) -> BuildTarget<'a> {
         BuildTarget { geometry: &self.geometry, pools: &self.pools, header_pass: &self.header_pass, scene }
     }
@@ -79,12 +80,13 @@ fn usual_rounds(work_budget: u32) -> u32 {
     ((SMALL * TRACE_WORK_BUDGET).div_ceil(work_budget) + 1).min(SMALL)
 }
 
-/// What one structure defines; [`Pooled`](crate::Pooled) does the rest. A value holds the pipelines of the build,
+/// Definition of one structure; [`Pooled`](crate::Pooled) does the rest. A value holds the pipelines of the build,
 /// and data that a build keeps on the host.
 pub trait Design: fmt::Debug + Sized {
     /// Options.
     type Config: Configured + fmt::Debug + Copy;
-    /// What shaders start from. Its first word is the status that the last pass of a build writes, bits `STATUS_*`.
+    /// Header that shaders start from. Its first word is the status that the last pass of a build writes, bits
+    /// `STATUS_*`.
     type Header: Pod;
     /// The demand of builds.
     type Demand: Demand;
@@ -95,23 +97,23 @@ pub trait Design: fmt::Debug + Sized {
 
     /// [`Structure::name`](crate::Structure::name); the folder of its shaders, and the prefix of what they declare.
     const NAME: &'static str;
-    /// What errors call it: "the A-buffer".
+    /// Name in errors: "the A-buffer".
     const TITLE: &'static str;
-    /// Whether passes of the build read the scene.
+    /// True if passes of the build read the scene.
     const BUILD_READS_SCENE: bool;
     /// Byte of the header at which list entries with an invalid index are counted.
     const CORRUPTED: usize;
     /// Byte of the header at which lists too long to be sorted are counted; absent where none is.
     const UNSORTED: Option<usize> = None;
-    /// What it shares with its shaders, the header first.
+    /// Records that it shares with its shaders, the header first.
     const RECORDS: &'static [RecordLayout];
-    /// Whether the surface of every hit is `scene_surface` of its triangle.
+    /// True if the surface of every hit is `scene_surface` of its triangle.
     const HAS_SURFACES_OF_TRIANGLES: bool = false;
 
-    /// What its hits are.
+    /// Kind of its hits.
     fn kind(config: &Self::Config) -> StructureKind;
 
-    /// What makes a build stale, in addition to the triangles.
+    /// Changes that make a build stale, in addition to the triangles.
     fn depends_on(config: &Self::Config) -> Dependencies;
 
     /// As for [`Structure::is_stale`](crate::Structure::is_stale).
@@ -119,13 +121,13 @@ pub trait Design: fmt::Debug + Sized {
         Self::depends_on(&parts.config).are_stale(built, wanted)
     }
 
-    /// What it requires of a device in addition to what its modules require.
+    /// Requirements of a device in addition to those of its modules.
     fn requirements(config: &Self::Config) -> Requirements;
 
     /// Specialisation constants: id and bits.
     fn constants(config: &Self::Config) -> Vec<(u32, u32)>;
 
-    /// Whether it has first hits of camera rays without a trace, by a module `first_hits`.
+    /// True if it has first hits of camera rays without a trace, by a module `first_hits`.
     fn has_first_hits(_config: &Self::Config) -> bool {
         false
     }
@@ -188,7 +190,7 @@ pub trait Design: fmt::Debug + Sized {
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError>;
 
-    /// Whether [`Design::prepare`] works on the triangles.
+    /// True if [`Design::prepare`] works on the triangles.
     fn builds_on_host(_config: &Self::Config) -> bool {
         false
     }
@@ -239,7 +241,7 @@ pub trait Design: fmt::Debug + Sized {
     /// The capacity of the pools, in the terms of the demand.
     fn capacity(parts: &Parts<Self::Config>) -> Self::Demand;
 
-    /// Whether the demand of that name varies slightly with the order in which threads run: by one in
+    /// True if the demand of that name varies slightly with the order in which threads run: by one in
     /// [`VARYING_SHARE`](crate::VARYING_SHARE).
     fn varies(_config: &Self::Config, _name: &str) -> bool {
         false
@@ -267,13 +269,13 @@ pub trait Design: fmt::Debug + Sized {
     /// The report, but for [`StructureReport::bytes_by_part`].
     fn report(parts: &Parts<Self::Config>, header: &Self::Header, asked: &Self::Demand) -> StructureReport;
 
-    /// What is wrong with the pools after a build over that number of triangles.
+    /// Fault of the pools, if any, after a build over that number of triangles.
     fn fault(contents: &Self::Contents, triangles: u32) -> Option<String>;
 
     /// [`Structure::list_counts`](crate::Structure::list_counts) of a complete build.
     ///
     /// # Errors
-    /// What is wrong with the lists.
+    /// Fault of the lists.
     fn list_counts(_contents: &Self::Contents) -> Result<Vec<ListCounts>, String> {
         Ok(Vec::new())
     }

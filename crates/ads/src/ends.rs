@@ -1,13 +1,13 @@
-//! What rays hit at their ends.
+//! Hits of rays at their ends.
 
 use crate::words;
 use rasray_shaders_glsl::constants::ads::{ENDS_CLEAR, ENDS_TOUCHING};
 
-/// Whether fragments count that are as close to an end of a ray as those of the surface there. Of structures whose fragments
+/// Use of fragments that are as close to an end of a ray as those of the surface there. Of structures whose fragments
 /// do not say which triangle they are of, or where it is hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
-    /// They do: rays hit what they leave and what they end on.
+    /// They count: rays hit what they leave and what they end on.
     Touching,
     /// A ray starts beyond those of the triangle that it leaves, and those where it ends do not count.
     Clear,

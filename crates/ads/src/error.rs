@@ -34,9 +34,9 @@ pub enum AdsError {
     Option {
         /// Name of the option.
         option: &'static str,
-        /// What was given.
+        /// Value given.
         value: String,
-        /// What is possible.
+        /// Values possible.
         expected: &'static str,
     },
     /// A pool needs more elements than its indices can address.
@@ -65,13 +65,13 @@ pub enum AdsError {
     OtherScene {
         /// Name of the structure.
         structure: &'static str,
-        /// What differs.
+        /// Parts that differ.
         what: &'static str,
     },
     /// A geometry's counts or bounds do not describe its buffers.
     #[error("the geometry cannot be used: {reason}")]
     Geometry {
-        /// What is wrong, and with which numbers.
+        /// Fault, with its numbers.
         reason: String,
     },
     /// Buffers that a queue of rays cannot be made of.
@@ -103,7 +103,7 @@ pub enum AdsError {
     Damaged {
         /// Name of the structure.
         structure: &'static str,
-        /// What is wrong with them.
+        /// Fault of the lists.
         fault: String,
     },
     /// A build was recorded without the host's part.

@@ -39,14 +39,14 @@ pub struct Geometry {
     check: ComputePipeline,
     layout: SetLayout,
     set: BindingSet,
-    /// What a structure's status says that was built for these triangles; the first of several where only the device
+    /// Number in the status of a structure built for these triangles; the first of several where only the device
     /// knows their number.
     stamp: u32,
     /// Where only the device knows the number of triangles.
     count: Option<Count>,
     /// Where indices are not read in place.
     gather: Option<Gather>,
-    /// What it is a part of.
+    /// Geometry that this is a part of.
     whole: Option<Box<Self>>,
     space: Space,
 }
@@ -101,7 +101,7 @@ fn rigid_place(bound_runs: usize) -> usize {
     (size_of::<GeometryHeader>() + bound_runs * size_of::<Run>()).next_multiple_of(size_of::<GeometryRigid>())
 }
 
-/// Whether shaders read indices that a pass gathers, those of the whole included.
+/// True if shaders read indices that a pass gathers, those of the whole included.
 fn gathers(gather: Option<&Gather>, whole: Option<&Geometry>) -> bool {
     gather.is_some() || whole.is_some_and(|whole| whole.gather.is_some())
 }
@@ -185,7 +185,7 @@ impl Geometry {
             }
             _ => None,
         };
-        // What is built for the triangles in a space of their own is traced with these.
+        // A structure of triangles in a space of their own is traced with these.
         let stamp = match &space {
             Space::Mapped(rest) => rest.stamp,
             Space::World | Space::Own => {
@@ -236,7 +236,7 @@ impl Geometry {
         Ok(Self { desc, header, check, layout, set, stamp, count, gather, whole, space })
     }
 
-    /// The same triangles in a space of their own, where they do not move: what is built for these is traced with the part.
+    /// The triangles in a space of their own, where they do not move: a structure of these is traced with the part.
     pub(crate) fn rest(&self) -> Option<&Self> {
         match &self.space {
             Space::Mapped(rest) => Some(rest),
@@ -276,13 +276,13 @@ impl Geometry {
         }
     }
 
-    /// Whether a structure with this status was built for these triangles, as far as the host knows their number.
+    /// True if a structure with this status was built for these triangles, as far as the host knows their number.
     pub(crate) fn is_of(&self, status: u32) -> bool {
         let stamps = if self.count.is_some() { GEOMETRY_COUNT_STAMPS } else { 1 };
         (status & !STATUS_FLAGS).wrapping_sub(self.stamp) < stamps * STAMP_STEP
     }
 
-    /// Whether triangles cannot be read before [`Geometry::record_gather`].
+    /// True if triangles cannot be read before [`Geometry::record_gather`].
     pub(crate) fn is_gathered(&self) -> bool {
         self.count.is_some() || gathers(self.gather.as_ref(), self.whole.as_deref())
     }
@@ -363,7 +363,7 @@ impl Geometry {
     /// vertices per triangle and one instance per view.
     pub fn record_draw(&self, recorder: &mut Recorder<'_>, views: u32) {
         match &self.count {
-            // What lies beyond the arguments is a mistake of the recording.
+            // A place beyond the arguments is a mistake of the recording.
             Some(count) => {
                 let place = u64::from(views.wrapping_sub(1)) * DRAW_ARGUMENT_BYTES;
                 recorder.draw_indirect(&count.draw_arguments, place);
@@ -388,8 +388,8 @@ impl Geometry {
         recorder.release(&ranges, to_family, READERS);
     }
 
-    /// What is read of the buffers handed in, in bytes: positions, indices, draws and count. No byte is in two ranges: those
-    /// that overlap or touch are joined.
+    /// Ranges read of the buffers handed in, in bytes: positions, indices, draws and count. No byte is in two ranges:
+    /// those that overlap or touch are joined.
     pub fn ranges(&self, device: &Device) -> Vec<BufferRange<'_>> {
         self.desc.ranges(device)
     }
@@ -436,8 +436,8 @@ impl Geometry {
         &self.header
     }
 
-    /// Whether it is a part of another geometry ([`Geometry::parts`]): its triangles are numbered from 0 in its indices, hits
-    /// on them have the ids of the whole.
+    /// True for a part of another geometry ([`Geometry::parts`]): its triangles are numbered from 0 in its indices,
+    /// hits on them have the ids of the whole.
     pub fn is_part(&self) -> bool {
         self.whole.is_some()
     }
@@ -447,7 +447,7 @@ impl Geometry {
         self.whole.as_deref().unwrap_or(self)
     }
 
-    /// What it was made from.
+    /// Description that it was made from.
     pub fn desc(&self) -> &GeometryDesc {
         &self.desc
     }

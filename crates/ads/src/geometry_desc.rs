@@ -32,7 +32,7 @@ pub struct IndexRange {
     pub buffer: Buffer,
     /// Byte of the first one, a multiple of the format's bytes.
     pub offset: u64,
-    /// What an index is.
+    /// Format of an index.
     pub format: IndexFormat,
     /// Which vertex an index refers to.
     pub indexing: Indexing,
@@ -46,7 +46,7 @@ impl From<Buffer> for IndexRange {
 }
 
 impl IndexRange {
-    /// Whether shaders read other indices than these, namely those that builds gather from them.
+    /// True if shaders read other indices than these, namely those that builds gather from them.
     pub(crate) fn is_gathered(&self) -> bool {
         self.format != IndexFormat::U32 || self.indexing != Indexing::Absolute
     }
@@ -124,23 +124,23 @@ pub struct GeometryDesc {
     /// before a build; structures are planned by these, and built by those on the device. A build that finds a corner
     /// outside of those is not complete, and counts the triangles with one.
     pub bounds: [[f32; 3]; 2],
-    /// What positions are relative to, metres, world.
+    /// Origin of positions, metres, world.
     pub frame_origin: [f64; 3],
 }
 
 /// Bytes of one input.
 struct Span<'a> {
-    /// What it holds, for errors.
+    /// Name of its contents, for errors.
     what: String,
     buffer: &'a Buffer,
     offset: u64,
     bytes: u64,
-    /// What the offset is a multiple of.
+    /// Divisor of the offset, in bytes.
     alignment: u64,
 }
 
 impl<'a> Span<'a> {
-    /// What is bound, and the bytes of it that come before this one, where bindings begin at multiples of `alignment`.
+    /// Range to bind, and its bytes that come before this input, where bindings begin at multiples of `alignment`.
     fn binding(&self, alignment: u64) -> (BufferRange<'a>, u64) {
         let Self { buffer, offset, bytes, .. } = *self;
         if bytes == 0 {
@@ -186,7 +186,7 @@ impl GeometryDesc {
         Ok(())
     }
 
-    /// What is read of the buffers. No byte is in two ranges: those that overlap or touch are joined.
+    /// Ranges read of the buffers. No byte is in two ranges: those that overlap or touch are joined.
     pub(crate) fn ranges(&self, device: &Device) -> Vec<BufferRange<'_>> {
         let mut spans = self.spans(device);
         spans.retain(|span| span.bytes > 0);
@@ -254,7 +254,7 @@ impl GeometryDesc {
         spans
     }
 
-    /// What is bound of positions, indices, draws and count, in this order: from the last byte that a binding may begin
+    /// Ranges bound of positions, indices, draws and count, in this order: from the last byte that a binding may begin
     /// at before the first one read. With each the bytes that come before.
     pub(crate) fn bindings(&self, device: &Device) -> Vec<(BufferRange<'_>, u64)> {
         let alignment = device.limits().min_storage_buffer_offset_alignment.max(4);

@@ -1,5 +1,5 @@
-//! What of a geometry the device works out before shaders read it: a number of triangles that only the device knows, and
-//! indices that are not read in place.
+//! Inputs of a geometry that the device works out before shaders read them: a number of triangles that only the device
+//! knows, and indices that are not read in place.
 
 use rasray_gpu::{
     BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
@@ -20,7 +20,7 @@ pub(crate) const TRIANGLE_INDEX_BYTES: u64 = size_of::<[u32; 3]>() as u64;
 /// Bytes of the arguments of an indirect draw.
 pub(crate) const DRAW_ARGUMENT_BYTES: u64 = 16;
 
-/// What `ads/geometry_count` works with.
+/// Pipeline and buffers of `ads/geometry_count`.
 #[derive(Clone, Debug)]
 pub(crate) struct Count {
     pub(crate) pipeline: ComputePipeline,
@@ -30,7 +30,7 @@ pub(crate) struct Count {
     pub(crate) draw_arguments: Buffer,
 }
 
-/// What `ads/geometry_gather` works with.
+/// Pipeline and buffers of `ads/geometry_gather`.
 #[derive(Clone, Debug)]
 pub(crate) struct Gather {
     pub(crate) pipeline: ComputePipeline,

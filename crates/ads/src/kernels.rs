@@ -13,7 +13,7 @@ use crate::{
     AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, SceneBinding, TraceMode, TraceModules,
 };
 
-/// What a structure is traced for.
+/// Triangles that a structure is traced for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TracedPart {
     /// All triangles.
@@ -28,7 +28,7 @@ pub enum TracedPart {
         /// Parts traced after it: surfaces alone ask.
         after: u32,
     },
-    /// The same for rays that the queue lists as paused, with states ([`PartRays`](crate::PartRays)).
+    /// As `Next`, for rays that the queue lists as paused, with states ([`PartRays`](crate::PartRays)).
     Listed,
 }
 
@@ -43,7 +43,7 @@ impl TracedPart {
     }
 }
 
-/// What the kernels of a structure are made from.
+/// Inputs of the kernels of a structure.
 #[derive(Clone, Debug)]
 pub struct TraceKernelsDesc<'a> {
     /// The structure's modules.
@@ -52,7 +52,7 @@ pub struct TraceKernelsDesc<'a> {
     pub structure_layout: &'a SetLayout,
     /// Specialisation constants of the structure: id and bits.
     pub constants: &'a [(u32, u32)],
-    /// How much of their work rays record.
+    /// Counters that rays record of their work.
     pub counters: Counters,
     /// Work units that a ray may spend per dispatch.
     pub work_budget: u32,
@@ -127,7 +127,7 @@ impl TraceKernels {
         })
     }
 
-    /// How much of their work rays record.
+    /// Counters that rays record of their work.
     pub fn counters(&self) -> Counters {
         self.counters
     }

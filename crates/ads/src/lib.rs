@@ -1,5 +1,5 @@
-//! What all acceleration data structures of rasray share: the contract, geometry, ray queues and the
-//! kernels that trace them, and a brute-force structure that every other one is compared with.
+//! The shared core of all acceleration data structures of rasray: the contract, geometry, ray queues and the kernels
+//! that trace them, and a brute-force structure that every other one is compared with.
 //!
 //! # The contract
 //! A [`Structure`] owns three things: how it is built from a [`Geometry`], how rays are traced through
@@ -18,7 +18,7 @@
 //! # Synchronisation
 //! [`Structure::record_build`], [`Structure::record_trace`] and [`Structure::record_surfaces`] end with
 //! a barrier that makes their results visible to compute shaders and transfers recorded after them.
-//! What they read must be visible to compute, vertex and fragment shaders before.
+//! Buffers that they read must be visible to compute, vertex and fragment shaders before.
 
 mod addressing;
 mod bounds_pass;
@@ -110,7 +110,7 @@ pub const DRAW_MIRRORED: u32 = rasray_shaders_glsl::constants::contract::DRAW_MI
 /// In [`Ray::flags`]: backs of draws with [`DRAW_SINGLE_SIDED`] are no hits.
 pub const RAY_CULL_BACK_FACES: u32 = rasray_shaders_glsl::constants::contract::RAY_CULL_BACK_FACES;
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

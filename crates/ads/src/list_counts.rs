@@ -1,4 +1,4 @@
-//! What the lists of a structure's cells hold, counted on the host.
+//! Counts of the lists of a structure's cells, made on the host.
 
 /// Counts of the lists of some cells, such as those of one view.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,10 +1,10 @@
-//! What answers shadow rays in place of a structure.
+//! Answers shadow rays in place of a structure.
 
 use rasray_gpu::Recorder;
 
 use crate::{Domain, RayQueue, Structure};
 
-/// What tells whether anything lies between a point and a light, made for lights alone. How it is built is its own.
+/// Test of whether anything lies between a point and a light, made for lights alone. How it is built is its own.
 pub trait Occluder {
     /// Records whether anything lies on the rays of the slots of `domain` of `queue`: the hit of an occluded one has some
     /// primitive, that of any other [`PRIMITIVE_NONE`](crate::PRIMITIVE_NONE), and nothing else of a hit is meant. Which light

@@ -38,14 +38,14 @@ impl<'a> BuildPipelines<'a> {
         Self { device, modules, sets, constants, raster: RasterOptions::default() }
     }
 
-    /// The same with draws that cover every pixel that a triangle touches, which need
+    /// As these, with draws that cover every pixel that a triangle touches, which need
     /// [`Feature::ConservativeRasterization`](rasray_gpu::Feature::ConservativeRasterization).
     #[must_use]
     pub fn touching(&self) -> Self {
         Self { raster: RasterOptions { conservative: true, ..self.raster }, ..self.clone() }
     }
 
-    /// Whether the device is a processor, on which a pass takes as long as all its work.
+    /// True if the device is a processor, on which a pass takes as long as all its work.
     pub fn is_software(&self) -> bool {
         self.device.is_software()
     }
@@ -99,7 +99,7 @@ pub struct ViewDraw {
     pub first: u32,
 }
 
-/// What the passes of one recording work on.
+/// Target of the passes of one recording.
 #[derive(Clone, Copy, Debug)]
 pub struct BuildTarget<'a> {
     /// The triangles.

@@ -13,7 +13,7 @@ pub const HEADER_POOL: &str = "header";
 /// The pools of one structure, in the order of their bindings; the header is the first. [`pools!`](crate::pools)
 /// makes one.
 pub trait PoolName: Copy + fmt::Debug + PartialEq + 'static {
-    /// What shaders start from: the only element of the first pool.
+    /// Header that shaders start from: the only element of the first pool.
     type Header: Pod;
 
     /// Every pool.
@@ -44,7 +44,7 @@ pub trait PoolContents<C, P: PoolName>: Sized {
 /// Makes the enum of a structure's pools. After the header, which is there by itself, each has a row in the order of
 /// bindings: the variant, its name in sizes, statuses and reports, and the header's field of its device address.
 ///
-/// What is checked on the host is a struct of words, which a last line names with the configuration, and with its field
+/// Words to be checked on the host are in a struct, which a last line names with the configuration, and with its field
 /// for that where it has one; then a row ends with `=> field` where the struct has the words of its pool:
 ///
 /// ```ignore
@@ -69,7 +69,7 @@ macro_rules! pools {
         $(#[$about])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum $pool {
-            /// What shaders start from.
+            /// Header that shaders start from.
             Header,
             $($(#[$what])* $variant,)+
         }

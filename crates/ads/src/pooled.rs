@@ -26,14 +26,14 @@ const LINEAR_BYTES: u64 = std::mem::offset_of!(GeometryRigid, centre) as u64;
 pub struct Pooled<D: Design> {
     design: D,
     parts: Parts<D::Config>,
-    /// What is traced: the triangles that builds read, or where these are in a space of their own, the same as posed.
+    /// Triangles traced: those that builds read, or where these are in a space of their own, the same as posed.
     traced: Geometry,
-    /// Whether they are.
+    /// True if builds read triangles in a space of their own.
     follows: bool,
     kernels: TraceKernels,
     /// The scene's set, where passes of the build read it.
     scene: Option<BindingSet>,
-    /// Whether that is another one than the last build recorded read.
+    /// True if that is another one than the last build recorded read.
     is_scene_new: bool,
     /// The header as [`Structure::status`] last read it; zeros until then. Reports and rounds are of this build, also where
     /// triangles or pools have changed since: consecutive frames have much the same demand.
@@ -45,7 +45,7 @@ fn modules<D: Design>(config: &D::Config) -> Modules {
 }
 
 impl<D: Design> Pooled<D> {
-    /// What it shares with its shaders, the header first.
+    /// Records that it shares with its shaders, the header first.
     pub const RECORDS: &'static [RecordLayout] = D::RECORDS;
 
     /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks, surfaces and payloads that keep
@@ -107,14 +107,14 @@ impl<D: Design> Pooled<D> {
         })
     }
 
-    /// What a device must and may offer for a configuration.
+    /// Features that a device must and may have for a configuration.
     pub fn requirements_of(config: &D::Config) -> Requirements {
         let mut requirements = D::requirements(config);
         modules::<D>(config).add_to(&mut requirements);
         requirements
     }
 
-    /// What the hits of a configuration are.
+    /// Kind of the hits of a configuration.
     pub fn kind_of(config: &D::Config) -> StructureKind {
         D::kind(config)
     }

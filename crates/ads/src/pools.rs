@@ -34,9 +34,9 @@ pub struct Pools {
     addressing: Addressing,
     layout: SetLayout,
     sizes: Sizes,
-    /// What the next build's header begins as.
+    /// Header that the next build begins with.
     header: Vec<u8>,
-    /// What the host reads of builds.
+    /// Outcomes of builds that the host reads.
     slots: Slots,
     pools: Vec<Buffer>,
     set: Option<BindingSet>,
@@ -89,7 +89,7 @@ impl Pools {
         Ok(())
     }
 
-    /// Whether the pools are those that the last build of a slot was recorded for.
+    /// True if the pools are those that the last build of a slot was recorded for.
     pub fn are_of(&self, slot: u32) -> bool {
         self.slots.are_pools_of(slot)
     }
@@ -117,7 +117,7 @@ impl Pools {
         self.set.as_ref()
     }
 
-    /// What is allocated.
+    /// Sizes of the pools allocated.
     pub fn sizes(&self) -> &Sizes {
         &self.sizes
     }
@@ -268,7 +268,7 @@ impl Pools {
         parts
     }
 
-    /// How a shader of one's own reaches the pools, with the structure's specialisation constants.
+    /// Interface for a shader of one's own to the pools, with the structure's specialisation constants.
     pub fn inline_trace(&self, constants: Vec<(u32, u32)>) -> InlineTrace<'_> {
         InlineTrace { layout: &self.layout, set: self.set(), address: self.address(), constants }
     }
@@ -287,8 +287,8 @@ impl Pools {
         more > now
     }
 
-    /// The same up to `first` rounds plus those in which a ray reads everything that is stored. A ray that needs more
-    /// is in a list without an end, which only damaged memory has.
+    /// As [`Pools::allow_more_rounds`], up to `first` rounds plus those in which a ray reads everything that is stored.
+    /// A ray that needs more is in a list without an end, which only damaged memory has.
     pub fn allow_rounds_to_read_all(&self, first: u32, work_budget: u32) -> bool {
         let elements: u64 = self.sizes.pools.iter().map(|pool| pool.elements).sum();
         let most = u64::from(first) + elements.div_ceil(work_budget.into());

@@ -27,7 +27,7 @@ pub enum Domain {
 }
 
 impl Domain {
-    /// What shaders are told: the number of first slots, or `DOMAIN_SELECTED`.
+    /// Word for shaders: the number of first slots, or `DOMAIN_SELECTED`.
     pub fn word(self) -> u32 {
         match self {
             Self::First(count) => count,
@@ -36,7 +36,7 @@ impl Domain {
     }
 }
 
-/// What a queue holds in addition to rays, hits and states. A part that is not requested is a placeholder of 16 bytes.
+/// Buffers of a queue in addition to rays, hits and states. A part that is not requested is a placeholder of 16 bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct QueueParts {
     /// A [`Surface`] per slot.
@@ -116,7 +116,7 @@ impl RayQueue {
     }
 
     /// A queue of `capacity` slots, at least 1, whose rays and hits, and whatever else is given, are buffers of the host.
-    /// What the host has written there stays.
+    /// Their contents stay.
     ///
     /// # Errors
     /// [`AdsError::Queue`] where a buffer is too small, was not made for what it is used for, or is given twice; out of
@@ -221,7 +221,7 @@ impl RayQueue {
         [header, rays, hits, states, list, surfaces, work, steps]
     }
 
-    /// What precedes the steps: slot 0 is logged, or no slot where there is no capacity; and there is no step yet.
+    /// Words before the steps: slot 0 is logged, or no slot where there is no capacity; and there is no step yet.
     fn first_step_words(&self) -> [u32; 2] {
         [if self.step_capacity > 0 { 0 } else { u32::MAX }, 0]
     }
@@ -371,7 +371,7 @@ impl RayQueue {
         Ok(header.first().map(Self::counters).unwrap_or_default())
     }
 
-    /// What a downloaded header says.
+    /// Counters of a downloaded header.
     pub fn counters(header: &QueueHeader) -> QueueCounters {
         let wide = |low: u32, high: u32| u64::from(low) | u64::from(high) << 32;
         QueueCounters {

@@ -1,4 +1,4 @@
-//! What a queue of rays is made of, and whether buffers of a host can be.
+//! Buffers of a queue of rays, and the check of those of a host.
 
 use rasray_gpu::{Buffer, BufferUsage};
 

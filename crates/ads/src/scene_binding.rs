@@ -11,7 +11,7 @@ pub struct SceneBinding {
     pub layout: SetLayout,
     /// The set.
     pub set: BindingSet,
-    /// Whether any draw is alpha-masked.
+    /// True if any draw is alpha-masked.
     pub alpha_masked: bool,
     /// Specialisation constants of modules that read the scene: id and bits. They disable code for features that the
     /// scene does not have.
@@ -36,8 +36,8 @@ impl SceneBinding {
         if scene.is_some_and(|scene| scene.alpha_masked) { ".alpha" } else { "" }
     }
 
-    /// What pipelines that were made for this scene are compiled for and another one does not have; `None`: they read that one
-    /// as well.
+    /// Returns what pipelines for this scene are compiled for and another scene does not have; `None`: they read that
+    /// one as well.
     pub fn difference(&self, other: &Self) -> Option<&'static str> {
         if self.layout.storage_buffers() != other.layout.storage_buffers() {
             Some("buffers")

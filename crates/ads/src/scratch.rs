@@ -1,8 +1,8 @@
-//! How structures that scan, bin and sort share one pool of words.
+//! Layout of the one pool of words that is shared by scanning, binning and sorting.
 
 use crate::{Builder, PoolName, Sizes};
 
-/// What a configuration keeps in its pool of scratch: the sums of a scan, and behind them what passes use one after the
+/// Contents of the scratch pool of a configuration: the sums of a scan, and behind them what passes use one after the
 /// other, the large-triangle queue while triangles are binned, and two words of each long list once they are sorted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scratch<P> {
@@ -10,9 +10,9 @@ pub struct Scratch<P> {
     pub pool: P,
     /// Words for the sums of the scan; 0 where nothing is scanned.
     pub sums: u64,
-    /// Whether there is a large-triangle queue: only where triangles are binned.
+    /// Builder; there is a large-triangle queue only where triangles are binned.
     pub builder: Builder,
-    /// Whether lists are sorted.
+    /// True if lists are sorted.
     pub sorts: bool,
 }
 

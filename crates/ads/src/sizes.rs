@@ -1,4 +1,4 @@
-//! What a structure allocates.
+//! Sizes of the pools that a structure allocates.
 
 use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
@@ -15,7 +15,7 @@ pub struct PoolSize {
     pub element_bytes: u64,
 }
 
-/// What a structure allocates: the result of planning, which is plain arithmetic.
+/// Sizes of the pools of a structure: the result of planning, which is plain arithmetic.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
     /// All pools; their order is the structure's.
@@ -48,7 +48,7 @@ impl Sizes {
         }
     }
 
-    /// The same, where one pool holds pages: fewer of them have numbers, since lists mark their links.
+    /// These sizes, where one pool holds pages: fewer of them have numbers, since lists mark their links.
     ///
     /// # Errors
     /// There are more pages than [`PAGE_LIMIT`].
@@ -60,7 +60,7 @@ impl Sizes {
         Ok(self)
     }
 
-    /// Whether a pool is larger than the pool of the same name in `other`.
+    /// True if a pool is larger than the pool of the same name in `other`.
     pub fn exceed(&self, other: &Self) -> bool {
         self.pools.iter().any(|pool| pool.elements > other.elements(pool.name))
     }

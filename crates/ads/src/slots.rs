@@ -1,4 +1,4 @@
-//! What the host reads of builds, kept apart per slot.
+//! Outcomes of builds that the host reads, kept apart per slot.
 
 use bytemuck::{AnyBitPattern, pod_read_unaligned};
 use rasray_gpu::{Buffer, BufferDesc, BufferUsage, Device, GpuError, MemoryLocation};
@@ -64,7 +64,7 @@ impl Slots {
         Ok(())
     }
 
-    /// What is recorded next is a build of `slot`, for the pools that there are.
+    /// Begins the recording of a build of `slot`, for the pools that there are.
     pub fn begin(&mut self, slot: u32) -> Result<(), AdsError> {
         check_recorded(self.structure, slot, self.count)?;
         self.recorded = slot;
@@ -72,7 +72,7 @@ impl Slots {
         Ok(())
     }
 
-    /// What is recorded next is a build that nobody reads.
+    /// Begins the recording of a build that nobody reads.
     pub fn begin_unread(&mut self) {
         self.recorded = self.count;
     }
@@ -83,7 +83,7 @@ impl Slots {
         self.begin_unread();
     }
 
-    /// Whether the pools are those that the last build of a slot was recorded for.
+    /// True if the pools are those that the last build of a slot was recorded for.
     pub fn are_pools_of(&self, slot: u32) -> bool {
         self.replaced_before.get(slot as usize) == Some(&self.replaced)
     }

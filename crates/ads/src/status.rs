@@ -1,4 +1,4 @@
-//! What became of a build, and what to do then.
+//! Outcome of a build, and what to do then.
 
 use crate::{AdsError, Sizes};
 
@@ -17,10 +17,10 @@ pub struct PoolStatus {
 /// The outcome of a build, read by the caller after its own wait.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BuildStatus {
-    /// Whether traces will answer.
+    /// True if traces will answer.
     pub complete: bool,
-    /// Whether traces that were recorded after the build have answers. Differs from `complete` where pools, triangles or a
-    /// scene that builds read were replaced since.
+    /// True if traces that were recorded after the build have answers. Differs from `complete` where pools, triangles
+    /// or a scene that builds read were replaced since.
     pub was_complete: bool,
     /// Pools whose demand the build counted.
     pub pools: Vec<PoolStatus>,
@@ -43,7 +43,7 @@ impl BuildStatus {
     }
 }
 
-/// What to do after a build.
+/// Action after a build.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Check {
     /// Everything was stored.
@@ -73,7 +73,7 @@ impl BuildStatus {
     }
 }
 
-/// How far beyond its demand a pool grows.
+/// Growth of a pool beyond its demand.
 #[derive(Clone, Copy, Debug)]
 pub struct Growth {
     percent: u32,

@@ -11,7 +11,7 @@ use crate::{PRIMITIVE_NONE, PRIMITIVE_UNKNOWN};
 /// The number of the view of a camera.
 const VIEW_CAMERA: u32 = 7;
 
-/// What a traversal did.
+/// Action of a traversal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum StepKind {
@@ -109,7 +109,7 @@ impl Deref for TraceStep {
 }
 
 impl TraceStep {
-    /// What was done.
+    /// Action of the step.
     pub fn kind(&self) -> StepKind {
         match self.kind {
             numbers::STEP_ROUND => StepKind::Round,
@@ -172,7 +172,7 @@ impl TraceStep {
         (self.kind() == StepKind::Cell).then(|| (self.a, self.b.cast_signed(), self.c.cast_signed()))
     }
 
-    /// Whether the near region is entered, which is no view.
+    /// True if the near region is entered, which is no view.
     pub fn is_near_region(&self) -> bool {
         self.kind() == StepKind::View && self.a == numbers::VIEW_NEAR
     }

@@ -4,7 +4,7 @@ use rasray_shaders_glsl::constants::ads::PLACEMENT_EYE_LIMIT;
 
 use crate::Geometry;
 
-/// What a camera sees: a pyramid whose apex is the eye. Axes are unit and perpendicular.
+/// View of a camera: a pyramid whose apex is the eye. Axes are unit and perpendicular.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraView {
     /// Towards the right of the image.
@@ -25,7 +25,7 @@ impl CameraView {
         [self.right.map(|x| x / self.half_width), self.up.map(|x| x / self.half_height), self.forward]
     }
 
-    /// Whether a point, relative to the eye, lies within the pyramid.
+    /// True if a point, relative to the eye, lies within the pyramid.
     pub fn sees(&self, point: [f64; 3]) -> bool {
         let along = |axis: [f32; 3]| (0..3).map(|i| f64::from(axis[i]) * point[i]).sum::<f64>();
         let depth = along(self.forward);
@@ -34,7 +34,7 @@ impl CameraView {
             && along(self.up).abs() <= depth * f64::from(self.half_height)
     }
 
-    /// Whether all numbers are finite and the pyramid is open.
+    /// True if all numbers are finite and the pyramid is open.
     pub fn is_valid(&self) -> bool {
         let halves = [self.half_width, self.half_height];
         let finite = self.rows().iter().flatten().all(|x| x.is_finite());
@@ -48,12 +48,12 @@ impl CameraView {
 pub struct Viewpoint {
     /// Metres relative to the frame origin.
     pub eye: [f32; 3],
-    /// What the camera at the eye sees; absent where there is none, or none with a perspective.
+    /// View of the camera at the eye; absent where there is none, or none with a perspective.
     pub camera: Option<CameraView>,
 }
 
 impl Viewpoint {
-    /// The same camera at another place.
+    /// Returns this camera at another place.
     pub fn at(self, eye: [f32; 3]) -> Self {
         Self { eye, ..self }
     }
@@ -66,14 +66,14 @@ impl From<[f32; 3]> for Viewpoint {
     }
 }
 
-/// Whether cells of one box over the stated bounds of a geometry are the same for both viewpoints.
+/// True if cells of one box over the stated bounds of a geometry are the same for both viewpoints.
 pub fn box_is_same(geometry: &Geometry, built: Viewpoint, wanted: Viewpoint) -> bool {
     [built, wanted].iter().all(|viewpoint| box_ignores_eye(geometry, viewpoint.eye))
 }
 
-/// Whether cells of one box over the stated bounds of a geometry are the same for this eye as for every other one as near:
-/// those of an eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest side, and outside of the whole of which
-/// the geometry is a part, have wider margins (`box_placement` in `ads/placement.glsl`).
+/// True if cells of one box over the stated bounds of a geometry are the same for this eye as for every other one as
+/// near: those of an eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest side, and outside of the whole
+/// of which the geometry is a part, have wider margins (`box_placement` in `ads/placement.glsl`).
 fn box_ignores_eye(geometry: &Geometry, eye: [f32; 3]) -> bool {
     let [lower, upper] = geometry.bounds();
     let [around_lower, around_upper] = geometry.whole().bounds();

@@ -6,7 +6,7 @@ use rasray_shaders_glsl::constants::ads::{BIN_GROUP_SIZE, BIN_TURNS};
 
 use crate::{AdsError, BuildPipelines, BuildTarget, ViewDraw};
 
-/// How triangles are binned into cells. Changes no hit.
+/// Way in which triangles are binned into cells. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builder {
     /// The rasterizer proposes cells, and the shared function decides.
@@ -18,7 +18,7 @@ pub enum Builder {
 words! { Builder { Raster "raster", Binning "binning" } }
 
 impl Builder {
-    /// What it needs of a device: to compute, or to draw with stores of fragment shaders.
+    /// Requirements of a device: to compute, or to draw with stores of fragment shaders.
     pub fn requirements(self) -> Requirements {
         match self {
             Self::Raster => {
@@ -91,7 +91,7 @@ impl LargePass {
 /// next to it, and labels have the same suffixes.
 #[derive(Clone, Copy, Debug)]
 pub struct Visits<'a> {
-    /// What makes pipelines.
+    /// Source of pipelines.
     pub pipelines: &'a BuildPipelines<'a>,
     /// The builder.
     pub builder: Builder,

@@ -20,18 +20,18 @@ const SIDE: u32 = 32;
 /// Frames of the program.
 const COUNT: usize = 12;
 
-/// What one frame in flight has to itself.
+/// Buffers and recording of one frame in flight.
 struct Slot {
     positions: HostBuffer,
     geometry: Geometry,
-    /// What the shader of the host finds.
+    /// Hits that the shader of the host finds.
     found: HostBuffer,
     pipeline: (vk::Pipeline, vk::PipelineLayout, vk::DescriptorSet),
     reference: BruteForce,
     rays: RayQueue,
-    /// What brute force finds.
+    /// Hits that brute force finds.
     expected: HostBuffer,
-    /// What the device may still be using.
+    /// Resources that the device may still be using.
     recorded: Option<Recorded>,
 }
 
@@ -91,7 +91,7 @@ fn frames(
     Ok(complete)
 }
 
-/// How a shader of the host traces through the bricks.
+/// Interface by which a shader of the host traces through the bricks.
 fn inline(bricks: &FrameStructure) -> Result<InlineTrace<'_>> {
     bricks.structure().inline_trace().ok_or_else(|| "bricks can be traced on the spot".into())
 }
@@ -173,8 +173,8 @@ impl Slot {
         Ok(recorder.finish()?)
     }
 
-    /// What a frame that was waited for left behind: whether it was complete; then hits are those of brute force. Pools
-    /// that were too small have grown.
+    /// Returns true if the frame that was waited for was complete; then hits are those of brute force. Pools that were
+    /// too small have grown.
     fn finish(
         &mut self,
         host: &Host,

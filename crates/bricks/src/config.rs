@@ -6,7 +6,7 @@ use rasray_shaders_glsl::constants::bricks as numbers;
 
 use crate::grid::{BRICK_SIDE, SIDE_LIMIT, Views, cells_along, columns_for};
 
-/// How often a cell may be divided.
+/// Maximum divisions of a cell.
 const DEPTH_LIMIT: u32 = numbers::BRICK_DEPTH_MOST;
 /// Maximum slices.
 const SLICE_LIMIT: u32 = numbers::BRICK_SLICE_LIMIT;
@@ -29,13 +29,13 @@ pub struct Config {
     pub corners: bool,
     /// Find how far around each empty brick everything is empty, so that a ray crosses it in one step.
     pub skip: bool,
-    /// How triangles are binned into cells.
+    /// Builder that bins triangles into cells.
     pub builder: Builder,
-    /// How pools are reached.
+    /// Addressing of pools.
     pub addressing: Addressing,
     /// Entries to allocate for the first build; 16 per triangle where absent.
     pub entries: Option<u64>,
-    /// How much of their work rays record.
+    /// Counters that rays record of their work.
     pub counters: Counters,
     /// Work units a ray may spend in one dispatch; the shared default where absent.
     pub work_budget: Option<u32>,
@@ -76,12 +76,12 @@ impl Config {
         [columns, columns, slices.next_multiple_of(BRICK_SIDE)]
     }
 
-    /// How often a cell is divided at most.
+    /// Maximum divisions of a cell.
     pub(crate) fn most_divisions(&self) -> u32 {
         self.divisions.unwrap_or(if self.views == Views::Axes { DEPTH_LIMIT } else { 0 })
     }
 
-    /// Whether cells are divided at all.
+    /// True if cells are divided at all.
     pub(crate) fn divides(&self) -> bool {
         self.most_divisions() > 0
     }
@@ -92,7 +92,7 @@ impl Config {
         if self.divides() { 8 } else { 3 }
     }
 
-    /// How often cells may be divided where views have this number of them: as often as the options say, or less where positions
+    /// Maximum divisions of cells where views have this number of them: that of the options, or less where positions
     /// would not fit into their words.
     pub(crate) fn depth_for(&self, cells: [u32; 3]) -> u32 {
         let most = cells.into_iter().max().unwrap_or(0);

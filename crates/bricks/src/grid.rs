@@ -22,7 +22,7 @@ pub enum Views {
 words! { Views { Cube "cube", Axes "axes" } }
 
 impl Views {
-    /// How many views there are.
+    /// Number of views.
     pub(crate) fn count(self) -> u32 {
         match self {
             Self::Cube => 6,

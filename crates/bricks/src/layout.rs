@@ -40,7 +40,7 @@ fn triangle_words(config: &Config) -> u64 {
     if config.corners { 9 } else { numbers::BRICK_LARGE_LIMIT.into() }
 }
 
-/// What bricks of this configuration allocate to hold `demand`.
+/// Sizes of the pools of bricks of this configuration that hold `demand`.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit indices can address.
@@ -76,7 +76,7 @@ pub(crate) fn first_demand(config: &Config, geometry: &Geometry) -> Demand {
     Demand { entries, near, records, bricks, cells, triangles, grid }
 }
 
-/// What the first guess allocates.
+/// Sizes of the pools of the first guess.
 pub(crate) fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
     config.validate()?;
     plan(config, &first_demand(config, geometry))

@@ -24,7 +24,7 @@ pub use rasray_shaders_glsl::records::BrickHeader as Header;
 pub use structure::{Bricks, Passes};
 pub use validate::{Cell, Contents, Fault, well_formed};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -23,7 +23,7 @@ pub struct Contents {
     pub near: Vec<u32>,
 }
 
-/// What is wrong with a brick or a list.
+/// Fault of a brick or a list.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -48,7 +48,7 @@ pub enum Fault {
     Primitive {
         /// List.
         list: usize,
-        /// What is stored.
+        /// Index stored.
         primitive: u32,
     },
     /// A triangle is in a list twice.
@@ -127,7 +127,7 @@ impl Contents {
 /// A cell that lists something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cell {
-    /// How often cells of the views were divided.
+    /// Number of times cells of the views were divided.
     pub level: u32,
     /// Face of a cube; 0 along the axes.
     pub view: u32,

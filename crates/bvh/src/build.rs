@@ -40,7 +40,7 @@ struct DevicePipelines {
     fours: Option<FourPipelines>,
 }
 
-/// What makes the nodes of two over the records.
+/// Pipelines that make the nodes of two over the records.
 #[derive(Debug)]
 enum TreePipelines {
     /// Each node by itself, from the codes.

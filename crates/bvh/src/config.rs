@@ -6,7 +6,7 @@ use rasray_shaders_glsl::constants::bvh::{BVH_LEAF_LIMIT, BVH_WIDE};
 
 use crate::{Node, WideNode};
 
-/// What builds the tree.
+/// Builder of the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builder {
     /// The host, by the surface area heuristic: slow to build, fast to trace.
@@ -54,7 +54,7 @@ impl Width {
     }
 }
 
-/// How the device works on chunks, of keys that it sorts and of clusters that it merges. The tree is the same.
+/// Work of the device on chunks, of keys that it sorts and of clusters that it merges. The tree is the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Chunks {
     /// An invocation takes a chunk alone: the least work.
@@ -66,7 +66,7 @@ pub enum Chunks {
 /// All options. None of them changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
-    /// What builds the tree.
+    /// Builder of the tree.
     pub builder: Builder,
     /// Children per node; by default two by [`Builder::Lbvh`] and [`Builder::Refit`], whose builds are to be quick, and four by
     /// the others.
@@ -74,11 +74,12 @@ pub struct Config {
     /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`] and, with four children per node, by
     /// [`Builder::Ploc`], whose heuristic may use fewer, and 1 by the others, whose leaves hold one.
     pub leaf: Option<u32>,
-    /// How the device works on chunks; where absent [`Chunks::Serial`] on software devices and [`Chunks::Shared`] on others.
+    /// Work of the device on chunks; where absent [`Chunks::Serial`] on software devices and [`Chunks::Shared`] on
+    /// others.
     pub chunks: Option<Chunks>,
-    /// How pools are reached.
+    /// Addressing of pools.
     pub addressing: Addressing,
-    /// How much of their work rays record: nodes read and triangles tested.
+    /// Counters that rays record of their work: nodes read and triangles tested.
     pub counters: Counters,
     /// Work units (nodes read and triangles tested) a ray may spend in one dispatch, 1 or more; the shared
     /// default where absent.

@@ -98,7 +98,7 @@ fn normalized(boxes: &[Box3]) -> Vec<Aabb> {
     boxes.iter().map(|b| Aabb::new(corner(b[0]).into(), corner(b[1]).into())).collect()
 }
 
-/// What a child is.
+/// A child of a node.
 enum Part {
     /// A node of the shape.
     Node(usize),
@@ -150,7 +150,7 @@ fn flatten(shape: &Bvh2, boxes: &[Box3], groups: &[Vec<u32>], leaf: usize) -> Tr
     tree
 }
 
-/// How many triangles a leaf's reference says.
+/// Number of triangles that a leaf's reference says.
 pub(crate) fn triangles_of(leaf: u32) -> u32 {
     ((leaf & !BVH_LEAF) >> BVH_LEAF_SHIFT) + 1
 }

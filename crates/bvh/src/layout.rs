@@ -81,7 +81,7 @@ fn pairs(config: &Config, triangles: u64) -> u64 {
     }
 }
 
-/// What a tree over `triangles` triangles allocates.
+/// Sizes of the pools of a tree over `triangles` triangles.
 ///
 /// # Errors
 /// An option is out of range, or there are more triangles than a leaf's 27 bits can address.
@@ -105,9 +105,9 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
 /// Bytes of the page's formula for counted nodes and triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// What traces read: header 96, 64 per node of two children or 128 per node of four, 40 per triangle.
+    /// Bytes that traces read: header 96, 64 per node of two children or 128 per node of four, 40 per triangle.
     pub traced: u64,
-    /// What only the build uses: 28 per triangle by [`Builder::Sah`]; by the others 16 per triangle, 1024
+    /// Bytes that only the build uses: 28 per triangle by [`Builder::Sah`]; by the others 16 per triangle, 1024
     /// for every 256 of them, 4 for every 1024 of them, and 24 per union of four boxes, unions of unions
     /// included, each rounded up, or by [`Builder::Ploc`] in their place 28 per triangle, and for nodes of four 128 per two
     /// triangles after the first.
@@ -178,7 +178,7 @@ mod tests {
         assert!(refused(Config { work_budget: Some(0), ..config }).contains("work budget"));
         for builder in [Builder::Lbvh, Builder::Ploc, Builder::Trbvh, Builder::Refit] {
             let config = Config::new(builder);
-            // What such a tree has may be said.
+            // Options that such a tree has may be given.
             assert!(plan(&Config { width: Some(Width::Two), leaf: Some(1), ..config }, 1).is_ok());
             let two = Config { width: Some(Width::Two), ..config };
             let leaf = refused(Config { leaf: Some(4), ..two });

@@ -32,7 +32,7 @@ pub use rasray_shaders_glsl::records::{
 pub use structure::{Bvh, Demand, Tree};
 pub use validate::{Contents, Fault, Shape, well_formed};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,4 +1,4 @@
-//! Whether an order of the triangles is on the device, as far as the host knows.
+//! Tracks for the host the order of the triangles on the device.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -25,7 +25,7 @@ impl Order {
         self.current.load(Ordering::Relaxed)
     }
 
-    /// Whether the next build may keep the order.
+    /// True if the next build may keep the order.
     pub(crate) fn is_kept(&self) -> bool {
         self.seen.load(Ordering::Relaxed) == self.number()
     }

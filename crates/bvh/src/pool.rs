@@ -9,7 +9,7 @@ rasray_ads::pools! {
         Nodes "nodes" nodes_address,
         /// Corners of triangles, in the order of leaves.
         Records "records" records_address,
-        /// What only the build uses.
+        /// Words that only the build uses.
         Scratch "scratch" scratch_address,
     }
 }

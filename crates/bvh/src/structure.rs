@@ -28,15 +28,15 @@ pub type Bvh = Pooled<Tree>;
 #[derive(Debug)]
 pub struct Tree {
     build: Build,
-    /// What the host made for the next build.
+    /// Tree that the host made for the next build.
     prepared: Option<Prepared>,
     /// The order of the triangles that later builds may keep.
     order: Order,
-    /// Whether the next build recorded keeps the tree over it.
+    /// True if the next build recorded keeps the tree over it.
     keeps_tree: bool,
 }
 
-/// What a tree takes.
+/// Elements that a tree takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
     /// Inner nodes of the tree, and as many more as take the room of the nodes of two that nodes of four are made of.
@@ -63,7 +63,7 @@ fn on_device(triangles: u32) -> Prepared {
     Prepared { root: BVH_NONE, nodes: triangles.saturating_sub(1), triangles }
 }
 
-/// The same tree where its order is kept: the number of triangles is the one that it was made for.
+/// As [`on_device`], where the order is kept: the number of triangles is the one that it was made for.
 fn refitted(triangles: u32) -> Prepared {
     let root = match triangles {
         0 => BVH_NONE,
@@ -73,7 +73,7 @@ fn refitted(triangles: u32) -> Prepared {
     Prepared { root, ..on_device(triangles) }
 }
 
-/// Whether the capacity suffices for the tree. It has no partial form: unless all of it fits, nothing is built.
+/// True if the capacity suffices for the tree. It has no partial form: unless all of it fits, nothing is built.
 fn has_capacity(parts: &Parts<Config>) -> bool {
     let Parts { config, geometry, pools, .. } = parts;
     let sizes = pools.sizes();

@@ -79,7 +79,7 @@ impl Contents {
     }
 }
 
-/// What a sound tree looks like.
+/// Shape of a sound tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shape {
     /// Leaves.
@@ -91,7 +91,7 @@ pub struct Shape {
     pub cost: f64,
 }
 
-/// What is wrong with a tree.
+/// Fault of a tree.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -128,7 +128,7 @@ pub enum Fault {
     Leaves {
         /// The record.
         record: usize,
-        /// How often.
+        /// Leaves that the record is in.
         times: usize,
     },
     /// A triangle has no record, or several.
@@ -136,7 +136,7 @@ pub enum Fault {
     Triangles {
         /// The triangle.
         primitive: usize,
-        /// How many.
+        /// Records of the triangle.
         times: usize,
     },
 }
@@ -153,7 +153,7 @@ pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
     let mut reached = vec![false; contents.node_count()];
     // Nodes in an order in which each comes after its parent.
     let mut order = Vec::new();
-    // What is below each link.
+    // Boxes below each link.
     let mut below: Vec<Box3> = vec![EMPTY; contents.node_count() * width as usize];
     let mut pending = Vec::new();
     if contents.header.root != BVH_NONE {

@@ -13,7 +13,7 @@ use crate::validate::area;
 /// Children of a node.
 const WIDE: usize = BVH_WIDE as usize;
 
-/// What a subtree costs at least as exactly 1, 2, 3 and 4 children of a node, infinity where it has fewer leaves, and how
+/// Least costs of a subtree as exactly 1, 2, 3 and 4 children of a node, infinity where it has fewer leaves, and how
 /// many of them its first half then takes.
 #[derive(Clone, Copy, Debug)]
 struct Choice {
@@ -51,7 +51,7 @@ impl Choice {
     }
 }
 
-/// The same tree with up to four children per node, in the same order of leaves; empty where the root is a leaf. The
+/// Widens a tree to up to four children per node, in the same order of leaves; empty where the root is a leaf. The
 /// root's number is 0 in both.
 pub(crate) fn widened(tree: &Tree) -> Vec<WideNode> {
     if tree.root == BVH_NONE || tree.root & BVH_LEAF != 0 {

@@ -26,7 +26,7 @@ pub enum DenoiseError {
     /// There is no library of that name, or it needs others that are not there.
     #[error("Open Image Denoise is not installed: {reason}")]
     Missing {
-        /// What the system says.
+        /// Message of the system.
         reason: String,
     },
     /// It is of another version than 2, whose functions are other ones.
@@ -34,7 +34,7 @@ pub enum DenoiseError {
     Unsuitable {
         /// The library.
         name: OsString,
-        /// What it lacks.
+        /// Part that it lacks.
         reason: String,
     },
     /// It refused the picture or this processor.
@@ -45,14 +45,14 @@ pub enum DenoiseError {
     Size {
         /// Which image.
         name: &'static str,
-        /// What it has.
+        /// Pixels of the image.
         pixels: usize,
-        /// What the picture's size asks for.
+        /// Pixels of the picture.
         expected: usize,
     },
 }
 
-/// What is known of a picture: one entry per pixel, rows from the top.
+/// A picture and its features: one entry per pixel, rows from the top.
 #[derive(Clone, Copy, Debug)]
 pub struct NoisyPicture<'a> {
     /// Pixels a row, and rows.

@@ -135,7 +135,7 @@ impl Device<'_> {
         unsafe { (self.functions.device_number)(self.handle, name.as_ptr()) }
     }
 
-    /// What went wrong since this was asked last.
+    /// Returns the error, if any, since this was asked last.
     fn check(&self) -> Result<(), DenoiseError> {
         let mut message = null();
         // SAFETY: the handle is a device, or null, for which the error of this thread is meant; the message is written.
@@ -151,7 +151,7 @@ impl Device<'_> {
         Err(DenoiseError::Failed(message))
     }
 
-    /// What went wrong where something did.
+    /// Returns the error of a call that failed.
     fn failed(&self) -> DenoiseError {
         let unknown = || DenoiseError::Failed("it does not say why".to_owned());
         self.check().err().unwrap_or_else(unknown)

@@ -3,7 +3,7 @@
 use rasray_ads::{Addressing, AdsError, Common, Configured, Counters, check_work_budget, words};
 use rasray_gpu::DriverTreeGoal;
 
-/// What the tree is to be good at: a hint that a driver may ignore.
+/// Goal of the tree: a hint that a driver may ignore.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Goal {
     /// Traces.
@@ -27,9 +27,9 @@ impl From<Goal> for DriverTreeGoal {
 /// All options. None of them changes a hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Config {
-    /// What the tree is to be good at.
+    /// Goal of the tree.
     pub goal: Goal,
-    /// How much of their work rays record.
+    /// Counters that rays record of their work.
     pub counters: Counters,
     /// Work units that a ray from far outside may spend in one dispatch; the shared default where absent. Other rays end in
     /// the first.

@@ -12,7 +12,7 @@ pub struct Demand {
     pub triangles: u64,
 }
 
-/// What is allocated for boxes of `demand`. Memory of the tree itself is for the driver to say.
+/// Sizes of the pools for boxes of `demand`. Memory of the tree itself is for the driver to say.
 ///
 /// # Errors
 /// An option is out of range, or there are more boxes than 32-bit indices can address.

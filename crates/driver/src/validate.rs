@@ -13,7 +13,7 @@ pub struct Contents {
     pub boxes: Vec<u32>,
 }
 
-/// What is wrong with a box.
+/// Fault of a box.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {

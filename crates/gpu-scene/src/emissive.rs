@@ -166,6 +166,6 @@ fn texel(coordinate: f64, size: u32, wrap: Wrap) -> usize {
         }
         Wrap::Clamp => coordinate,
     };
-    // What is not finite becomes 0, as in the shaders.
+    // Values that are not finite become 0, as in the shaders.
     ((within * f64::from(size)) as usize).min(size as usize - 1)
 }

@@ -1,4 +1,4 @@
-//! What a ray sees that leaves the scene, and how directions to it are chosen.
+//! Radiance that rays see that leave the scene, and the choice of directions to it.
 
 use std::f64::consts::PI;
 
@@ -19,7 +19,7 @@ pub struct EnvironmentTables {
     pub width: u32,
     /// Rows; 0 for a constant environment.
     pub height: u32,
-    /// Whether any radiance is above zero.
+    /// True if any radiance is above zero.
     pub emits: bool,
     /// Luminance of the radiance over the whole sphere, W/m^2.
     pub irradiance: f64,

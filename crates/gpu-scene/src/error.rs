@@ -1,4 +1,4 @@
-//! What can go wrong while a scene is packed and uploaded.
+//! Errors of packing and uploading a scene.
 
 /// Errors of this crate.
 #[derive(Debug, thiserror::Error)]
@@ -29,7 +29,7 @@ pub enum GpuSceneError {
     Malformed {
         /// Who names what.
         what: String,
-        /// How many there are.
+        /// Length of the list that is indexed.
         limit: usize,
     },
     /// The device refused.
@@ -60,7 +60,7 @@ pub enum GpuSceneError {
         /// Name of the mesh.
         mesh: String,
     },
-    /// What the scene deforms by failed.
+    /// A deformer of the scene failed.
     #[error(transparent)]
     Scene(#[from] rasray_scene::SceneError),
 }

@@ -1,4 +1,4 @@
-//! What of the shading code a scene can reach.
+//! Parts of the shading code that a scene can reach.
 
 use rasray_shaders_glsl::constant_ids::scene as ids;
 use rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
@@ -92,7 +92,7 @@ impl ShadingFeatures {
         ]
     }
 
-    /// What of `other` is not among these, by name.
+    /// Returns the names of those of `other` that are not among these.
     pub fn lacks(self, other: Self) -> Vec<&'static str> {
         let both = self.named().into_iter().zip(other.named());
         both.filter(|((_, here), (_, there))| *there && !here).map(|((name, _), _)| name).collect()
@@ -135,13 +135,13 @@ impl ShadingFeatures {
     }
 }
 
-/// Whether a surface of the material reflects or transmits other than by its diffuse base somewhere.
+/// True if a surface of the material reflects or transmits other than by its diffuse base somewhere.
 fn has_facets(material: &Material) -> bool {
     let terms = [material.specular, material.metallic, material.transmission];
     material.flags & MATERIAL_UNLIT == 0 && terms.iter().any(|&term| term > 0.0)
 }
 
-/// Whether a surface of the material may be a smooth thin pane somewhere.
+/// True if a surface of the material may be a smooth thin pane somewhere.
 fn may_be_pane(material: &Material) -> bool {
     let may_be_smooth = material.roughness < BSDF_SMOOTH_ROUGHNESS
         || material.metallic_roughness_texture.texture != TEXTURE_NONE;

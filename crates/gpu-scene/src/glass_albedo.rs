@@ -1,4 +1,4 @@
-//! What rough glass loses in one scattering, as tables (`docs/shading.md`, "Energy").
+//! Light that rough glass loses in one scattering, as tables (`docs/shading.md`, "Energy").
 //!
 //! A table has three blocks: the share of light that is lost where it arrives at the front, the same at the back, and
 //! the share that is reflected once where light arrives on the side of the larger index. A block has a row for every
@@ -25,7 +25,7 @@ const STEP: u32 = 1597;
 /// Under a cosine of 0 the integrand has only a limit.
 const LEAST_COSINE: f64 = 1.0e-6;
 
-/// What a table depends on.
+/// Parameters of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Glass {
     /// Index of the inside over that of the outside.
@@ -144,7 +144,7 @@ impl Interface {
         Share { reflected: sum.reflected / points, refracted: sum.refracted / points }
     }
 
-    /// What a facet sends on to the side where it belongs and past the other facets.
+    /// Adds the light that a facet sends on to the side where it belongs and past the other facets.
     fn add(self, o: DVec3, h: DVec3, alpha: f64, sum: &mut Share) {
         let cosine = o.dot(h);
         let fresnel = self.fresnel(cosine);

@@ -1,4 +1,4 @@
-//! How often each kind of light is chosen: by its power, as far as that can be told from the scene alone.
+//! Probability of each kind of light: by its power, as far as that can be told from the scene alone.
 
 use std::f64::consts::PI;
 

@@ -16,8 +16,8 @@
 //! origin, rounded to f32. What structures build from and what an oracle should read is
 //! [`Posed::positions`].
 //!
-//! What moves, [`PosePass`] poses on the device, frame by frame: [`PosePass::frame`] says where nodes
-//! are, [`PosePass::record`] records the rest. An oracle reads positions back from the device then.
+//! [`PosePass`] poses moving draws on the device, frame by frame: [`PosePass::frame`] says where nodes are,
+//! [`PosePass::record`] records the rest. An oracle reads positions back from the device then.
 
 mod attributes;
 mod distribution;
@@ -59,7 +59,7 @@ pub use texel_runs::{TEXEL_BYTES, TexelRuns};
 pub use upload::{GpuScene, PosedBuffers};
 pub use view::{Sampler, Sampling, View};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

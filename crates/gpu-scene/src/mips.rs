@@ -1,6 +1,6 @@
 //! Smaller levels of an image: means of two by two texels in linear light.
 
-/// How the first three bytes of a texel are read; the fourth, alpha, is always linear.
+/// Encoding of the first three bytes of a texel; the fourth, alpha, is always linear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Encoding {
     /// Byte / 255.
@@ -73,7 +73,7 @@ fn first_level(width: u32, height: u32, rgba8: &[u8]) -> Level {
     Level { width, height, texels }
 }
 
-/// What every byte of a texel stands for.
+/// Values of all bytes of a texel.
 struct Values {
     color: [f32; 256],
     alpha: [f32; 256],

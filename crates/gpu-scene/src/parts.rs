@@ -43,7 +43,7 @@ pub struct Parts {
     pub emission_textures: bool,
     /// Transmission textures.
     pub transmission_textures: bool,
-    /// What rough glass loses in one scattering.
+    /// Tables of the light that rough glass loses in one scattering.
     pub glass_albedos: bool,
     /// Alpha masks. Off: masked draws count as opaque everywhere.
     pub alpha: bool,
@@ -94,7 +94,7 @@ impl Parts {
         environment: false,
     };
 
-    /// Whether textures of a kind are packed for a material that is, or is not, alpha-masked.
+    /// True if textures of a kind are packed for a material that is, or is not, alpha-masked.
     pub fn has_texture(&self, kind: TextureKind, masked: bool) -> bool {
         match kind {
             TextureKind::BaseColor => self.base_color_textures || (masked && self.alpha),
@@ -108,7 +108,7 @@ impl Parts {
 }
 
 impl From<&Needs> for Parts {
-    /// What a render can observe. `Needs::all` gives [`Parts::ALL`].
+    /// Parts that a render can observe. `Needs::all` gives [`Parts::ALL`].
     fn from(needs: &Needs) -> Self {
         let has = |term| needs.requires(term);
         Self {

@@ -155,7 +155,7 @@ pub fn placed(
     })
 }
 
-/// Whether triangles with a vertex there can be hit.
+/// True if triangles with a vertex there can be hit.
 pub fn is_usable(position: [f32; 3]) -> bool {
     position.iter().all(|x| x.is_finite() && x.abs() <= LARGEST_COORDINATE)
 }

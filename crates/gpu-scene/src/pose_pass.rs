@@ -42,8 +42,8 @@ use crate::{GpuScene, GpuSceneError, SceneTables, kinds::kind_shares};
 /// Bytes that one command writes at most.
 const UPDATE_BYTES: usize = 65_536;
 
-/// What moves in a scene, on the device: shapes at rest, and the pass that writes positions, normals, tangents, lights and
-/// bounds of a [`GpuScene`] as they are in a frame.
+/// The moving part of a scene on the device: shapes at rest, and the pass that writes positions, normals, tangents,
+/// lights and bounds of a [`GpuScene`] as they are in a frame.
 ///
 /// Draws that no clip can move and no deformer changes are left as the tables have them. `docs/motion.md` says what is
 /// evaluated where.
@@ -56,7 +56,7 @@ pub struct PosePass {
     skins: Vec<SkinPlace>,
     shapes: Shapes,
     instance_count: usize,
-    /// Whether the rig of the scene places its instances.
+    /// True if the rig of the scene places its instances.
     is_placed: bool,
     joint_count: usize,
     group_count: u64,
@@ -298,12 +298,12 @@ impl PosePass {
         }
     }
 
-    /// Whether anything moves: vertices or lights.
+    /// True if anything moves: vertices or lights.
     pub fn moves(&self) -> bool {
         self.lights_move || !self.places.is_empty()
     }
 
-    /// Whether any clip can move triangles or a deformer changes them.
+    /// True if any clip can move triangles or a deformer changes them.
     pub fn moves_triangles(&self) -> bool {
         !self.places.is_empty()
     }
@@ -318,11 +318,12 @@ impl PosePass {
         self.divide(device, None, MovingTriangles::together)
     }
 
-    /// The same in a part for each object that its node alone moves, for at most `most` of them, the largest; one for what else
-    /// moves, where anything does; and all that stands still. An object is all that hangs on the same node that a clip
-    /// changes, and no other below it: without joints, morph targets and deformer. Objects of `scene`, the one that this was
-    /// made from, also have positions in a space of their own, 12 bytes for each vertex of the scene, in which a structure may
-    /// be built once ([`Structure::follows`](rasray_ads::Structure::follows)). Poses of frames are made after this.
+    /// Divides the geometry as [`PosePass::parts`] does, into a part for each object that its node alone moves, for at
+    /// most `most` of them, the largest; one for what else moves, where anything does; and all that stands still. An
+    /// object is all that hangs on the same node that a clip changes, and no other below it: without joints, morph
+    /// targets and deformer. Objects of `scene`, the one that this was made from, also have positions in a space of
+    /// their own, 12 bytes for each vertex of the scene, in which a structure may be built once
+    /// ([`Structure::follows`](rasray_ads::Structure::follows)). Poses of frames are made after this.
     ///
     /// # Errors
     /// Out of memory, or a lost device.
@@ -369,7 +370,7 @@ impl PosePass {
         Ok(self.parts.insert(Division { parts, part_of, objects }).parts.clone())
     }
 
-    /// What [`PosePass::parts`] or [`PosePass::objects`] made.
+    /// Parts that [`PosePass::parts`] or [`PosePass::objects`] made.
     pub fn divided(&self) -> Option<&GeometryParts> {
         self.parts.as_ref().map(|division| &division.parts)
     }
@@ -390,7 +391,8 @@ impl PosePass {
         moved
     }
 
-    /// What each part that moves has of a space of its own; empty where none has, so that poses are the same as without parts.
+    /// Objects with a space of their own, by moving part; empty where none has, so that poses are the same as without
+    /// parts.
     fn objects_in_spaces(&self) -> &[Option<RigidObject>] {
         let objects = self.parts.as_ref().map_or(&[][..], |division| &division.objects);
         if objects.iter().any(Option::is_some) { objects } else { &[] }

@@ -33,7 +33,7 @@ impl StoredImage {
         self.stored.iter().map(|&(_, mipmapped)| mips::texel_count(width, height, mipmapped)).sum()
     }
 
-    /// How means of texels are taken.
+    /// Encoding by which means of texels are taken.
     fn encoding(&self) -> Encoding {
         let color = self.stored.iter().any(|&(encoding, _)| encoding == Encoding::Srgb);
         if color { Encoding::Srgb } else { Encoding::Linear }
@@ -57,7 +57,7 @@ pub struct SmallerImage {
 }
 
 impl TexelDemand {
-    /// What those parts of `scene` need that are asked for.
+    /// Texels that those parts of `scene` need that are asked for.
     ///
     /// # Errors
     /// `Malformed` where a texture or an image does not exist, or an image has too few bytes.

@@ -1,4 +1,4 @@
-//! How large tables are on the device, without making them.
+//! Sizes of tables on the device, without making them.
 
 use glam::DVec3;
 use rasray_scene::Scene;

@@ -45,7 +45,7 @@ pub struct SceneTables {
     pub emissive_radiosities: Vec<f64>,
     /// Their power, W, by luminance.
     pub emissive_power: f64,
-    /// What a ray sees that leaves the scene.
+    /// Environment of rays that leave the scene.
     pub environment: EnvironmentTables,
     /// Probability of the kinds of light: punctual, emissive triangles, environment.
     pub kind_shares: [f32; 3],
@@ -134,7 +134,7 @@ impl SceneTables {
         frame
     }
 
-    /// Whether any draw has a back that rays may pass.
+    /// True if any draw has a back that rays may pass.
     pub fn has_single_sided(&self) -> bool {
         self.posed.draws.iter().any(|draw| draw.flags & DRAW_SINGLE_SIDED != 0)
     }

@@ -1,4 +1,4 @@
-//! How texels are spread over buffers: in runs of equal length, so that all together may exceed one binding.
+//! Spreads texels over buffers in runs of equal length, so that all together may exceed one binding.
 
 use rasray_gpu::Limits;
 use rasray_shaders_glsl::constants::scene::SCENE_TEXEL_RUNS;

@@ -44,7 +44,7 @@ pub struct PosedBuffers {
 
 /// A scene on the device: the geometry that structures build from, and the set that shading reads.
 ///
-/// What is uploaded stays until the value is dropped. The view changes by [`GpuScene::update_camera`] or
+/// Uploaded buffers stay until the value is dropped. The view changes by [`GpuScene::update_camera`] or
 /// [`GpuScene::record_frame`], what moves by a [`PosePass`](crate::PosePass).
 #[derive(Clone, Debug)]
 pub struct GpuScene {
@@ -177,8 +177,8 @@ impl GpuScene {
         })
     }
 
-    /// The same with code for more than this scene needs: pipelines that are made for it read later scenes, too, that have
-    /// any of `features`. No picture depends on it.
+    /// Adds code for more than this scene needs: pipelines that are made for it read later scenes, too, that have any
+    /// of `features`. No picture depends on it.
     #[must_use]
     pub fn allowing(mut self, features: ShadingFeatures) -> Self {
         self.features = self.features.with(features);
@@ -193,7 +193,8 @@ impl GpuScene {
         self.staging.record(recorder);
     }
 
-    /// What [`GpuScene::record_staged`] recorded was submitted: memory of the host is freed when the device is done with it.
+    /// Says that the recording of [`GpuScene::record_staged`] was submitted: memory of the host is freed when the
+    /// device is done with it.
     pub fn end_staging(&self) {
         self.staging.end();
     }
@@ -262,12 +263,12 @@ impl GpuScene {
         self.emitter_count
     }
 
-    /// What structures build from.
+    /// Geometry that structures build from.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
 
-    /// What surfaces, alpha masks and integrators read.
+    /// Binding that surfaces, alpha masks and integrators read.
     pub fn binding(&self) -> &SceneBinding {
         &self.binding
     }

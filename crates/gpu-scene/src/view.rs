@@ -9,7 +9,7 @@ use rasray_shaders_glsl::constants::scene::{
 
 use crate::layout::Frame;
 
-/// What is rendered: a camera, the size of the image, and the seed of its random numbers.
+/// A view to render: a camera, the size of the image, and the seed of its random numbers.
 #[derive(Clone, Debug)]
 pub struct View {
     /// Placement and projection, world.
@@ -33,7 +33,7 @@ pub enum Sampler {
     Pcg,
 }
 
-/// How pixels are sampled, except for the seed of the view, and which surfaces their rays pass.
+/// Sampling of pixels, except for the seed of the view, and which surfaces their rays pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampling {
     /// Where random numbers come from.

@@ -44,7 +44,7 @@ impl Words {
         Ok(first as u32)
     }
 
-    /// How many there are.
+    /// Number of words, stored or not.
     pub fn count(&self) -> u64 {
         self.count
     }

@@ -47,7 +47,7 @@ impl Access {
     /// Reads and writes of copies and fills.
     pub const TRANSFER: Access = Access(Self::TRANSFER_READ.0 | Self::TRANSFER_WRITE.0);
 
-    /// Whether every access of `other` is in this one.
+    /// True if every access of `other` is in this one.
     pub const fn contains(self, other: Access) -> bool {
         self.0 & other.0 == other.0
     }

@@ -30,7 +30,7 @@ pub struct BindingSet {
 pub(crate) struct BindingSetInner {
     layout: SetLayout,
     parts: Arc<SetParts>,
-    /// What is bound, as long as the set is there.
+    /// Buffers bound, kept as long as the set is there.
     _buffers: Vec<Buffer>,
 }
 

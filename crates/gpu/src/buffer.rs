@@ -12,7 +12,7 @@ use crate::error::{During, GpuError, Result};
 use crate::features::Feature;
 use crate::memory::{Allocation, MemoryLocation};
 
-/// What a buffer is used for. Values combine with `|`.
+/// Uses of a buffer. Values combine with `|`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct BufferUsage(u32);
 
@@ -31,7 +31,7 @@ impl BufferUsage {
     /// Memory of a tree of the driver.
     pub(crate) const TREE: BufferUsage = BufferUsage(1 << 4);
 
-    /// Whether every use of `other` is in this one.
+    /// True if every use of `other` is in this one.
     pub const fn contains(self, other: BufferUsage) -> bool {
         self.0 & other.0 == other.0
     }
@@ -81,7 +81,7 @@ pub struct BufferDesc<'a> {
     pub name: &'a str,
     /// Size in bytes; 0 becomes 16, so that empty input needs no special case.
     pub size: u64,
-    /// What it is used for; must not be empty.
+    /// Uses; must not be empty.
     pub usage: BufferUsage,
     /// Who reads and writes it.
     pub location: MemoryLocation,
@@ -96,7 +96,7 @@ pub struct RawBuffer<'a> {
     pub raw: vk::Buffer,
     /// Its size in bytes.
     pub size: u64,
-    /// What it was made for.
+    /// Uses that it was made for.
     pub usage: BufferUsage,
 }
 
@@ -243,7 +243,7 @@ impl Buffer {
         self.inner.size
     }
 
-    /// What it was made for.
+    /// Uses that it was made for.
     pub fn usage(&self) -> BufferUsage {
         self.inner.usage
     }
@@ -265,7 +265,7 @@ impl Buffer {
         self.inner.owned.as_ref().and(self.inner.address)
     }
 
-    /// Whether the host can read and write it.
+    /// True if the host can read and write it.
     pub fn is_host_visible(&self) -> bool {
         self.inner.mapped.is_some()
     }

@@ -64,7 +64,7 @@ pub struct DeviceSummary {
     pub kind: DeviceKind,
     /// Vulkan version as major, minor, patch.
     pub api_version: [u32; 3],
-    /// Whether it has the Vulkan version (1.2) and the compute queue without which nothing works.
+    /// True if it has the Vulkan version (1.2) and the compute queue without which nothing works.
     pub usable: bool,
     /// Features of [`Feature::ALL`] that it has.
     pub features: Vec<Feature>,
@@ -75,7 +75,7 @@ pub struct DeviceSummary {
 }
 
 impl DeviceSummary {
-    /// Whether the device fulfils the requirements it was held against.
+    /// True if the device fulfils the requirements it was held against.
     pub fn is_suitable(&self) -> bool {
         self.usable && self.missing.is_empty()
     }
@@ -214,12 +214,12 @@ impl Candidate {
         }
     }
 
-    /// Whether the device has this extension.
+    /// True if the device has this extension.
     pub(crate) fn has_extension(&self, name: &CStr) -> bool {
         self.extensions.contains(name)
     }
 
-    /// Whether version and queue suffice for this crate.
+    /// True if version and queue suffice for this crate.
     pub(crate) fn is_usable(&self) -> bool {
         self.api_version >= vk::API_VERSION_1_2 && self.queue_family.is_some()
     }

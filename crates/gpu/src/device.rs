@@ -19,14 +19,14 @@ use crate::pipeline_store::PipelineStore;
 use crate::requirements::{Missing, Requirements};
 use crate::set_parts::SetLayouts;
 
-/// How a device is chosen and made.
+/// Choice and settings of a device to be made.
 #[derive(Debug, Clone)]
 pub struct DeviceDesc {
-    /// What it must and may have. Nothing else is enabled.
+    /// Requirements, of features that it must and may have. Nothing else is enabled.
     pub requirements: Requirements,
     /// Index or part of the name; without it the best suitable device is taken.
     pub preference: Option<String>,
-    /// Whether the validation layer watches; an error if it is not installed.
+    /// True if the validation layer watches; an error if it is not installed.
     pub validation: bool,
     /// Name of the application, shown by tools.
     pub application: String,
@@ -205,7 +205,7 @@ impl Device {
         &self.core.identity.driver
     }
 
-    /// Whether it is a software driver, whose timestamps are wrong around compute work.
+    /// True for a software driver, whose timestamps are wrong around compute work.
     pub fn is_software(&self) -> bool {
         self.core.identity.software
     }
@@ -215,17 +215,17 @@ impl Device {
         &self.core.identity.why_chosen
     }
 
-    /// Whether a feature is enabled (required, or optional and present).
+    /// True if a feature is enabled (required, or optional and present).
     pub fn has(&self, feature: Feature) -> bool {
         self.core.enabled.contains(&feature)
     }
 
-    /// Whether everything required is enabled and within its limits, asked before anything is made.
+    /// True if everything required is enabled and within its limits, asked before anything is made.
     pub fn supports(&self, requirements: &Requirements) -> bool {
         self.missing(requirements).next().is_none()
     }
 
-    /// What it lacks of what is required, each as words of an error message; nothing where all is there.
+    /// Returns the requirements that it lacks, each as words of an error message; nothing where all is there.
     pub fn lacks(&self, requirements: &Requirements) -> Vec<String> {
         self.missing(requirements).map(Missing::words).collect()
     }
@@ -325,7 +325,7 @@ impl Device {
     }
 }
 
-/// What a device is put together from.
+/// Parts that a device is put together from.
 pub(crate) struct Parts<'a> {
     pub(crate) instance: ash::Instance,
     pub(crate) owned: Option<Instance>,
@@ -336,7 +336,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) queue: Option<vk::Queue>,
     pub(crate) enabled: BTreeSet<Feature>,
     pub(crate) debug_utils: bool,
-    /// Whether passes have labels, where `debug_utils` is enabled.
+    /// True if passes have labels, where `debug_utils` is enabled.
     pub(crate) labels: bool,
     pub(crate) pipeline_cache: vk::PipelineCache,
     pub(crate) memory: Option<Arc<dyn crate::Memory>>,

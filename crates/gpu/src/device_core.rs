@@ -1,4 +1,4 @@
-//! What every object of a device shares: handles, functions, books about memory, and the order of destruction.
+//! State shared by every object of a device: handles, functions, books about memory, and the order of destruction.
 
 use std::collections::BTreeSet;
 use std::ffi::{CStr, CString};
@@ -67,7 +67,7 @@ pub(crate) struct Core {
     /// Locked while something is submitted.
     pub(crate) queue: Mutex<vk::Queue>,
     pub(crate) queue_family: u32,
-    /// Whether the queue can draw.
+    /// True if the queue can draw.
     pub(crate) graphics: bool,
     pub(crate) api_version: u32,
     pub(crate) commands: Commands,
@@ -93,7 +93,7 @@ pub(crate) struct Core {
 }
 
 impl Core {
-    /// Whether objects may still be destroyed and work submitted; false after a timeout.
+    /// True if objects may still be destroyed and work submitted; false after a timeout.
     pub(crate) fn is_usable(&self) -> bool {
         !self.abandoned.load(Ordering::Acquire)
     }

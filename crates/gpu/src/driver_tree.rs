@@ -14,7 +14,7 @@ use crate::memory::MemoryLocation;
 /// Bytes of a box as the driver reads it: two corners.
 pub const DRIVER_BOX_BYTES: u64 = size_of::<vk::AabbPositionsKHR>() as u64;
 
-/// What a tree is to be good at.
+/// Goal of a tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DriverTreeGoal {
     /// Traces.
@@ -30,7 +30,7 @@ pub struct DriverTreeDesc<'a> {
     pub name: &'a str,
     /// Boxes over which it is built, at most.
     pub boxes: u32,
-    /// What it is to be good at.
+    /// Goal of the tree.
     pub goal: DriverTreeGoal,
 }
 
@@ -177,7 +177,7 @@ impl DriverTree {
         self.inner.scratch.size()
     }
 
-    /// What must live until the device is done.
+    /// Handles that must live until the device is done.
     pub(crate) fn kept(&self) -> Arc<dyn std::any::Any + Send + Sync> {
         self.inner.clone()
     }
@@ -224,7 +224,7 @@ impl Drop for Level {
     }
 }
 
-/// What a level is built from.
+/// Input of the build of a level.
 enum Input {
     Boxes { address: u64, count: u32 },
     Instance { address: u64 },

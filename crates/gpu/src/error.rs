@@ -1,4 +1,4 @@
-//! What can go wrong, named after the thing it happened to and with the fix where there is one.
+//! Errors, named after the thing that they happened to and with the fix where there is one.
 
 use ash::vk;
 
@@ -14,7 +14,7 @@ pub enum GpuError {
     /// The Vulkan loader library could not be opened.
     #[error("the Vulkan loader could not be loaded ({reason}): install it (Debian package libvulkan1)")]
     LoaderMissing {
-        /// What the dynamic linker said.
+        /// Message of the dynamic linker.
         reason: String,
     },
     /// The loader knows only Vulkan 1.0 or 1.1.
@@ -58,7 +58,7 @@ pub enum GpuError {
     FeatureNotEnabled {
         /// The feature that is needed.
         feature: Feature,
-        /// What needs it.
+        /// Object or call that needs it.
         what: String,
     },
     /// A buffer is larger than a storage buffer binding may be. Pools of structures can be reached by device address
@@ -138,7 +138,7 @@ pub enum GpuError {
     InvalidShader {
         /// Name of the pipeline.
         name: String,
-        /// What is wrong.
+        /// Fault of the words.
         reason: &'static str,
     },
     /// A call that the contract of this crate forbids.
@@ -146,7 +146,7 @@ pub enum GpuError {
     InvalidUse {
         /// Name of the object or pass.
         name: String,
-        /// What is wrong.
+        /// Fault of the call, in words.
         reason: String,
     },
     /// The device was lost, usually by a fault in a shader or by the watchdog of the system.
@@ -173,7 +173,7 @@ pub enum GpuError {
     /// An earlier submission timed out, so this device takes no more work.
     #[error("`{during}` was not submitted: an earlier submission timed out, create a new device")]
     Abandoned {
-        /// What was to be submitted.
+        /// Work that was to be submitted.
         during: String,
     },
     /// Any other failure reported by Vulkan.

@@ -52,7 +52,7 @@ pub fn with_limits<R>(change: impl Fn(&mut Limits) + 'static, work: impl FnOnce(
     answer
 }
 
-/// Whether [`without`] asks for a device without the feature.
+/// True if [`without`] asks for a device without the feature.
 pub(crate) fn hides(feature: Feature) -> bool {
     HIDDEN.with_borrow(|hidden| hidden.contains(&feature))
 }

@@ -90,7 +90,7 @@ impl Feature {
         }
     }
 
-    /// Whether the feature is of no use without a graphics queue.
+    /// True if the feature is of no use without a graphics queue.
     pub(crate) fn needs_graphics(self) -> bool {
         matches!(
             self,

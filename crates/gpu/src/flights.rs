@@ -19,7 +19,7 @@ pub struct Flights {
 struct Slot {
     work: OneTime,
     timers: Option<Timers>,
-    /// What the device may still be working on.
+    /// Work that the device may not have ended.
     pending: Option<Completed>,
 }
 
@@ -63,12 +63,12 @@ impl Flights {
         self.slots.len() as u32
     }
 
-    /// Whether something was submitted from a slot that was not waited for.
+    /// True if something was submitted from a slot that was not waited for.
     pub fn is_pending(&self, slot: u32) -> bool {
         self.slots.get(slot as usize).is_some_and(|slot| slot.pending.is_some())
     }
 
-    /// Whether [`Flights::wait`] returns at once.
+    /// True if [`Flights::wait`] returns at once.
     ///
     /// # Errors
     /// There is no such slot, or the device is lost.

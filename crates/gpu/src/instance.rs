@@ -17,9 +17,9 @@ const LABELS_ARE_LOCKED: u32 = vk::make_api_version(0, 1, 3, 242);
 /// An instance made here, with the library it came from.
 pub(crate) struct Instance {
     pub(crate) raw: ash::Instance,
-    /// Whether `VK_EXT_debug_utils` is enabled.
+    /// True if `VK_EXT_debug_utils` is enabled.
     pub(crate) debug_utils: bool,
-    /// Whether passes may have labels.
+    /// True if passes may have labels.
     pub(crate) labels: bool,
     /// Boxed because the messenger holds its address.
     log: Box<ValidationLog>,

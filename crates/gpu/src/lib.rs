@@ -113,7 +113,7 @@ pub use spirv::storage_buffers_used;
 pub use stage::{Stage, TraceMode};
 pub use timers::{PassTiming, TimerKind, Timers, Timing};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -28,7 +28,7 @@ pub struct Allocation {
     pub offset: u64,
     /// Host address of the piece where it is host-visible.
     pub mapped: Option<NonNull<u8>>,
-    /// What the allocator needs to take the piece back.
+    /// State that the allocator needs to take the piece back.
     pub token: Option<Box<dyn Any + Send + Sync>>,
 }
 
@@ -176,7 +176,7 @@ unsafe impl Memory for PooledMemory {
 
 const ALLOCATE: &str = "vkAllocateMemory";
 
-/// What the allocator says, as an error of this crate. It passes result codes on as words only.
+/// Turns an error of the allocator into one of this crate. It passes result codes on as words only.
 fn from_allocator(error: &gpu_allocator::AllocationError, name: &str) -> GpuError {
     use gpu_allocator::AllocationError as Refusal;
     let (call, text) = match error {
@@ -198,7 +198,7 @@ fn from_allocator(error: &gpu_allocator::AllocationError, name: &str) -> GpuErro
     }
 }
 
-/// How much memory is in use, and how much may be.
+/// Amounts of memory in use, and its limit.
 pub(crate) struct Ledger {
     totals: Mutex<Totals>,
 }

@@ -1,4 +1,4 @@
-//! What the validation layer said, kept for tests and logged for people.
+//! Messages of the validation layer, kept for tests and logged for people.
 
 use std::ffi::{CStr, c_void};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -21,7 +21,7 @@ impl ValidationLog {
         self.messages.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// What a messenger of an instance that a host makes is made from, so that its messages are gathered here as well.
+    /// Description of a messenger for an instance that a host makes, so that its messages are gathered here as well.
     ///
     /// # Safety
     /// The log stays where it is until the messenger and its instance are gone.

@@ -12,7 +12,7 @@ use crate::error::{During, GpuError, Result};
 /// Longest time that anything is waited for.
 const LONGEST_WAIT: Duration = Duration::from_secs(3600);
 
-/// What calls were for that come before the passes of their work are known.
+/// Name in errors of calls that come before the passes of their work are known.
 const NEW_WORK: &str = "new work";
 
 /// A command buffer that is recorded, submitted and waited for, once or repeatedly.
@@ -105,7 +105,7 @@ impl OneTime {
         Ok(start)
     }
 
-    /// Whether the device is done with what was submitted last.
+    /// True if the device is done with what was submitted last.
     pub(crate) fn is_done(&self, device: &Device, during: &str) -> Result<bool> {
         // SAFETY: the fence belongs to the last submission.
         unsafe { device.raw().get_fence_status(self.fence) }.during("vkGetFenceStatus", during)

@@ -195,7 +195,7 @@ impl Device {
         self.core.pipelines.keep(self.core.usable_device(), count);
     }
 
-    /// What was made by the recipe before, or what `compile` makes now.
+    /// Finds what was made by the recipe before, or makes it by `compile` now.
     fn shared_pipeline(
         &self,
         asked: &Asked<'_>,
@@ -231,7 +231,7 @@ impl Device {
         }))
     }
 
-    /// What the modules of a pipeline use of each of its sets.
+    /// Masks of the bindings of each set that the modules of a pipeline use.
     fn used_bindings(&self, asked: &Asked<'_>, recipe: &Recipe) -> Result<Arc<[Mask]>> {
         let name = asked.name;
         let mut used = vec![0; asked.sets.len()];
@@ -281,7 +281,7 @@ impl Device {
     }
 }
 
-/// What both kinds of pipelines are asked for with.
+/// Request for a pipeline of either kind.
 struct Asked<'a> {
     name: &'a str,
     sets: &'a [&'a SetLayout],

@@ -1,4 +1,4 @@
-//! What compute and raster pipelines are made of.
+//! Descriptions of compute and raster pipelines.
 
 use crate::set_layout::SetLayout;
 

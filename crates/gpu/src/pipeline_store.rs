@@ -23,7 +23,7 @@ pub(crate) struct Recipe {
     pub(crate) options: RasterOptions,
 }
 
-/// What Vulkan made.
+/// Vulkan objects of a pipeline.
 #[derive(Clone, Debug)]
 pub(crate) struct Made {
     pub(crate) raw: vk::Pipeline,
@@ -59,7 +59,7 @@ struct Books {
     idle: BTreeMap<u64, Arc<Recipe>>,
     /// Counts releases.
     clock: u64,
-    /// How many idle pipelines are kept.
+    /// Number of idle pipelines kept.
     kept: usize,
 }
 
@@ -109,7 +109,7 @@ impl PipelineStore {
         }
     }
 
-    /// How many pipelines without handles are kept from now on.
+    /// Sets how many pipelines without handles are kept from now on.
     pub(crate) fn keep(&self, device: Option<&ash::Device>, count: usize) {
         let mut books = self.books();
         books.kept = count;

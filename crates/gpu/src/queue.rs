@@ -12,33 +12,33 @@ use crate::one_time::OneTime;
 use crate::recorder::{Completed, Recorder};
 use crate::timers::{PassTiming, TIMED_PASSES, Timers, Timing};
 
-/// How work is submitted.
+/// Options of a submission.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct SubmitOptions {
-    /// Whether and how passes are timed.
+    /// Timing of passes.
     pub timing: Timing,
-    /// How long to wait for the device, at most an hour: every wait has an end. [`Device::timeout`] where absent. With
+    /// Longest wait for the device, at most an hour: every wait has an end. [`Device::timeout`] where absent. With
     /// [`Timing::Host`] it holds for each pass by itself.
     pub timeout: Option<Duration>,
 }
 
-/// What a finished submission returns.
+/// Result of a finished submission.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Submitted<R> {
-    /// What the recording function returned.
+    /// Value that the recording function returned.
     pub value: R,
     /// Times of the passes in order; empty with [`Timing::None`].
     pub passes: Vec<PassTiming>,
 }
 
 impl Device {
-    /// How long submissions wait unless told: 60 seconds, and ten minutes on a software driver,
-    /// whose passes take hundreds of times as long and hold up no display.
+    /// Longest wait of submissions unless told: 60 seconds, and ten minutes on a software driver, whose passes take
+    /// hundreds of times as long and hold up no display.
     pub fn timeout(&self) -> Duration {
         Duration::from_secs(if self.is_software() { 600 } else { 60 })
     }
 
-    /// Whether this crate may submit: an adopted device may come without a queue.
+    /// True if this crate may submit: an adopted device may come without a queue.
     pub fn has_queue(&self) -> bool {
         *self.core.queue.lock().unwrap_or_else(PoisonError::into_inner) != vk::Queue::null()
     }

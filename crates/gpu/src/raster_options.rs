@@ -1,6 +1,6 @@
 //! Options of raster pipelines.
 
-/// What a raster pipeline can do beyond the common case.
+/// Options of a raster pipeline beyond the common case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct RasterOptions {
     /// Cover every pixel a triangle touches; needs [`crate::Feature::ConservativeRasterization`].

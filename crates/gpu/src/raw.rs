@@ -28,8 +28,8 @@ pub struct RawDevice {
     pub api_version: u32,
     /// Features the host enabled; at least [`Feature::Synchronization2`].
     pub enabled: Vec<Feature>,
-    /// Whether the host enabled `VK_EXT_debug_utils`; names and labels are then set. Under a validation layer older than
-    /// 1.3.242 labels of a destroyed command buffer may be written to freed memory: say false there.
+    /// True if the host enabled `VK_EXT_debug_utils`; names and labels are then set. Under a validation layer older
+    /// than 1.3.242 labels of a destroyed command buffer may be written to freed memory: say false there.
     pub debug_utils: bool,
     /// Cache used for all pipelines, or null.
     pub pipeline_cache: vk::PipelineCache,

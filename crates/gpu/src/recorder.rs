@@ -35,7 +35,7 @@ pub use self::render_area::RenderArea;
 /// Mistakes (a range beyond a buffer, a dispatch without a pipeline …) do not end the program: the first one
 /// is kept, nothing more is recorded, and [`Recorder::finish`] or the submission returns it.
 ///
-/// What is recorded stays alive until the device is done, even if its owner drops or replaces it meanwhile: a
+/// Resources recorded stay alive until the device is done, even if their owner drops or replaces them meanwhile: a
 /// submission of this crate sees to it, and for command buffers of a host [`Recorded`] does.
 pub struct Recorder<'a> {
     device: &'a Device,
@@ -43,18 +43,18 @@ pub struct Recorder<'a> {
     error: Option<GpuError>,
     /// The pass being recorded, with its timer.
     pass: Option<(Stage, String, Option<u32>)>,
-    /// What was recorded in each pass so far.
+    /// Commands recorded in each pass so far.
     passes: Vec<PassCommands>,
     rendering: Option<RenderArea>,
     bound: Bound,
     timers: Option<Timers>,
-    /// What must live until the device is done.
+    /// Handles that must live until the device is done.
     kept: Vec<Arc<dyn Any + Send + Sync>>,
     submission: Option<Submission<'a>>,
 }
 
-/// What a command buffer of a host uses. Keep it until the device has executed the command buffer for the last time:
-/// then nothing that was recorded is destroyed too early, whatever happens to its owners.
+/// Resources that a command buffer of a host uses. Keep it until the device has executed the command buffer for the
+/// last time: then nothing that was recorded is destroyed too early, whatever happens to its owners.
 #[must_use = "what was recorded may be destroyed once this is dropped: keep it until the device is done"]
 pub struct Recorded {
     kept: Vec<Arc<dyn Any + Send + Sync>>,
@@ -66,10 +66,10 @@ impl std::fmt::Debug for Recorded {
     }
 }
 
-/// What a recorder keeps for a submission of this crate.
+/// State that a recorder keeps for a submission of this crate.
 struct Submission<'a> {
     work: &'a OneTime,
-    /// Whether every pass is submitted by itself and timed by the host.
+    /// True if every pass is submitted by itself and timed by the host.
     split: bool,
     labels: Vec<String>,
     timings: Vec<PassTiming>,
@@ -218,7 +218,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// What was recorded so far in each pass, in order. Commands outside of passes are not counted.
+    /// Commands recorded so far in each pass, in order. Commands outside of passes are not counted.
     pub fn passes(&self) -> &[PassCommands] {
         &self.passes
     }
@@ -287,7 +287,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Whether a command that is forbidden within rendering may be recorded.
+    /// True if a command that is forbidden within rendering may be recorded.
     fn outside_rendering(&mut self, command: &str) -> bool {
         if self.rendering.is_some() {
             self.misuse(&format!("{command} was called between begin_rendering and end_rendering"));
@@ -366,7 +366,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-/// What a recording for a submission left behind.
+/// Outcome of a recording for a submission.
 pub(crate) struct Completed {
     pub(crate) error: Option<GpuError>,
     /// Lives until the device is done.

@@ -1,9 +1,9 @@
-//! What a device is asked for: what is required, what is optional and what it buys.
+//! Requirements of a device: features that are required, and optional ones with what they buy.
 
 use crate::error::GpuError;
 use crate::features::Feature;
 
-/// What a device must have, and what it may have.
+/// Features that a device must have, and those that it may have.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Requirements {
     /// A device without one of these is not chosen.
@@ -15,7 +15,8 @@ pub struct Requirements {
 }
 
 impl Requirements {
-    /// What everything needs that draws nothing: scalar block layout and synchronization2. A queue that computes will do.
+    /// The needs of everything that draws nothing: scalar block layout and synchronization2. A queue that computes will
+    /// do.
     pub fn compute() -> Self {
         Self { required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2], ..Self::default() }
     }
@@ -52,7 +53,7 @@ pub(crate) enum Missing {
 }
 
 impl Missing {
-    /// What is lacking, as words of a message.
+    /// The lack as words of a message.
     pub(crate) fn words(self) -> String {
         match self {
             Self::Feature(feature) => feature.name().to_owned(),

@@ -43,12 +43,12 @@ impl SetLayout {
         &self.name
     }
 
-    /// Whether it is of this device.
+    /// True if it is of this device.
     pub(crate) fn is_of(&self, core: &Arc<Core>) -> bool {
         Arc::ptr_eq(&self.core, core)
     }
 
-    /// Whether sets of the one can be bound as sets of the other.
+    /// True if sets of the one can be bound as sets of the other.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.is_of(&other.core) && self.storage_buffers == other.storage_buffers
     }

@@ -1,4 +1,4 @@
-//! What a device keeps of its set layouts and of the sets made with them, part by part.
+//! Keeps the set layouts of a device and the sets made with them, part by part.
 //!
 //! A pipeline is made with a part of a layout: the bindings that its modules use. Every set of the layout has a Vulkan
 //! set for each part.
@@ -41,7 +41,7 @@ pub(crate) struct LayoutParts {
 /// The Vulkan sets of a set, one a part of its layout.
 pub(crate) struct SetParts {
     pub(crate) name: String,
-    /// What is bound, in the order of the bindings.
+    /// Buffers bound, in the order of the bindings.
     pub(crate) buffers: Vec<vk::DescriptorBufferInfo>,
     parts: Mutex<BTreeMap<Mask, SetPart>>,
 }

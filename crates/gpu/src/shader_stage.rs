@@ -1,4 +1,4 @@
-//! What a stage of a pipeline is made of: a module and its specialisation constants.
+//! Stages of a pipeline: a module and its specialisation constants.
 
 use ash::vk;
 

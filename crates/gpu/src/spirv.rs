@@ -1,4 +1,4 @@
-//! What of its descriptor sets a SPIR-V module uses.
+//! Bindings of its descriptor sets that a SPIR-V module uses.
 
 use std::collections::HashMap;
 
@@ -68,7 +68,7 @@ pub fn storage_buffers_used(name: &str, spirv: &[u32]) -> Result<u32> {
     Ok(used_bindings(name, spirv)?.iter().map(|used| used.count_ones()).sum())
 }
 
-/// Whether the words begin as a module does.
+/// Checks that the words begin as a module does.
 ///
 /// # Errors
 /// [`GpuError::InvalidShader`].

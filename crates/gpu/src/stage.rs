@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-/// What a trace asks for.
+/// Question of a trace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TraceMode {
     /// The nearest hit.
     Closest,
-    /// Whether there is any hit.
+    /// The presence of any hit.
     Occluded,
 }
 

@@ -1,4 +1,4 @@
-//! How long passes take.
+//! Times of passes.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -12,7 +12,7 @@ use crate::stage::Stage;
 /// Passes of a submission that the device times at most.
 pub(crate) const TIMED_PASSES: u32 = 1024;
 
-/// Whether and how passes are timed.
+/// Timing of passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Timing {
     /// Not at all.
@@ -24,7 +24,7 @@ pub enum Timing {
     Host,
 }
 
-/// What measured a time.
+/// Clock that measured a time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum TimerKind {
     /// Timestamps of the device.
@@ -36,13 +36,13 @@ pub enum TimerKind {
 /// The time of one pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassTiming {
-    /// What of a frame the pass belongs to.
+    /// Part of a frame that the pass belongs to.
     pub stage: Stage,
     /// Label of the pass.
     pub label: String,
     /// Its time in milliseconds.
     pub milliseconds: f64,
-    /// What measured it.
+    /// Clock that measured it.
     pub timer: TimerKind,
 }
 
@@ -137,7 +137,7 @@ impl Timers {
         self.inner.passes.lock().unwrap_or_else(PoisonError::into_inner).clear();
     }
 
-    /// What a submission keeps until the device is done.
+    /// Handles that a submission keeps until the device is done.
     pub(crate) fn kept(&self) -> Arc<dyn std::any::Any + Send + Sync> {
         self.inner.clone()
     }

@@ -14,11 +14,11 @@ const FEWEST_ALONG: f64 = 4.0;
 pub struct Config {
     /// Cells along the longest side of the geometry's bounds, 1 to 1024. Absent: five cells per triangle.
     pub cells: Option<u32>,
-    /// How pools are reached.
+    /// Addressing of pools.
     pub addressing: Addressing,
     /// Capacity for entries before the first build; 8 per triangle where absent.
     pub entries: Option<u64>,
-    /// How much of their work rays record.
+    /// Counters that rays record of their work.
     pub counters: Counters,
     /// Work units a ray may spend in one dispatch; the shared default where absent.
     pub work_budget: Option<u32>,

@@ -20,7 +20,7 @@ pub(crate) fn cell_count(cells: [u32; 3]) -> u64 {
     cells.into_iter().map(u64::from).product()
 }
 
-/// What a grid of this configuration allocates to hold `demand`.
+/// Sizes of the pools of a grid of this configuration that holds `demand`.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit indices can address.

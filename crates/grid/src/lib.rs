@@ -20,7 +20,7 @@ pub use rasray_shaders_glsl::records::GridHeader as Header;
 pub use structure::{Grid, Passes};
 pub use validate::{Contents, Fault, well_formed};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

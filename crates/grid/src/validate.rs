@@ -16,7 +16,7 @@ pub struct Contents {
     pub entries: Vec<u32>,
 }
 
-/// What is wrong with a list.
+/// Fault of a list.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -41,7 +41,7 @@ pub enum Fault {
     Primitive {
         /// Cell.
         cell: usize,
-        /// What is stored.
+        /// Index stored.
         primitive: u32,
     },
     /// A triangle is in a list twice.
@@ -80,7 +80,7 @@ impl Contents {
 }
 
 impl Contents {
-    /// What the cells hold.
+    /// Counts the triangles in the cells.
     ///
     /// # Errors
     /// A list leaves the pool.

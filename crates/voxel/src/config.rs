@@ -18,7 +18,7 @@ pub enum Axes {
 
 words! { Axes { All "all", Voxel "voxel", Triangle "triangle" } }
 
-/// What makes a voxel occupied.
+/// Test of which voxels are occupied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marking {
     /// Only the fragments in it, in the pass that counts or stores them. A voxel that a triangle reaches into
@@ -30,7 +30,7 @@ pub enum Marking {
 
 words! { Marking { Fragments "fragments", Triangles "triangles" } }
 
-/// What a ray hits in an occupied voxel.
+/// Things that a ray hits in an occupied voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Leaves {
     /// Its fragments, which the views keep.
@@ -42,18 +42,18 @@ pub enum Leaves {
 
 words! { Leaves { Fragments "fragments", Voxels "voxels" } }
 
-/// How a ray goes from voxel to voxel. Changes no hit.
+/// Method of stepping a ray from voxel to voxel. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Traversal {
     /// One voxel after the other.
     Dda,
-    /// The same, over the empty nodes of a sparse octree, which is built from the voxels.
+    /// One voxel after the other, over the empty nodes of a sparse octree, which is built from the voxels.
     Octree,
 }
 
 words! { Traversal { Dda "dda", Octree "octree" } }
 
-/// How a ray steps within a voxel.
+/// Method of stepping a ray within a voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
     /// [`Config::samples`] steps of equal length.
@@ -100,7 +100,7 @@ pub enum Coverage {
 
 words! { Coverage { Hardware "hardware", Exact "exact", Conservative "conservative" } }
 
-/// How the lists of cells are kept. Changes no hit.
+/// Storage of the lists of cells. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
     /// Contiguous fragments: counted, then stored. Once sorted, such lists can be bisected.
@@ -123,7 +123,7 @@ impl Storage {
     }
 }
 
-/// What a fragment carries in addition to its depth.
+/// Data that a fragment carries in addition to its depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
     /// Its triangle: 4 bytes. Surfaces come from the posed triangle.
@@ -143,15 +143,15 @@ pub struct Config {
     /// Voxels along a side, 1 to 1024. Where absent, the square root of three times the resolution; with
     /// [`Leaves::Voxels`] the resolution, and no more than [`VOXEL_LEAVES_GRID`].
     pub grid: Option<u32>,
-    /// What rays hit.
+    /// Things that rays hit.
     pub leaves: Leaves,
-    /// How rays go from voxel to voxel. Changes no hit.
+    /// Stepping of rays from voxel to voxel. Changes no hit.
     pub traversal: Traversal,
     /// Which views keep a fragment.
     pub axes: Axes,
-    /// What makes a voxel occupied; fragments where absent and all views keep all, else triangles.
+    /// Test of which voxels are occupied; fragments where absent and all views keep all, else triangles.
     pub voxels: Option<Marking>,
-    /// How rays step within a voxel.
+    /// Stepping of rays within a voxel.
     pub march: March,
     /// Steps per voxel, 1 to 64; only for [`March::Samples`].
     pub samples: u32,
@@ -159,28 +159,28 @@ pub struct Config {
     pub accept: Accept,
     /// Which fragments decide whether a point is inside; only for [`Accept::Parity`].
     pub inside: Inside,
-    /// Whether rays hit what they leave and end on; only for [`Accept::Parity`] and [`Leaves::Voxels`].
+    /// Hits at the ends of rays; only for [`Accept::Parity`] and [`Leaves::Voxels`].
     pub ends: Ends,
     /// Which cells keep a triangle.
     pub coverage: Coverage,
-    /// How triangles are binned into cells. Changes no hit.
+    /// Builder that bins triangles into cells. Changes no hit.
     pub builder: Builder,
-    /// What a fragment carries.
+    /// Data that a fragment carries.
     pub payload: Payload,
     /// For diagnostics: keep the triangle of each fragment behind [`Payload::Material`]. Hits then name it,
     /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
     pub ids: bool,
-    /// How lists are kept.
+    /// Storage of lists.
     pub storage: Storage,
     /// Fragments per page, 1 to 8; only for [`Storage::Paged`]. Changes no hit.
     pub page: u32,
     /// Sort lists, so that a search can begin and end within; not for [`Storage::Paged`]. Changes no hit.
     pub sort: bool,
-    /// How pools are reached. Changes no hit.
+    /// Addressing of pools. Changes no hit.
     pub addressing: Addressing,
     /// Fragments, or pages of them, to allocate for the first build; a guess from the resolution where absent.
     pub fragments: Option<u64>,
-    /// How much of their work rays record. Changes no hit.
+    /// Counters that rays record of their work. Changes no hit.
     pub counters: Counters,
     /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
     pub work_budget: Option<u32>,
@@ -259,28 +259,28 @@ impl Config {
         self.grid.unwrap_or(balanced).clamp(1, numbers::VOXEL_GRID_LIMIT)
     }
 
-    /// Whether cells may keep all that reaches into them ([`Coverage::Conservative`]).
+    /// True if cells may keep all that reaches into them ([`Coverage::Conservative`]).
     pub fn may_test_triangles(&self) -> bool {
         self.axes == Axes::Triangle && self.accept == Accept::Plane && self.leaves == Leaves::Fragments
     }
 
-    /// What makes a voxel occupied.
+    /// Test of which voxels are occupied.
     pub fn marking(&self) -> Marking {
         let one_pass = self.axes == Axes::All;
         self.voxels.unwrap_or(if one_pass { Marking::Fragments } else { Marking::Triangles })
     }
 
-    /// Whether lists are sorted: not those in pages.
+    /// True if lists are sorted: not those in pages.
     pub fn sorts(&self) -> bool {
         self.sort && self.storage != Storage::Paged && self.leaves == Leaves::Fragments
     }
 
-    /// Whether a list is searched by bisection; else a search may have to read all of it.
+    /// True if a list is searched by bisection; else a search may have to read all of it.
     pub(crate) fn bisects(&self) -> bool {
         self.sort && self.storage == Storage::Contiguous
     }
 
-    /// Whether what rays hit may lie before or behind the surface, so that [`Config::ends`] matter.
+    /// True if a hit may lie before or behind the surface, so that [`Config::ends`] matter.
     fn has_ends(&self) -> bool {
         self.accept == Accept::Parity || self.leaves == Leaves::Voxels
     }

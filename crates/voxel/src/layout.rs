@@ -23,7 +23,7 @@ pub struct Demand {
     pub nodes: u64,
 }
 
-/// What a configuration allocates for a demand.
+/// Sizes of the pools of a configuration for a demand.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit indices can address.
@@ -66,7 +66,7 @@ pub(crate) fn entry_words(config: &Config) -> u64 {
     }
 }
 
-/// What the pool of scratch holds: the sums of the scan where lists are counted, and the words that binning and sorting
+/// Contents of the scratch pool: the sums of the scan where lists are counted, and the words that binning and sorting
 /// use.
 pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
     let counted = config.storage == Storage::Contiguous && config.leaves == Leaves::Fragments;

@@ -28,7 +28,7 @@ pub use rasray_shaders_glsl::records::VoxelHeader as Header;
 pub use structure::Voxels;
 pub use validate::{Contents, Fault, Fragment, well_formed};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

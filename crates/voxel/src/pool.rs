@@ -17,7 +17,7 @@ rasray_ads::pools! {
         Scratch "scratch" scratch_address,
         /// Nodes of the octree.
         Nodes "nodes" nodes_address => nodes,
-        /// What the octree's build counts, with sums of its scan.
+        /// Counts of the octree's build, with sums of its scan.
         Octants "octants" octants_address,
     }
     Config => Contents { header, config }

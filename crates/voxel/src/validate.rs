@@ -5,7 +5,7 @@ use rasray_ads::ListCounts;
 use crate::layout::{entry_words, levels};
 use crate::{Config, Header, Leaves, Payload, Storage, Traversal, list_count};
 
-/// What rays read, as downloaded, in words.
+/// Pools that rays read, as downloaded, in words.
 #[derive(Clone, Debug)]
 pub struct Contents {
     /// The configuration they were built with.
@@ -34,7 +34,7 @@ pub struct Fragment {
     pub primitive: u32,
 }
 
-/// What is wrong with a list or a voxel.
+/// Fault of a list or a voxel.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -83,7 +83,7 @@ pub enum Fault {
     Primitive {
         /// The list.
         list: usize,
-        /// What is stored.
+        /// Index stored.
         primitive: u32,
     },
     /// A sorted list is not in order, or contains a triangle twice.
@@ -205,8 +205,8 @@ impl Contents {
         Ok(places)
     }
 
-    /// What the cells of each view hold, and then what the voxels do. A voxel is occupied where rays search it; its layers
-    /// are the fragments of all views at whose depths it lies.
+    /// Counts the fragments in the cells of each view, then those in the voxels. A voxel is occupied where rays search
+    /// it; its layers are the fragments of all views at whose depths it lies.
     ///
     /// # Errors
     /// As [`Contents::list`].

@@ -18,7 +18,7 @@ const VALIDATION: &std::ffi::CStr = c"VK_LAYER_KHRONOS_validation";
 /// Frames that the host has in flight at most.
 pub const FRAMES: usize = 2;
 
-/// What the renderer has. Everything made from it goes before it.
+/// Renderer. Everything made from it goes before it.
 pub struct Host {
     _entry: ash::Entry,
     instance: ash::Instance,
@@ -29,14 +29,14 @@ pub struct Host {
     pub device: ash::Device,
     queue: vk::Queue,
     family: u32,
-    /// Whether buffers have addresses.
+    /// True if buffers have addresses.
     addresses: bool,
     pool: vk::CommandPool,
     frames: Vec<(vk::CommandBuffer, vk::Fence)>,
     made: RefCell<Vec<Made>>,
 }
 
-/// What is destroyed with the host.
+/// Objects destroyed with the host.
 enum Made {
     Buffer(vk::Buffer, vk::DeviceMemory),
     SetLayout(vk::DescriptorSetLayout),
@@ -66,7 +66,7 @@ impl Host {
             let info = info.enabled_layer_names(&layers).enabled_extension_names(&extensions);
             let instance = entry.create_instance(&info, None)?;
             let watcher = ash::ext::debug_utils::Instance::new(&entry, &instance);
-            // What the validation layer says; boxed, since it must stay where it is.
+            // Messages of the validation layer; boxed, since it must stay where it is.
             let log = Box::<ValidationLog>::default();
             let messenger = watcher.create_debug_utils_messenger(&log.messenger(), None)?;
             let physical = *instance.enumerate_physical_devices()?.first().ok_or("no Vulkan device")?;
@@ -88,7 +88,7 @@ impl Host {
             let mut features_13 = vk::PhysicalDeviceVulkan13Features::default()
                 .synchronization2(has(Feature::Synchronization2))
                 .dynamic_rendering(draws);
-            // What ray queries need, where a structure asks for them.
+            // Features of ray queries, where a structure asks for them.
             let mut trees =
                 vk::PhysicalDeviceAccelerationStructureFeaturesKHR::default().acceleration_structure(true);
             let mut queries = vk::PhysicalDeviceRayQueryFeaturesKHR::default().ray_query(true);
@@ -137,7 +137,7 @@ impl Host {
         }
     }
 
-    /// What rasray needs to know about the device. `enabled` are the features that it was made with.
+    /// Describes the device to rasray. `enabled` are the features that it was made with.
     pub fn raw_device(&self, enabled: &[Feature]) -> RawDevice {
         RawDevice {
             instance: self.instance.clone(),

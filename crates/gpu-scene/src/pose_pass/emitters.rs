@@ -45,7 +45,7 @@ impl Emitters {
         self.power
     }
 
-    /// Whether any of them moves.
+    /// True if any of them moves.
     pub fn moves(&self) -> bool {
         !self.moving.is_empty()
     }

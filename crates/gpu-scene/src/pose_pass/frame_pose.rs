@@ -20,7 +20,7 @@ pub struct FramePose {
     pub(super) placements: Vec<PosePlacement>,
     pub(super) joints: Vec<PoseMatrix>,
     pub(super) targets: Vec<PoseTarget>,
-    /// What the host deformed; see `FrameShapes`.
+    /// Shapes that the host deformed; see `FrameShapes`.
     pub(super) shapes: Arc<[f32]>,
     pub(super) lights: Vec<Light>,
     pub(super) emissive: Vec<EmissiveTriangle>,
@@ -56,10 +56,10 @@ impl FramePose {
     }
 }
 
-/// What places draws in a frame.
+/// Places draws in a frame.
 pub(super) struct Placer<'a> {
     pub scene: &'a Scene,
-    /// Whether its rig places its instances.
+    /// True if its rig places its instances.
     pub is_placed: bool,
     pub rig: &'a Rig,
     pub pose: &'a Pose,

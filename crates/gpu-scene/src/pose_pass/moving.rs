@@ -1,10 +1,10 @@
-//! What the clips of a scene can move.
+//! Nodes and weights that the clips of a scene can move.
 
 use rasray_scene::animation::{ChannelValues, DeformedMesh, NodeTransform, Rig};
 
 /// Nodes that any clip can move, and nodes whose morph targets it can.
 pub struct Moving {
-    /// What a node is carried by: itself or the nearest node above it that a clip changes, absent where it stays.
+    /// Carrier of each node: itself or the nearest node above it that a clip changes, absent where it stays.
     nodes: Vec<Option<usize>>,
     weights: Vec<bool>,
 }
@@ -39,7 +39,7 @@ impl Moving {
         Self { nodes: nodes.into_iter().map(Option::flatten).collect(), weights }
     }
 
-    /// Whether a node moves, by itself or with one above it.
+    /// True if a node moves, by itself or with one above it.
     pub fn node(&self, node: usize) -> bool {
         self.carrier(node).is_some()
     }
@@ -50,7 +50,7 @@ impl Moving {
         self.nodes.get(node).copied().flatten()
     }
 
-    /// Whether vertices move that hang on a node and are deformed like this.
+    /// True if vertices move that hang on a node and are deformed like this.
     pub fn instance(&self, rig: &Rig, node: usize, deformed: Option<&DeformedMesh>) -> bool {
         let Some(deformed) = deformed else { return self.node(node) };
         let morphs = !deformed.targets.is_empty() && self.weights.get(node).copied().unwrap_or(false);

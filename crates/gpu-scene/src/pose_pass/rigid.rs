@@ -17,7 +17,7 @@ pub struct RigidObject {
     carrier: usize,
     /// In the space of the node.
     centre: DVec3,
-    /// How far its corners are from the middle.
+    /// Distance of its corners from the middle.
     radius: f64,
     draws: Vec<RigidDraw>,
     /// Corners of its positions.

@@ -18,9 +18,9 @@ const VERTICES_PER_GROUP: u32 = 64;
 
 /// Draws that move, and the tables that hold their shapes.
 pub struct Sources {
-    /// What the device reads of each draw.
+    /// Record of each draw that the device reads.
     pub draws: Vec<PoseDraw>,
-    /// What the host reads of each draw.
+    /// Record of each draw that the host reads.
     pub places: Vec<DrawPlace>,
     /// Vertices of workgroups.
     pub groups: Vec<PoseGroup>,
@@ -38,7 +38,7 @@ pub struct Sources {
     pub displacements: Words,
 }
 
-/// What places a draw.
+/// Placement of a draw.
 #[derive(Clone, Debug)]
 pub struct DrawPlace {
     /// Index into the draws of the geometry.
@@ -76,7 +76,7 @@ pub struct SkinPlace {
     pub first_joint: u32,
 }
 
-/// What a joint has of the vertices of a mesh.
+/// Share of a joint in the vertices of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct JointPlace {
     /// Index into the joints of the skin.

@@ -1,4 +1,4 @@
-//! What is uploaded of a scene.
+//! Tests of scenes on the device.
 
 mod tables;
 mod texels;

@@ -101,7 +101,7 @@ fn the_largest_image_is_halved_until_all_fit() {
     }
 }
 
-/// What a render reads afterwards are the levels that there were.
+/// A render then reads the levels that there were.
 #[test]
 fn smaller_images_are_the_coarser_levels_bit_for_bit() {
     let whole = scene();

@@ -129,7 +129,7 @@ fn texels_lie_in_runs_that_count_as_one_part() {
         Err(GpuSceneError::TooManyTexels { count: 1000, limit: 512 }) => {}
         other => panic!("four runs of 128 hold 512 texels, got {other:?}"),
     }
-    // What is bound by itself are the longest runs that the device can bind.
+    // Bound by themselves are the longest runs that the device can bind.
     let uploaded = GpuScene::upload(&device, &tables, &view()).expect("the scene fits");
     let bytes = 4u64 << uploaded.frame().texel_shift;
     let limit = device.limits().max_storage_buffer_range.min(device.limits().max_memory_allocation);

@@ -23,7 +23,7 @@ pub(super) fn entry() -> std::result::Result<ash::Entry, String> {
     Ok(unsafe { ash::Entry::from_static_fn(functions) })
 }
 
-/// What the loader has under a name.
+/// Function that the loader has under a name.
 ///
 /// # Safety
 /// `instance` is null or an instance that is not destroyed.

@@ -14,7 +14,7 @@ pub enum At {
     Named(&'static str, usize),
 }
 
-/// How a call fails.
+/// Failure of a call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum With {
     /// With one of the codes that the function may return; beyond their number it begins again.
@@ -28,13 +28,13 @@ pub enum With {
 pub struct Injected {
     /// Its function.
     pub call: &'static str,
-    /// What it was made to return.
+    /// Result that it was made to return.
     pub result: vk::Result,
 }
 
 #[derive(Default)]
 struct State {
-    /// Whether calls are watched at all; elsewhere they pass without a trace.
+    /// True if calls are watched at all; elsewhere they pass without a trace.
     watched: bool,
     plan: Option<(At, With)>,
     /// Functions called since the watch began.

@@ -1,11 +1,11 @@
-//! What is bound while commands are recorded.
+//! Pipeline, sets and push constants bound while commands are recorded.
 
 use std::sync::Arc;
 
 use crate::binding::BindingSet;
 use crate::pipeline::PipelineInner;
 
-/// What is bound.
+/// Objects bound.
 #[derive(Default)]
 pub(super) struct Bound {
     pub(super) pipeline: Option<Arc<PipelineInner>>,

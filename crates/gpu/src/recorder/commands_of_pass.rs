@@ -1,11 +1,11 @@
-//! What was recorded, pass by pass.
+//! Commands recorded, pass by pass.
 
 use crate::stage::Stage;
 
 /// The commands of one pass: how much a device is told to do, without running it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PassCommands {
-    /// What of a frame the pass belongs to.
+    /// Part of a frame that the pass belongs to.
     pub stage: Stage,
     /// Label of the pass.
     pub label: String,

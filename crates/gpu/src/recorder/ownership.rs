@@ -47,7 +47,7 @@ impl Recorder<'_> {
     }
 }
 
-/// What a queue of `own` does of a transfer from another family. Accesses before it are those of the other half.
+/// Barrier of a queue of `own` for a transfer from another family. Accesses before it are those of the other half.
 fn acquiring(from: u32, own: u32, to: Access, graphics: bool) -> vk::BufferMemoryBarrier2<'static> {
     let (stages, access) = scope_of_queue(to, graphics);
     // All stages before: whichever the semaphore is waited for in.
@@ -59,7 +59,7 @@ fn acquiring(from: u32, own: u32, to: Access, graphics: bool) -> vk::BufferMemor
         .dst_queue_family_index(own)
 }
 
-/// What a queue of `own` does of a transfer to another family. Accesses after it are those of the other half.
+/// Barrier of a queue of `own` for a transfer to another family. Accesses after it are those of the other half.
 fn releasing(own: u32, to: u32, from: Access, graphics: bool) -> vk::BufferMemoryBarrier2<'static> {
     let (stages, access) = scope_of_queue(from, graphics);
     vk::BufferMemoryBarrier2::default()
@@ -98,7 +98,7 @@ mod tests {
 
     const READ: Access = Access::COMPUTE_READ.union(Access::VERTEX_READ).union(Access::TRANSFER_READ);
 
-    /// What both halves of a transfer from family 3 to family 1 record, the first of a queue that draws.
+    /// Barriers of both halves of a transfer from family 3 to family 1, the first of a queue that draws.
     fn halves(ranges: &[(vk::Buffer, u64, u64)]) -> [Vec<vk::BufferMemoryBarrier2<'static>>; 2] {
         [releasing(3, 1, Access::COMPUTE_WRITE, true), acquiring(3, 1, READ, false)]
             .map(|half| barriers(ranges.iter().copied(), half))

@@ -1,6 +1,6 @@
-//! What is drawn into.
+//! Areas that are drawn into.
 
-/// What is drawn into: a number of pixels, no images.
+/// Area that is drawn into: a number of pixels, no images.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RenderArea {
     /// Width in pixels.

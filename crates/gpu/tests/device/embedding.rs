@@ -164,7 +164,7 @@ fn a_command_buffer_of_the_host_is_recorded_into() {
         recorder.end_pass();
         recorder.barrier(Access::COMPUTE_WRITE, Access::TRANSFER_READ | Access::HOST_READ);
         let recorded = recorder.finish().expect("no mistake");
-        // What was recorded stays until the device is done, whoever else lets go of it.
+        // Recorded resources stay until the device is done, whoever else lets go of them.
         drop((set, buffer));
         raw.end_command_buffer(command).expect("end");
         let commands = [command];

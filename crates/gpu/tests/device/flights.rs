@@ -41,7 +41,7 @@ fn frames_in_flight_run_in_the_order_of_their_submission() {
     finish(device);
 }
 
-/// What a number of dispatches makes of 0, 1, 2, ...
+/// Values of 0, 1, 2, ... after a number of dispatches.
 fn expected_after(dispatches: u32) -> Vec<u32> {
     let once = |value: u32| value.wrapping_mul(3).wrapping_add(Scale::BIAS);
     (0..512).map(|first| (0..dispatches).fold(first, |value, _| once(value))).collect()

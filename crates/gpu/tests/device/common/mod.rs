@@ -1,4 +1,4 @@
-//! What the tests share: a validated device, and the objects of the smallest compute pass.
+//! Helpers of the tests: a validated device, and the objects of the smallest compute pass.
 
 #![allow(dead_code, reason = "each test binary uses a part")]
 
