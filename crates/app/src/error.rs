@@ -31,9 +31,9 @@ pub enum AppError {
     /// The command line asks for something that cannot be. Exit code 2.
     #[error("{message}")]
     Usage {
-        /// What is wrong.
+        /// Fault of the command line.
         message: String,
-        /// What to do.
+        /// Advice.
         help: String,
     },
     /// A file cannot be read, or an output cannot be put where it was asked for. Exit code 2.
@@ -41,9 +41,9 @@ pub enum AppError {
     Input {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Fault of the file.
         message: String,
-        /// What to do.
+        /// Advice.
         help: String,
     },
     /// An experiment gave no result. Exit code 3 where the device is missing, lacks something required or failed, 4 where
@@ -60,20 +60,20 @@ pub enum AppError {
     /// The system does not let signals be handled. Exit code 2.
     #[error("signals cannot be handled: {0}")]
     Signals(#[source] io::Error),
-    /// The same with what it is about. Exit code as without.
+    /// Another error, with its subject. Exit code as without.
     #[error("{what}: {source}")]
     About {
         /// A frame, or the comparison of a plan.
         what: String,
-        /// What is wrong.
+        /// The error.
         source: Box<Self>,
     },
     /// A result exists that would have lost data had it been kept. Exit code 4.
     #[error("{message}")]
     Refused {
-        /// What would have been lost, and where.
+        /// Results that would have been lost, and where.
         message: String,
-        /// What to do.
+        /// Advice.
         help: String,
     },
     /// A hard case's target was not met, and `--check` asked for it. Exit code 1.
@@ -81,15 +81,15 @@ pub enum AppError {
     Target {
         /// Which.
         message: String,
-        /// What to do.
+        /// Advice.
         help: String,
     },
     /// A signal stopped the run. Exit code 130.
     #[error("{message}")]
     Interrupted {
-        /// How far the run came and what was written.
+        /// Progress of the run, and the files written.
         message: String,
-        /// What to do.
+        /// Advice.
         help: String,
     },
 }
@@ -111,7 +111,7 @@ impl From<rasray_viewer::ViewerError> for AppError {
 }
 
 impl AppError {
-    /// The same error, with what it is about before its message.
+    /// Puts the subject of the error before its message.
     pub fn about(self, what: &str) -> Self {
         Self::About { what: what.to_owned(), source: Box::new(self) }
     }
@@ -150,7 +150,7 @@ impl AppError {
         }
     }
 
-    /// What to do about it.
+    /// Advice for the command line.
     pub fn help(&self) -> Cow<'_, str> {
         match self {
             Self::Usage { help, .. }

@@ -1,4 +1,4 @@
-//! What libraries' errors are on the command line: what to do about them by options of the command, and exit codes.
+//! Errors of libraries on the command line: advice by options of the command, and exit codes.
 
 use crate::error::EXIT_REFUSED;
 use rasray_denoise::DenoiseError;
@@ -23,13 +23,13 @@ use exit_codes::code_of_tracer;
 pub(crate) use exit_codes::code_of_viewer;
 pub(crate) use exit_codes::exit_code;
 
-/// What does not fit a device, or fails there.
+/// Advice where something does not fit a device, or fails there.
 const SMALLER: &str = "try a smaller --resolution or --size, or another --device";
 
-/// The same of what holds an image, a film or its rays: no option of structures makes it smaller.
+/// Advice for an image, a film or its rays: no option of structures makes it smaller.
 const SMALLER_IMAGE: &str = "try a smaller --size, or another --device";
 
-/// The same of the scene's own tables: no option of structures or images makes them smaller.
+/// Advice for the scene's own tables: no option of structures or images makes them smaller.
 const SMALLER_SCENE: &str =
     "try a scene with fewer triangles and images, a smaller map for --environment, or another --device";
 
@@ -46,13 +46,13 @@ const DAMAGED: &str = "the file is damaged or breaks its format: correct it, or 
 
 const PLACE_CAMERA: &str = "place the camera by --eye and --target";
 
-/// The same text with options as they are written on the command line; libraries write them `` `views` cube ``.
+/// Writes options as on the command line; libraries write them `` `views` cube ``.
 pub(crate) fn with_flags(text: &str) -> String {
     let parts = text.split('`').enumerate();
     parts.map(|(place, part)| if place % 2 == 1 { format!("--{part}") } else { part.to_owned() }).collect()
 }
 
-/// What is wrong, with options written as on the command line.
+/// Message, with options written as on the command line.
 pub(crate) fn message(error: &ExperimentError) -> String {
     match error {
         // Each of these begins with the name of an option.
@@ -82,7 +82,7 @@ pub(crate) fn message(error: &ExperimentError) -> String {
     }
 }
 
-/// What to do about it; empty where the message says so itself.
+/// Advice; empty where the message says so itself.
 pub(crate) fn help(error: &ExperimentError) -> Cow<'static, str> {
     match error {
         ExperimentError::Selection(error) => help_of_selection(error),
@@ -148,7 +148,7 @@ fn fixed_help(error: &ExperimentError) -> &'static str {
     }
 }
 
-/// What was asked for is too much, unless the call itself was wrong.
+/// Advice to ask for less, unless the call itself was wrong.
 fn help_of_gpu(error: &GpuError, smaller: &'static str) -> &'static str {
     match error {
         GpuError::InvalidUse { .. }
@@ -325,7 +325,7 @@ fn kinds_of_scenes() -> String {
     )
 }
 
-/// What to do about a scene that cannot be read. Messages that already end in what to do get none.
+/// Advice for a scene that cannot be read. Messages that already end in advice get none.
 fn help_of_scene(error: &SceneError) -> &'static str {
     match error {
         SceneError::Read { .. } => "check the name and that you may read the file",
@@ -348,7 +348,7 @@ fn help_of_scene(error: &SceneError) -> &'static str {
     }
 }
 
-/// What to do about a file of rays or hits that cannot be read.
+/// Advice for a file of rays or hits that cannot be read.
 pub(crate) fn help_of_rays(error: &FileError) -> &'static str {
     match error {
         FileError::Unreadable { .. } => "check the name and that you may read the file",
@@ -370,12 +370,12 @@ pub(crate) fn help_of_rays(error: &FileError) -> &'static str {
     }
 }
 
-/// What is wrong with `--denoise`.
+/// Message of a failure of `--denoise`.
 pub(crate) fn message_of_denoiser(error: &DenoiseError) -> String {
     format!("--denoise: {error}")
 }
 
-/// What to do about it.
+/// Advice for it.
 pub(crate) fn help_of_denoiser(error: &DenoiseError) -> &'static str {
     match error {
         DenoiseError::Missing { .. } | DenoiseError::Unsuitable { .. } => {
@@ -386,7 +386,7 @@ pub(crate) fn help_of_denoiser(error: &DenoiseError) -> &'static str {
     }
 }
 
-/// What to do about a window that cannot be, or shows no picture.
+/// Advice for a window that cannot be, or shows no picture.
 #[cfg(feature = "viewer")]
 pub(crate) fn help_of_viewer(error: &rasray_viewer::ViewerError) -> Cow<'static, str> {
     use rasray_viewer::ViewerError;

@@ -16,23 +16,23 @@ use tempfile::NamedTempFile;
 /// From the first signal to the end, where nothing is finished by then.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// How long an end waits for what it says to be taken. Who reads stderr may have stopped to, and whatever else writes
+/// Longest wait of an end for its message to be taken. Who reads stderr may have stopped to, and whatever else writes
 /// there then waits with the stream locked.
 const LAST_WORDS: Duration = Duration::from_millis(200);
 
-/// What the end says where nothing was finished.
+/// Message of the end where nothing was finished.
 const NOTHING: &str = "interrupted: stopped before anything was finished; nothing was written\n";
 
-/// Whether a signal asked for an early end, and which files are unfinished.
+/// Request of a signal for an early end, and the unfinished files.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt {
     requested: Arc<AtomicBool>,
-    /// Whether something is finished that an early end keeps.
+    /// True if something is finished that an early end keeps.
     keeps: Arc<AtomicBool>,
     unfinished: Arc<Mutex<Vec<PathBuf>>>,
 }
 
-/// Whether the process was started with a signal ignored.
+/// True if the process was started with a signal ignored.
 fn is_ignored(signal: i32) -> bool {
     let mut found = std::mem::MaybeUninit::<libc::sigaction>::uninit();
     // SAFETY: without a new action `sigaction` only writes the present one to `found`, which has room for it.
@@ -101,7 +101,7 @@ impl Interrupt {
         self.keeps.store(true, Ordering::SeqCst);
     }
 
-    /// Whether an early end was asked for.
+    /// True if an early end was asked for.
     pub fn requested(&self) -> bool {
         self.requested.load(Ordering::SeqCst)
     }

@@ -1,5 +1,5 @@
-//! What is being done, on stderr: a line that moves on a terminal, else a line now and then where something takes
-//! long. Nothing where quiet was asked for.
+//! Progress of work, on stderr: a line that moves on a terminal, else a line now and then where something takes long.
+//! Nothing where quiet was asked for.
 
 use crate::terminal::{self, Talk};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -82,7 +82,7 @@ pub(crate) fn during<T>(task: &str, unit: &str, work: impl FnOnce() -> T) -> T {
     result
 }
 
-/// What is counted, and since when: tasks with one unit and one total are parts of the same work.
+/// Work that is counted, and since when: tasks with one unit and one total are parts of the same work.
 #[derive(Debug, Default)]
 struct Count {
     unit: String,
@@ -92,8 +92,8 @@ struct Count {
 }
 
 impl Count {
-    /// How long the work will take from `now` on, at the pace so far; absent before the first of it is done, and when all
-    /// is.
+    /// Time that the work will take from `now` on, at the pace so far; absent before the first of it is done, and when
+    /// all is.
     fn time_left(&mut self, progress: Progress<'_>, now: Instant) -> Option<Duration> {
         let Progress { done, total, unit, .. } = progress;
         if total == 0 {
@@ -129,7 +129,7 @@ struct Signs {
     thread: Option<JoinHandle<()>>,
 }
 
-/// How far a task is.
+/// Progress of a task.
 #[derive(Debug)]
 struct Sign {
     task: String,

@@ -9,7 +9,7 @@ use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use tracing_subscriber::EnvFilter;
 
-/// How much is said in addition to results and errors.
+/// Amount of messages in addition to results and errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Talk {
     /// Nothing.
@@ -17,7 +17,7 @@ pub(crate) enum Talk {
     /// Warnings, hints, progress, and what a run gave in short.
     #[default]
     Usual,
-    /// The same, with every number.
+    /// As [`Talk::Usual`], with every number.
     Verbose,
 }
 
@@ -29,7 +29,7 @@ pub(crate) fn set_talk(talk: Talk) {
     TALK.store(talk as u8, Ordering::Relaxed);
 }
 
-/// Whether so much is said.
+/// True if so much is said.
 pub(crate) fn says(talk: Talk) -> bool {
     TALK.load(Ordering::Relaxed) >= talk as u8
 }
@@ -64,7 +64,7 @@ pub(crate) fn hang_up() {
 /// Writes bytes to stdout as they are. A reader that has gone away, such as `head`, wants no more and is no error.
 ///
 /// # Errors
-/// What the system says.
+/// The error of the system.
 pub(crate) fn write_out(bytes: &[u8]) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
@@ -139,7 +139,7 @@ pub(crate) fn warn_of_frame(scene: &Scene, said: &[Warning]) {
     }
 }
 
-/// Whether colours are wanted on stderr: where it is a terminal and NO_COLOR (no-color.org) is absent or empty.
+/// True if colours are wanted on stderr: where it is a terminal and NO_COLOR (no-color.org) is absent or empty.
 fn colors(is_terminal: bool, no_color: Option<&OsStr>) -> bool {
     is_terminal && no_color.is_none_or(OsStr::is_empty)
 }

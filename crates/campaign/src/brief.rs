@@ -30,7 +30,7 @@ pub(crate) struct Said {
 }
 
 impl Said {
-    /// What can be said of these rows, where `before` has been said of them and of others.
+    /// Settings told of these rows, where `before` has been said of them and of others.
     pub(crate) fn of(rows: &[&Row], before: &Self) -> Self {
         let all = Experiment { name: String::new(), rows: rows.iter().copied().cloned().collect() };
         let (settings, varied) = (all.settings(), all.varied());
@@ -60,18 +60,18 @@ impl Said {
         said
     }
 
-    /// What either says.
+    /// Settings that either says.
     pub(crate) fn and(mut self, other: &Self) -> Self {
         self.names.extend(other.names.iter().cloned());
         self
     }
 
-    /// What both say.
+    /// Settings that both say.
     pub(crate) fn shared(&self, other: &Self) -> Self {
         Self { names: self.names.intersection(&other.names).cloned().collect(), words: Vec::new() }
     }
 
-    /// What is new, in words.
+    /// New settings, in words.
     pub(crate) fn words(&self) -> &[String] {
         &self.words
     }
@@ -82,15 +82,15 @@ impl Said {
     }
 }
 
-/// Whether the value of one setting says that of the other.
+/// True if the value of one setting says that of the other.
 fn is_decided(rows: &[&Row], decides: &str, name: &str) -> bool {
     let pairs: BTreeSet<_> = rows.iter().map(|row| (row.setting(decides), row.setting(name))).collect();
     let keys: BTreeSet<_> = pairs.iter().map(|(key, _)| key).collect();
     keys.len() == pairs.len() && pairs.iter().all(|(key, value)| !key.is_empty() || value.is_empty())
 }
 
-/// What follows from the values of the setting that decides, in the order of rows; of values from which the same
-/// follows once.
+/// Settings that follow from the values of the one that decides, in words and in the order of rows; once for values
+/// from which the same follows.
 fn words_of(rows: &[&Row], decides: &str, decided: &[&str]) -> Vec<String> {
     let mut told: Vec<(Vec<&str>, String)> = Vec::new();
     for row in rows {

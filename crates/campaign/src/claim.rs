@@ -1,4 +1,4 @@
-//! What a paper published, beside what came of its plan.
+//! Numbers that a paper published, beside those that came of its plan.
 
 use crate::plan::{PlanError, line, word_of};
 use rasray_report::{Experiment, Row, number};
@@ -8,7 +8,7 @@ use toml::Value;
 /// A number of a paper, and which results are held against it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
-    /// What the paper says, one line.
+    /// Statement of the paper, one line.
     pub says: String,
     /// Its number, in the unit of the result; of a ratio without unit.
     pub published: f64,
@@ -78,7 +78,7 @@ impl Claim {
         Ok(Self { says, published, measure, of, over, note })
     }
 
-    /// What the rows of an experiment say of it; `None` where none of them does.
+    /// Finding of the rows of an experiment; `None` where none of them bears on it.
     pub fn find(&self, experiment: &Experiment) -> Option<Finding> {
         let varied = experiment.varied();
         let has = |row: &Row, wanted: &BTreeMap<String, String>| {
@@ -131,8 +131,8 @@ impl Finding {
     }
 }
 
-/// Whether two rows have a setting in common; an option that one of two systems or integrators does not take tells
-/// them not apart.
+/// True if two rows have a setting in common; an option that one of two systems or integrators does not take tells them
+/// not apart.
 fn is_alike(row: &Row, other: &Row, name: &str) -> bool {
     let is_option = |row: &Row| {
         let asked = row.report.cell.as_ref().map(|cell| &cell.depends_on);

@@ -1,11 +1,11 @@
-//! How long cells take, told by cells that were made.
+//! Estimates of the time of cells, by cells that were made.
 
 use rasray_report::{Cell, Report};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::time::Duration;
 
-/// How long cells will take.
+/// Time that cells will take.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
     /// Rays that are traced, all repetitions together.
@@ -18,8 +18,8 @@ pub struct Estimate {
     pub unknown: usize,
 }
 
-/// What cells with this much of work take by those that were made: of the same system and kind, at the same time for each
-/// ray or sample. What the oracle and reference images take is not in it.
+/// Estimates cells with this much of work by those that were made: of the same system and kind, at the same time for
+/// each ray or sample. The time of the oracle and of reference images is not in it.
 pub fn estimate<'a>(
     cells: impl IntoIterator<Item = &'a Cell>,
     made: impl IntoIterator<Item = &'a Report>,

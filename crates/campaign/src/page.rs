@@ -77,7 +77,7 @@ fn head(paper: &Paper, items: &[&str], campaign: &Campaign, of_all: &Said, of_ki
     text
 }
 
-/// What a page has shown so far.
+/// Contents of a page so far.
 struct Page<'a> {
     paper: &'a Paper,
     /// Of rays, and of images.
@@ -101,7 +101,7 @@ impl Page<'_> {
         for part in &mut parts {
             part.rows.sort_by_key(|row| row.setting("system") != "reference");
         }
-        // What rays and images have in common is said once.
+        // Settings that rays and images have in common are said once.
         let before = match &parts[..] {
             [one] => self.of_kind(one).clone(),
             _ => self.of_kinds[0].shared(&self.of_kinds[1]),
@@ -178,7 +178,7 @@ fn held_against(claims: &[Claim], made: &Experiment) -> String {
     text
 }
 
-/// Whether a claim holds, in words; nothing of numbers that depend on the machine.
+/// Says in words whether a claim holds; nothing of numbers that depend on the machine.
 fn verdict(found: &Finding) -> &'static str {
     match found.same_side {
         None => "",

@@ -81,7 +81,7 @@ impl Item {
     }
 }
 
-/// What stands before the names of an item's experiments.
+/// Prefix of the names of an item's experiments.
 pub fn word(paper: &Paper, item: &Item) -> String {
     format!("{} {}", paper.name, item.name)
 }

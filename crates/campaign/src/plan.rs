@@ -18,7 +18,7 @@ impl PlanError {
         Self { message: message.into(), help: help.into() }
     }
 
-    /// What to do about it.
+    /// Advice.
     pub fn help(&self) -> &str {
         &self.help
     }
@@ -29,9 +29,9 @@ impl PlanError {
 pub struct Plan {
     /// One line; of a plan that has none, `Campaign`.
     pub title: String,
-    /// What is to be known of it, such as how its scenes differ from those of a paper; may be empty.
+    /// Remarks, such as how its scenes differ from those of a paper; may be empty.
     pub about: String,
-    /// What came of it, and why; may be empty.
+    /// Results, and their reasons; may be empty.
     pub discussion: String,
     /// In the order of the file.
     pub experiments: Vec<ExperimentPlan>,
@@ -44,9 +44,9 @@ pub struct ExperimentPlan {
     pub name: String,
     /// Every combination of the lists of options.
     pub comparisons: Vec<ComparisonPlan>,
-    /// What is left out of them.
+    /// Cells left out of them.
     pub exclusions: Vec<Exclusion>,
-    /// What was published of them.
+    /// Numbers published of them.
     pub claims: Vec<Claim>,
     /// Names of the results that the page of a paper shows; empty for those of every page.
     pub columns: Vec<String>,
@@ -55,7 +55,7 @@ pub struct ExperimentPlan {
 /// One comparison: systems side by side on a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ComparisonPlan {
-    /// What the plan says of all its cells, by the names of options; not what takes turns in it.
+    /// Settings that the plan says of all its cells, by the names of options; not what takes turns in it.
     pub settings: BTreeMap<String, String>,
     /// The words of `rasray compare`, the scene first.
     pub words: Vec<String>,
@@ -66,7 +66,7 @@ pub struct ComparisonPlan {
 pub struct Exclusion(BTreeMap<String, Vec<String>>);
 
 impl Exclusion {
-    /// Whether a cell with these settings is left out.
+    /// True if a cell with these settings is left out.
     pub fn holds(&self, settings: &BTreeMap<String, String>) -> bool {
         self.0.iter().all(|(name, values)| settings.get(name).is_some_and(|value| values.contains(value)))
     }
@@ -344,7 +344,7 @@ fn combinations(keys: &Table) -> Result<Vec<ComparisonPlan>, PlanError> {
     Ok(all.into_iter().map(comparison).collect())
 }
 
-/// Whether the values of a key take turns in one comparison.
+/// True if the values of a key take turns in one comparison.
 fn takes_turns(key: &str) -> bool {
     TOGETHER.contains(&key) || key.contains('.')
 }
@@ -418,7 +418,7 @@ mod tests {
     fn small_sizes_take_the_place_of_full_ones() {
         let plan = Plan::read(PLAN, true).expect("valid");
         let words: Vec<_> = plan.comparisons().map(|(_, one)| one.words.join(" ")).collect();
-        // What an experiment says itself goes before what all have.
+        // Options of an experiment itself go before those that all have.
         assert_eq!(words.len(), 3);
         assert!(words[0].contains("--repetitions=1") && words[2].contains("--repetitions=7"), "{words:?}");
         assert!(words.iter().all(|words| words.starts_with("cornell ")), "{words:?}");

@@ -49,12 +49,12 @@ pub struct AblateArguments {
     /// A plan, .toml
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
-    /// How it is made.
+    /// Options of the campaign.
     #[command(flatten)]
     pub campaign: CampaignArguments,
 }
 
-/// How a campaign is made.
+/// Options of a campaign.
 #[derive(Debug, Args)]
 pub struct CampaignArguments {
     /// Folder for the results; made where there is none
@@ -98,7 +98,7 @@ pub struct ReplicateArguments {
     /// Print the items of the paper, or of all, and what they are
     #[arg(long)]
     pub list: bool,
-    /// How it is made.
+    /// Options of the campaign.
     #[command(flatten)]
     pub campaign: CampaignArguments,
 }

@@ -112,7 +112,7 @@ pub struct CompareArguments {
 }
 
 impl CompareArguments {
-    /// What is compared: every named system with every named preset that it has, and with each of the values that are
+    /// Systems to compare: every named system with every named preset that it has, and with each of the values that are
     /// addressed to it.
     ///
     /// # Errors

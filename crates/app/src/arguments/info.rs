@@ -23,7 +23,7 @@ With a scene: what is in it and what moves it, its cameras and the view where no
 With --passes: what the structure's build, its traces and its surface lookup record on this device, pass by pass.
 With --statistics: what the lists of its cells hold once it is built: layers per cell, slots that pages waste.";
 
-/// What is shown of a structure: one of these options.
+/// Group of the options about a structure, one of which is given.
 const OF_STRUCTURE: &str = "of structure";
 
 /// Options of `rasray info`.

@@ -31,7 +31,7 @@ pub struct MergeArguments {
     /// Files to put together
     #[arg(value_name = "PART", required = true)]
     pub parts: Vec<PathBuf>,
-    /// How a .png shows colours.
+    /// Colours of a .png.
     #[command(flatten)]
     pub tone: ToneArguments,
     /// Take what noise is left out of the picture, with the library Open Image Denoise where it is installed; shares are to

@@ -5,7 +5,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use rasray_report::one_line;
 use rasray_scene::nearest::nearest;
 
-/// What other renderers call what an option of this one does.
+/// Names of other renderers for options of this one.
 const OTHER_NAMES: [(&str, &[&str]); 14] = [
     ("size", &["width", "height", "dimensions", "image-size", "resolution", "res", "pixels"]),
     ("spp", &["samples", "samples-per-pixel", "num-samples", "nsamples"]),

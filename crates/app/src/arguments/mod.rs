@@ -65,15 +65,15 @@ RASRAY_LOG sets the log filter, for example RASRAY_LOG=debug. NO_COLOR=1 keeps c
 #[command(name = "rasray", version = crate::version::version_text(), about = ABOUT, after_help = AFTER_HELP)]
 #[command(arg_required_else_help = true, disable_help_flag = true)]
 pub struct CommandLine {
-    /// What to do.
+    /// Command to run.
     #[command(subcommand)]
     pub command: Command,
-    /// How much is said.
+    /// Amount of messages.
     #[command(flatten)]
     pub talk: TalkArguments,
 }
 
-/// What the command can do.
+/// Commands of the program.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Render a scene to an image
@@ -100,7 +100,7 @@ pub enum Command {
 const COMMANDS: [&str; 9] =
     ["render", "merge", "compare", "ablate", "replicate", "view", "info", "completions", "man"];
 
-/// What parsing gave when there is no command to run.
+/// Outcome of parsing when there is no command to run.
 #[derive(Debug)]
 pub enum Refusal {
     /// Help or version was asked for: text for stdout.
@@ -132,7 +132,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<CommandLin
 /// The comparison that words of `rasray compare` ask for, the scene first.
 ///
 /// # Errors
-/// What `rasray compare` would say of them; words that ask for help.
+/// Those of `rasray compare`; words that ask for help.
 pub fn comparison(words: &[String]) -> Result<CompareArguments, AppError> {
     let line = ["rasray", "compare"].map(OsString::from);
     match parse(line.into_iter().chain(words.iter().map(OsString::from))) {
@@ -175,7 +175,7 @@ fn with_negative_values(words: &[OsString]) -> Vec<OsString> {
     joined
 }
 
-/// Whether a word begins as a negative number does.
+/// True if a word begins as a negative number does.
 fn is_negative(word: &str) -> bool {
     let Some(rest) = word.strip_prefix('-') else { return false };
     let digits = rest.strip_prefix('.').unwrap_or(rest);

@@ -50,7 +50,7 @@ pub fn arguments(row: &'static OptionRow, help: String) -> impl Iterator<Item = 
     std::iter::once(argument).chain(off)
 }
 
-/// What was given for an option.
+/// Value given for an option.
 pub fn given(row: &OptionRow, matches: &ArgMatches) -> Option<Value> {
     let off = row.off_name.is_some_and(|name| matches.get_flag(name)).then_some(Value::Word("off"));
     matches.get_one::<Value>(row.name).copied().or(off)

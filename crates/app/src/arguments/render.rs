@@ -43,7 +43,7 @@ of --shard only whole images are written; run again with --resume.";
 const FRAMES: &str = "Frames and shares";
 const IMAGE: &str = "Image";
 
-/// What to do about options that do not go together.
+/// Advice for options that do not go together.
 const LEAVE_ONE: &str = "leave one of the two out";
 
 /// Samples of the pilot unless told.
@@ -72,7 +72,7 @@ pub struct RenderArguments {
     /// Images in addition to the colours, kept in the .exr
     #[arg(long, value_parser = aov_parser(), value_delimiter = ',', requires = "output")]
     pub aov: Vec<Aov>,
-    /// How a .png shows colours.
+    /// Colours of a .png.
     #[command(flatten)]
     pub tone: ToneArguments,
     /// JSON with times, bytes and counts; - is standard output
@@ -193,7 +193,7 @@ impl RenderArguments {
         Ok(aovs)
     }
 
-    /// How many samples each pixel of a frame gets; absent: all.
+    /// Rule for the samples that each pixel of a frame gets; absent: all.
     fn adaptive(&self, frame: &Frame) -> Result<Option<Adaptive>, AppError> {
         let Some(threshold) = self.adaptive else { return Ok(None) };
         let refused = |why: String, fix: &str| Err(AppError::usage(why, fix));

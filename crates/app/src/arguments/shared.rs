@@ -23,7 +23,7 @@ const DEFAULT_SIZE: Size = Size { width: 640, height: 360 };
 /// Samples per pixel unless told.
 const DEFAULT_SAMPLES: u32 = 16;
 
-/// How much is said in addition to results and errors.
+/// Amount of messages in addition to results and errors.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct TalkArguments {
     /// Say nothing but errors and what was asked for
@@ -159,7 +159,7 @@ impl ViewArguments {
     }
 }
 
-/// Whether only what can be observed is handled.
+/// Parts of a scene that are handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum NeedsName {
     /// Only what scene and integrator let an image show
@@ -168,7 +168,7 @@ pub enum NeedsName {
     All,
 }
 
-/// How the scene is read.
+/// Options of reading a scene.
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Scene")]
 pub struct SceneArguments {
@@ -228,7 +228,7 @@ impl SceneArguments {
         Ok(Some(Environment::Constant(color)))
     }
 
-    /// What of the scene the work needs.
+    /// Parts of the scene that the work needs.
     pub fn needs(&self, scene: &Scene, workload: Workload, aovs: AovSelection) -> Needs {
         match self.needs {
             NeedsName::Observed => aovs.needs(scene, workload),
@@ -248,7 +248,7 @@ fn unreadable_map(path: &Path, error: &SceneError) -> AppError {
     }
 }
 
-/// What every command takes that shows a scene: groups of options, in the order of its help.
+/// Options of every command that shows a scene: groups of options, in the order of its help.
 #[derive(Debug, Args)]
 pub struct WorkArguments {
     /// The image and its integrator; where rays are compared the size also shapes those of the camera.
@@ -257,7 +257,7 @@ pub struct WorkArguments {
     /// From where.
     #[command(flatten)]
     pub view: ViewArguments,
-    /// How the scene is read.
+    /// Reading of the scene.
     #[command(flatten)]
     pub reading: SceneArguments,
     /// Options of structures.

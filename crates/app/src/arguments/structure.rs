@@ -62,7 +62,7 @@ pub fn back_faces_parser() -> impl TypedValueParser<Value = BackFaces> {
 /// The options of a structure on the command line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StructureArguments(
-    /// What was given.
+    /// Values given.
     pub OptionValues,
 );
 

@@ -51,7 +51,7 @@ fn defaults_are_the_documented_ones() {
     assert_eq!(given.work.structure, StructureArguments::default());
 }
 
-/// What nothing is said of suits the scene, its own camera and nothing else.
+/// Options left out suit the scene, its own camera and nothing else.
 #[test]
 fn a_picture_of_a_built_in_scene_suits_it() {
     for (line, expected) in [
@@ -236,7 +236,7 @@ fn how_much_is_said_stands_before_the_command_or_after_it() {
     }
 }
 
-/// What the help says of whole numbers is what is taken.
+/// Whole numbers are taken in the ranges that the help says.
 #[test]
 fn ranges_in_the_help_are_those_of_the_values() {
     let line = CommandLine::command();

@@ -1,4 +1,4 @@
-//! How pictures of 8 bits are shown.
+//! Colours of pictures of 8 bits.
 
 use super::options::choice;
 use super::values::Quantity;
@@ -11,7 +11,7 @@ pub fn tone_parser() -> impl TypedValueParser<Value = ToneCurve> {
     choice(ToneCurve::ALL, |curve| (curve.name(), curve.doc()))
 }
 
-/// How linear colours become those of a PNG.
+/// Map from linear colours to those of a PNG.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct ToneArguments {
     /// Stops of exposure for .png
@@ -23,7 +23,7 @@ pub struct ToneArguments {
 }
 
 impl ToneArguments {
-    /// What was asked for.
+    /// Tone that was asked for.
     pub fn tone(self) -> Tone {
         Tone { curve: self.tone.unwrap_or_default(), exposure: self.exposure.unwrap_or_default() }
     }

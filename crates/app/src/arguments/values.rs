@@ -134,7 +134,7 @@ pub fn shard(text: &str) -> Result<Shard, ValueError> {
 /// A number with a range, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
-    /// What it counts, for messages.
+    /// Name of the quantity, for messages.
     of: &'static str,
     lowest: f64,
     highest: f64,

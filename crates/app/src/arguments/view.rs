@@ -43,7 +43,7 @@ pub struct ViewerArguments {
     /// Where pictures are saved, .png; a run of # is a number [default: as SCENE is named]
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// How colours are shown, and saved.
+    /// Colours, as shown and saved.
     #[command(flatten)]
     pub tone: ToneArguments,
     /// The image, the camera, the scene, the structure and the device.

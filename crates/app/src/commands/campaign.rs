@@ -39,7 +39,7 @@ struct Worded<'a> {
     given: CompareArguments,
 }
 
-/// The same with what its options ask for.
+/// A comparison of the plan, with what its options ask for.
 struct Planned<'a> {
     place: usize,
     plan: &'a ComparisonPlan,

@@ -101,7 +101,7 @@ impl Pictures<'_> {
     }
 }
 
-/// How many frames stood how.
+/// Number of frames of each standing.
 #[derive(Default)]
 struct Tally([u32; Standing::ALL.len()]);
 

@@ -91,7 +91,7 @@ pub(super) fn compare(
         };
         let (one, triangles) = match traced {
             Ok(traced) => traced,
-            // What was whole before is kept.
+            // Cases that were whole before are kept.
             Err(error) if finished > 0 => {
                 failed = Some(error);
                 break;
@@ -227,7 +227,7 @@ fn hits_files(given: &CompareArguments, ids: &[&str]) -> Result<Vec<HitsFile>, A
     given.files.hits_file.iter().map(|file| Ok(load_hits(&file.name, &file.path)?)).collect()
 }
 
-/// What cases are traced through.
+/// Systems and hits of files that cases are traced through.
 #[derive(Clone, Copy)]
 struct Subject<'a> {
     systems: &'a [SystemConfig],
@@ -235,7 +235,7 @@ struct Subject<'a> {
     targets: &'a Targets,
 }
 
-/// How cases are made.
+/// Scale of the cases.
 fn scale(given: &CompareArguments) -> Scale {
     // A ray does not depend on how many there are.
     let fewest = given.replay.map_or(0, |index| index.saturating_add(1));

@@ -193,7 +193,7 @@ fn merge_rows(given: &MergeArguments, place: &Destination, interrupt: &Interrupt
     Ok(())
 }
 
-/// What to do about rows that do not go together.
+/// Advice for rows that do not go together.
 const SAME: &str = "merge reports of the same scene, options and program";
 
 /// Frames that commands make, from the first to the last.

@@ -13,7 +13,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-/// Whether the first line of the parts is of a comparison.
+/// True if the first line of the parts is of a comparison.
 pub(super) fn cells_are_in(given: &MergeArguments) -> bool {
     let first = |path: &Path| {
         let mut line = Vec::new();

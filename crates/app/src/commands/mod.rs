@@ -1,4 +1,4 @@
-//! What each word of the command does.
+//! Commands of the program, one per word.
 
 mod ablate;
 mod campaign;

@@ -47,7 +47,7 @@ impl Targets {
         Ok(Self { image, report })
     }
 
-    /// What there is of the picture with this key: its image, and its report as well, where one is wanted here.
+    /// Standing of the picture with this key: its image, and its report as well, where one is wanted here.
     pub(super) fn standing(&self, given: &RenderArguments, key: &str) -> Result<Standing, AppError> {
         let Some((place, format)) = self.image.as_ref().filter(|(place, _)| !place.is_stdout()) else {
             return Ok(Standing::Missing);
@@ -62,7 +62,7 @@ impl Targets {
     }
 }
 
-/// Whether a report of frames with this name takes a row of each.
+/// True if a report of frames with this name takes a row of each.
 fn takes_rows(path: &Path) -> bool {
     numbered(path, 0).is_none() && Rows::are_in(path)
 }

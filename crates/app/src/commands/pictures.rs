@@ -18,7 +18,7 @@ use rasray_experiment::{
 use rasray_report::{FramesRecord, Report, json_shown, table_within};
 use rasray_scene_source::{Chosen, LoadedScene};
 
-/// What the pictures of a command have in common.
+/// Inputs that the pictures of a command have in common.
 pub(super) struct Pictures<'a> {
     pub(super) given: &'a RenderArguments,
     pub(super) line: &'a str,
@@ -35,11 +35,11 @@ pub(super) struct Pictures<'a> {
     pub(super) loaded: LoadedScene,
     pub(super) chosen: Chosen,
     pub(super) backend: Box<dyn Backend>,
-    /// What the device has of the picture of the scene at another time.
+    /// Scene on the device, as left by the picture at another time.
     pub(super) kept: KeptScene,
     /// The frame before the one that is shown, where anything of it is wanted.
     pub(super) before: Option<FrameBefore>,
-    /// What takes the noise out of the pictures, where that is wanted.
+    /// Denoiser of the pictures, where that is wanted.
     pub(super) denoiser: Option<Denoiser>,
 }
 
@@ -102,7 +102,7 @@ impl Pictures<'_> {
 
         let mut run = output.run(&job.system, &frame);
         let whole = check_run(&run);
-        // What a signal cut short is nothing that another run would make.
+        // A picture that a signal cut short is none that another run would make.
         let key = Some(key).filter(|_| output.samples_done == samples);
         run.key.clone_from(&key);
         run.shard = shard.map(|shard| shard.to_string());

@@ -1,4 +1,4 @@
-//! What a comparison is about: what its options ask for, and the scene that they ask it of.
+//! Subject of a comparison: what its options ask for, and the scene that they ask it of.
 
 use super::steps::{Posing, Shown, fit_images, read_scene};
 use crate::arguments::CompareArguments;
@@ -21,7 +21,7 @@ const DEFAULT_RAYS: u32 = 200_000;
 /// Sets of rays unless told.
 const DEFAULT_SETS: [RaySet; 2] = [RaySet::Incoherent, RaySet::Camera];
 
-/// What the options of a comparison ask for, checked as far as that goes without the scene.
+/// Options of a comparison, checked as far as that goes without the scene.
 #[derive(Clone)]
 pub(super) struct Asked<'a> {
     given: &'a CompareArguments,
@@ -61,7 +61,7 @@ impl<'a> Asked<'a> {
         Ok(Self { given, frame, systems, ray_sets, rays_file, hits_files })
     }
 
-    /// The same with the scene, which is read.
+    /// Reads the scene of the comparison.
     ///
     /// # Errors
     /// The scene cannot be read, or does not have what is asked for.
@@ -120,7 +120,7 @@ impl Subject<'_> {
         compare_cells(version_text(), &self.loaded, &self.job())
     }
 
-    /// What a report says of the scene and of the camera.
+    /// Records of the scene and of the camera for a report.
     pub(super) fn records(&self) -> (SceneRecord, Option<CameraRecord>) {
         (self.loaded.record(), Some(self.chosen.record()))
     }

@@ -61,12 +61,12 @@ impl Targets {
         self.lines.as_ref()
     }
 
-    /// Whether a page is wanted, and with it figures.
+    /// True if a page is wanted, and with it figures.
     pub(super) fn has_page(&self) -> bool {
         self.html.is_some()
     }
 
-    /// Whether a file goes to standard output, which then carries nothing else.
+    /// True if a file goes to standard output, which then carries nothing else.
     pub(super) fn take_stdout(&self) -> bool {
         [&self.report, &self.html, &self.markdown].into_iter().flatten().any(Destination::is_stdout)
     }
@@ -76,7 +76,7 @@ impl Targets {
         &self.save
     }
 
-    /// Whether a file keeps the runs.
+    /// True if a file keeps the runs.
     pub(super) fn any(&self) -> bool {
         [&self.report, &self.lines, &self.html, &self.markdown].into_iter().any(Option::is_some)
     }
@@ -98,7 +98,7 @@ impl Targets {
     }
 }
 
-/// How a report is written.
+/// Form of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     /// With everything that was measured.

@@ -11,7 +11,7 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
-/// What to do about lines that do not go together.
+/// Advice for lines that do not go together.
 const SAME: &str = "name another file, or leave --resume out to make all cells anew";
 
 /// The lines of a file, each the report of one cell.
@@ -19,7 +19,7 @@ const SAME: &str = "name another file, or leave --resume out to make all cells a
 pub(crate) struct CellLines {
     /// Each with its record.
     pub(crate) lines: Vec<(CellRecord, Report)>,
-    /// Whether the last line was cut short, and is left out.
+    /// True if the last line was cut short, and is left out.
     is_torn: bool,
 }
 
@@ -62,7 +62,7 @@ pub(crate) fn read_cells(path: &Path) -> Result<CellLines, AppError> {
     Ok(CellLines { lines, is_torn })
 }
 
-/// How a line is of something else than another, in words; `None` where both are of one comparison.
+/// Difference between the subjects of two lines, in words; `None` where both are of one comparison.
 pub(crate) fn difference(line: &Report, other: &Report) -> Option<String> {
     let device = |report: &Report| format!("{} ({})", report.device.name, report.device.driver);
     let list = |report: &Report| report.cell.as_ref().map(|cell| (cell.list.clone(), cell.cells));
@@ -275,5 +275,5 @@ impl CellFile {
     }
 }
 
-/// What to do about a file that takes no line.
+/// Advice for a file that takes no line.
 const FREE: &str = "free space or see that you may write to it, then run again with --resume";

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// How the names of unfinished files end: as no file of anybody else does, since what is left of them is removed.
+/// Suffix of the names of unfinished files: that of no file of anybody else, since what is left of them is removed.
 const UNFINISHED: &str = ".rasray-tmp";
 
 /// Random letters and digits in their names.
@@ -25,7 +25,7 @@ pub struct Destination {
     kind: Kind,
 }
 
-/// How bytes get to a place.
+/// Way in which bytes get to a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     /// Written next to it and renamed.
@@ -93,7 +93,7 @@ impl Destination {
         }
     }
 
-    /// Whether two names lead to the same file, or both to standard output.
+    /// True if two names lead to the same file, or both to standard output.
     pub fn same_as(&self, other: &Self) -> bool {
         match (self.is_stdout(), other.is_stdout()) {
             (false, false) => absolute(&self.path) == absolute(&other.path),
@@ -101,12 +101,12 @@ impl Destination {
         }
     }
 
-    /// Whether the file will be put where `path` leads.
+    /// True if the file will be put where `path` leads.
     pub fn is(&self, path: &Path) -> bool {
         !self.is_stdout() && absolute(&self.path) == absolute(path)
     }
 
-    /// Whether it is standard output, which then carries nothing else.
+    /// True for standard output, which then carries nothing else.
     pub fn is_stdout(&self) -> bool {
         self.kind == Kind::Stdout
     }

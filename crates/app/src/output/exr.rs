@@ -11,7 +11,7 @@ use exr::prelude::*;
 use rasray_experiment::{Aov, AovImage, RenderOutput, Shard};
 use std::io::Cursor;
 
-/// What is written into the header of an image.
+/// Metadata in the header of an image.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Metadata {
     /// The scene's name.
@@ -32,7 +32,7 @@ pub struct Metadata {
     pub version: String,
     /// The key of the file; absent where it holds less than was asked for.
     pub key: Option<String>,
-    /// What took the noise out of it; absent: nothing did.
+    /// Name of its denoiser; absent without one.
     pub denoised: Option<String>,
     /// Which share of the samples of which picture it holds; absent: all.
     pub part: Option<PartOf>,
@@ -63,7 +63,7 @@ fn text(value: &str) -> Text {
 /// The bytes of an EXR file of all images of `output`; of a part with sums in place of means.
 ///
 /// # Errors
-/// What the encoder says, in words.
+/// The message of the encoder.
 pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result<Vec<u8>, String> {
     let mut channels = Channels(Vec::new());
     let sums = output.sums.as_ref().filter(|_| metadata.part.is_some());

@@ -50,12 +50,12 @@ pub(super) fn text<'a>(bytes: &'a [u8], name: &str) -> Option<&'a str> {
     std::str::from_utf8(&bytes[value_of(bytes, name)?]).ok()
 }
 
-/// Whether a file begins as an EXR does, with a whole header.
+/// True if a file begins as an EXR does, with a whole header.
 pub(super) fn is_readable(bytes: &[u8]) -> bool {
     bytes.starts_with(&MAGIC) && attributes(bytes).is_some()
 }
 
-/// Whether the checksum is that of the other bytes.
+/// True if the checksum is that of the other bytes.
 pub(super) fn is_whole(bytes: &[u8]) -> bool {
     value_of(bytes, CHECKSUM).is_some_and(|place| bytes[place.clone()] == *checksum(bytes, &place).as_bytes())
 }

@@ -58,7 +58,7 @@ impl PartFile {
     /// Sums, counts and further images; without means.
     ///
     /// # Errors
-    /// What the decoder says, in words.
+    /// The message of the decoder.
     pub(crate) fn pixels(self) -> std::result::Result<RenderOutput, String> {
         let image = read()
             .no_deep_data()

@@ -1,9 +1,9 @@
-//! How images are stored.
+//! Formats of images.
 
 use crate::error::AppError;
 use std::path::Path;
 
-/// How an image is stored.
+/// Format of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum ImageFormat {
     /// 8-bit sRGB

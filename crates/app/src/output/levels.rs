@@ -1,4 +1,4 @@
-//! Whether a finished image shows anything, and what to do if it does not.
+//! Tells whether a finished image shows anything, and what to do if it does not.
 
 use super::format::ImageFormat;
 use rasray_experiment::RenderOutput;
@@ -69,7 +69,7 @@ mod tests {
             text.contains("black") && text.contains("--exposure 6 ") && text.contains("--environment"),
             "{text}"
         );
-        // What it suggests helps.
+        // Its advice helps.
         assert_eq!(png(&dim, 6.0), None);
         let text = png(&image(&[([0.0; 3], 9)]), 0.0).expect("black");
         assert!(text.contains("black") && !text.contains("--exposure"), "no exposure helps: {text}");

@@ -11,7 +11,7 @@ use std::io::Write;
 /// The bytes of a PNG file of the colours, with how they are shown, and with a key and what denoised them where there is.
 ///
 /// # Errors
-/// What the encoder says, in words.
+/// The message of the encoder.
 pub fn encode(output: &RenderOutput, tone: Tone, metadata: &Metadata) -> Result<Vec<u8>, String> {
     let rows = output.beauty.chunks(output.width.max(1) as usize);
     let shown = tone_text(tone);
@@ -28,7 +28,7 @@ pub(crate) fn encode_picture(pixels: &[u8], size: [u32; 2]) -> Result<Vec<u8>, A
     encode_shown(pixels, size, None, None)
 }
 
-/// The same, with how linear colours became these, and what denoised them, where that is so.
+/// As [`encode_picture`], with how linear colours became these, and what denoised them, where that is so.
 ///
 /// # Errors
 /// As [`encode_picture`].
@@ -44,7 +44,7 @@ pub(crate) fn encode_shown(
         .map_err(|error| AppError::refused(format!("the picture could not be encoded: {error}"), ""))
 }
 
-/// The same of rows, with those texts that there are, each by its name, and the error in words.
+/// Encodes rows, with those texts that there are, each by its name, and the error in words.
 fn encode_rows<'a>(
     rows: impl Iterator<Item = impl AsRef<[u8]>>,
     size: [u32; 2],

@@ -17,7 +17,7 @@ pub(crate) struct Row {
     pub(crate) key: String,
     /// The frames that its command makes; reports of older programs do not say.
     pub(crate) frames: Option<FramesRecord>,
-    /// What all frames of a command have in common, as far as a row says it.
+    /// Fields that all frames of a command have in common, as far as a row says them.
     pub(crate) common: String,
     /// The report in one line, without its end.
     pub(crate) line: String,
@@ -81,12 +81,12 @@ pub(crate) fn key_of_report(path: &Path) -> Option<String> {
 pub(crate) struct Rows {
     place: Destination,
     rows: BTreeMap<u32, Row>,
-    /// Whether the file holds something else.
+    /// True if the file holds something else.
     is_changed: bool,
 }
 
 impl Rows {
-    /// Whether a name is one of such a file: it ends in `.jsonl`.
+    /// True for the name of such a file: it ends in `.jsonl`.
     pub(crate) fn are_in(path: &Path) -> bool {
         path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("jsonl"))
     }
@@ -107,7 +107,7 @@ impl Rows {
         &self.place
     }
 
-    /// Whether there is a row of this picture.
+    /// True if there is a row of this picture.
     pub(crate) fn has(&self, frame: u32, key: &str) -> bool {
         self.rows.get(&frame).is_some_and(|row| row.key == key)
     }
@@ -123,7 +123,7 @@ impl Rows {
         self.is_changed = true;
     }
 
-    /// Whether [`Rows::write`] would write something else than the file holds.
+    /// True if [`Rows::write`] would write something else than the file holds.
     pub(crate) fn is_changed(&self) -> bool {
         self.is_changed
     }

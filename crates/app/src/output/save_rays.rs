@@ -25,7 +25,7 @@ impl SaveTargets {
         Ok(Self { rays: rays.map(Path::to_owned), hits: hits.map(Path::to_owned) })
     }
 
-    /// Whether anything is to be saved.
+    /// True if anything is to be saved.
     pub(crate) fn any(&self) -> bool {
         self.rays.is_some() || self.hits.is_some()
     }

@@ -1,4 +1,4 @@
-//! What images say of themselves: a key, by which a later run knows what they show.
+//! Stamps of images: a key, by which a later run knows what they show, tone and denoiser.
 
 use super::exr_header;
 use super::format::ImageFormat;
@@ -13,13 +13,13 @@ use std::path::Path;
 /// which it shows the picture.
 pub const KEY: &str = "rasrayKey";
 
-/// How a PNG shows its colours, a tEXt chunk: the curve, and the stops of exposure before it.
+/// Tone of a PNG, a tEXt chunk: the curve, and the stops of exposure before it.
 pub const TONE: &str = "rasrayTone";
 
-/// What took the noise out of an image, such as `Open Image Denoise 2.5.1`: an attribute of an EXR, a tEXt chunk of a PNG.
+/// Denoiser of an image, such as `Open Image Denoise 2.5.1`: an attribute of an EXR, a tEXt chunk of a PNG.
 pub const DENOISED: &str = "rasrayDenoised";
 
-/// How colours are shown, in words: `agx, exposure 1`.
+/// Tone in words: `agx, exposure 1`.
 pub fn tone_text(tone: Tone) -> String {
     match tone.curve {
         ToneCurve::Exposure => format!("exposure {}", tone.exposure),
@@ -46,7 +46,7 @@ pub fn image_key(picture: &str, format: ImageFormat, tone: Tone, shard: Option<S
     .finish()
 }
 
-/// What is at a place where an image with a certain key is wanted.
+/// State of a place where an image with a certain key is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// The wanted image, whole.
@@ -124,10 +124,10 @@ fn png_text<'a>(info: &'a png::Info<'_>, name: &str) -> Option<&'a str> {
     texts.find(|chunk| chunk.keyword == name).map(|chunk| chunk.text.as_str())
 }
 
-/// How every PNG ends: a chunk without content, and its checksum.
+/// End of every PNG: a chunk without content, and its checksum.
 const PNG_END: [u8; 12] = *b"\0\0\0\0IEND\xaeB`\x82";
 
-/// Whether all chunks have the checksums that they state and all pixels are there.
+/// True if all chunks have the checksums that they state and all pixels are there.
 fn png_is_whole(bytes: &[u8]) -> bool {
     let read = || {
         let mut options = png::DecodeOptions::default();

@@ -192,7 +192,7 @@ fn plans_are_what_help_and_page_show() {
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         assert_eq!(output.status.code(), Some(0), "{plan}: {}", stderr(&output));
         assert!(text.contains(runs), "{plan}: {text}");
-        // What all images have in common tells none apart.
+        // Settings that all images have in common tell none apart.
         assert!(!text.contains("sampler="), "{text}");
     }
 }

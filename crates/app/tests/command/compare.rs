@@ -30,7 +30,7 @@ fn rays_and_hits_go_out_and_come_back_and_a_wrong_hit_is_found() {
     assert_eq!((first.runs.len(), accuracy(&first, 1).missed), (2, 0));
     assert!(first.statistics.is_some_and(|statistics| statistics.rates > 5));
 
-    // The same rays from the file get the same answers, bit for bit, and each variant of a system has a file.
+    // Rays read from the file get the same answers, bit for bit, and each variant of a system has a file.
     let line =
         "compare cornell --systems mmrt,brute-force mmrt.buckets=4,8 --rays-file bounce.rays --save-hits .";
     compared(path, line);
@@ -110,8 +110,8 @@ fn a_page_has_figures_and_a_hard_case_its_verdict() {
     assert_eq!(report.scene.name, "hard:E5");
 }
 
-/// What passes and host took is what the figures say, also where a pass is dispatched often, the host builds, and the number
-/// of repetitions is even.
+/// Times of passes and host add up to the figures, also where a pass is dispatched often, the host builds, and the
+/// number of repetitions is even.
 #[test]
 fn passes_add_up_to_the_figures_of_a_run() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -58,7 +58,7 @@ fn a_machine_without_a_loader_is_told_what_to_install() {
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 0, "something was written");
 }
 
-/// What a scene holds and needs is known without a device.
+/// Contents and needs of a scene are known without a device.
 #[test]
 fn a_scene_is_described_without_a_device() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -69,8 +69,8 @@ fn a_scene_is_described_without_a_device() {
     assert!(text.contains("scene cornell") && text.contains("triangles"), "{text}");
 }
 
-/// What ships cannot be made to fail on demand: no feature of `rasray-gpu` is on in it. That this would be seen is
-/// shown by the package of the tests of faults, which has it on.
+/// The shipped command cannot be made to fail on demand: no feature of `rasray-gpu` is on in it. That this would be
+/// seen is shown by the package of the tests of faults, which has it on.
 #[test]
 fn what_ships_has_no_faults_on_demand() {
     let features = |package: &str, edges: &str| {

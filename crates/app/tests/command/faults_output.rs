@@ -53,7 +53,7 @@ fn as_writer() {
     }
 }
 
-/// What killed writers left under the name of their file, and beside it.
+/// Files that killed writers left under the name of their file, and beside it.
 #[derive(Debug, Default)]
 struct Remains {
     /// Files that are not whole, or of two contents.

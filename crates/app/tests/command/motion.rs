@@ -97,7 +97,7 @@ fn frames_are_images_of_their_times_and_go_on_where_they_stopped() {
         assert_eq!(run["pose_ms"], run["stages"][0]["ms"]);
         assert!(run["pose_ms"].as_f64() > Some(0.0));
     }
-    // What is there stays as it is; what is missing, damaged or of another time is made, and what has no row.
+    // Files that are there stay; those missing, damaged or of another time are made, and those without a row.
     std::fs::copy(image("011"), image("009")).expect("it is there");
     std::fs::remove_file(image("010")).expect("it is there");
     let whole = std::fs::read(image("008")).expect("it is there");
@@ -114,7 +114,7 @@ fn frames_are_images_of_their_times_and_go_on_where_they_stopped() {
     says("4 frames were rendered (4 of something else), 0 were there already");
 }
 
-/// What the device has of a scene is kept from frame to frame; a picture alone has it anew.
+/// A scene on the device is kept from frame to frame; a picture alone has it anew.
 #[test]
 fn frames_are_the_pictures_of_their_times() {
     let folder = tempfile::tempdir().expect("a folder");

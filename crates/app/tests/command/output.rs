@@ -15,7 +15,7 @@ fn an_image_goes_to_standard_output_alone() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let image = image::load_from_memory(&stdout(&output)).expect("nothing but an image").to_rgb8();
     assert_eq!((image.width(), image.height()), (4, 3));
-    // What is said goes elsewhere, and only files are said to be written.
+    // Messages go elsewhere, and only files are said to be written.
     let said = stderr(&output);
     assert!(
         said.contains("camera 0 ") && said.contains("wrote r.json") && !said.contains("wrote -"),
@@ -87,7 +87,7 @@ fn a_run_says_little_everything_or_nothing() {
     assert!(out.contains("2.000 ms") && out.contains(" counts\n"), "{out}");
     let (out, said) = run(&format!("--quiet {line}"));
     assert_eq!((out.as_str(), said.as_str()), ("", ""));
-    // What was asked for is no talk.
+    // Answers that were asked for are no talk.
     assert!(run("info -q one.obj").0.contains("triangles"));
     let output = scripted(folder.path(), "render nothing.obj -q -o a.png");
     assert!(stderr(&output).starts_with("error: "), "{}", stderr(&output));

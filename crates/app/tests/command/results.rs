@@ -1,4 +1,4 @@
-//! What the command leaves behind: images, reports, exit codes.
+//! Results that the command leaves behind: images, reports, exit codes.
 
 use crate::scripted::{command, entries, scripted, stderr};
 use exr::prelude::FlatSamples;
@@ -36,7 +36,7 @@ fn a_png_has_the_curve_that_was_asked_for_and_says_so() {
         reader.next_frame(&mut pixels).expect("pixels");
         (said, [pixels[0], pixels[1], pixels[2]], stderr(&output))
     };
-    // What Blender's AgX and the fit of ACES make of 0.5, 0.25, 1.
+    // Pixels of Blender's AgX and the fit of ACES for 0.5, 0.25, 1.
     let tone = |curve, exposure| rasray_metrics::tone_map(&[[0.5, 0.25, 1.0]], Tone { curve, exposure });
     let (said, pixel, _) = run("--tone agx --exposure -1");
     assert_eq!((said.as_str(), &pixel[..]), ("agx, exposure -1", &tone(ToneCurve::Agx, -1.0)[..]));

@@ -218,7 +218,7 @@ fn shares_of_frames_are_the_frames_and_their_reports_go_together() {
     };
     let frames: Vec<_> = rows("all.jsonl").into_iter().map(|(frame, _)| frame).collect();
     assert_eq!(frames, [3, 4, 5, 6, 7]);
-    // The same rows once more change nothing; those of another picture are refused.
+    // Rows merged once more change nothing; those of another picture are refused.
     run("merge twice.jsonl all.jsonl 1.jsonl");
     assert_eq!(rows("twice.jsonl"), rows("all.jsonl"));
     run(&format!("{line} seed.jsonl --seed 2 --shard 2/2"));

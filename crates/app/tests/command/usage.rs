@@ -94,7 +94,7 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
             "'15' for '--shadow-resolution <N>': must be a whole number from 16",
             "--help",
         ),
-        // What nothing moves is not the fault of an option that was not given.
+        // A scene that does not move is not the fault of an option that was not given.
         ("render cornell -o #.png --frames 0-3", "--frames asks", "leave --frames out"),
         ("render cornell -o a.png --time 1", "--time asks", "leave --time out"),
         ("compare cornell --systems mmrt --time 1", "--time asks", "leave --time out"),

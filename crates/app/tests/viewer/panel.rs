@@ -13,7 +13,7 @@ const SHOWN: [i32; 2] = [438, 119];
 /// That of tones.
 const TONE: [i32; 2] = [580, 119];
 
-/// What switches the taking out of noise on and off.
+/// Switch of denoising.
 const DENOISE: [i32; 2] = [442, 188];
 
 /// The list of systems, what opens the options of `bvh`, and its list of builders, of a scene that does not move.

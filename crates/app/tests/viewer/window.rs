@@ -12,7 +12,7 @@ pub const PATIENCE: Duration = Duration::from_secs(300);
 /// The command.
 pub const RASRAY: &str = env!("CARGO_BIN_EXE_rasray");
 
-/// Whether a program is on the path.
+/// True if a program is on the path.
 fn is_there(program: &str) -> bool {
     let path = std::env::var_os("PATH").unwrap_or_default();
     std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
@@ -113,7 +113,7 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// The same, of the first picture whose command line is the wanted one: until then those before are shown.
+    /// Saves the first picture whose command line is the wanted one: until then those before are shown.
     pub fn save_when(&self, is_wanted: impl Fn(&str) -> bool) -> (PathBuf, String) {
         let began = Instant::now();
         loop {

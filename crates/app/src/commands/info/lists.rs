@@ -1,4 +1,4 @@
-//! What the lists of a structure's cells hold.
+//! Counts of the lists of a structure's cells.
 
 use rasray_report::{ListRecord, columns, list_rows};
 use serde_json::{Value, json};

@@ -25,7 +25,7 @@ use lists::{lists_json, lists_text};
 use passes::{passes_json, passes_text};
 use scene::scene_text;
 
-/// What the JSON is; fields are only ever added to version 1.
+/// Schema of the JSON; fields are only ever added to version 1.
 const SCHEMA: &str = "rasray-info/1";
 
 /// Images of the views that passes are listed for: where a structure draws the camera's view, as many cells.

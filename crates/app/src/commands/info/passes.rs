@@ -1,4 +1,4 @@
-//! What a structure records for a scene, pass by pass.
+//! Commands that a structure records for a scene, pass by pass.
 
 use rasray_experiment::PassCommands;
 use rasray_report::{columns, grouped};

@@ -60,7 +60,7 @@ fn failure(error: &AppError) -> Failure {
     Failure { message: error.to_string(), help: error.help().into_owned() }
 }
 
-/// The same of an error that a window shows while it goes on.
+/// As [`failure`], for an error that a window shows while it goes on.
 fn explain(error: &ViewerError) -> Failure {
     let message = match error {
         ViewerError::Experiment(error) => hints::message(error),
@@ -82,7 +82,7 @@ struct Opener {
 }
 
 impl Opener {
-    /// The same for scenes that the command line did not name: cameras and times are not theirs.
+    /// Opener of scenes that the command line did not name: cameras and times are not theirs.
     fn for_other_scenes(self) -> Self {
         let reading = SceneArguments { time: None, clip: None, ..self.reading };
         Self { reading, view: ViewArguments::default(), ..self }
@@ -165,7 +165,7 @@ impl Opener {
         Ok(chosen)
     }
 
-    /// What a render is told as well, and the window does not change.
+    /// Words of a render for options that the window does not change.
     fn other_words(&self) -> Vec<String> {
         let mut all = words("--environment", self.reading.environment.clone());
         all.extend(words("--alpha", (self.reading.alpha == Switch::Off).then(|| "off".to_owned())));

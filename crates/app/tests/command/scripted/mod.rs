@@ -37,7 +37,7 @@ fn aov_image(aov: Aov, pixels: usize) -> AovImage {
     }
 }
 
-/// What the device named `broken` says.
+/// Error of the device named `broken`.
 fn lost() -> ExperimentError {
     GpuError::DeviceLost { call: "vkQueueSubmit", during: "trace".to_owned() }.into()
 }
@@ -266,12 +266,12 @@ pub fn command(folder: &Path, line: &str) -> Command {
     command
 }
 
-/// What the command on the known answers gives.
+/// Output of the command on the known answers.
 pub fn scripted(folder: &Path, line: &str) -> Output {
     command(folder, line).output().expect("the command starts")
 }
 
-/// What that command says, which succeeds.
+/// Messages of that command, which succeeds.
 pub fn done(folder: &Path, line: &str) -> String {
     let output = scripted(folder, line);
     assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
@@ -292,15 +292,15 @@ pub fn rasray(folder: &Path, line: &str) -> Output {
         .expect("the command starts")
 }
 
-/// What the test harness says before the command begins.
+/// Text of the test harness before the command begins.
 pub const HARNESS: &[u8] = b"\nrunning 1 test\ntest as_command ... ";
 
-/// What the command wrote to stdout, without what the test harness around it says.
+/// Bytes that the command wrote to stdout, without those of the test harness around them.
 pub fn stdout(output: &Output) -> Vec<u8> {
     output.stdout.strip_prefix(HARNESS).expect("the harness's lines").to_vec()
 }
 
-/// What the command said on stderr.
+/// Messages of the command on stderr.
 pub fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
