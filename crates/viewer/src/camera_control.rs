@@ -6,7 +6,7 @@ use rasray_options::text::{number, numbers};
 use rasray_scene::{Camera, Lens, Projection};
 use rasray_scene_source::placed_view;
 
-/// How steeply it can look up and down: short of straight up, where a camera without roll has no right side.
+/// Steepest look up and down: short of straight up, where a camera without roll has no right side.
 const STEEPEST: f64 = 89.0 * std::f64::consts::PI / 180.0;
 
 /// Numbers of a camera as the command line has them: eye and target in metres, the full vertical angle of view in degrees.
@@ -14,9 +14,9 @@ const STEEPEST: f64 = 89.0 * std::f64::consts::PI / 180.0;
 pub struct Rounded {
     /// Where it stands.
     pub eye: String,
-    /// What it looks at.
+    /// Point that it looks at.
     pub target: String,
-    /// How much it sees.
+    /// Angle of view.
     pub fov: String,
     /// Its lens, where it has one.
     pub lens: Option<Lens>,
@@ -88,7 +88,7 @@ pub struct CameraControl {
     target: DVec3,
     /// Full vertical angle of view, degrees.
     fov: f64,
-    /// What is in focus stays as far away.
+    /// Its focus stays as far away.
     lens: Option<Lens>,
 }
 

@@ -8,7 +8,7 @@ use rasray_experiment::{Built, DeviceScene, ExperimentError, Rendering};
 /// From the end of one to the begin of the next, in times of what the last one took: a fifth of the time is spent on it.
 const PAUSE: u32 = 4;
 
-/// What takes noise out of pictures, with what it knows of the one that refines.
+/// Denoiser of pictures, with what it knows of the one that refines.
 pub(crate) struct Denoising {
     denoiser: Denoiser,
     /// Albedo and normal of the picture, once they were asked for.
@@ -33,12 +33,12 @@ impl Denoising {
         self.denoiser.version()
     }
 
-    /// Whether it is time for it while the picture refines.
+    /// True if it is time for it while the picture refines.
     pub(crate) fn is_due(&self) -> bool {
         self.due.is_none_or(|due| Instant::now() >= due)
     }
 
-    /// Whether it knows albedo and normal of the picture.
+    /// True if it knows albedo and normal of the picture.
     pub(crate) fn is_fed(&self) -> bool {
         self.fed.is_some()
     }

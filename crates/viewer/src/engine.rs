@@ -23,19 +23,19 @@ use crate::scene_at_time::{ChooseCamera, SceneAtTime};
 use crate::settings::{Redo, Settings, Shown, Standpoint};
 use crate::traced::{Traced, exact_config, follow};
 
-/// What is looked at.
+/// Scene to look at.
 pub struct SceneSource {
     /// As it was read: lit, and at rest.
     pub loaded: LoadedScene,
     /// The clip that moves it; absent: all that can be played at once.
     pub clip: Option<String>,
-    /// Whether everything is uploaded and compiled in, and not only what a picture can show.
+    /// True if everything is uploaded and compiled in, and not only what a picture can show.
     pub needs_all: bool,
     /// The camera while nobody moves it.
     pub camera: Box<ChooseCamera>,
 }
 
-/// What a step gave.
+/// Result of a step.
 pub enum Step {
     /// There is more to do; nothing new is to be seen.
     Working,
@@ -48,7 +48,7 @@ pub enum Step {
 /// Makes pictures on a device. What fails is made anew by the next settings.
 pub struct Engine {
     device: Device,
-    /// Whether messages of the validation layer are errors.
+    /// True if messages of the validation layer are errors.
     validation: bool,
     scene: SceneAtTime,
     needs_all: bool,
@@ -57,14 +57,14 @@ pub struct Engine {
     stage: Option<(DeviceScene, Needs)>,
     /// The time at which the stage is, seconds; absent at rest.
     posed: Option<f64>,
-    /// Whether the stage has the default light.
+    /// True if the stage has the default light.
     has_default_light: bool,
     traced: Option<Traced>,
     exact: Option<Traced>,
     /// Of the whole picture.
     film: Option<Rendering>,
     exact_film: Option<Rendering>,
-    /// What takes noise out of the whole picture, once that was asked for.
+    /// Denoiser of the whole picture, once that was asked for.
     denoising: Option<Denoising>,
     /// Of the whole picture, once it is complete: [`Picture::cut_rays`].
     cut_rays: u32,
@@ -73,9 +73,9 @@ pub struct Engine {
     preview_size: PreviewSize,
     /// Milliseconds since the last of these.
     preview_ms: f64,
-    /// Whether films hold samples of other settings.
+    /// True if films hold samples of other settings.
     stale: bool,
-    /// Whether the picture of these settings is complete.
+    /// True if the picture of these settings is complete.
     done: bool,
     sample_ms: f64,
 }

@@ -8,7 +8,7 @@ use rasray_scene_source::LoadError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewerError {
-    /// What makes pictures failed.
+    /// Making pictures failed.
     #[error(transparent)]
     Experiment(#[from] ExperimentError),
     /// Noise cannot be taken out of the picture.
@@ -29,7 +29,7 @@ pub enum ViewerError {
         /// The system.
         system: &'static str,
     },
-    /// What was picked is elsewhere now.
+    /// The picked surface is elsewhere now.
     #[error("the scene has moved since it was picked")]
     Moved,
     /// Nothing names a display.
@@ -39,16 +39,16 @@ pub enum ViewerError {
     #[cfg(feature = "window")]
     #[error("there is no display for a window: {source}")]
     NoWindow {
-        /// What it said.
+        /// Its error.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// The window cannot be drawn.
     #[cfg(feature = "window")]
     #[error("the window cannot be drawn: {during}: {source}")]
     Window {
-        /// What was done.
+        /// Step that failed.
         during: &'static str,
-        /// What the window system or the device said.
+        /// Error of the window system or the device.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
 }

@@ -4,7 +4,7 @@ use rasray_experiment::{ExperimentError, OptionValues, SystemConfig, one_system}
 use rasray_options::{Least, OptionRow, Unit, Values, Word};
 use rasray_systems::{Preset, System};
 
-/// What sets an option.
+/// Control of an option.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Control {
     /// On or off.
@@ -38,7 +38,7 @@ impl Control {
 pub struct SystemChoice {
     system: &'static System,
     preset: Preset,
-    /// What was set of its options; the preset decides what is not.
+    /// Values set of its options; the preset decides all others.
     pub options: OptionValues,
 }
 

@@ -46,7 +46,7 @@ impl Pick {
         }
     }
 
-    /// What it hits in the structure of a configuration: the one that is there where it is of that, else one that is built for
+    /// Hit in the structure of a configuration: the one that is there where it is of that, else one that is built for
     /// this. The scene is given as it was read and as it is on the device.
     pub(crate) fn hit(
         &self,
@@ -125,28 +125,28 @@ pub struct PickedHit {
     pub triangle: Option<PickedTriangle>,
 }
 
-/// What one system answered to a pick.
+/// Answer of one system to a pick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// Name and preset of the system.
     pub system: String,
-    /// What is hit, if anything; or why there is no answer.
+    /// Hit, if there is one; or why there is no answer.
     pub hit: Result<Option<PickedHit>, String>,
 }
 
 /// A pick with the answers so far, that of the system that is shown first.
 #[derive(Clone, Debug)]
 pub struct Picked {
-    /// What was asked.
+    /// Pick that was asked about.
     pub pick: Pick,
     /// In the order of the systems.
     pub answers: Vec<Answer>,
-    /// How many are still to come.
+    /// Number of answers still to come.
     pub awaited: usize,
 }
 
 impl Picked {
-    /// What the system that is shown hits.
+    /// Hit of the system that is shown.
     pub fn hit(&self) -> Option<&PickedHit> {
         self.answers.first()?.hit.as_ref().ok()?.as_ref()
     }

@@ -1,4 +1,4 @@
-//! What an engine shows.
+//! Pictures and maps that an engine shows.
 
 use crate::settings::Settings;
 use rasray_experiment::Resolved;
@@ -7,7 +7,7 @@ use rasray_report::colour_scale::{MAGMA, Scale, VIRIDIS, colour, place};
 use rasray_report::{Memory, Pass, grouped};
 use rasray_scene::Camera;
 
-/// What the colours of a map mean.
+/// Meaning of the colours of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
     /// Colours from 0 to `bright`.
@@ -18,7 +18,7 @@ pub struct Legend {
     pub most: f64,
     /// The mean over all pixels.
     pub mean: f64,
-    /// What is counted or measured.
+    /// Things counted, or the unit measured in.
     pub unit: String,
 }
 
@@ -100,11 +100,11 @@ pub struct Picture {
     pub height: u32,
     /// Row by row from the top left.
     pub pixels: Pixels,
-    /// What it was made from; while something moves it has fewer pixels.
+    /// Settings that it was made from; while something moves it has fewer pixels.
     pub settings: Settings,
     /// Samples per pixel in it.
     pub samples: u32,
-    /// What took the noise out of it, by name and version; absent where nothing did.
+    /// Name and version of its denoiser; absent without one.
     pub denoised: Option<String>,
     /// Rays that would have passed more transparent surfaces than a ray may, once refinement has ended: what lies behind
     /// is left out.
@@ -122,7 +122,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Whether refinement has ended.
+    /// True if refinement has ended.
     pub fn is_finished(&self) -> bool {
         !self.settings.moving && self.samples >= self.settings.frame.spp
     }

@@ -40,9 +40,9 @@ impl Area {
         Self { corner, size: [0, 1].map(|axis| (self.corner[axis] + self.size[axis]).ceil() - corner[axis]) }
     }
 
-    /// What a window shows of a picture that lies here, whose pixels are squares: per pixel of `window`, which are whole ones,
-    /// the pixel of the picture that its centre is in, and `around` beside the picture. `pixels` has the picture's rows from
-    /// the top.
+    /// Pixels that a window shows of a picture that lies here, whose pixels are squares: per pixel of `window`, which
+    /// are whole ones, the pixel of the picture that its centre is in, and `around` beside the picture. `pixels` has
+    /// the picture's rows from the top.
     pub fn squares<Pixel: Copy>(
         &self,
         (picture, pixels): ([u32; 2], &[Pixel]),
@@ -66,7 +66,7 @@ impl Area {
     }
 }
 
-/// How a picture is laid into an area. All lengths are pixels of the window.
+/// Layout of a picture in an area. All lengths are pixels of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PictureView {
     /// Window pixels per pixel of the picture; absent where the picture is as large as it fits.
@@ -91,7 +91,7 @@ impl PictureView {
         *self = if self.is_fitted() { Self::at_one_to_one() } else { Self::default() };
     }
 
-    /// Whether the picture is as large as it fits.
+    /// True if the picture is as large as it fits.
     pub fn is_fitted(&self) -> bool {
         self.scale.is_none()
     }
@@ -107,7 +107,7 @@ impl PictureView {
         self.scale.unwrap_or_else(|| fit(0).min(fit(1))).max(f32::MIN_POSITIVE)
     }
 
-    /// Whether pixels of a picture of this size are squares; smaller ones are interpolated.
+    /// True if pixels of a picture of this size are squares; smaller ones are interpolated.
     pub fn shows_squares(&self, area: Area, picture: [u32; 2]) -> bool {
         self.scale(area, picture) >= SQUARES
     }

@@ -8,7 +8,7 @@ const STEPS: f64 = 1000.0;
 pub struct Playback {
     /// Seconds, in `0..=duration` while it plays; absent at rest.
     seconds: Option<f64>,
-    /// Whether it runs.
+    /// True if it runs.
     pub playing: bool,
     /// Seconds of the animation in a second.
     pub speed: f64,
@@ -22,7 +22,7 @@ impl Playback {
         Self { seconds, playing: false, speed: 1.0, duration: duration.max(0.0) }
     }
 
-    /// Whether there is anything to play.
+    /// True if there is anything to play.
     pub fn can_play(&self) -> bool {
         self.duration > 0.0
     }

@@ -80,7 +80,7 @@ impl Preview {
         }
     }
 
-    /// Whether its films can show what is traced.
+    /// True if its films can show what is traced.
     pub(crate) fn serves(&self, built: &Built) -> bool {
         self.light.serves(built) && self.surfaces.as_ref().is_none_or(|surfaces| surfaces.serves(built))
     }
@@ -90,7 +90,7 @@ impl Preview {
         &self.light
     }
 
-    /// Whether all have the same samples, and one at least.
+    /// True if all have the same samples, and one at least.
     pub(crate) fn is_whole(&self) -> bool {
         let done = self.light.image().samples_done();
         done > 0 && self.surfaces.as_ref().is_none_or(|surfaces| surfaces.image().samples_done() == done)
@@ -145,7 +145,7 @@ fn pass(picture: &[[f32; 3]], colours: &[[f32; 3]], width: usize, step: usize) -
     (0..picture.len()).map(mean).collect()
 }
 
-/// How much alike two surfaces look, 0 to 1.
+/// Likeness of two surfaces, 0 to 1.
 fn alike(one: [f32; 3], other: [f32; 3]) -> f32 {
     let apart = |channel: usize| (one[channel] - other[channel]) / (one[channel] + other[channel]);
     let squared: f32 = (0..3).map(|channel| apart(channel) * apart(channel)).sum();

@@ -1,4 +1,4 @@
-//! How many pixels a picture has while something moves.
+//! Number of pixels of a picture while something moves.
 
 /// Milliseconds that a picture may take while something moves.
 pub(crate) const TARGET_MS: f64 = 80.0;
@@ -49,7 +49,7 @@ impl PreviewSize {
     }
 }
 
-/// What the sides of a picture are divided by at most.
+/// Greatest divisor of the sides of a picture.
 fn most(full: [u32; 2]) -> u32 {
     let is_enough = |divisor: &u32| pixels_of(full, *divisor) >= f64::from(LEAST_PIXELS);
     [MOST, 4].into_iter().find(is_enough).unwrap_or(2)

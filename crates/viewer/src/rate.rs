@@ -1,4 +1,4 @@
-//! How often something happens.
+//! Rates of events.
 
 use std::collections::VecDeque;
 

@@ -74,7 +74,7 @@ impl SceneAtTime {
         &self.loaded
     }
 
-    /// The same, for images to be made smaller.
+    /// As [`Self::loaded`], for images to be made smaller.
     pub(crate) fn loaded_mut(&mut self) -> &mut LoadedScene {
         &mut self.loaded
     }

@@ -1,4 +1,4 @@
-//! What was chosen, and what came of it.
+//! Choices of the user, and what came of them.
 
 mod cameras;
 mod opening;
@@ -29,14 +29,14 @@ const REST: f64 = 0.2;
 /// A failure in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
-    /// What is wrong.
+    /// Message.
     pub message: String,
-    /// What to do; may be empty.
+    /// Advice; may be empty.
     pub help: String,
 }
 
 impl Failure {
-    /// What is wrong, without what to do.
+    /// The message of an error, without advice.
     pub fn without_help(error: &impl std::error::Error) -> Self {
         Self { message: error.to_string(), help: String::new() }
     }
@@ -45,12 +45,12 @@ impl Failure {
 /// Says in words what is wrong and what to do about it.
 pub type Explain = fn(&ViewerError) -> Failure;
 
-/// Whether both make one structure, whoever chose it.
+/// True if both make one structure, whoever chose it.
 fn is_same(one: &SystemConfig, other: &SystemConfig) -> bool {
     one.system == other.system && one.preset == other.preset && one.options == other.options
 }
 
-/// What was chosen by hand, and the last picture.
+/// Choices made by hand, and the last picture.
 pub struct Session {
     opening: Opening,
     explain: Explain,
@@ -60,16 +60,16 @@ pub struct Session {
     config: SystemConfig,
     /// Integrator, samples, seed; its size is the picture's.
     pub frame: Frame,
-    /// What is shown.
+    /// Picture or map that is shown.
     pub shown: Shown,
-    /// Whether noise is taken out of the picture.
+    /// True if noise is taken out of the picture.
     pub denoised: bool,
-    /// How colours are shown, and saved.
+    /// Tone of colours, shown and saved.
     pub tone: Tone,
     /// The time.
     pub playback: Playback,
     stand: Stand,
-    /// How many scenes were opened before this one.
+    /// Number of scenes opened before this one.
     scene: u32,
     /// A scene that is to be opened, as it was named, and its number among those.
     to_open: Option<OsString>,
@@ -80,7 +80,7 @@ pub struct Session {
     not_opened: Option<Failure>,
     /// A pick that nobody was asked about so far.
     to_pick: Option<Pick>,
-    /// What was picked last.
+    /// Last pick.
     picked: Option<Picked>,
     picks: u64,
     /// Until when something moves, seconds.
@@ -89,11 +89,11 @@ pub struct Session {
     asked: Option<Settings>,
     /// The last complete picture.
     pub picture: Option<Box<Picture>>,
-    /// How many pictures have come.
+    /// Number of pictures that have come.
     pub pictures: u64,
-    /// How often they come.
+    /// Rate at which they come.
     pub picture_rate: Rate,
-    /// What takes long.
+    /// Work that takes long.
     pub status: Option<String>,
     /// Why there is no picture of the settings that were asked for.
     failed: Option<Failure>,

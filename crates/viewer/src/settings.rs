@@ -1,16 +1,16 @@
-//! What a picture is made from, and what must be made anew where it changes.
+//! Inputs of a picture, and what must be made anew where they change.
 
 use crate::camera_control::Rounded;
 use rasray_experiment::{Aov, AovSelection, Frame, SystemConfig};
 use rasray_scene::needs::Workload;
 
-/// What is shown.
+/// Picture or map to show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shown {
     /// The picture.
     #[default]
     Picture,
-    /// How far it is from the same picture through a structure whose hits are exact.
+    /// Distance from the same picture through a structure whose hits are exact.
     Difference,
     /// Cells visited by the ray through each pixel's centre.
     Cells,
@@ -35,7 +35,7 @@ impl Shown {
         }
     }
 
-    /// What it is, in a sentence.
+    /// Description, one sentence.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Picture => "The picture",
@@ -48,7 +48,7 @@ impl Shown {
         }
     }
 
-    /// Whether it is a map of what rays cost, for which no light is needed.
+    /// True for maps of what rays cost, for which no light is needed.
     pub fn is_work(self) -> bool {
         matches!(self, Self::Cells | Self::Entries | Self::Tests)
     }
@@ -78,23 +78,23 @@ pub struct Settings {
     pub system: SystemConfig,
     /// Size, integrator, number of samples and their seed.
     pub frame: Frame,
-    /// What is shown.
+    /// Picture or map to show.
     pub shown: Shown,
-    /// Whether noise is taken out of the picture; maps and pictures while something moves have none of it.
+    /// True if noise is taken out of the picture; maps and pictures while something moves have none of it.
     pub denoised: bool,
-    /// Whether something moves: the picture then has fewer pixels where that is needed to follow.
+    /// True if something moves: the picture then has fewer pixels where that is needed to follow.
     pub moving: bool,
 }
 
 impl Settings {
-    /// What its pictures take of a scene.
+    /// Workload of its pictures on a scene.
     pub(crate) fn workload(&self) -> Workload {
         let fed = self.denoised.then_some(Aov::FOR_DENOISING).into_iter().flatten();
         AovSelection::from_iter(fed).workload(self.frame.workload())
     }
 }
 
-/// What must be made anew. What is made from something that is made anew is made anew as well.
+/// Parts that must be made anew. What is made from something that is made anew is made anew as well.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Redo {
     /// The scene on the device. What moves in it is posed, and structures are built for it, where the time has changed.
@@ -105,7 +105,7 @@ pub struct Redo {
     pub film: bool,
     /// The samples on the films.
     pub samples: bool,
-    /// What is shown of the samples.
+    /// The pixels shown of the samples.
     pub pixels: bool,
 }
 
@@ -113,7 +113,7 @@ impl Redo {
     /// Everything.
     pub const ALL: Self = Self { scene: true, structure: true, film: true, samples: true, pixels: true };
 
-    /// What must be made anew for `new` where everything is there for `old`.
+    /// Parts that must be made anew for `new` where everything is there for `old`.
     pub fn between(old: &Settings, new: &Settings) -> Self {
         if old == new {
             return Self::default();

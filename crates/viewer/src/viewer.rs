@@ -1,4 +1,4 @@
-//! What a window does but for drawing: a session with the threads that carry it out.
+//! A window but for drawing: a session with the threads that carry it out.
 
 use std::ffi::OsStr;
 use std::sync::{Arc, mpsc};
@@ -12,7 +12,7 @@ pub type OpenScene = dyn Fn(&OsStr) -> Result<Opened, Failure> + Send + Sync;
 
 /// A session, the worker that makes its pictures, and what reads its scenes.
 pub struct Viewer {
-    /// What is chosen.
+    /// Choices of the user.
     pub session: Session,
     worker: Worker,
     updates: mpsc::Receiver<Update>,

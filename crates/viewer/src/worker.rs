@@ -17,25 +17,25 @@ use crate::settings::Settings;
 /// Least time between two pictures of the same settings that are handed on.
 const PICTURE_PAUSE: Duration = Duration::from_millis(30);
 
-/// What a worker says.
+/// Message of a worker.
 pub enum Update {
-    /// What takes long, in a few words.
+    /// Work that takes long, in a few words.
     Status(String),
     /// A picture.
     Picture(Box<Picture>),
     /// The settings failed. The picture before stays the last complete one.
     Failed(ViewerError),
-    /// What a system answered to the pick of that number.
+    /// Answer of a system to the pick of that number.
     Answered(u64, Answer),
-    /// What came of reading a scene, by the number of the request.
+    /// Outcome of reading a scene, by the number of the request.
     Read(u64, Result<Box<Opened>, Failure>),
 }
 
 /// A scene that was read.
 pub struct Opened {
-    /// What a session of it begins with.
+    /// Beginning of a session of it.
     pub opening: Opening,
-    /// What an engine shows of it.
+    /// Scene for an engine to show.
     pub source: SceneSource,
 }
 

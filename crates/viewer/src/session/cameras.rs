@@ -69,7 +69,7 @@ impl Session {
         self.stand = Stand::AsGiven;
     }
 
-    /// Whether the camera was moved.
+    /// True if the camera was moved.
     pub fn is_camera_moved(&self) -> bool {
         matches!(self.stand, Stand::Moved(_))
     }

@@ -1,4 +1,4 @@
-//! What a session begins with, and another scene in its course.
+//! Beginning of a session, and another scene in its course.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -14,14 +14,14 @@ use crate::option_controls::SystemChoice;
 use crate::playback::Playback;
 use crate::settings::Settings;
 
-/// What a session begins with.
+/// Beginning of a session.
 #[derive(Clone, Debug)]
 pub struct Opening {
     /// The scene as it was named.
     pub scene: OsString,
     /// Words of the command line that put the camera where it is at first.
     pub camera_words: Vec<String>,
-    /// Whether the camera is placed by where everything is at first: it stays there when the time changes.
+    /// True if the camera is placed by where everything is at first: it stays there when the time changes.
     pub camera_is_default: bool,
     /// The cameras of the scene: their positions there, and the words that name them on the command line.
     pub cameras: Vec<(usize, String)>,
@@ -31,9 +31,9 @@ pub struct Opening {
     pub time_words: Vec<String>,
     /// Words of the command line that stay as they are.
     pub other_words: Vec<String>,
-    /// What is shown at first.
+    /// Settings at first.
     pub settings: Settings,
-    /// How colours are shown.
+    /// Tone of colours.
     pub tone: Tone,
     /// Length of the longest clip, seconds.
     pub duration: f64,
@@ -86,7 +86,7 @@ impl Session {
         self.not_opened.as_ref()
     }
 
-    /// What was said of it was read.
+    /// Forgets the failure, which was read.
     pub fn dismiss(&mut self) {
         self.not_opened = None;
     }

@@ -45,7 +45,7 @@ impl Session {
         self.picked = Some(Picked { pick, answers, awaited });
     }
 
-    /// What was picked last.
+    /// Last pick.
     pub fn picked(&self) -> Option<&Picked> {
         self.picked.as_ref()
     }

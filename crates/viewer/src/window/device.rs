@@ -162,7 +162,7 @@ impl WindowDevice {
         Ok(Self { physical, device, queue, family, owner })
     }
 
-    /// What the validation layer said so far, and will say; it outlives the device. Empty without validation.
+    /// Messages of the validation layer so far, and to come; the log outlives the device. Empty without validation.
     pub(super) fn validation_log(&self) -> ValidationLog {
         ValidationLog::clone(&self.owner.log)
     }

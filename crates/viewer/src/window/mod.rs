@@ -30,10 +30,10 @@ use painter::Painter;
 use panel::Panel;
 pub use saving::{SavePicture, SavedPicture};
 
-/// How often is looked whether a signal asked for the end.
+/// Interval between looks whether a signal asked for the end.
 const POLL: Duration = Duration::from_millis(100);
 
-/// How long a frame that was asked for may take to come before it is asked for again.
+/// Longest wait for a frame that was asked for before it is asked for again.
 const HIDDEN: Duration = Duration::from_secs(1);
 
 /// From one frame to the next while an animation plays.
@@ -42,19 +42,19 @@ const PLAYING: Duration = Duration::from_millis(16);
 /// Least inner size of the window, pixels.
 const LEAST: PhysicalSize<u32> = PhysicalSize::new(480, 320);
 
-/// What a window is opened with.
+/// Inputs of a window.
 pub struct Viewing<'a> {
     /// Makes what makes pictures, in the thread where it stays.
     pub engine: Box<dyn FnOnce() -> Engine + Send>,
-    /// What is chosen.
+    /// Choices of the user.
     pub session: Session,
     /// Reads scenes that are dropped on the window or named in it.
     pub open: Arc<OpenScene>,
     /// Name of the engine's device: the window is drawn by the same where that can present.
     pub device: String,
-    /// Whether messages of the validation layer are errors.
+    /// True if messages of the validation layer are errors.
     pub validation: bool,
-    /// Whether the window shall close.
+    /// True once the window shall close.
     pub stop: &'a dyn Fn() -> bool,
     /// Saves pictures.
     pub save: &'a mut SavePicture<'a>,
@@ -141,7 +141,7 @@ pub fn run(viewing: Viewing<'_>) -> Result<End, ViewerError> {
     }
 }
 
-/// What a window of a scene is called.
+/// Title of a window of a scene.
 fn title(scene: &str) -> String {
     format!("{scene} - rasray")
 }
@@ -211,7 +211,7 @@ impl Shown<'_> {
         let size = live.window.inner_size();
         let size = [size.width, size.height];
         let painted = live.painter.paint(size, scale, &primitives, &mut output.textures_delta);
-        // What an error left there is dropped on purpose.
+        // Textures that an error left there are dropped on purpose.
         output.textures_delta.clear();
         painted?;
         self.viewer.ask(now).map_err(|error| device::window_error("a thread", error))?;

@@ -108,7 +108,7 @@ fn show_option(ui: &mut egui::Ui, row: &OptionRow, options: &mut OptionValues, b
     }
 }
 
-/// What sets an option whose value in force is known or not; the value that it was set to now.
+/// Shows an option whose value in force is known or not; returns the value that it was set to now.
 fn show_control(ui: &mut egui::Ui, row: &OptionRow, value: Option<Value>) -> Option<Value> {
     match Control::of(row) {
         Control::Switch => {
@@ -156,7 +156,7 @@ fn show_control(ui: &mut egui::Ui, row: &OptionRow, value: Option<Value>) -> Opt
             let response = ui.add(egui::TextEdit::singleline(&mut typed).desired_width(90.0).hint_text(hint));
             if response.lost_focus() {
                 ui.data_mut(|data| data.remove::<String>(id));
-                // What the option does not take leaves the option as it is.
+                // Text that the option does not take leaves the option as it is.
                 return row.parse(&typed).ok().filter(|typed| Some(*typed) != value);
             }
             if response.changed() {

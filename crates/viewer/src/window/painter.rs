@@ -15,12 +15,12 @@ use super::swapchain::{Swapchain, is_srgb, surface_format};
 /// Longest wait for the window system or the device.
 const TIMEOUT: Duration = Duration::from_secs(10);
 
-/// What draws a window. Every frame is waited for, so that nothing that it uses is in use afterwards.
+/// Draws a window. Every frame is waited for, so that nothing that it uses is in use afterwards.
 pub(super) struct Painter {
     /// Taken when it is dropped, before the device.
     renderer: Option<Renderer<DefaultAllocator>>,
     swapchain: Option<Swapchain>,
-    /// Whether the swapchain no longer fits the window.
+    /// True if the swapchain no longer fits the window.
     is_old: bool,
     format: vk::SurfaceFormatKHR,
     render_pass: vk::RenderPass,
@@ -121,7 +121,7 @@ impl Painter {
         self.is_old = true;
     }
 
-    /// What the validation layer says; the list outlives the painter.
+    /// Messages of the validation layer; the list outlives the painter.
     pub(super) fn validation_log(&self) -> ValidationLog {
         self.device.validation_log()
     }

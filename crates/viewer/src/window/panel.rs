@@ -1,4 +1,4 @@
-//! What stands next to the picture, and keys.
+//! The panel next to the picture, and keys.
 
 use std::path::PathBuf;
 
@@ -61,7 +61,7 @@ pub(super) struct Moment {
     pub(super) frames: Option<f64>,
 }
 
-/// What is said of what a key or a button has done.
+/// Message of a key or a button.
 struct Notice {
     text: String,
     is_error: bool,
@@ -92,9 +92,9 @@ pub(super) struct Panel {
     notice: Option<Notice>,
     /// The name of a scene to be opened, as it is typed.
     typed: String,
-    /// Whether a key asked for what is typed there.
+    /// True if a key asked for what is typed there.
     wants_name: bool,
-    /// Whether a key asked for the end.
+    /// True if a key asked for the end.
     pub(super) wants_to_close: bool,
 }
 
@@ -249,7 +249,7 @@ impl Panel {
         });
     }
 
-    /// What opens another scene, and what came of it.
+    /// Shows how to open another scene, and what came of it.
     fn show_opening(&mut self, ui: &mut egui::Ui, session: &mut Session) {
         ui.horizontal(|ui| {
             let typed = egui::TextEdit::singleline(&mut self.typed)
@@ -372,7 +372,7 @@ fn show_not_opened(context: &egui::Context, session: &mut Session, place: egui::
     });
 }
 
-/// Whether the digit of a key, by its place on either keyboard, was pressed; and if so, whether with the command key.
+/// `Some` if the digit of a key, by its place on either keyboard, was pressed; true if with the command key.
 fn take_digit(context: &egui::Context, digit: Key) -> Option<bool> {
     context.input(|input| {
         input.events.iter().find_map(|event| match event {
@@ -391,7 +391,7 @@ fn show_failure(ui: &mut egui::Ui, failure: &Failure) {
     }
 }
 
-/// How often the window is drawn, and pictures come.
+/// Shows how often the window is drawn, and pictures come.
 fn show_rates(ui: &mut egui::Ui, session: &Session, moment: Moment) {
     let (window, pictures) = (moment.frames, session.picture_rate.per_second(moment.now));
     let [window, pictures] = [window, pictures].map(|rate| rate.unwrap_or(0.0));

@@ -1,4 +1,4 @@
-//! What was picked, and what each system says of it.
+//! Shows a pick, and what each system says of it.
 
 use egui::RichText;
 

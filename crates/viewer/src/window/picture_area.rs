@@ -17,7 +17,7 @@ const TURN: f64 = 0.006;
 /// Half diagonals of the scene that are flown in a second.
 const SPEED: f64 = 0.5;
 
-/// What a key makes the picture larger by.
+/// Factor by which a key makes the picture larger.
 const STEP: f32 = 1.25;
 
 /// Grey around the picture.
@@ -64,7 +64,7 @@ impl PictureArea {
                 self.view.fit();
             }
             let place = self.view.place(within, full);
-            // What is shown while something moves has fewer pixels, and is smooth as it is.
+            // A picture shown while something moves has fewer pixels, and is smooth as it is.
             let has_squares = !picture.settings.moving && self.view.shows_squares(within, full);
             let window = within.whole();
             // A window may have no room for a picture.
@@ -168,7 +168,7 @@ impl PictureArea {
     }
 }
 
-/// How a picture lies whose pixels are squares.
+/// Place of a picture whose pixels are squares.
 #[derive(Clone, Copy, PartialEq)]
 struct Squares {
     /// The picture.

@@ -13,15 +13,15 @@ pub struct SavedPicture<'a> {
     pub size: [u32; 2],
     /// Three bytes of sRGB per pixel, rows from the top.
     pub pixels: &'a [u8],
-    /// How its colours are shown; absent for maps.
+    /// Tone of its colours; absent for maps.
     pub tone: Option<Tone>,
-    /// What took the noise out of it, by name and version; absent where nothing did.
+    /// Name and version of its denoiser; absent without one.
     pub denoised: Option<&'a str>,
     /// The command line that makes it when its refinement has ended; absent for maps, which `rasray compare --html` makes.
     pub command_line: Option<&'a str>,
-    /// What the colours of a map mean, in a sentence; absent for pictures.
+    /// Meaning of the colours of a map, in a sentence; absent for pictures.
     pub scale: Option<String>,
-    /// Whether its refinement has ended.
+    /// True if its refinement has ended.
     pub is_finished: bool,
 }
 

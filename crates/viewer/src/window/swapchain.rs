@@ -21,7 +21,7 @@ pub(super) fn surface_format(device: &WindowDevice) -> Result<vk::SurfaceFormatK
     chosen.ok_or_else(|| window_error("surface formats", "the surface has none"))
 }
 
-/// Whether bytes of sRGB are stored as they are.
+/// True if bytes of sRGB are stored as they are.
 pub(super) fn is_srgb(format: vk::Format) -> bool {
     format!("{format:?}").contains("SRGB")
 }

@@ -1,4 +1,4 @@
-//! What the picture is of: how it is shown, its light, its camera and its time.
+//! Controls of the picture: how it is shown, its light, its camera and its time.
 
 use egui::{Color32, DragValue, Slider};
 use rasray_experiment::INTEGRATORS;

@@ -14,7 +14,7 @@ fn library(test: &str) -> Option<Denoiser> {
     Denoiser::find().map_err(|error| eprintln!("skipped: {test}: {error}")).ok()
 }
 
-/// What `rasray render --denoise` makes of settings: the picture, and the same without noise.
+/// Pictures of `rasray render --denoise` with settings: as rendered, and the same without noise.
 fn pictures(
     backend: &mut dyn Backend,
     denoiser: &Denoiser,

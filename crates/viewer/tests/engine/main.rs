@@ -88,7 +88,7 @@ fn finished(engine: &mut Engine) -> Picture {
     told(engine).0
 }
 
-/// The same, with what took long.
+/// As [`finished`], with the texts of long work.
 fn told(engine: &mut Engine) -> (Picture, Vec<String>) {
     let (mut last, mut told) = (None, Vec::new());
     for _ in 0..1000 {
@@ -119,7 +119,7 @@ fn radiance(picture: &Picture) -> &[[f32; 3]] {
     }
 }
 
-/// What a render of the same settings gives.
+/// Pixels of a render of the same settings.
 fn rendered(backend: &mut dyn Backend, settings: &Settings) -> Vec<[f32; 3]> {
     rendered_of(OsStr::new("cornell"), backend, settings)
 }
@@ -298,7 +298,7 @@ fn blinking() -> LoadedScene {
     loaded
 }
 
-/// Whether a sky stands in for missing light is decided for the time that is shown, as for a render.
+/// A sky stands in for missing light as at the time that is shown, as for a render.
 #[test]
 fn the_sky_comes_and_goes_as_in_renders() {
     let mut backend = open(&VALIDATED).expect("a device");

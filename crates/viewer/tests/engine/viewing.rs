@@ -1,4 +1,4 @@
-//! What a window does but for drawing: other scenes, picks, cameras, and pictures while something moves.
+//! Tests of a window but for drawing: other scenes, picks, cameras, and pictures while something moves.
 
 use std::ffi::OsStr;
 use std::sync::Arc;
@@ -19,10 +19,10 @@ use crate::{
     rendered_with, settings, source_of, system,
 };
 
-/// What whoever opens scenes says to do where one cannot be opened.
+/// Advice of whoever opens scenes where one cannot be opened.
 const HELP: &str = "name another file";
 
-/// What a session of a scene begins with, with the settings of these tests.
+/// Beginning of a session of a scene, with the settings of these tests.
 fn opened(scene: &OsStr) -> Result<Opened, Failure> {
     let loaded =
         load(scene).map_err(|error| Failure { message: error.to_string(), help: HELP.to_owned() })?;
@@ -78,7 +78,7 @@ impl Running {
                 return;
             }
             self.now += 0.1;
-            // What changes by the clock alone wakes nobody.
+            // Changes by the clock alone wake nobody.
             _ = self.woken.recv_timeout(Duration::from_millis(100));
         }
         panic!("{what}: {:?}", self.viewer.session.failure());
