@@ -55,7 +55,7 @@ impl Aov {
         Self::Variance,
     ];
 
-    /// What a denoiser is fed with, beside the colours.
+    /// Images that a denoiser is fed with, beside the colours.
     pub const FOR_DENOISING: [Self; 2] = [Self::Albedo, Self::Normal];
 
     /// Its name on the command line.
@@ -77,7 +77,7 @@ impl Aov {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Description, one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Depth => "Z: metres from the eye along the ray",
@@ -120,12 +120,12 @@ impl Aov {
         (self.channels().len() * size_of::<u32>()) as u64
     }
 
-    /// Whether its values are whole numbers of 32 bits, and not single-precision ones.
+    /// True if its values are whole numbers of 32 bits; else they are single-precision.
     pub fn is_whole(self) -> bool {
         matches!(self, Self::Primitive | Self::Samples | Self::Material | Self::Instance)
     }
 
-    /// Whether it is of all samples of a picture together, and not of the rays through pixels' centres.
+    /// True if it is of all samples of a picture together; else it is of the rays through pixels' centres.
     pub fn is_of_samples(self) -> bool {
         matches!(self, Self::Samples | Self::Direct | Self::Indirect | Self::Variance)
     }
@@ -136,12 +136,12 @@ impl Aov {
 pub struct AovSelection(u16);
 
 impl AovSelection {
-    /// Whether one of them is wanted.
+    /// True if the image is wanted.
     pub fn contains(self, aov: Aov) -> bool {
         self.0 & 1 << aov as u16 != 0
     }
 
-    /// Whether none is wanted.
+    /// True if no image is wanted.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
@@ -151,30 +151,30 @@ impl AovSelection {
         Aov::ALL.into_iter().filter(move |aov| self.contains(*aov))
     }
 
-    /// The same with those of another selection.
+    /// Adds the images of another selection.
     #[must_use]
     pub fn with(self, other: impl IntoIterator<Item = Aov>) -> Self {
         Self(other.into_iter().fold(self.0, |bits, aov| bits | 1 << aov as u16))
     }
 
-    /// Whether any needs what materials and meshes say of a pixel.
+    /// True if any needs materials and meshes at the surface of a pixel.
     pub(crate) fn has_surfaces(self) -> bool {
         self.iter().any(|aov| {
             matches!(aov, Aov::Albedo | Aov::Position | Aov::Uv | Aov::Material | Aov::Instance | Aov::Motion)
         })
     }
 
-    /// Whether any is of the rays through pixels' centres.
+    /// True if any is of the rays through pixels' centres.
     pub(crate) fn has_centres(self) -> bool {
         self.iter().any(|aov| !aov.is_of_samples())
     }
 
-    /// Whether any needs the picture of light that is scattered at most once.
+    /// True if any needs the picture of light that is scattered at most once.
     pub(crate) fn has_direct_light(self) -> bool {
         self.contains(Aov::Direct) || self.contains(Aov::Indirect)
     }
 
-    /// What a picture of this workload does where it has these.
+    /// The workload with that of these images added.
     pub fn workload(self, workload: Workload) -> Workload {
         match self.contains(Aov::Albedo) {
             true => Workload { emission: true, shades: true, ..workload },
@@ -182,7 +182,7 @@ impl AovSelection {
         }
     }
 
-    /// What a picture with these needs of a scene.
+    /// Needs of a picture with these images.
     pub fn needs(self, scene: &Scene, workload: Workload) -> Needs {
         let needs = Needs::of(scene, self.workload(workload));
         match self.contains(Aov::Uv) {

@@ -58,9 +58,9 @@ fn is_fastest(system: &System) -> bool {
 }
 
 impl SystemConfig {
-    /// The same for frames, each of which builds a structure for so many rays at most, where the job chooses: a tree whose
-    /// build is quick, unless there are so many rays that they repay a better one. The device has no say, so that shares of a
-    /// job are alike.
+    /// Fits a choice of the job to frames, each of which builds a structure for so many rays at most: a tree whose
+    /// build is quick, unless there are so many rays that they repay a better one. The device has no say, so that
+    /// shares of a job are alike.
     #[must_use]
     pub fn rebuilt_for(mut self, rays: u64, triangles: u64) -> Self {
         let is_free = self.chosen.is_some()

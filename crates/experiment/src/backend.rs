@@ -1,4 +1,4 @@
-//! What carries jobs out: the wanted device, what it is told of progress, what is known of the device.
+//! Backends, which carry jobs out: the choice of a device, its description, progress.
 
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
@@ -18,16 +18,16 @@ pub struct DeviceChoice {
     pub validation: bool,
 }
 
-/// How far the work is.
+/// Progress of the work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress<'a> {
-    /// What is being done, such as `build` or `mmrt robust incoherent`.
+    /// Name of the task, such as `build` or `mmrt robust incoherent`.
     pub task: &'a str,
     /// Units finished.
     pub done: u64,
     /// Units in all; 0 where that is not known.
     pub total: u64,
-    /// What a unit is, in the plural, such as `samples`.
+    /// Name of a unit, in the plural, such as `samples`.
     pub unit: &'a str,
 }
 
@@ -39,7 +39,7 @@ pub type OnProgress<'a> = dyn FnMut(Progress<'_>) -> ControlFlow<()> + 'a;
 pub struct FinishedRun<'a> {
     /// The place of its cell.
     pub place: usize,
-    /// What it gave.
+    /// Its result.
     pub run: &'a Run,
     /// Its image, `width * height` pixels of the frame, linear Rec. 709, rows from the top; absent of rays.
     pub pixels: Option<&'a [[f32; 3]]>,
@@ -53,11 +53,11 @@ pub type OnRun<'a> = dyn FnMut(FinishedRun<'_>) -> ControlFlow<()> + 'a;
 pub struct Feature {
     /// Name in the Vulkan specification.
     pub name: String,
-    /// Whether the device has it.
+    /// True if the device has it.
     pub present: bool,
-    /// Whether nothing runs without it.
+    /// True if nothing runs without it.
     pub required: bool,
-    /// What it is for.
+    /// Its use.
     pub purpose: String,
 }
 
@@ -66,9 +66,9 @@ pub struct Feature {
 pub struct ChosenPath {
     /// The system.
     pub system: String,
-    /// What is chosen, such as `addressing`.
+    /// Name of the choice, such as `addressing`.
     pub choice: String,
-    /// What was chosen.
+    /// The value chosen.
     pub chosen: String,
     /// Why.
     pub reason: String,
@@ -85,11 +85,11 @@ pub struct DeviceDescription {
     pub features: Vec<Feature>,
     /// Limits that decide something here, with their units in the text.
     pub limits: Vec<(String, String)>,
-    /// What each structure does here.
+    /// Choices of each structure here.
     pub paths: Vec<ChosenPath>,
 }
 
-/// How many texels a device holds.
+/// Number of texels that a device holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TexelCapacity {
     /// At most, of all levels of all textures.
@@ -106,12 +106,12 @@ impl TexelCapacity {
     }
 }
 
-/// What renders. Every method reports failures of the device and lost data as [`ExperimentError`].
+/// Runs jobs on a device. Every method reports failures of the device and lost data as [`ExperimentError`].
 pub trait Backend {
     /// The device in use, for reports.
     fn device(&self) -> Device;
 
-    /// How many texels the device in use holds.
+    /// Number of texels that the device in use holds.
     fn texel_capacity(&self) -> TexelCapacity;
 
     /// Renders an image with what was `kept` of the one before, and keeps what the next can use. When `progress` breaks, the
@@ -141,11 +141,11 @@ pub trait Backend {
         progress: &mut OnProgress<'_>,
     ) -> Result<Comparison, ExperimentError>;
 
-    /// What the structure of a job records for a build that is complete, for traces of both kinds and for surfaces,
-    /// pass by pass.
+    /// Commands that the structure of a job records for a build that is complete, for traces of both kinds and for
+    /// surfaces, pass by pass.
     fn passes(&mut self, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError>;
 
-    /// What the lists of the structure of a job hold once it is built: all cells together first, then view by view.
+    /// Counts of the lists of a job's structure once it is built: all cells together first, then view by view.
     fn lists(&mut self, job: &RenderJob<'_>) -> Result<Vec<ListRecord>, ExperimentError>;
 
     /// Describes the device.

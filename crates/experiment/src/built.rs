@@ -17,7 +17,7 @@ use crate::jobs::Refresh;
 use crate::passes::{Passes, median, spread};
 use rasray_report::{Counters, ListRecord, Memory, Pass, PassOf, Spread, StageTime, Times};
 
-/// Whether addressing was left open, and the device has addresses.
+/// True if addressing was left open, and the device has addresses.
 fn may_use_addresses(device: &Device, spec: &Spec) -> bool {
     let has_option = spec.system().has("addressing");
     has_option && spec.options().get("addressing").is_none() && device.has(Feature::BufferDeviceAddress)
@@ -62,7 +62,7 @@ fn missing_feature(device: &Device, spec: &Spec, missing: Feature) -> Experiment
     }
 }
 
-/// The same error, where it is of a buffer larger than one binding as one of the structure or of the scene.
+/// Names the structure or the scene in the error of a buffer larger than one binding; others stay as they are.
 fn too_large(error: ExperimentError, spec: &Spec) -> ExperimentError {
     match error {
         ExperimentError::Ads(AdsError::Gpu(error @ GpuError::TooLarge { .. }))
@@ -76,7 +76,7 @@ fn too_large(error: ExperimentError, spec: &Spec) -> ExperimentError {
     }
 }
 
-/// Whether a buffer is one of the structure's own, which are named after it: addresses reach these, and no others.
+/// True for a structure's own buffers, which are named after it: addresses reach these, and no others.
 fn is_pool(name: &str, spec: &Spec) -> bool {
     name.strip_prefix(spec.structure()).is_some_and(|rest| rest.starts_with(' '))
 }
@@ -99,7 +99,7 @@ pub struct Built {
     whole: Vec<f64>,
     /// The host's own part of each, milliseconds.
     prepare: Vec<f64>,
-    /// Whether these are of builds that were repeated to be timed.
+    /// True if these are of builds that were repeated to be timed.
     is_repeated: bool,
 }
 
@@ -119,8 +119,8 @@ impl Built {
         Self::over(device, spec, (scene, None), eye)
     }
 
-    /// The same for a scene that may move, in the parts that `refresh` asks for. [`DeviceScene::parts`] was called then
-    /// before the scene was posed.
+    /// Makes and builds the structure of a scene that may move, in the parts that `refresh` asks for.
+    /// [`DeviceScene::parts`] was called then before the scene was posed.
     ///
     /// # Errors
     /// As [`Built::new`], and where nothing of the scene moves on the device or the structure cannot be in parts.
@@ -172,7 +172,7 @@ impl Built {
         })
     }
 
-    /// What rays are traced through.
+    /// The structure that rays are traced through.
     pub fn structure(&self) -> &dyn Structure {
         self.frames.structure()
     }
@@ -257,7 +257,7 @@ impl Built {
         }
     }
 
-    /// How far the times of repeated builds lie apart, by the names of a report.
+    /// Spread of the times of repeated builds, by the names of a report.
     pub(super) fn spread(&self) -> impl Iterator<Item = (String, Spread)> {
         [("build_ms", &self.whole), ("build_host_ms", &self.prepare)]
             .into_iter()
@@ -291,7 +291,7 @@ impl Built {
         })
     }
 
-    /// What the lists of the structure's cells hold, all together first. All pools are read back.
+    /// Counts of the lists of the structure's cells, all together first. All pools are read back.
     ///
     /// # Errors
     /// The device fails, or lists are damaged.

@@ -89,7 +89,7 @@ impl CampaignCells {
         &self.made_by[comparison]
     }
 
-    /// What the cells depend on, in their order.
+    /// Dependencies of the cells, in their order.
     pub fn cells(&self) -> impl Iterator<Item = &Cell> {
         (0..self.list.len()).filter_map(|place| Some(&self.list.record(place)?.depends_on))
     }

@@ -13,8 +13,8 @@ use rasray_report::{Cell, CellImage, CellRays, CellRecord, CellView};
 use rasray_scene_source::{KeyHash, LoadedScene};
 use std::ops::Range;
 
-/// What the run of a cell is known by: a hash of the program (`program`: version and commit) and of everything that the
-/// run depends on, 64 hexadecimal digits. The device is not in it; a report says which it was.
+/// Key of the run of a cell: a hash of the program (`program`: version and commit) and of everything that the run
+/// depends on, 64 hexadecimal digits. The device is not in it; a report says which it was.
 pub fn cell_key(program: &str, cell: &Cell) -> String {
     let cell = serde_json::to_vec(cell).expect("strings, numbers and maps with string keys");
     KeyHash::default().with("program", program).with("cell", cell).finish()
@@ -65,7 +65,7 @@ impl CellList {
         self.records.len()
     }
 
-    /// Whether there are none.
+    /// True if there are no cells.
     pub fn is_empty(&self) -> bool {
         self.records.is_empty()
     }
@@ -75,7 +75,7 @@ impl CellList {
         &self.groups
     }
 
-    /// What a line says of the cell at a place; absent where there is none.
+    /// Record of the cell at a place; absent where there is none.
     pub fn record(&self, place: usize) -> Option<&CellRecord> {
         self.records.get(place)
     }

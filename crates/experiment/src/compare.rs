@@ -18,7 +18,7 @@ use crate::replay::{ReplaySetting, replay_sets};
 use crate::traced_set::{RaysWithTruth, Taking, Wanted, compare_set};
 use crate::work_maps::work_maps;
 
-/// What a comparison is made from.
+/// Inputs of a comparison.
 #[derive(Clone, Copy)]
 pub(super) struct Setting<'a> {
     pub(super) device: &'a Device,
@@ -29,7 +29,7 @@ pub(super) struct Setting<'a> {
 }
 
 impl CompareJob<'_> {
-    /// Whether the cell at a place is to be made.
+    /// True if the cell at a place is to be made.
     pub(super) fn wants(&self, place: usize) -> bool {
         self.only.as_ref().is_none_or(|only| only.contains(&place))
     }

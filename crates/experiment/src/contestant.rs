@@ -15,11 +15,11 @@ use rasray_report::{ListRecord, Run, Times};
 pub struct Contestant<'a> {
     /// Which system.
     pub config: &'a SystemConfig,
-    /// What its structure was made from; it counts the work of rays.
+    /// Spec of its structure, which counts the work of rays.
     pub spec: Spec,
     /// Its structure.
     pub built: Built,
-    /// What the lists of its cells hold, where that was counted.
+    /// Counts of the lists of its cells, where they were counted.
     pub lists: Vec<ListRecord>,
 }
 

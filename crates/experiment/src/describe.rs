@@ -1,4 +1,4 @@
-//! What `rasray info` says of the device.
+//! Description of the device for `rasray info`.
 
 use rasray_gpu::{Device, Feature as GpuFeature, Requirements};
 use rasray_gpu_scene::{TEXEL_BYTES, TexelRuns};
@@ -7,7 +7,7 @@ use rasray_systems::{SYSTEMS, Spec};
 use crate::backend::{ChosenPath, DeviceDescription, Feature};
 use crate::error::ExperimentError;
 
-/// What any system may want of a device; each names what it cannot do without when it is made.
+/// Requirements that any system may have of a device; each names what it cannot do without when it is made.
 pub fn requirements() -> Requirements {
     let mut requirements = Requirements::floor();
     requirements.optional.push((

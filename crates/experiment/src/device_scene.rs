@@ -16,7 +16,7 @@ pub struct DeviceScene {
     pub scene: GpuScene,
     /// Triangles that were left out: their coordinates are not finite, or beyond what can be squared.
     pub dropped_triangles: u64,
-    /// What moves, where it is posed on the device.
+    /// Poses what moves, where it is posed on the device.
     pub(super) pose: Option<PosePass>,
     /// Where everything is that moves, once it was posed.
     pub(super) posed: Option<FramePose>,
@@ -89,8 +89,8 @@ impl DeviceScene {
         Ok(self.scene.geometry().download(device)?)
     }
 
-    /// Whether positions have digits enough for a camera: the frame origin, around which the scene was uploaded, is the one
-    /// that suits it.
+    /// True if positions have digits enough for a camera: the frame origin, around which the scene was uploaded, is the
+    /// one that suits it.
     pub fn suits(&self, scene: &Scene, camera: &Camera) -> bool {
         let eye = camera.world_from_camera.translation;
         self.scene.frame_origin() == SceneTables::default_frame_origin(scene, eye)

@@ -78,7 +78,7 @@ pub enum ExperimentError {
     PoolExceedsBinding {
         /// The system of the structure.
         system: &'static System,
-        /// What the device said.
+        /// Error of the device.
         source: GpuError,
     },
     /// A system needs what the device lacks.
@@ -125,7 +125,7 @@ pub enum ExperimentError {
     /// Camera rays that are drawn, and a camera with a lens.
     #[error("primary {primary} draws through a pinhole, and the camera has a lens")]
     Pinhole {
-        /// How camera rays are answered.
+        /// Value of `primary`.
         primary: &'static str,
     },
     /// First hits were asked of a structure that has none.
@@ -142,7 +142,7 @@ pub enum ExperimentError {
     ShadowMaps {
         /// Points on each emitting triangle that have maps.
         points: u32,
-        /// What failed.
+        /// Cause.
         source: FrameError,
     },
     /// The reference has no such integrator.
@@ -184,7 +184,7 @@ pub enum ExperimentError {
     TemporaryFile {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The device does not have the triangles of a hard case.
@@ -199,12 +199,12 @@ pub enum ExperimentError {
         /// Its first message.
         message: String,
     },
-    /// What was traced lacked entries.
+    /// Entries were missing from a traced structure.
     #[error("{system}: {entries} entries were missing from what was traced")]
     MissingEntries {
         /// System and preset.
         system: String,
-        /// How many.
+        /// Number of entries.
         entries: u64,
     },
     /// Rays had no answer.
@@ -212,7 +212,7 @@ pub enum ExperimentError {
     Unanswered {
         /// System and preset.
         system: String,
-        /// How many.
+        /// Number of rays.
         rays: u64,
     },
     /// An image lacks pixels.
@@ -255,7 +255,7 @@ pub enum OccluderError {
     /// Panes of glass.
     #[error("panes of this scene let light pass, and maps do not say which lie on a ray")]
     Panes {
-        /// Whether the integrator has an option that makes their shadows opaque.
+        /// True if the integrator has an option that makes their shadows opaque.
         can_be_opaque: bool,
     },
     /// No shadow rays.

@@ -12,7 +12,7 @@ use crate::measured::Measured;
 /// The largest |dt| / t of a run, and what its case bounds it by for structures that find triangles.
 type LargestDt = Option<(f64, f64)>;
 
-/// What a report says of a run on a case; `resolution` is the run's option of that name.
+/// Record of a run on a case for the report; `resolution` is the run's option of that name.
 pub(super) fn hard_record(
     case: &HardCase,
     kind: StructureKind,
@@ -39,7 +39,7 @@ pub(super) fn hard_record(
     }
 }
 
-/// Whether the target was met, absent where one run cannot tell, and why.
+/// True if the target was met, absent where one run cannot tell; and the reason.
 fn verdict(
     target: Target,
     kind: StructureKind,
@@ -63,7 +63,7 @@ fn verdict(
         return (Some(false), format!("{non_finite} hits have a t that is no number"));
     }
     match target {
-        // What a fragment structure leaves out is not what such a case is about.
+        // Such a case is not about the hits that a fragment structure leaves out.
         Target::Exact if kind == StructureKind::Fragment => {
             (Some(rejected_hits == 0), format!("{rejected_hits} of {hits} hits are wrong"))
         }

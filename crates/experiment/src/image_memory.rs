@@ -1,4 +1,4 @@
-//! Whether an image fits the memory of device and host, before anything is made.
+//! Checks that an image fits the memory of device and host, before anything is made.
 
 use rasray_gpu::Device;
 use rasray_integrators::FilmPixel;
@@ -16,10 +16,10 @@ struct PerPixel {
 const NUMBER: u64 = size_of::<u32>() as u64;
 const COLOUR: u64 = size_of::<[f32; 3]>() as u64;
 
-/// What the pilot of adaptive samples keeps: mean, squares, sum, and two numbers of samples.
+/// Bytes per pixel of the pilot of adaptive samples: mean, squares, sum, and two numbers of samples.
 const PILOT: u64 = 5 * NUMBER;
 
-/// What is kept of the samples of a pixel whose variance is measured: of each channel mean, squares, sum and number.
+/// Bytes per pixel whose variance is measured: of each channel mean, squares, sum and number of its samples.
 const MOMENTS: u64 = 3 * 4 * NUMBER;
 
 impl PerPixel {

@@ -25,7 +25,7 @@ fn reference_image(
     Ok(Some(naive.render(scene, view, &frame.integrator.values())?))
 }
 
-/// How far an image is from the reference, as a whole and, where wanted, in each pixel.
+/// Error of an image against the reference, as a whole and, where wanted, in each pixel.
 fn image_error(
     frame: &Frame,
     test: &[[f32; 3]],

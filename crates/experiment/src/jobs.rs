@@ -18,7 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// One image of one system.
 #[derive(Clone, Debug)]
 pub struct RenderJob<'a> {
-    /// What is rendered; lit, and possibly without triangles.
+    /// The scene to render; lit, and possibly without triangles.
     pub scene: &'a Scene,
     /// When it is shown, where the scene is at rest: the device poses it. Absent: as it is.
     pub moment: Option<&'a Moment>,
@@ -26,17 +26,17 @@ pub struct RenderJob<'a> {
     pub camera: Camera,
     /// Through which structure.
     pub system: SystemConfig,
-    /// What of it the image builds.
+    /// Parts of its structure that the image builds.
     pub refresh: Refresh,
     /// The image.
     pub frame: Frame,
     /// Which of its samples are made; absent: all.
     pub shard: Option<Shard>,
-    /// What else is wanted.
+    /// Images wanted in addition.
     pub aovs: AovSelection,
     /// The frame before, where the device poses the scene; for [`Aov::Motion`], which is not there without.
     pub before: Option<FrameBefore>,
-    /// What is uploaded, compiled in and stored; everything with `--needs all`.
+    /// Data that is uploaded, compiled in and stored; everything with `--needs all`.
     pub needs: Needs,
     /// Builds that are timed after the first; with none there is no [`Times::build_ms`].
     pub repetitions: u32,
@@ -90,7 +90,7 @@ impl RaySet {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Description, one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Incoherent => "Origins uniform in the scene's box, directions uniform",
@@ -108,7 +108,7 @@ impl RaySet {
 /// Systems side by side.
 #[derive(Clone, Debug)]
 pub struct CompareJob<'a> {
-    /// What is traced; lit, and possibly without triangles.
+    /// The scene to trace; lit, and possibly without triangles.
     pub scene: &'a Scene,
     /// For the ray sets `camera` and `bounce` and for images.
     pub camera: Camera,
@@ -120,11 +120,11 @@ pub struct CompareJob<'a> {
     pub rays: u32,
     /// Size, seed and integrator; the size also shapes the camera's rays.
     pub frame: Frame,
-    /// Whether an image of each system is compared with the reference as well.
+    /// True to compare an image of each system with the reference as well.
     pub image: bool,
-    /// Whether pictures and maps are kept for a page.
+    /// True to keep pictures and maps for a page.
     pub figures: bool,
-    /// Whether what the lists of each structure hold is counted, which reads its pools back.
+    /// True to count the contents of each structure's lists, which reads its pools back.
     pub lists: bool,
     /// Timed repetitions of every build and every set, at least 1, after one that warms up.
     pub repetitions: u32,
@@ -132,11 +132,11 @@ pub struct CompareJob<'a> {
     pub rays_file: Option<RaysFile>,
     /// Hits found elsewhere, one for each ray of the only set.
     pub hits_files: Vec<HitsFile>,
-    /// Whether rays, truth and hits are kept for files.
+    /// True to keep rays, truth and hits for files.
     pub keep: bool,
     /// Instead of comparing: the ray of each set that is replayed step by step, counted from 0.
     pub replay: Option<u32>,
-    /// What is uploaded, compiled in and stored; everything with `--needs all`.
+    /// Data that is uploaded, compiled in and stored; everything with `--needs all`.
     pub needs: Needs,
     /// Places of the cells that are made, in the list of [`compare_cells`](crate::compare_cells); absent: all.
     pub only: Option<BTreeSet<usize>>,
@@ -151,13 +151,13 @@ pub struct HardJob<'a> {
     pub systems: &'a [SystemConfig],
     /// Timed repetitions of every build and of the rays, at least 1, after one that warms up.
     pub repetitions: u32,
-    /// What the case's rays were drawn with.
+    /// Seed that the case's rays were drawn with.
     pub seed: u32,
-    /// Whether figures are kept for a page.
+    /// True to keep figures for a page.
     pub figures: bool,
     /// Hits found elsewhere, one for each ray.
     pub hits_files: &'a [HitsFile],
-    /// Whether rays, truth and hits are kept for files.
+    /// True to keep rays, truth and hits for files.
     pub keep: bool,
     /// Instead of comparing: the ray that is replayed step by step, counted from 0.
     pub replay: Option<u32>,
@@ -165,7 +165,7 @@ pub struct HardJob<'a> {
     pub only: Option<BTreeSet<usize>>,
 }
 
-/// What a comparison gave.
+/// Result of a comparison.
 #[derive(Clone, Debug, Default)]
 pub struct Comparison {
     /// A run per system, preset and ray set, and per image where wanted.
@@ -191,7 +191,7 @@ impl Comparison {
 /// The ray set of a file.
 pub const FILE_SET: &str = "file";
 
-/// What was traced and what was answered.
+/// Rays that were traced and their answers.
 #[derive(Clone, Debug, Default)]
 pub struct Kept {
     /// The hard case that this is about.
@@ -226,13 +226,13 @@ pub struct Answers {
     /// System and preset, such as `mmrt-robust`; with the options of several values where it takes part with several, such as
     /// `bvh-robust.leaf=2,children=4`.
     pub name: String,
-    /// Whether a hit's `a` and `b` are weights of vertices.
+    /// Says whether a hit's `a` and `b` are weights of vertices.
     pub kind: StructureKind,
     /// One a ray.
     pub hits: Vec<Hit>,
 }
 
-/// What samples add up to, one entry per pixel, rows from the top.
+/// Sums of samples, one entry per pixel, rows from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmSums {
     /// Linear Rec. 709, W/(sr m^2).
@@ -241,7 +241,7 @@ pub struct FilmSums {
     pub counts: Vec<u32>,
 }
 
-/// What a render gave. Images have `width * height` pixels, rows from the top.
+/// Result of a render. Images have `width * height` pixels, rows from the top.
 #[derive(Clone, Debug, Default)]
 pub struct RenderOutput {
     /// Pixels a row.
@@ -250,14 +250,14 @@ pub struct RenderOutput {
     pub height: u32,
     /// Mean over the samples done; linear Rec. 709, W/(sr m^2).
     pub beauty: Vec<[f32; 3]>,
-    /// What those samples add up to, where [`RenderJob::shard`] asked for a share of them.
+    /// Sums of those samples, where [`RenderJob::shard`] asked for a share of them.
     pub sums: Option<FilmSums>,
     /// Those in addition that [`RenderJob::aovs`] asked for.
     pub aovs: BTreeMap<Aov, AovImage>,
     /// Samples per pixel in `beauty`, of adaptive samples the most that a pixel could get; fewer than asked for after an early
     /// end.
     pub samples_done: u32,
-    /// How they were shared among the pixels, where some got more than others.
+    /// Sharing of the samples among the pixels, where some got more than others.
     pub adaptive: Option<AdaptiveRecord>,
     /// Options of the structure as resolved from preset and command line.
     pub options: BTreeMap<String, Value>,
@@ -269,7 +269,7 @@ pub struct RenderOutput {
     pub passes: Vec<Pass>,
     /// The four figures and the ray rate.
     pub times: Times,
-    /// How far repeated times lie apart, by the name of their median.
+    /// Spread of repeated times, by the name of their median.
     pub spread: BTreeMap<String, Spread>,
     /// Bytes.
     pub memory: Option<Memory>,
@@ -278,7 +278,7 @@ pub struct RenderOutput {
 }
 
 impl RenderOutput {
-    /// What a report says of the render.
+    /// Record of the render for a report.
     pub fn run(&self, system: &SystemConfig, frame: &Frame) -> Run {
         let mut run = Run {
             system: system.system.name.to_owned(),

@@ -1,4 +1,4 @@
-//! What was traced and answered, as files with names.
+//! Traced rays and their answers as files with names.
 
 use crate::jobs::Kept;
 use rasray_ads::PRIMITIVE_NONE;

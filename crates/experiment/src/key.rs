@@ -1,4 +1,4 @@
-//! What a picture is known by: where two keys are equal, the same program makes the same picture.
+//! Keys of pictures: where two keys are equal, the same program makes the same picture.
 
 use crate::jobs::{Frame, RenderJob};
 use rasray_options::OptionValues;

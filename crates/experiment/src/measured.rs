@@ -12,7 +12,7 @@ pub const HIT_ROUNDING: f64 = 64.0 / 16_777_216.0;
 /// Depth that a fragment may be off by and count as right, relative.
 const FRAGMENT_DEPTH: f64 = 1.0e-3;
 
-/// How far t may be off, relative to t.
+/// Errors of t that are allowed, relative to t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Up to this a depth counts as right for [`Measured::errors`].
@@ -22,7 +22,7 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// What the command allows a kind of structure.
+    /// Tolerance that the command allows a kind of structure.
     pub fn of(kind: StructureKind) -> Self {
         let both = match kind {
             StructureKind::Primitive | StructureKind::LossyPrimitive => HIT_ROUNDING,
@@ -32,7 +32,7 @@ impl Tolerance {
     }
 }
 
-/// How one structure fared on one case.
+/// Results of one structure on one case.
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
     /// Rays that got a hit.
@@ -143,7 +143,7 @@ impl Measured {
     }
 }
 
-/// Whether an ambiguous ray may get this answer, on whatever triangle.
+/// True if an ambiguous ray may get this answer, on whatever triangle.
 fn admissible(verdict: &Verdict, hit: Option<&DeviceHit>, depth_tolerance: f64) -> bool {
     hit.map_or(verdict.miss_allowed, |hit| {
         let (t, slack) = (f64::from(hit.t), depth_tolerance * f64::from(hit.t).abs());

@@ -63,7 +63,7 @@ impl<'a> Screen<'a> {
         (depth > 0.0).then(|| 0.5 * (across + 1.0) * self.size)
     }
 
-    /// The same of a point of the world.
+    /// Where a point of the world is seen, pixels from the lower left; nothing beside or behind the eye.
     fn of_point(&self, point: DVec3) -> Option<DVec2> {
         self.of_direction(point - self.camera.world_from_camera.translation)
     }
@@ -116,7 +116,7 @@ mod tests {
         let corners = [[-9.0, -9.0, -2.0], [9.0, -9.0, -2.0], [-9.0, 9.0, -2.0_f32]];
         let positions = corners.map(|corner| [0, 1, 2].map(|axis| corner[axis] + moved[axis]));
         let triangles = TrianglesBefore { positions: positions.to_vec(), indices: vec![0, 1, 2] };
-        // What the first pixel of two by two shows: the point (-1, 1, -2).
+        // The first pixel of two by two shows the point (-1, 1, -2).
         let weights = [8.0 / 18.0, 10.0 / 18.0];
         let surfaces = [AovSurface { weights, ..AovSurface::default() }; 4];
         let before = FrameBefore { moment: Moment { seconds: 0.0, clips: Vec::new() }, camera: before };

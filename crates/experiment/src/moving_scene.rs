@@ -53,7 +53,7 @@ impl DeviceScene {
         Ok((stage, shown))
     }
 
-    /// Whether [`DeviceScene::pose`] can show the scene at any moment.
+    /// True if [`DeviceScene::pose`] can show the scene at any moment.
     pub fn is_moving(&self) -> bool {
         self.pose.is_some()
     }
@@ -140,7 +140,7 @@ impl DeviceScene {
     }
 }
 
-/// What showing a moment took.
+/// Times that showing a moment took.
 #[derive(Clone, Debug, Default)]
 pub struct PoseTimes {
     /// On the host, milliseconds: matrices of a rig, or what a deformer simulated or read.

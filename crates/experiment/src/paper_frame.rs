@@ -7,16 +7,16 @@ use rasray_systems::{Preset, System};
 use crate::SystemRequest;
 use crate::frame::{OccluderKind, Primary};
 
-/// What an image is made with where nothing is said of it.
+/// Settings of an image where none are given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameDefaults {
     /// The integrator.
     pub integrator: &'static IntegratorRow,
     /// Its options where they differ from its own defaults.
     pub options: OptionValues,
-    /// How first hits are found.
+    /// Way in which first hits are found.
     pub primary: Primary,
-    /// What answers shadow rays.
+    /// Occluder of shadow rays.
     pub occluder: OccluderKind,
 }
 
@@ -59,7 +59,7 @@ impl FrameDefaults {
 }
 
 impl SystemRequest {
-    /// What images are made with where nothing is said of it: [`FrameDefaults::of`] for a system that was named.
+    /// Settings of images where none are given: [`FrameDefaults::of`] for a system that was named.
     pub fn frame_defaults(self, preset: Preset) -> FrameDefaults {
         match self {
             Self::Automatic => FrameDefaults::default(),

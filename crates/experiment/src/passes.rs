@@ -5,7 +5,7 @@ use rasray_metrics::Summary;
 
 use rasray_report::{Pass, PassOf, Spread, StageTime, Timer};
 
-/// What one pass took in each repetition.
+/// Times and dispatches of one pass in each repetition.
 #[derive(Debug)]
 struct Row {
     stage: Stage,
@@ -70,7 +70,7 @@ impl Passes {
         self.sums(of).map(|sums| median(&sums))
     }
 
-    /// What each stage took, in the order of a frame.
+    /// Times of each stage, in the order of a frame.
     pub(super) fn stages(&self) -> Vec<StageTime> {
         let time = |stage: Stage| {
             let sums = self.sums(|one| one == stage)?;
@@ -102,7 +102,7 @@ impl Passes {
         self.rows.iter().filter_map(pass).collect()
     }
 
-    /// What measured them.
+    /// The timer that measured them.
     pub(super) fn timer(&self) -> Option<Timer> {
         self.timer.map(|timer| match timer {
             TimerKind::Device => Timer::Device,
@@ -119,7 +119,7 @@ fn middle(times: &[f64]) -> Vec<usize> {
     order[count.saturating_sub(1) / 2..(count / 2 + 1).min(count)].to_vec()
 }
 
-/// How far times lie apart; absent for nothing.
+/// Spread of times; absent for nothing.
 pub(super) fn spread(times: &[f64]) -> Option<Spread> {
     Summary::of(times).map(|summary| Spread {
         count: summary.count as u64,

@@ -7,7 +7,7 @@ use rasray_reference::oracle::{self, COORDINATE_LIMIT};
 use rasray_scene::default_view::camera_looking_at;
 use rasray_scene::{Camera, Instance, Material, Mesh, Scene};
 
-/// What loaders keep of a case's triangles: those whose coordinates are finite and have finite squares. A device counts
+/// Triangles of a case that loaders keep: those whose coordinates are finite and have finite squares. A device counts
 /// these, the case counts all.
 #[derive(Clone, Debug)]
 pub struct Placed {
@@ -16,7 +16,7 @@ pub struct Placed {
 }
 
 impl Placed {
-    /// What is kept of a list of triangles.
+    /// Picks the triangles of a list that are kept.
     pub fn new(triangles: &[Triangle]) -> Self {
         let good = |triangle: &Triangle| triangle.iter().flatten().all(|x| x.abs() <= COORDINATE_LIMIT);
         Self { kept: (0..triangles.len() as u32).filter(|&id| good(&triangles[id as usize])).collect() }

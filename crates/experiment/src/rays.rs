@@ -9,7 +9,7 @@ use rasray_reference::shading::{self, View, camera_ray, cosine_hemisphere, spawn
 
 use crate::jobs::RaySet;
 
-/// What rays are made from.
+/// Inputs that rays are made from.
 pub struct RaySource<'a> {
     /// The camera, the size of its image in pixels, and the seed.
     pub view: &'a View,
@@ -25,7 +25,7 @@ pub struct RaySource<'a> {
     pub positions: &'a [[f32; 3]],
     /// Three vertices a triangle.
     pub indices: &'a [u32],
-    /// What rays pass.
+    /// Flags of the rays, which say which surfaces they pass.
     pub flags: RayFlags,
 }
 
@@ -295,7 +295,7 @@ pub(super) fn from_shading(ray: &shading::Ray) -> Ray {
     }
 }
 
-/// The same ray for the oracle.
+/// Converts a ray for the oracle.
 pub fn oracle_ray(ray: &Ray) -> rasray_reference::oracle::Ray {
     rasray_reference::oracle::Ray {
         origin: ray.origin,
@@ -339,7 +339,7 @@ mod tests {
                 glossy(direction, normal, **numbers).dot(mirror) > 6.7_f32.to_radians().cos()
             });
             let share = near.count() as f64 / numbers.len() as f64;
-            // What is below the surface comes nearer.
+            // Directions below the surface come nearer.
             assert!(share > 0.47 && (direction == grazing || share < 0.53), "{direction}: {share}");
         }
     }

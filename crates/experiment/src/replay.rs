@@ -20,7 +20,7 @@ use crate::system_config::SystemConfig;
 /// Cells of a view that are listed at most: more do not help a reader.
 const MOST_CELLS: usize = 4096;
 
-/// What a ray is replayed against.
+/// Scene and oracle that a ray is replayed against.
 pub(super) struct ReplaySetting<'a> {
     pub(super) device: &'a Device,
     pub(super) stage: &'a DeviceScene,

@@ -1,4 +1,4 @@
-//! What a scene holds, how it is seen and lit where nothing is said of it, and what of it an image can show.
+//! Facts of a scene: its contents, the defaults of view and light, and the data that an image of it can show.
 
 use crate::backend::TexelCapacity;
 use crate::error::ExperimentError;
@@ -25,19 +25,19 @@ pub fn count_not_uploaded(loaded: &mut LoadedScene, camera: &Camera, needs: &Nee
 pub struct SceneInfo {
     /// File stem, or built-in name with its parameters.
     pub name: String,
-    /// What there are how many of.
+    /// Names and numbers of triangles, instances, meshes, materials, textures, lights and clips.
     pub counts: [(&'static str, u64); 7],
     /// Its clips: name and seconds.
     pub clips: Vec<(String, f32)>,
     /// When it is shown; absent at rest.
     pub pose: Option<PoseRecord>,
-    /// How it changes with time.
+    /// The way it changes with time.
     pub motion: Motion,
     /// Seconds from which on nothing changes.
     pub duration_s: f64,
     /// Its environment in words.
     pub environment: String,
-    /// Whether it gets the default light.
+    /// True if it gets the default light.
     pub unlit: bool,
     /// Least and greatest corner, metres; absent without triangles.
     pub bounds: Option<(DVec3, DVec3)>,
@@ -51,7 +51,7 @@ pub struct SceneInfo {
     pub view: Chosen,
     /// The integrator whose needs these are.
     pub integrator: &'static str,
-    /// What of it an image can show.
+    /// Data of it that an image can show.
     pub needs: Needs,
     /// Bytes that are not uploaded because no image can show them; see [`LoadedScene::not_uploaded_bytes`].
     pub not_uploaded_bytes: Option<u64>,
@@ -193,7 +193,7 @@ mod tests {
             .sum();
         // One zero word stands in for a table without words.
         assert!(loaded.not_uploaded_bytes.is_some_and(|count| count >= normals as u64 - 4), "{normals}");
-        // What is at fault and not looked at is not counted, and is no error.
+        // Faulty data that is not looked at is not counted, and is no error.
         loaded.scene.meshes[0].normals = Some(Vec::new());
         count_not_uploaded(&mut loaded, &camera, &needs);
         assert_eq!(loaded.not_uploaded_bytes, None);

@@ -37,7 +37,7 @@ impl Shard {
         self.of
     }
 
-    /// Whether the thing at this place, from 0, is part of the share.
+    /// True if the thing at this place, from 0, is part of the share.
     pub fn holds(self, place: u32) -> bool {
         place % self.of == self.number - 1
     }

@@ -28,9 +28,9 @@ impl SystemConfig {
         Self { system, preset, options, variant: None, chosen: None }
     }
 
-    /// The same for renders of a workload: published fragments carry what their paper keeps for occlusion
-    /// where nothing else is asked for, unless a payload was given. Comparisons keep the preset's, since rays
-    /// are compared in addition to the image.
+    /// Sets the payload for renders of a workload: published fragments carry what their paper keeps for occlusion where
+    /// nothing else is asked for, unless a payload was given. Comparisons keep the preset's, since rays are compared in
+    /// addition to the image.
     #[must_use]
     pub fn serving(mut self, workload: Workload) -> Self {
         if workload.is_visibility()
@@ -43,7 +43,7 @@ impl SystemConfig {
         self
     }
 
-    /// The same where a camera looks at the scene for a frame: published structures whose paper draws the camera's view draw it,
+    /// Sets the views for a frame that a camera sees: published structures whose paper draws the camera's view draw it,
     /// a cell a pixel of the image, unless views were given, and so do all from which first hits are taken. A parallel
     /// projection has no such view.
     #[must_use]
@@ -64,7 +64,7 @@ impl SystemConfig {
         self
     }
 
-    /// What images of a workload lack: a warning where they shade and fragments carry nothing to shade by.
+    /// Warning for images of a workload that shades where fragments carry nothing to shade by.
     pub fn shortcoming(&self, workload: Workload) -> Option<String> {
         let payload = self.options.get("payload").and_then(Value::word);
         let payload = payload.filter(|payload| ["normal", "plane"].contains(payload))?;
@@ -74,7 +74,7 @@ impl SystemConfig {
         })
     }
 
-    /// What the registry makes the structure from.
+    /// Spec that the registry makes the structure from.
     ///
     /// # Errors
     /// Values do not go together; those of a config of the command line do.

@@ -49,7 +49,8 @@ pub fn fit(
     Ok(text)
 }
 
-/// What is made smaller, and why; nothing where nothing is. The largest come first: they were so before, too.
+/// Names the images that are made smaller, and the reason; nothing where none is. The largest come first: they were so
+/// before, too.
 fn described(smaller: &[SmallerImage], demand: u64, capacity: &TexelCapacity) -> Option<String> {
     let first = smaller.iter().max_by_key(|image| image.from.map(u64::from).iter().product::<u64>())?;
     let ([width, height], [to_width, to_height]) = (first.from, first.to);
@@ -80,7 +81,7 @@ fn records(smaller: &[SmallerImage]) -> Vec<SmallerImageRecord> {
 #[derive(Clone, Debug)]
 pub struct TexelInfo {
     bytes: u64,
-    /// How many it holds, and the images that are made smaller for it.
+    /// Number of texels it holds, and the images that are made smaller for it.
     device: Option<(TexelCapacity, Vec<SmallerImage>)>,
 }
 

@@ -63,20 +63,20 @@ impl<'a> Taking<'a> {
     }
 }
 
-/// What is wanted of every set.
+/// Settings of the traces of every set.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
     /// Times each set is traced after once to warm up, at least 1.
     pub(super) repetitions: u32,
-    /// What the rays were drawn with.
+    /// Seed that the rays were drawn with.
     pub(super) seed: u32,
-    /// Whether histograms are made.
+    /// True to make histograms.
     pub(super) figures: bool,
-    /// Whether rays, truth and hits are kept.
+    /// True to keep rays, truth and hits.
     pub(super) keep: bool,
 }
 
-/// What one system answered to one set.
+/// Answers of one system to one set.
 #[derive(Debug, Default)]
 pub struct TracedSet {
     /// One a ray.

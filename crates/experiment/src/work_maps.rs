@@ -1,4 +1,4 @@
-//! What the ray through each pixel's centre costs, and what one through any place of a picture hits.
+//! Work of the ray through each pixel's centre, and hit of the ray through any place of a picture.
 
 use glam::Vec2;
 use rasray_ads::{Counters, Ray, RayWork, TraceMode};
@@ -41,8 +41,8 @@ pub(super) fn work_maps(
     Ok(maps)
 }
 
-/// What the ray through each pixel's centre costs in a structure of this spec, built as seen from `eye` (metres,
-/// relative to the frame origin); its run is 0. Absent where the structure counts nothing per ray. The size is in pixels.
+/// Work of the ray through each pixel's centre in a structure of this spec, built as seen from `eye` (metres, relative
+/// to the frame origin); its run is 0. Absent where the structure counts nothing per ray. The size is in pixels.
 ///
 /// Rays that write down their own work are slower, so the map has a structure of its own.
 ///
@@ -71,9 +71,9 @@ pub fn work_per_pixel(
     }))
 }
 
-/// What the ray through a place of a picture (pixels from its left top corner; through the centre of a lens) hits in a
-/// structure that is built: metres along the ray, and the triangle unless a fragment does not keep it. Absent where
-/// it leaves the scene. The size is in pixels.
+/// Finds the hit of the ray through a place of a picture (pixels from its left top corner; through the centre of a
+/// lens) in a structure that is built: metres along the ray, and the triangle unless a fragment does not keep it.
+/// Absent where it leaves the scene. The size is in pixels.
 ///
 /// # Errors
 /// The device fails, or the ray does not become complete.

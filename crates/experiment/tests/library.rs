@@ -111,7 +111,7 @@ fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
         .expect("the device works");
     assert_eq!(first.places, [0, 1], "systems take turns on a set");
 
-    // The same hits again, but for one that is lost.
+    // The hits again, but for one that is lost.
     let set = kept.sets.swap_remove(0);
     let mut hits = set.answers[0].hits.clone();
     let sure = |ray: usize| !set.truth[ray].ambiguous && set.truth[ray].primitive != PRIMITIVE_NONE;
@@ -241,8 +241,8 @@ fn the_share_of_samples_that_are_traced_on_is_that_of_pixels_with_a_mirror() {
     }
 }
 
-/// What an image is made in, slot by slot: ray 48, hit 16, traversal 64, lists 16 and surface 128 bytes; per pixel of the film
-/// 16; the header of a queue, its two placeholders, and what the film counts.
+/// Bytes of the buffers of an image, slot by slot: ray 48, hit 16, traversal 64, lists 16 and surface 128 bytes; per
+/// pixel of the film 16; the header of a queue, its two placeholders, and what the film counts.
 #[test]
 fn bytes_of_an_image_are_those_of_its_slots_and_pixels() {
     let slots = 32 * 24;
@@ -353,7 +353,7 @@ fn pictures_do_not_depend_on_what_was_kept() {
     assert_eq!(kept_kernels, 3);
 }
 
-/// What an option asks for and the device lacks is an error of the job, which names the option.
+/// An option that asks for a feature that the device lacks is an error of the job, which names the option.
 #[test]
 fn an_option_whose_feature_the_device_lacks_is_to_be_left_out() {
     let mut loaded = load(OsStr::new("cornell")).expect("a built-in scene");

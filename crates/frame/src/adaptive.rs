@@ -17,7 +17,7 @@ const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 /// Pixels darker than this share of the picture's mean are allowed the noise of such a one.
 const DARK: f64 = 0.1;
 
-/// How samples are given to pixels.
+/// Rule by which samples are given to pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adaptive {
     /// Standard error of the mean that a pixel may have, as a share of its luminance, or of a tenth of the picture's where it
@@ -56,7 +56,7 @@ impl Pilot {
         self.counts_by(rule, most, |pixel| self.neighbours(pixel))
     }
 
-    /// The same, with the pixels that each one is judged by.
+    /// Samples of each pixel, from those of the pilot to `most`, with the pixels that each one is judged by.
     fn counts_by<N: Iterator<Item = usize>>(
         &self,
         rule: Adaptive,

@@ -19,7 +19,7 @@ pub enum FrameError {
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// What moves the scene failed.
+    /// The pass that moves the scene failed.
     #[error(transparent)]
     Scene(#[from] GpuSceneError),
     /// The structure failed.

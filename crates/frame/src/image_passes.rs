@@ -1,4 +1,4 @@
-//! What is recorded of an image.
+//! Passes of an image.
 
 use rasray_ads::{Occluder, QueueCounters, Structure};
 use rasray_gpu::{Device, Recorder};
@@ -9,17 +9,17 @@ use rasray_tracer::TracerError;
 
 use crate::{FrameError, Samples};
 
-/// What makes an image of rays through a structure: an integrator with its film, and what answers camera and shadow rays.
-/// It records, and neither submits nor waits.
+/// Records the passes of an image of rays through a structure: an integrator with its film, and what answers camera and
+/// shadow rays. It records, and neither submits nor waits.
 pub struct ImagePasses {
     integrator: Box<dyn Integrator>,
-    /// What answers camera rays in place of traces.
+    /// Answers camera rays in place of traces.
     visibility: Option<Visibility>,
-    /// Whether the structure's view of the camera does.
+    /// True where the structure's view of the camera does.
     has_stored_hits: bool,
-    /// What answers shadow rays in place of traces.
+    /// Answers shadow rays in place of traces.
     shadow_maps: Option<ShadowMaps>,
-    /// Whether the maps are to be drawn before they are asked.
+    /// True if the maps are to be drawn before they are asked.
     maps_are_stale: bool,
 }
 
@@ -43,21 +43,21 @@ fn lights(scene: &GpuScene) -> Lights<'_> {
 }
 
 impl ImagePasses {
-    /// The same with camera rays answered by drawing, which was made for the same scene; traced where absent.
+    /// Answers camera rays by drawing, which was made for the same scene; by traces where absent.
     #[must_use]
     pub fn with_visibility(self, visibility: Option<Visibility>) -> Self {
         Self { visibility, ..self }
     }
 
-    /// The same with camera rays answered by the structure's view of the camera, which must have one
-    /// ([`Structure::has_first_hits`]); not together with drawing.
+    /// Answers camera rays by the structure's view of the camera, which must have one ([`Structure::has_first_hits`]);
+    /// not together with drawing.
     #[must_use]
     pub fn with_stored_hits(self) -> Self {
         Self { has_stored_hits: true, visibility: None, ..self }
     }
 
-    /// The same with shadow rays that lead to lights without extent answered by shadow maps of the scene, and where
-    /// [`Config::points`] asks for it those that lead to emitting triangles.
+    /// Answers shadow rays that lead to lights without extent by shadow maps of the scene, and where [`Config::points`]
+    /// asks for it those that lead to emitting triangles.
     ///
     /// # Errors
     /// As [`ShadowMaps::new`].
@@ -72,7 +72,7 @@ impl ImagePasses {
         Ok(Self { shadow_maps: Some(maps), ..self })
     }
 
-    /// What answers shadow rays in place of traces.
+    /// Shadow maps, which answer shadow rays in place of traces.
     pub fn shadow_maps(&self) -> Option<&ShadowMaps> {
         self.shadow_maps.as_ref()
     }
@@ -82,7 +82,7 @@ impl ImagePasses {
         self.maps_are_stale = true;
     }
 
-    /// Whether [`ImagePasses::record_shadow_maps`] would record anything.
+    /// True if [`ImagePasses::record_shadow_maps`] would record anything.
     pub(crate) fn needs_shadow_maps(&self) -> bool {
         self.maps_are_stale && self.shadow_maps.is_some()
     }
@@ -100,7 +100,7 @@ impl ImagePasses {
         self.integrator.as_ref()
     }
 
-    /// What answers camera rays in place of traces.
+    /// Drawing that answers camera rays in place of traces.
     pub fn visibility(&self) -> Option<&Visibility> {
         self.visibility.as_ref()
     }

@@ -13,7 +13,7 @@ use crate::image_passes::{ImagePasses, unanswered};
 use crate::moments::Variances;
 use crate::{FrameError, Samples};
 
-/// What a call of [`ImageRenderer::advance`] did.
+/// Result of a call of [`ImageRenderer::advance`].
 #[derive(Clone, Debug)]
 pub enum Advance {
     /// A wave was added to the film.
@@ -28,7 +28,7 @@ pub enum Advance {
 /// An image in the making: sample after sample, and wave after wave within a sample. Each call submits and waits, so that
 /// no submission is longer than a wave, and a picture can be looked at or given up in between.
 ///
-/// What it is made of a structure that is complete ([`rasray_tracer::build_until_complete`]); pictures are those of
+/// It is made of a structure that is complete ([`rasray_tracer::build_until_complete`]); pictures are those of
 /// [`FrameRenderer`](crate::FrameRenderer), bit for bit.
 #[derive(Debug)]
 pub struct ImageRenderer {
@@ -37,7 +37,7 @@ pub struct ImageRenderer {
     samples: Samples,
     /// The first pixel of the next wave, among those of the sample.
     next_pixel: u32,
-    /// What the waves of the sample are ranges of, band by band.
+    /// Range of each band that the waves of the sample divide: pixels, or places in its list.
     of_sample: Vec<Range<u32>>,
     samples_done: u32,
     waves_done: u64,
@@ -46,7 +46,7 @@ pub struct ImageRenderer {
     variances: Option<Variances>,
 }
 
-/// How samples are given to pixels where some get more than others.
+/// Sharing of samples among pixels where some get more than others.
 #[derive(Debug)]
 struct Sharing {
     rule: Adaptive,
@@ -89,7 +89,7 @@ impl ImageRenderer {
         Ok(made)
     }
 
-    /// The same with more samples where there is more noise: those that were asked for are the most that a pixel gets.
+    /// Takes more samples where there is more noise: those that were asked for are the most that a pixel gets.
     ///
     /// # Errors
     /// [`FrameError::DrawnAdaptively`] where camera rays are drawn, `NotListed` where the film was not made by
@@ -104,8 +104,8 @@ impl ImageRenderer {
         Ok(self)
     }
 
-    /// The same with the variance of each pixel measured ([`ImageRenderer::variances`]): the film is read after every
-    /// sample, and nothing of it changes.
+    /// Measures the variance of each pixel ([`ImageRenderer::variances`]): the film is read after every sample, and
+    /// nothing of it changes.
     #[must_use]
     pub fn measuring(self) -> Self {
         let variances = Some(Variances::new(self.film().pixel_count()));
@@ -172,7 +172,7 @@ impl ImageRenderer {
         Ok(())
     }
 
-    /// What is left of the sample after so many of its pixels, band by band.
+    /// Rest of the sample after so many of its pixels, band by band.
     fn left(&self, pixels: u32) -> impl Iterator<Item = Range<u32>> {
         let mut skipped = pixels;
         self.of_sample.iter().filter_map(move |listed| {
@@ -229,8 +229,8 @@ impl ImageRenderer {
         };
         let traced = self.passes.traced(structure);
         timings.extend(integrator.render_wave(&self.device, timing, traced, wave)?);
-        // What is on the film lacks light where a ray had no answer, so it is found now and not after the last wave.
-        // Queues count on from wave to wave.
+        // The film lacks light where a ray had no answer, so it is looked for now and not after the last wave. Queues
+        // count on from wave to wave.
         self.unfinished = self.count_unfinished(structure, &integrator.queues())?;
         if self.unfinished > 0 && structure.allow_more_rounds() {
             self.clear()?;
@@ -283,8 +283,8 @@ impl ImageRenderer {
         self.trace_centres(&aov, structure, |pixels, _| take(pixels))
     }
 
-    /// The same with what materials and meshes say of what they hit. Bands are smaller where a device does not bind the
-    /// larger records of as many pixels.
+    /// Traces as [`ImageRenderer::aovs`] and hands out materials and meshes of the hits as well. Bands are smaller
+    /// where a device does not bind the larger records of as many pixels.
     ///
     /// # Errors
     /// As [`ImageRenderer::aovs`].
@@ -337,7 +337,7 @@ impl ImageRenderer {
         unanswered(structure, &counters.collect::<Result<Vec<_>, _>>()?)
     }
 
-    /// What is recorded of each wave.
+    /// Passes of each wave.
     pub fn passes(&self) -> &ImagePasses {
         &self.passes
     }
@@ -367,7 +367,7 @@ impl ImageRenderer {
         self.samples_done
     }
 
-    /// Whether no pixel has more samples than another.
+    /// True if no pixel has more samples than another.
     pub fn is_between_samples(&self) -> bool {
         self.next_pixel == 0
     }

@@ -11,7 +11,7 @@ use crate::{FrameError, FrameInput, FrameRenderer, FrameScene, Picture, Taken};
 /// the rounds of paths that pass surfaces can double.
 const REPEATS: u32 = 16;
 
-/// What a sequence of frames cost.
+/// Counts of a sequence of frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct InOrder {
     /// Pictures handed out.
@@ -27,7 +27,7 @@ pub struct InOrder {
 /// waits for those before it that have none, in their own input or in one before. All others overlap.
 ///
 /// # Errors
-/// What a frame reports, [`FrameError::Unstable`] where repeating does not help; nothing is in flight then.
+/// Errors of frames, [`FrameError::Unstable`] where repeating does not help; nothing is in flight then.
 pub fn render_in_order(
     renderer: &mut FrameRenderer,
     inputs: impl IntoIterator<Item = FrameInput>,
@@ -44,7 +44,7 @@ pub fn render_in_order(
     }
 }
 
-/// What a frame shows that says nothing of its own.
+/// Scene and pose of frames that name none.
 struct Last {
     scene: FrameScene,
     /// Absent where nothing has posed the scene yet, or where it was shown before others were.
@@ -52,7 +52,7 @@ struct Last {
 }
 
 impl Last {
-    /// The same frame with all that it shows, whatever is submitted between.
+    /// The frame with its scene and its pose named, so that it shows these whatever is submitted between.
     fn complete(&mut self, input: FrameInput) -> FrameInput {
         if let Some(scene) = input.scene.as_ref().filter(|scene| !scene.is(&self.scene)) {
             *self = Self { scene: scene.clone(), pose: None };

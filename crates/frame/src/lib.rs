@@ -34,7 +34,7 @@ pub use renderer::{FrameInput, FrameRenderer, Picture, Taken};
 pub use samples::Samples;
 pub use scene::FrameScene;
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -5,7 +5,7 @@ use rasray_integrators::FilmPixel;
 /// The samples of a pixel: mean and summed squares of what differs from it, by Welford's recurrence.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Moments {
-    /// How many.
+    /// Number of samples.
     pub samples: u32,
     /// Of all.
     pub mean: f32,

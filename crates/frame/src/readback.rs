@@ -1,4 +1,4 @@
-//! What the host reads of a frame.
+//! Results of a frame that the host reads.
 
 use std::mem::size_of;
 

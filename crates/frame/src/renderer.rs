@@ -12,12 +12,12 @@ use crate::image_passes::{ImagePasses, unanswered};
 use crate::readback::{FilmCopy, Readback};
 use crate::{FrameError, FrameScene, Samples};
 
-/// What one frame shows.
+/// Input of one frame.
 #[derive(Clone, Debug)]
 pub struct FrameInput {
     /// Camera, image size and seed. The size is that of the film.
     pub view: View,
-    /// How pixels are sampled.
+    /// Sampling of pixels.
     pub sampling: Sampling,
     /// The scene; absent: that of the frame before. Another one may have other triangles, as many as there are; materials,
     /// textures and lights, too, as long as the kernels have code for them.
@@ -26,11 +26,11 @@ pub struct FrameInput {
     pub pose: Option<FramePose>,
     /// Samples of each pixel.
     pub samples: Samples,
-    /// Whether samples are added to those of the frame before, in place of a new image.
+    /// True if samples are added to those of the frame before, in place of a new image.
     pub continues: bool,
 }
 
-/// What became of a frame.
+/// Outcome of a frame.
 #[derive(Clone, Debug)]
 pub enum Taken {
     /// A picture.
@@ -47,9 +47,9 @@ pub struct Picture {
     pub number: u64,
     /// The image; empty unless the renderer reads films.
     pub film: FilmCopy,
-    /// Whether the structure was built in it.
+    /// True if the structure was built in it.
     pub built: bool,
-    /// Whether shadow maps were drawn in it; never without any.
+    /// True if shadow maps were drawn in it; never without any.
     pub drew_maps: bool,
     /// Counters of the integrator's queues.
     pub counters: Vec<QueueCounters>,
@@ -57,16 +57,16 @@ pub struct Picture {
     pub passes: Vec<PassTiming>,
 }
 
-/// What is known of a frame in flight.
+/// State of a frame in flight.
 #[derive(Clone, Copy, Debug)]
 struct Pending {
-    /// Whether it adds to the film of the one before.
+    /// True if it adds to the film of the one before.
     continues: bool,
     /// Rounds that its traces were recorded with, of all parts.
     rounds: u32,
     /// Traces that its waves were recorded with.
     traces: u32,
-    /// Whether shadow maps were drawn in it.
+    /// True if shadow maps were drawn in it.
     drew_maps: bool,
 }
 
@@ -75,22 +75,22 @@ struct Pending {
 /// A frame may bring another scene ([`FrameInput::scene`]): structure, integrator and visibility are kept and read it from
 /// there on. What frames in flight use of the scene before lives until they have ended.
 ///
-/// What the host says of a frame is stored in its command buffer, what it reads of it lies in memory of the frame's slot:
-/// frames in flight share nothing that one of them could find changed. No call waits but [`FrameRenderer::take`], and
-/// [`FrameRenderer::submit`] for structures that the host builds.
+/// Data of the host for a frame is stored in its command buffer, results that the host reads lie in memory of the
+/// frame's slot: frames in flight share nothing that one of them could find changed. No call waits but
+/// [`FrameRenderer::take`], and [`FrameRenderer::submit`] for structures that the host builds.
 pub struct FrameRenderer {
     device: Device,
     scene: FrameScene,
-    /// What the kernels have code for.
+    /// Features that the kernels have code for.
     features: ShadingFeatures,
     image: ImagePasses,
     frames: Frames,
     readbacks: Vec<Readback>,
-    /// What the device was told last of this scene.
+    /// The pose of this scene that the device was given last.
     posed: Option<FramePose>,
     /// Frames in flight, the oldest first.
     pending: VecDeque<Pending>,
-    /// Whether the film was right when the last frame ended, so that another may have added to it.
+    /// True if the film was right when the last frame ended, so that another may have added to it.
     film_is_right: bool,
 }
 
@@ -129,14 +129,14 @@ impl FrameRenderer {
         })
     }
 
-    /// The same with camera rays answered by drawing, which was made for the same scene.
+    /// Answers camera rays by drawing, which was made for the same scene.
     #[must_use]
     pub fn with_visibility(self, visibility: Visibility) -> Self {
         Self { image: self.image.with_visibility(Some(visibility)), ..self }
     }
 
-    /// The same with shadow rays that lead to lights without extent answered by shadow maps. They are drawn in frames in which
-    /// lights or triangles have moved.
+    /// Answers shadow rays that lead to lights without extent by shadow maps. They are drawn in frames in which lights
+    /// or triangles have moved.
     ///
     /// # Errors
     /// As [`ImagePasses::with_shadow_maps`].
@@ -170,7 +170,7 @@ impl FrameRenderer {
         self.frames.structure()
     }
 
-    /// Whether a frame can be submitted now; else the oldest is to be taken first.
+    /// True if a frame can be submitted now; else the oldest is to be taken first.
     pub fn has_free_slot(&self) -> bool {
         self.frames.free_slot().is_some()
     }
@@ -265,7 +265,7 @@ impl FrameRenderer {
                 Ok(number)
             }
             Err(error) => {
-                // Whether the device was told is unknown.
+                // It is unknown whether the device was told.
                 self.posed = None;
                 self.frames.geometry_moved();
                 self.image.scene_moved();
@@ -308,7 +308,7 @@ impl FrameRenderer {
         if ended.outcome == FrameOutcome::Complete && unanswered > 0 && !has_more_rounds() {
             return Err(FrameError::Unfinished { rays: unanswered });
         }
-        // The same of surfaces that paths pass.
+        // They may have allowed more traces for surfaces that paths pass, too.
         let unended = u64::from(film.faults.unended);
         let integrator = self.image.integrator();
         let has_more_traces =

@@ -25,7 +25,7 @@ impl Samples {
         Self { step: step.max(1), ..self }
     }
 
-    /// How many there are.
+    /// Number of samples.
     pub fn count(self) -> u32 {
         self.end.saturating_sub(self.first).div_ceil(self.step)
     }

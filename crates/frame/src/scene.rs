@@ -1,4 +1,4 @@
-//! What frames show.
+//! Scenes that frames show.
 
 use std::sync::Arc;
 
@@ -35,12 +35,12 @@ impl FrameScene {
         &self.0.0
     }
 
-    /// What moves in it.
+    /// The pass that moves the scene.
     pub fn pose(&self) -> Option<&PosePass> {
         self.0.1.as_ref()
     }
 
-    /// Whether both are handles to one scene.
+    /// True if both are handles to one scene.
     pub fn is(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }

@@ -47,7 +47,7 @@ pub(super) const CASES: &[Entry] = &[
     Entry { id: "C9", title: "lists of 64 layers, for corrupting them", parameter: 64.0, build: long_lists },
 ];
 
-/// How many triangles of case C5 loaders must drop: NaN, infinity and 1e38 at nine places each.
+/// Number of triangles of case C5 that loaders must drop: NaN, infinity and 1e38 at nine places each.
 pub const POISONED_DROPPED: usize = 27;
 
 fn empty(context: &Context) -> Content {

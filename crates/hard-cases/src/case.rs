@@ -7,7 +7,7 @@ use rasray_reference::oracle::{Ray, Verdict};
 /// Three corners in metres.
 pub type Triangle = [[f32; 3]; 3];
 
-/// How much of a case is wanted.
+/// Size of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale {
     /// Rays to generate. Cases that consist of a few listed rays have no more than those.
@@ -19,7 +19,7 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// What every test run affords.
+    /// Size that every test run affords.
     pub const QUICK: Self = Self { rays: 2000, seed: 1, full: false };
     /// Enough to bound a failure rate by 2e-5 if none fails.
     pub const FULL: Self = Self { rays: 150_000, seed: 1, full: true };
@@ -30,7 +30,7 @@ impl Scale {
 pub struct HardCase {
     /// Short and unique.
     pub id: &'static str,
-    /// What it is and what it threatens.
+    /// One line that describes it.
     pub title: &'static str,
     /// In the order of their ids. May hold coordinates that loaders must drop.
     pub triangles: Vec<Triangle>,
@@ -38,13 +38,13 @@ pub struct HardCase {
     pub rays: Vec<Ray>,
     /// Where views are centred.
     pub eye: [f32; 3],
-    /// What is known about the answers.
+    /// Answers that are known.
     pub expect: Expectation,
-    /// How much of it this is.
+    /// Size in which it was made.
     pub scale: Scale,
-    /// What is looked at.
+    /// The quantity that is measured.
     pub measure: &'static str,
-    /// What is demanded, by kind of structure.
+    /// Demands, by kind of structure.
     pub target: Targets,
     /// |dt| / t that structures which find triangles must stay below, where the catalogue says one.
     pub largest_dt: Option<f64>,
@@ -55,18 +55,18 @@ pub struct HardCase {
 /// Where a camera at the eye of a case looks, relative to the eye. Its angle of view is a right one, both ways.
 pub const CAMERA_TOWARDS: [f64; 3] = [0.25, 0.125, 1.0];
 
-/// What is known by construction about the answers to all rays of a case.
+/// Answers to all rays of a case that are known by construction.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expectation {
     /// The oracle decides.
     Oracle,
-    /// The same for all rays.
+    /// One answer for all rays.
     All(Answer),
     /// One answer a ray.
     PerRay(Vec<Answer>),
 }
 
-/// What is known by construction about the answer to one ray.
+/// Answer to one ray that is known by construction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Answer {
     /// The oracle decides.
@@ -99,7 +99,7 @@ pub enum Answer {
 }
 
 impl HardCase {
-    /// What is known about the answer to a ray.
+    /// Known answer to a ray.
     pub fn answer(&self, ray: usize) -> Answer {
         match &self.expect {
             Expectation::Oracle => Answer::Oracle,
@@ -113,7 +113,7 @@ impl HardCase {
         (self.triangles.as_flattened().to_vec(), (0..self.triangles.len() as u32 * 3).collect())
     }
 
-    /// Whether a structure that finds triangles may give this answer to a ray with this verdict.
+    /// True if a structure that finds triangles may give this answer to a ray with this verdict.
     ///
     /// For unambiguous rays the triangle must be the oracle's, and t must lie where rounding may put it, give
     /// or take `t_tolerance` (relative); for ambiguous rays the answer must be admissible. What is
@@ -133,7 +133,7 @@ impl HardCase {
 }
 
 impl Answer {
-    /// Whether a hit or miss is what is stated.
+    /// True if a hit or miss is what is stated.
     pub fn holds_for(&self, hit: Option<DeviceHit>) -> bool {
         let close = |t: f32, tolerance: f32| {
             hit.is_some_and(|hit| (f64::from(hit.t) - f64::from(t)).abs() <= f64::from(tolerance * t.abs()))
@@ -171,12 +171,12 @@ fn oracle_accepts(verdict: &Verdict, hit: Option<DeviceHit>, t_tolerance: f64) -
 pub(super) struct Entry {
     pub id: &'static str,
     pub title: &'static str,
-    /// What tells the variants of a case apart; unused (0) where there is one only.
+    /// Parameter that tells the variants of a case apart; unused (0) where there is one only.
     pub parameter: f32,
     pub build: fn(&Context) -> Content,
 }
 
-/// What the construction of a case yields.
+/// Triangles, rays and expectation that the construction of a case yields.
 pub(super) struct Content {
     pub triangles: Vec<Triangle>,
     pub rays: Vec<Ray>,
@@ -185,7 +185,7 @@ pub(super) struct Content {
     pub grid: Option<Grid>,
 }
 
-/// What the construction of a case may depend on.
+/// Inputs of the construction of a case.
 pub(super) struct Context {
     pub id: &'static str,
     pub parameter: f32,
@@ -237,12 +237,12 @@ impl Content {
         Self { triangles, rays, eye: [0.0; 3], expect, grid: None }
     }
 
-    /// The same with views centred elsewhere.
+    /// Centres the views elsewhere.
     pub fn seen_from(self, eye: [f32; 3]) -> Self {
         Self { eye, ..self }
     }
 
-    /// The same with the voxels it is made for.
+    /// Sets the voxels that the case is made for.
     pub fn on(self, grid: Grid) -> Self {
         Self { grid: Some(grid), ..self }
     }

@@ -1,8 +1,8 @@
-//! What is looked at on each case, and what is demanded of each kind of structure there.
+//! The catalogue: what is measured on each case, and what is demanded of each kind of structure there.
 
 use Target::{Counted, Exact, Finite, Law, NoneMissed, Refused};
 
-/// What is demanded of structures of one kind on a case.
+/// Demand on structures of one kind on a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// No ray that hits gets a miss, however close to an edge it passes; triangle and t are right up to
@@ -40,7 +40,7 @@ impl std::fmt::Display for Target {
     }
 }
 
-/// What is demanded on a case, by kind of structure.
+/// Demands of a case, by kind of structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Targets {
     /// Of structures that find triangles.
@@ -54,12 +54,12 @@ pub struct Targets {
 pub struct CatalogueRow {
     /// Such as `G1`.
     pub id: &'static str,
-    /// What is looked at.
+    /// The quantity that is measured.
     pub measure: &'static str,
-    /// What is demanded.
+    /// The demands.
     pub target: Targets,
-    /// How far t may be off on the right triangle, relative, for structures that find triangles: where it says how far.
-    /// Elsewhere the oracle's bounds of rounding hold.
+    /// Largest error of t on the right triangle, relative, for structures that find triangles: where the catalogue
+    /// states one. Elsewhere the oracle's bounds of rounding hold.
     pub largest_dt: Option<f64>,
 }
 
@@ -243,7 +243,7 @@ mod tests {
             assert!(!case.measure.is_empty() && !format!("{}", case.target.fragments).is_empty());
         }
         assert_eq!(catalogue_row("Z99"), None);
-        // What is refused has no rays, and what has rays is not refused.
+        // Refused files have no rays, and cases with rays are not refused.
         for row in CATALOGUE {
             let refused = row.target.primitives == Target::Refused;
             assert_eq!(refused, row.target.fragments == Target::Refused, "{}", row.id);

@@ -202,7 +202,7 @@ fn opposite_winding(context: &Context) -> Content {
     Content::new(triangles, rays, Expectation::All(AIMED))
 }
 
-/// Whether the triangle that a ray starts on is hit is for rounding to say; everything else about it is not.
+/// Rounding decides whether a ray hits the triangle that it starts on, and nothing else.
 fn on_surface(context: &Context) -> Content {
     let triangles = sphere([-0.2, -0.3, -0.6], 0.1, 24);
     let rays = context.rays(|random, _| {

@@ -9,21 +9,21 @@ use rasray_scene::{Scene, SceneError};
 pub struct HardFile {
     /// Short and unique; the catalogue's number with a variant.
     pub id: &'static str,
-    /// What it is.
+    /// One line that describes it.
     pub title: &'static str,
-    /// What is looked at.
+    /// The quantity that is measured.
     pub measure: &'static str,
-    /// What is demanded, by kind of structure.
+    /// Demands, by kind of structure.
     pub target: Targets,
     /// A name whose extension tells the format.
     pub name: &'static str,
     /// The file.
     pub bytes: Vec<u8>,
-    /// What loading must give.
+    /// Required outcome of loading.
     pub loading: Loading,
 }
 
-/// What loading a file must give.
+/// Required outcome of loading a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loading {
     /// An error of this kind; the command ends with exit code 2.
@@ -49,7 +49,7 @@ pub enum Refusal {
 }
 
 impl Loading {
-    /// Whether this is what loading gave.
+    /// True if loading gave this outcome.
     pub fn describes(self, loaded: &Result<Scene, SceneError>) -> bool {
         match (self, loaded) {
             (Self::Refused(refusal), Err(error)) => match refusal {
@@ -277,7 +277,7 @@ mod tests {
                 assert_eq!(statement.describes(&loaded), statement == file.loading, "{}", file.id);
             }
         }
-        // The same file with its index in range is read.
+        // The file with its index in range is read.
         let repaired = GltfText::triangle().text();
         let loaded = rasray_scene_files::gltf::from_slice(
             "file.gltf".as_ref(),

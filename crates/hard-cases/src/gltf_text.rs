@@ -6,9 +6,9 @@ pub(super) struct GltfText {
     pub positions: Vec<[f32; 3]>,
     /// Unit; none for a flat mesh.
     pub normals: Vec<[f32; 3]>,
-    /// What the primitive takes its corners from.
+    /// Corners of the primitive, as places in `positions`.
     pub indices: Vec<u32>,
-    /// How corners make triangles: 4 for a list, as the format numbers them.
+    /// Mode of the primitive: 4 for a list of triangles, as the format numbers them.
     pub mode: u32,
     /// The list of nodes in JSON; `"mesh":0` places the mesh.
     pub nodes: String,

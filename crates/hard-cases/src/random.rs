@@ -1,4 +1,4 @@
-/// What the state of SplitMix64 grows by.
+/// Increment of the state of SplitMix64.
 const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Random numbers that depend on a case, a seed and an index, and on nothing drawn before.

@@ -2,7 +2,7 @@ use super::*;
 use rasray_metrics::{DeviceHit, HitConfusion};
 use rasray_reference::oracle::{Oracle, Outcome, Verdict};
 
-/// What a perfect device of single precision would answer.
+/// Answer of a perfect device of single precision.
 fn device_hit(verdict: &Verdict) -> Option<DeviceHit> {
     verdict.outcome.hit().map(|(primitive, t)| DeviceHit { t: t as f32, primitive: Some(primitive) })
 }

@@ -29,7 +29,7 @@ const HALF_TURNS: usize = 1000;
 /// A mesh placed by transforms, with the matrix that they amount to in exact arithmetic.
 #[derive(Clone, Debug)]
 pub struct Transformed {
-    /// What the loader made of the file.
+    /// The scene that the loader made of the file.
     pub scene: Scene,
     /// Rows of the matrix from the mesh to the world; the last column is the translation, metres.
     pub world_from_mesh: [[f64; 4]; 3],
@@ -278,7 +278,7 @@ mod tests {
                 posed.surface(&unit, t as f32 * direction.length(), primitive, Vec2::splat(1.0 / 3.0));
             let corners = mesh.indices.as_chunks::<3>().0[primitive as usize];
             let [a, b, c] = corners.map(|index| Vec3::from(mesh.positions[index as usize]));
-            // What the mesh says is outside, moved to the world.
+            // The mesh's outside, moved to the world.
             let outside = transformed.normal((b - a).cross(c - a).to_array());
             let towards: f64 = (0..3).map(|i| outside[i] * f64::from(ray.direction[i])).sum();
             let facing = if towards > 0.0 { -1.0 } else { 1.0 };

@@ -82,7 +82,7 @@ pub enum SelectionError {
         assignment: String,
         /// The option.
         row: &'static OptionRow,
-        /// What it takes.
+        /// Error that names the values it takes.
         source: ValueError,
     },
 }
