@@ -26,7 +26,7 @@ pub struct AovPass {
     bindings: Bindings,
     primary: Kernel,
     store: Kernel,
-    /// The same of what materials and meshes say, where that is wanted.
+    /// Buffer and kernel of the materials and meshes of hits, where these are wanted.
     surfaces: Option<(Buffer, Kernel)>,
 }
 
@@ -48,7 +48,7 @@ impl AovPass {
         Self::make(device, scene, (bands, false), wave_capacity)
     }
 
-    /// The same with what materials and meshes say of each pixel, in bands that are small enough for that.
+    /// Makes the pass with materials and meshes of each pixel, in bands that are small enough for that.
     ///
     /// # Errors
     /// As [`AovPass::new`].
@@ -125,7 +125,7 @@ impl AovPass {
         Ok(())
     }
 
-    /// What it traces one after the other: those that were asked for, or smaller ones.
+    /// Bands that it traces one after the other: those that were asked for, or smaller ones.
     pub fn bands(&self) -> Bands {
         self.bands
     }

@@ -1,4 +1,4 @@
-//! What can go wrong in integrators.
+//! Errors of integrators.
 
 use std::ops::Range;
 
@@ -68,7 +68,7 @@ pub enum IntegratorError {
     /// Kernels look surfaces up by hits, and what is traced does not allow that.
     #[error("surfaces of {structure} are not those of triangles alone: leave out `surfaces_of_hits`")]
     SurfacesOfHits {
-        /// What is traced.
+        /// The structure that is traced.
         structure: &'static str,
     },
     /// Waves without rays, or with more than there can be.
@@ -93,7 +93,7 @@ pub enum IntegratorError {
         "kernels were made without code for {missing}: make them for a scene that allows it (`GpuScene::allowing`)"
     )]
     LeftOut {
-        /// What the scene has.
+        /// Features of the scene that the kernels lack.
         missing: String,
     },
     /// Photons of a sample do not fit into what one binding holds.
@@ -116,16 +116,16 @@ pub enum IntegratorError {
         /// Most photons of a surface.
         limit: u32,
     },
-    /// What the camera sees cannot be found by drawing.
+    /// First hits of camera rays cannot be found by drawing.
     #[error("what the camera sees cannot be drawn: {reason}")]
     CannotDraw {
-        /// What the device lacks.
+        /// Feature or limit that the device lacks.
         reason: String,
     },
     /// Surfaces cannot be fetched by drawing.
     #[error("surfaces cannot be fetched by drawing: {reason}")]
     CannotFetch {
-        /// What the device lacks.
+        /// Feature or limit that the device lacks.
         reason: String,
     },
     /// The Vulkan layer failed.

@@ -18,7 +18,7 @@ use rasray_shaders_glsl::{
 
 use crate::{IntegratorError, WAVE_LIMIT, integrator::check_capacity, kernels::device_buffer};
 
-/// What surfaces that were fetched by drawing had in common, summed over all fetches since the reset, modulo 2^32.
+/// Counts of surfaces that were fetched by drawing, summed over all fetches since the reset, modulo 2^32.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FetchCounts {
     /// Hits whose surface was fetched.
@@ -57,7 +57,7 @@ pub struct Fetch {
 }
 
 impl Fetch {
-    /// What it needs of a device: the floor, and stores of fragment shaders.
+    /// Requirements of a device: the floor, and stores of fragment shaders.
     pub fn requirements() -> Requirements {
         let mut requirements = Requirements::floor();
         requirements.required.push(Feature::FragmentStoresAndAtomics);

@@ -34,7 +34,7 @@ impl Film {
         Self::in_bands(device, [width, height], Bands::new(device, [width, height])?)
     }
 
-    /// The same in bands of at most so many pixels.
+    /// Allocates an image in bands of at most so many pixels.
     ///
     /// # Errors
     /// As [`Film::new`].
@@ -59,7 +59,7 @@ impl Film {
         Ok(Self { faults: self.faults.clone(), ..Self::in_bands(device, size, Bands::one(size)?)? })
     }
 
-    /// The same with a list of pixels for each band, which waves of integrators made for this film are ranges of: a sample may
+    /// Adds a list of pixels for each band, which waves of integrators made for this film are ranges of: a sample may
     /// be taken of some pixels only ([`Film::write_list`]). All are listed, in their order. Submits and waits.
     ///
     /// # Errors
@@ -108,7 +108,7 @@ impl Film {
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
     }
 
-    /// The same of sums alone.
+    /// Records that all sums start at 0.
     pub(crate) fn record_clear_pixels(&self, recorder: &mut Recorder<'_>) {
         recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::TRANSFER_WRITE);
         for pixels in &self.pixels {
@@ -117,7 +117,7 @@ impl Film {
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
     }
 
-    /// How its pixels are divided among buffers.
+    /// Division of its pixels among buffers.
     pub fn bands(&self) -> Bands {
         self.bands
     }

@@ -1,4 +1,4 @@
-//! What all integrators have in common.
+//! The interface of all integrators.
 
 use rasray_ads::RayQueue;
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
@@ -7,12 +7,12 @@ use rasray_shaders_glsl::{constants::integrators::PHOTON_GATHER_LIMIT, records::
 
 use crate::{Film, IntegratorError, Traced, WAVE_LIMIT, Wave, wave_capacity};
 
-/// What an integrator is made from.
+/// Inputs that an integrator is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct IntegratorDesc<'a> {
     /// Where pipelines and buffers are made.
     pub device: &'a Device,
-    /// What is shaded.
+    /// The scene that is shaded.
     pub scene: &'a GpuScene,
     /// Where samples are added; as large as the scene's view.
     pub film: &'a Film,
@@ -112,7 +112,7 @@ pub trait Integrator {
         Ok(())
     }
 
-    /// Whether paths of a wave have surfaces left to pass: submits and waits where any can.
+    /// True if paths of a wave have surfaces left to pass: submits and waits where any can.
     ///
     /// # Errors
     /// The device is lost or out of memory.
@@ -148,8 +148,8 @@ pub trait Integrator {
         false
     }
 
-    /// Whether shadow rays that lead to lights are answered by [`Traced::occluder`]; not where there are none, nor where
-    /// surfaces let them pass.
+    /// True if shadow rays that lead to lights are answered by [`Traced::occluder`]; not where there are none, nor
+    /// where surfaces let them pass.
     fn asks_occluder(&self) -> bool {
         true
     }
@@ -175,7 +175,7 @@ pub trait Integrator {
     /// Maximum number of traces that a wave records, without its rest.
     fn traces_per_wave(&self) -> u32;
 
-    /// Whether it traces on from some surfaces alone and counts the samples of which it does
+    /// True if it traces on from some surfaces alone and counts the samples of which it does
     /// ([`FilmFaults`](crate::FilmFaults)).
     fn selects(&self) -> bool {
         false
@@ -206,7 +206,7 @@ pub trait Integrator {
     }
 }
 
-/// Whether kernels with these features shade the scene.
+/// Checks that kernels with these features shade the scene.
 ///
 /// # Errors
 /// [`IntegratorError::LeftOut`] where they leave out what the scene has.
@@ -215,7 +215,7 @@ pub fn check_features(made_for: ShadingFeatures, scene: &GpuScene) -> Result<(),
     if missing.is_empty() { Ok(()) } else { Err(IntegratorError::LeftOut { missing: missing.join(", ") }) }
 }
 
-/// Whether a picture has all light of its samples that were added.
+/// Checks that a picture has all light of its samples that were added.
 ///
 /// # Errors
 /// [`IntegratorError::Crowded`] where surfaces lack the light of photons.

@@ -33,7 +33,7 @@ pub(crate) mod binding {
 /// A binding of the integrators' set with its buffer.
 pub(crate) type Bound<'a> = (u32, &'a Buffer);
 
-/// What kernels bind of each band of an image.
+/// Buffers that kernels bind of each band of an image.
 pub(crate) struct OfPixels<'a> {
     pub bands: Bands,
     pub bound: Vec<Vec<Bound<'a>>>,
@@ -79,7 +79,7 @@ pub(crate) struct Kernel {
 }
 
 impl Kernel {
-    /// The same as a pass that does nothing but add to an image.
+    /// Marks it as a pass that does nothing but add to an image.
     pub fn of_film(self) -> Self {
         Self { stage: Stage::Film, ..self }
     }
@@ -94,7 +94,7 @@ pub(crate) struct Bindings {
     bands: Bands,
     /// Of each band.
     storage: Vec<BindingSet>,
-    /// Whether waves are of the pixels in a list.
+    /// True if waves are of the pixels in a list.
     is_listed: bool,
 }
 

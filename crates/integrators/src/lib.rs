@@ -5,9 +5,9 @@
 //! ray queue, has it traced by whatever [`rasray_ads::Structure`] it is handed, shades what was hit,
 //! and adds to a [`Film`]. Integrators depend on no particular structure, and structures not on integrators.
 //!
-//! What is shaded and which random numbers are drawn is written in `docs/shading.md`; random numbers
-//! depend on the pixel's number in the whole image, the sample and the use, never on the wave, so the picture does not
-//! depend on how the image is cut into waves.
+//! Shading and random numbers are described in `docs/shading.md`; random numbers depend on the pixel's number in the
+//! whole image, the sample and the use, never on the wave, so the picture does not depend on how the image is cut into
+//! waves.
 //!
 //! Shaders bind four sets: geometry, the integrator's own buffers, the queue, the scene.
 //!
@@ -65,7 +65,7 @@ pub use traced::{FirstHits, Traced};
 pub use visibility::Visibility;
 pub use wave::{WAVE_LIMIT, Wave, wave_capacity};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -64,13 +64,13 @@ impl RayKind {
 pub struct IntegratorRow {
     /// Name, on the command line and in reports.
     pub name: &'static str,
-    /// What it is, one line of help without a full stop.
+    /// Description, one line of help without a full stop.
     pub doc: &'static str,
     /// Options that it has, in the order of help.
     pub options: &'static [&'static OptionRow],
     /// Rays that it traces.
     pub rays: &'static [RayKind],
-    /// What it looks at of a scene.
+    /// Data of a scene that it looks at.
     workload: fn(&IntegratorSpec) -> Workload,
     /// Makes it.
     make: Make,
@@ -149,7 +149,7 @@ impl IntegratorSpec {
         Ok(spec)
     }
 
-    /// The same with a value for one more option.
+    /// Adds a value for one more option.
     ///
     /// # Errors
     /// As [`IntegratorSpec::new`].
@@ -188,7 +188,7 @@ impl IntegratorSpec {
         all.iter().copied().find(|value| Some(name(*value)) == word).unwrap_or_default()
     }
 
-    /// What it looks at of a scene.
+    /// Data of a scene that it looks at.
     pub fn workload(&self) -> Workload {
         (self.row.workload)(self)
     }

@@ -8,7 +8,7 @@ use rasray_shaders_glsl::constants::scene::{WAVE_ROUND_LAST, WAVE_ROUND_RESUMES}
 
 use crate::{IntegratorError, Traced, Wave, kernels::WaveConstants};
 
-/// How many closest-hit rounds one recording of a wave has. Rays that have not ended then are counted in
+/// Number of closest-hit rounds that one recording of a wave has. Rays that have not ended then are counted in
 /// [`FilmFaults::unended`](crate::FilmFaults) and are the rest of the wave.
 #[derive(Debug)]
 pub(crate) struct Rounds {
@@ -23,7 +23,7 @@ impl Rounds {
         Self { now: first.min(limit).into(), limit, is_masked: false }
     }
 
-    /// The same in which passes work on all slots of the wave, also those whose ray is inactive.
+    /// Makes passes work on all slots of the wave, also those whose ray is inactive, if `is_masked`.
     pub fn masked(self, is_masked: bool) -> Self {
         Self { is_masked, ..self }
     }
@@ -33,7 +33,7 @@ impl Rounds {
         if self.is_masked { Domain::First(wave.pixel_count) } else { Domain::Selected }
     }
 
-    /// How many are recorded.
+    /// Number of rounds that are recorded.
     pub fn now(&self) -> u32 {
         self.now.load(Ordering::Relaxed)
     }

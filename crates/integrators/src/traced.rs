@@ -1,11 +1,11 @@
-//! What the rays of an integrator are traced through.
+//! The structure that the rays of an integrator are traced through.
 
 use rasray_ads::{AdsError, Domain, Occluder, RayQueue, Structure, TraceMode};
 use rasray_gpu::Recorder;
 
 use crate::{Fetch, IntegratorError, Visibility, Wave};
 
-/// What finds what camera rays hit.
+/// The way in which first hits of camera rays are found.
 #[derive(Clone, Copy, Debug, Default)]
 pub enum FirstHits<'a> {
     /// A trace, as of all other rays.
@@ -52,25 +52,25 @@ impl<'a, S: Structure> From<&'a S> for Traced<'a> {
 }
 
 impl<'a> Traced<'a> {
-    /// The same with camera rays answered by `primary`.
+    /// Answers camera rays by `primary`.
     #[must_use]
     pub fn with_primary(self, primary: impl Into<FirstHits<'a>>) -> Self {
         Self { primary: primary.into(), ..self }
     }
 
-    /// The same with shadow rays answered by `occluder`.
+    /// Answers shadow rays by `occluder`.
     #[must_use]
     pub fn with_occluder(self, occluder: Option<&'a dyn Occluder>) -> Self {
         Self { occluder, ..self }
     }
 
-    /// The same with surfaces fetched by `fetch`.
+    /// Fetches surfaces by `fetch`.
     #[must_use]
     pub fn with_fetch(self, fetch: Option<&'a Fetch>) -> Self {
         Self { fetch, ..self }
     }
 
-    /// The same without surfaces in the queue, for a kernel that looks them up by the hits.
+    /// Leaves surfaces out of the queue, for a kernel that looks them up by the hits.
     ///
     /// # Errors
     /// Surfaces of the structure are not those of the triangles that its hits name.

@@ -1,4 +1,4 @@
-//! What camera rays hit, found by drawing.
+//! Drawing that finds the first hits of camera rays.
 
 use bytemuck::bytes_of;
 use rasray_ads::{AdsError, Counters, Domain, Geometry, RayQueue, SceneBinding};
@@ -35,7 +35,7 @@ pub struct Visibility {
 }
 
 impl Visibility {
-    /// What it needs of a device: the floor, and stores of fragment shaders.
+    /// Requirements of a device: the floor, and stores of fragment shaders.
     pub fn requirements() -> Requirements {
         let mut requirements = Requirements::floor();
         requirements.required.push(Feature::FragmentStoresAndAtomics);

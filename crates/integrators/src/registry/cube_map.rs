@@ -58,7 +58,7 @@ const CUBE_MAP_HEADER: u32 = 12;
 /// Invocations that look for what is smooth, at most.
 const BOUNDS_INVOCATIONS: u32 = 4096;
 
-/// What [`CubeMap`] does.
+/// Options of [`CubeMap`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CubeMapOptions {
     /// Texels along a side of a face, from 1 to [`CUBE_MAP_LIMIT`].
@@ -93,9 +93,10 @@ impl CubeMapOptions {
     }
 }
 
-/// What the camera sees, lit directly, with one mirrored and one refracted ray per surface that a cube map answers by their
-/// direction alone. Each sample draws a map of its own: what is seen from one point, lit directly, perfectly smooth surfaces
-/// that are seen from behind left out. The map is traced through the structure, once per sample, in waves of its own.
+/// Surfaces that the camera sees, lit directly, with one mirrored and one refracted ray each that a cube map answers by
+/// their direction alone. Each sample draws a map of its own: what is seen from one point, lit directly, perfectly
+/// smooth surfaces that are seen from behind left out. The map is traced through the structure, once per sample, in
+/// waves of its own.
 ///
 /// Where surfaces let rays pass, rays of the map may need more rounds than are recorded, and what the camera sees can be
 /// looked up only after them: [`Integrator::render_wave`] waits for them, and frames are repeated with more rounds
@@ -109,7 +110,7 @@ pub struct CubeMap {
     bounds: Kernel,
     /// The map; its film has the texels.
     drawn: Whitted,
-    /// What the camera sees.
+    /// Renders what the camera sees.
     seen: Whitted,
     of_sample: SampleMap,
 }
@@ -142,7 +143,7 @@ impl CubeMap {
             bound: &[(CUBE_MAP_HEADER, &header_buffer)],
             passes_backs: true,
         };
-        // What is not seen directly is lit without shadow rays.
+        // Surfaces that are not seen directly are lit without shadow rays.
         let shadows = if shadows == Shadows::First { Shadows::None } else { shadows };
         let drawn = Whitted::of_trees(&of_texels, WhittedOptions { shadows, ..direct }, &kernels)?;
         let kernels = TreeKernels {
@@ -184,7 +185,7 @@ impl CubeMap {
     }
 }
 
-/// What a map begins with. Bounds are empty.
+/// The header that a map begins with. Bounds are empty.
 fn header(resolution: u32, position: Option<[f32; 3]>, scene: &GpuScene) -> CubeMapHeader {
     let origin = scene.frame_origin().to_array();
     let relative =
@@ -198,7 +199,7 @@ fn header(resolution: u32, position: Option<[f32; 3]>, scene: &GpuScene) -> Cube
     }
 }
 
-/// What rays of the map are traced through: they do not leave the eye, so drawing does not answer them.
+/// `traced` without drawing, which does not answer rays of the map: they do not leave the eye.
 fn of_map(traced: Traced<'_>) -> Traced<'_> {
     traced.with_primary(None)
 }

@@ -66,7 +66,7 @@ pub struct Path {
     bounces: u32,
     /// Closest-hit rounds of a wave.
     rounds: Rounds,
-    /// What the kernels were made for.
+    /// Features that the kernels were made for.
     features: ShadingFeatures,
     film: Film,
     queue: RayQueue,
@@ -81,7 +81,7 @@ pub struct Path {
     fetch: Option<Fetch>,
 }
 
-/// How light samples are tested.
+/// Tests of light samples.
 #[derive(Debug)]
 enum Shadows {
     /// Whatever a ray hits stops it: a queue of their own, traced for occlusion.
@@ -93,7 +93,7 @@ enum Shadows {
 /// A photon map that paths gather.
 #[derive(Clone, Copy)]
 pub(super) struct Gathered<'a> {
-    /// What kernels bind of it.
+    /// Buffers that kernels bind of it.
     pub bound: &'a [Bound<'a>],
     /// It has all indirect light, and not caustics alone.
     pub all: bool,
@@ -109,8 +109,8 @@ impl Path {
         Self::gathering(desc, options.into(), None)
     }
 
-    /// The same with light that is that of photons: light then goes through panes by scattering alone, and surfaces are in
-    /// the queue.
+    /// Makes paths, which gather photons where there are any: light then goes through panes by scattering alone, and
+    /// surfaces are in the queue.
     pub(super) fn gathering(
         desc: &IntegratorDesc<'_>,
         options: PathOptions,
@@ -186,12 +186,12 @@ fn rounds(bounces: u32, passing: bool) -> u32 {
 }
 
 impl Path {
-    /// What fetches surfaces by drawing, where they are.
+    /// The fetch of surfaces by drawing, where there is one.
     pub fn fetch(&self) -> Option<&Fetch> {
         self.fetch.as_ref()
     }
 
-    /// What is traced, with surfaces found as the kernel expects them.
+    /// `traced` with surfaces found as the kernel expects them.
     fn finding<'a>(&'a self, traced: Traced<'a>) -> Result<Traced<'a>, IntegratorError> {
         let traced = traced.with_fetch(self.fetch.as_ref());
         if self.of_hits { traced.with_surfaces_of_hits() } else { Ok(traced) }

@@ -56,17 +56,18 @@ const ROUND_LIMIT: u32 = 1 << 14;
 #[derive(Debug)]
 pub struct Whitted {
     options: WhittedOptions,
-    /// Whether trees may need more rounds than are recorded at first.
+    /// True if trees may need more rounds than are recorded at first.
     has_rest: bool,
     /// Closest-hit rounds of a wave.
     rounds: Rounds,
-    /// What the kernels were made for.
+    /// Features that the kernels were made for.
     features: ShadingFeatures,
     film: Film,
     queue: RayQueue,
     states: Buffer,
     waiting: Buffer,
-    /// How light samples are tested where whatever a ray hits stops it; else shadow rays are in the queue of all others.
+    /// Queue and kernel of the tests of light samples where whatever a ray hits stops it; else shadow rays are in the
+    /// queue of all others.
     shadows: Option<(RayQueue, Kernel)>,
     bindings: Bindings,
     first_rays: Kernel,
@@ -94,7 +95,7 @@ const WHITTED: TreeKernels<'_> = TreeKernels {
     passes_backs: false,
 };
 
-/// How the surfaces of a scene send rays on.
+/// Shape of the trees of rays, by how surfaces of a scene send rays on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Trees {
     /// They mirror.
@@ -146,7 +147,7 @@ impl Whitted {
         Self::of_trees(desc, options, &WHITTED)
     }
 
-    /// The same with other kernels, and with a film of any size.
+    /// Makes it with other kernels, and with a film of any size.
     pub(super) fn of_trees(
         desc: &IntegratorDesc<'_>,
         options: WhittedOptions,
@@ -202,12 +203,12 @@ impl Whitted {
         })
     }
 
-    /// What its kernels are bound to.
+    /// Sets that its kernels are bound to.
     pub(super) fn bindings(&self) -> &Bindings {
         &self.bindings
     }
 
-    /// What kernels of a round are told.
+    /// Constants of a round for its kernels.
     fn told(&self, round: WaveConstants) -> WaveConstants {
         let WhittedOptions { ray_depth, select, threshold, .. } = self.options;
         let number = if select == Select::Expected { threshold } else { 0.0 };

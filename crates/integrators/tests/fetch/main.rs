@@ -23,7 +23,7 @@ struct Stage {
     structure: BruteForce,
 }
 
-/// What a render left behind.
+/// Results of a render.
 struct Rendered {
     /// Of each wave: hits and surfaces after its last round.
     waves: Vec<(Vec<Hit>, Vec<Surface>)>,

@@ -1,4 +1,4 @@
-//! What a render cannot observe is left out without a change of the picture.
+//! Data that a render cannot observe is left out without a change of the picture.
 
 use crate::pictures::common::{difference::*, scenes::*, *};
 use glam::DVec3;

@@ -264,7 +264,7 @@ fn selections_give_the_picture_of_all_rays_where_they_say_so() {
     assert_silent(&device);
 }
 
-/// The same traced by a structure that counts its tests.
+/// Replaces the structure by one that counts its tests.
 fn counting(stage: Setup) -> Setup {
     let structure = BruteForce::new(&stage.device, stage.scene.geometry(), Some(stage.scene.binding()), true)
         .expect("the structure can be made");
@@ -387,7 +387,7 @@ fn the_rest_of_a_tree_is_counted_until_it_is_rendered() {
     assert_silent(&device);
 }
 
-/// What the naive integrator is held to as well, apart from it: turned scenes, a sky with texels, more mirrors.
+/// Turned scenes, a sky with texels and more mirrors, against the naive integrator.
 #[test]
 fn mirrors_of_any_direction_under_a_sky_of_texels() {
     let (mut scene, camera) = glass_ball();

@@ -1,4 +1,4 @@
-//! What camera rays hit, found by drawing, against brute force: hits must be the same in every bit.
+//! First hits of camera rays found by drawing, against brute force: they must be the same in every bit.
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -40,7 +40,7 @@ struct Both {
     visibility: Visibility,
 }
 
-/// What both ways agreed on.
+/// Results that both ways agreed on.
 #[derive(Default)]
 struct Agreed {
     rays: usize,

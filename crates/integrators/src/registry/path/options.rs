@@ -1,4 +1,4 @@
-//! What paths do, and the rows of their options.
+//! Options of paths, and their rows.
 
 use rasray_options::{OptionRow, Value, Values, Word};
 use rasray_scene::ShadowTerminator;
@@ -50,8 +50,8 @@ const fn terminator_word(terminator: ShadowTerminator) -> Word {
     (terminator.name(), terminator.doc())
 }
 
-/// What smooth thin panes of glass do to light from lamps, the sun and the sky. Thin walls whose transmission is rough,
-/// and glass with a thickness, scatter light either way, and stop shadow rays.
+/// Effect of smooth thin panes of glass on light from lamps, the sun and the sky. Thin walls whose transmission is
+/// rough, and glass with a thickness, scatter light either way, and stop shadow rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GlassShadows {
     /// Light goes straight through them and takes their tint. Going through is no scattering, and so no bounce.
@@ -74,7 +74,7 @@ impl GlassShadows {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Description, one line of help.
     pub const fn doc(self) -> &'static str {
         match self {
             Self::Tint => "Light goes straight through smooth thin panes and takes their tint",
@@ -87,7 +87,7 @@ impl GlassShadows {
     }
 }
 
-/// How rough surfaces that let no light through reflect.
+/// Reflection of rough surfaces that let no light through.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SpecularLobe {
     /// Facets with the distribution GGX, which mask each other; what they lose is made up for.
@@ -109,7 +109,7 @@ impl SpecularLobe {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Description, one line of help.
     pub const fn doc(self) -> &'static str {
         match self {
             Self::Ggx => "Facets of GGX, as glTF has them; what they lose is made up for",
@@ -124,7 +124,7 @@ impl SpecularLobe {
     }
 }
 
-/// How surfaces of hits are found. Changes no picture.
+/// Way in which surfaces of hits are found. Changes no picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Fetching {
     /// By the structure: of triangles, by the id of the triangle.
@@ -146,7 +146,7 @@ impl Fetching {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Description, one line of help.
     pub const fn doc(self) -> &'static str {
         match self {
             Self::Direct => "By the structure: of triangles, by their ids",
@@ -161,18 +161,18 @@ impl Fetching {
     }
 }
 
-/// What paths do.
+/// Options of paths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PathOptions {
     /// At most this many scatterings, up to [`BOUNCE_LIMIT`]: 1 is direct light only, 0 emission only.
     pub bounces: u32,
-    /// What smooth thin panes do to light; without bounces they are opaque.
+    /// Effect of smooth thin panes on light; without bounces they are opaque.
     pub glass_shadows: GlassShadows,
-    /// What light samples see of coarse smooth meshes.
+    /// Start of shadow rays of coarse smooth meshes.
     pub shadow_terminator: ShadowTerminator,
-    /// How rough surfaces reflect.
+    /// Reflection of rough surfaces.
     pub specular: SpecularLobe,
-    /// How surfaces of hits are found; drawing needs a structure of triangles.
+    /// Way in which surfaces of hits are found; drawing needs a structure of triangles.
     pub fetch: Fetching,
 }
 

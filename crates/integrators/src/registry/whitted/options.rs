@@ -1,4 +1,4 @@
-//! What Whitted's integrator does, and the rows of its options.
+//! Options of Whitted's integrator, and their rows.
 
 use rasray_options::{Least, OptionRow, Unit, Value, Values, Word};
 use rasray_shaders_glsl::constants::{
@@ -91,7 +91,7 @@ impl Select {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Description, one line of help.
     pub const fn doc(self) -> &'static str {
         match self {
             Self::Expected => "Where they carry more than `threshold`; with 0 the picture is that of all",
@@ -142,7 +142,7 @@ impl Shadows {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Description, one line of help.
     pub const fn doc(self) -> &'static str {
         match self {
             Self::All => "All",
@@ -164,7 +164,7 @@ impl Shadows {
     }
 }
 
-/// What Whitted's integrator does.
+/// Options of Whitted's integrator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WhittedOptions {
     /// At most this many reflections and refractions in a row, up to [`RAY_DEPTH_LIMIT`]; 0 is direct light only.
@@ -177,7 +177,7 @@ pub struct WhittedOptions {
     pub shadows: Shadows,
     /// Surfaces less rough than this perceptual roughness are perfectly smooth; not negative.
     pub mirror_roughness: f32,
-    /// Whether passes work on all slots of a wave, also those without a ray.
+    /// True if passes work on all slots of a wave, also those without a ray.
     pub masked: bool,
 }
 

@@ -21,7 +21,7 @@ pub fn path(bounces: u32) -> IntegratorSpec {
     integrator("path").with("bounces", bounces).expect("valid")
 }
 
-/// The same with panes that stop shadow rays.
+/// Paths with panes that stop shadow rays.
 pub fn opaque_panes(bounces: u32) -> IntegratorSpec {
     path(bounces).with("glass-shadows", "opaque").expect("valid")
 }
@@ -31,12 +31,12 @@ pub fn occlusion(range: f32) -> IntegratorSpec {
     integrator("ao").with("ao-distance", range).expect("valid")
 }
 
-/// What the camera sees.
+/// Ray casting.
 pub fn raycast() -> IntegratorSpec {
     integrator("raycast")
 }
 
-/// How far an image is from its reference.
+/// Measures of an image against its reference.
 #[derive(Debug)]
 pub struct Difference {
     /// Share of the pixels that differ by more than 1e-3 of their value.
@@ -56,7 +56,7 @@ pub fn difference(
     sampled_difference(shown, scene, camera, samples, integrator, Sampler::default())
 }
 
-/// The same with rays that pass backs: on the device `shown`, on the CPU `back_faces`.
+/// Renders with rays that pass backs: on the device `shown`, on the CPU `back_faces`.
 pub fn passing_difference(
     [shown, back_faces]: [BackFaces; 2],
     scene: &Scene,
@@ -67,7 +67,7 @@ pub fn passing_difference(
     made_difference([scene, scene], camera, samples, integrator, Sampler::default(), [shown, back_faces])
 }
 
-/// The same with the numbers of a sampler.
+/// Renders `shown` and `scene` with the numbers of a sampler.
 pub fn sampled_difference(
     shown: &Scene,
     scene: &Scene,

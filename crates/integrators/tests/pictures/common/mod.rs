@@ -17,7 +17,7 @@ pub fn device() -> Device {
     Device::create(&desc).expect("these tests need a Vulkan device and the validation layer")
 }
 
-/// The same that can draw, for options that need it.
+/// A device with validation on that can draw, for options that need it.
 pub fn drawing_device() -> Device {
     let desc = DeviceDesc { validation: true, requirements: Fetch::requirements(), ..DeviceDesc::default() };
     Device::create(&desc).expect("these tests need a Vulkan device that draws")
@@ -147,7 +147,7 @@ pub fn mean(image: &[[f32; 3]]) -> f64 {
 /// The largest difference of pictures by different kernels on hardware, relative to the value.
 const CONTRACTION: f32 = 1.0e-5;
 
-/// Whether pictures that different kernels made are the same: bit for bit on a software device. Hardware may contract a
+/// True if pictures that different kernels made are the same: bit for bit on a software device. Hardware may contract a
 /// product and a sum in one kernel and not in another.
 pub fn are_same(device: &Device, picture: &[[f32; 3]], expected: &[[f32; 3]]) -> bool {
     let is_close = |(a, b): (&f32, &f32)| (a - b).abs() <= CONTRACTION * b.abs();
