@@ -23,7 +23,7 @@ pub struct Build {
     status: ComputePipeline,
 }
 
-/// What makes the layers.
+/// Passes that make the layers.
 #[derive(Debug)]
 enum Layers {
     Single {

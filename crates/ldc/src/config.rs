@@ -10,7 +10,7 @@ use rasray_shaders_glsl::constants::ldc as numbers;
 pub enum Accept {
     /// Its depth is within [`Config::tolerance`] of the depths that the ray has in its cell.
     Tolerance,
-    /// The same with a tolerance that follows the slope of its triangle: half of its rise over the cell.
+    /// Its depth is within a tolerance that follows the slope of its triangle: half of its rise over the cell.
     Slope,
     /// The ray intersects the plane of its triangle within the cell.
     Plane,
@@ -28,14 +28,14 @@ pub enum Coverage {
     Hardware,
     /// Those whose centre it covers by a watertight test; the rasterizer only proposes.
     Exact,
-    /// The same, and it is kept in other cells that it reaches into, where no fragment represents
-    /// it: there hits on the triangle itself count. With [`Accept::Triangle`] all cells that it reaches into.
+    /// Those of `Exact`, and it is kept in other cells that it reaches into, where no fragment represents it: there
+    /// hits on the triangle itself count. With [`Accept::Triangle`] all cells that it reaches into.
     Conservative,
 }
 
 words! { Coverage { Hardware "hardware", Exact "exact", Conservative "conservative" } }
 
-/// How fragments keep their depth.
+/// Format of the depth of a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
     /// A half, as a share of the cube's side: 2 bytes.
@@ -46,18 +46,18 @@ pub enum Depth {
 
 words! { Depth { Bits16 "16", Bits32 "32" } }
 
-/// What blocks say of the depths in them. Changes no hit.
+/// Summary of the depths in a block. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Occupancy {
     /// The smallest and the largest: 8 bytes.
     Bounds,
-    /// The same, and which of 64 slices of the cube's depth hold something: 16 bytes.
+    /// Those, and which of 64 slices of the cube's depth hold something: 16 bytes.
     Slices,
 }
 
 words! { Occupancy { Bounds "bounds", Slices "slices" } }
 
-/// How layers are made. Changes no hit.
+/// Way of making layers. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Making {
     /// All in one pass, then sorted.
@@ -68,7 +68,7 @@ pub enum Making {
 
 words! { Making { Single "single", Peel "peel" } }
 
-/// What a fragment carries in addition to its depth.
+/// Data of a fragment in addition to its depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
     /// Its triangle: 4 bytes. Surfaces come from the posed triangle.
@@ -89,9 +89,9 @@ pub struct Config {
     pub block: [u32; 2],
     /// Levels of blocks, 1 or 2; those of the second hold 8 x 8 of the first. Changes no hit.
     pub levels: u32,
-    /// What blocks say of the depths in them. Changes no hit.
+    /// Summary of the depths in a block. Changes no hit.
     pub occupancy: Occupancy,
-    /// How layers are made. Changes no hit.
+    /// Way of making layers. Changes no hit.
     pub making: Making,
     /// Maximum number of peeled layers, 1 to 1024; only for [`Making::Peel`]. Deeper cells are an error.
     pub layers: u32,
@@ -99,29 +99,29 @@ pub struct Config {
     pub accept: Accept,
     /// Share of the cube's side, 0 to 1; only for [`Accept::Tolerance`].
     pub tolerance: f32,
-    /// Whether rays hit what they leave and end on; only for [`Accept::Tolerance`] and [`Accept::Slope`].
+    /// Says whether rays hit what they leave and end on; only for [`Accept::Tolerance`] and [`Accept::Slope`].
     pub ends: Ends,
-    /// How coverage is decided.
+    /// Cells in which a triangle gets a fragment.
     pub coverage: Coverage,
-    /// How triangles are binned into cells; [`Making::Peel`] draws. Changes no hit.
+    /// Way of binning triangles into cells; [`Making::Peel`] draws. Changes no hit.
     pub builder: Builder,
-    /// How often a pass of the build draws the scene: 1, and the vertex stage chooses the view of each triangle, or 3, once
-    /// for each view, which keeps its own triangles. 3 only with [`Builder::Raster`]. Changes no hit.
+    /// Times that a pass of the build draws the scene: 1, and the vertex stage chooses the view of each triangle, or 3,
+    /// once for each view, which keeps its own triangles. 3 only with [`Builder::Raster`]. Changes no hit.
     pub passes: u32,
-    /// How depths are kept.
+    /// Format of depths.
     pub depth: Depth,
-    /// What a fragment carries. Hits that do not name their triangle have `PRIMITIVE_UNKNOWN` and cannot be excluded.
+    /// Data of a fragment. Hits that do not name their triangle have `PRIMITIVE_UNKNOWN` and cannot be excluded.
     pub payload: Payload,
     /// For diagnostics: keep the triangle of each fragment behind [`Payload::Attributes`]. Hits then name it,
     /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
     pub ids: bool,
     /// Skip blocks and parts of lists that the ray's depths cannot overlap. Changes no hit.
     pub skip: bool,
-    /// How pools are reached. Changes no hit.
+    /// Addressing of pools: descriptors or device addresses. Changes no hit.
     pub addressing: Addressing,
     /// Fragments to allocate for the first build; a guess from the resolution where absent.
     pub fragments: Option<u64>,
-    /// How much of their work rays record. Changes no hit.
+    /// Detail in which rays record their work. Changes no hit.
     pub counters: Counters,
     /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
     pub work_budget: Option<u32>,
@@ -217,12 +217,12 @@ impl Config {
         check_work_budget(self.work_budget, true)
     }
 
-    /// Whether what rays hit may lie before or behind the surface, so that [`Config::ends`] matter.
+    /// True if what rays hit may lie before or behind the surface, so that [`Config::ends`] matter.
     fn has_ends(&self) -> bool {
         matches!(self.accept, Accept::Tolerance | Accept::Slope)
     }
 
-    /// Whether triangles are kept beside the lists of fragments: where rays meet triangles those lists hold all.
+    /// True if triangles are kept beside the lists of fragments: where rays meet triangles those lists hold all.
     pub(crate) fn has_conservative_lists(&self) -> bool {
         self.coverage == Coverage::Conservative && self.accept != Accept::Triangle
     }

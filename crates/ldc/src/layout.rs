@@ -35,7 +35,7 @@ pub struct Demand {
     pub large: u64,
 }
 
-/// What a layered depth cube of this configuration allocates for a demand.
+/// Sizes of the pools of a layered depth cube of this configuration for a demand.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit indices can address.
@@ -64,7 +64,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     Sizes::of("ldc", sizes)
 }
 
-/// What the pool of scratch holds: the sums of the scan, and the words that binning and sorting use.
+/// Parts of the pool of scratch: the sums of the scan, and the words that binning and sorting use.
 pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
     let sums = Scan::sums(cell_count(config.resolution));
     let sorts = config.making == Making::Single;

@@ -23,7 +23,7 @@ pub use rasray_shaders_glsl::records::LdcHeader as Header;
 pub use structure::LayeredDepthCube;
 pub use validate::{Contents, Fault, well_formed};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -27,7 +27,7 @@ pub struct Contents {
     pub conservative: Vec<u32>,
 }
 
-/// What is wrong with a list.
+/// A fault in a list.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -64,7 +64,7 @@ pub enum Fault {
     Primitive {
         /// Cell.
         cell: usize,
-        /// What is stored.
+        /// The index that is stored.
         primitive: u32,
     },
     /// A link of a conservative list points to no node.
@@ -136,7 +136,7 @@ impl Contents {
         Ok(found)
     }
 
-    /// What the cells of each view hold; triangles of conservative lists are no layers.
+    /// Counts of the layers in the cells of each view; triangles of conservative lists are no layers.
     ///
     /// # Errors
     /// A list leaves the pool or runs backwards.
@@ -152,7 +152,7 @@ impl Contents {
         Ok(counts.into())
     }
 
-    /// Whether the blocks of a cell, of all levels, say that something lies at a depth in metres.
+    /// True if the blocks of a cell, of all levels, say that something lies at a depth in metres.
     fn blocks_hold(&self, cell: usize, z: f32) -> bool {
         let side = self.config.resolution as usize;
         let (view, x, y) = (cell / (side * side), cell % side, cell / side % side);

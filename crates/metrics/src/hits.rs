@@ -7,13 +7,13 @@ pub trait Truth {
     /// Triangle and t of the nearest hit in exact arithmetic.
     fn hit(&self) -> Option<(u32, f64)>;
 
-    /// Whether rounding of a careful test may lead to another answer.
+    /// True if rounding of a careful test may lead to another answer.
     fn is_ambiguous(&self) -> bool;
 
-    /// Whether a miss is admissible.
+    /// True if a miss is admissible.
     fn admits_miss(&self) -> bool;
 
-    /// Whether a hit at this t, on this triangle if it is known, is admissible.
+    /// True if a hit at this t, on this triangle if it is known, is admissible.
     fn admits_hit(&self, primitive: Option<u32>, t: f64) -> bool;
 }
 
@@ -26,7 +26,7 @@ pub struct DeviceHit {
     pub primitive: Option<u32>,
 }
 
-/// How a structure's answers differ from the truth.
+/// Differences of a structure's answers from the truth.
 ///
 /// Rates are over unambiguous rays, unless their name says otherwise: what single precision cannot
 /// tell apart is no fault. A hit whose t is not finite counts in `non_finite` and nowhere else.
@@ -125,8 +125,8 @@ impl HitConfusion {
         Some(dt_rel)
     }
 
-    /// Whether a structure that finds triangles kept its promise: nothing missed, false, wrong, lost or
-    /// not finite. (How exact t is, `dt_rel` and `t_off` say.)
+    /// True if a structure that finds triangles kept its promise: nothing missed, false, wrong, lost or not finite.
+    /// (How exact t is, `dt_rel` and `t_off` say.)
     pub fn is_clean(&self) -> bool {
         let wrong = self.wrong_primitive.unwrap_or_default();
         [self.missed, self.false_hits, wrong, self.ambiguous_lost, self.ambiguous_wrong, self.non_finite]

@@ -6,7 +6,7 @@ use crate::tone::display_values;
 /// Guards the relative error against black references.
 const RELATIVE_EPSILON: f64 = 1e-2;
 
-/// How an image R differs from a reference r. Sums run over pixels and channels.
+/// Differences of an image R from a reference r. Sums run over pixels and channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ImageError {

@@ -1,4 +1,4 @@
-//! How far traced hits and rendered images are from the truth, and how sure that is.
+//! Errors of traced hits and rendered images against the truth, and their confidence.
 //!
 //! - [`HitConfusion`] compares a structure's hits with exact verdicts, ray by ray.
 //! - [`ImageError`] compares an image with a reference.
@@ -30,7 +30,7 @@ pub use ssim::ssim;
 pub use statistics::{Percentiles, Summary, median, median_of_means, percentile};
 pub use tone::{Tone, ToneCurve, display_values, tone_map};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

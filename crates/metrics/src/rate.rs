@@ -1,12 +1,12 @@
 use crate::beta::inverse_incomplete_beta;
 
-/// How often something happened.
+/// Count of an event in a number of trials.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rate {
-    /// How often it happened; at most `total`.
+    /// Times that the event happened; at most `total`.
     pub count: u64,
-    /// How often it could have happened.
+    /// Trials.
     pub total: u64,
 }
 
@@ -45,13 +45,13 @@ impl Rate {
         ])
     }
 
-    /// Whether the interval is the one-sided bound of a rate that never or always happened, 3 / total at
-    /// 95 %; Clopper-Pearson otherwise.
+    /// True if the interval is the one-sided bound of a rate that never or always happened, 3 / total at 95 %;
+    /// Clopper-Pearson otherwise.
     pub fn is_one_sided(&self) -> bool {
         self.total > 0 && (self.count == 0 || self.count >= self.total)
     }
 
-    /// Whether the 95 % intervals of two rates do not overlap.
+    /// True if the 95 % intervals of two rates do not overlap.
     pub fn differs_from(&self, other: &Self) -> bool {
         match (self.interval(), other.interval()) {
             (Some([low, high]), Some([other_low, other_high])) => high < other_low || other_high < low,

@@ -5,11 +5,11 @@ mod agx;
 
 use crate::image::Image;
 
-/// How linear colours are shown: exposed, then brought into the range of a screen by a curve. The default is exposure 0
-/// and no curve beyond that of sRGB.
+/// Tone of linear colours: exposed, then brought into the range of a screen by a curve. The default is exposure 0 and
+/// no curve beyond that of sRGB.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tone {
-    /// What brings exposed colours into the range of a screen.
+    /// Brings exposed colours into the range of a screen.
     pub curve: ToneCurve,
     /// Stops: colours are multiplied by 2 to this power first.
     pub exposure: f32,
@@ -22,7 +22,7 @@ impl From<f32> for Tone {
     }
 }
 
-/// What brings exposed colours into the range of a screen. All end with the sRGB transfer curve.
+/// Curve that brings exposed colours into the range of a screen. All end with the sRGB transfer curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToneCurve {
     /// None: values are clamped to 0 to 1.
@@ -47,7 +47,7 @@ impl ToneCurve {
         }
     }
 
-    /// What it does, in one line of help.
+    /// Description, one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Exposure => "None: clamped to 0 to 1, so that other programs reproduce every value",

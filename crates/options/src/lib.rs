@@ -12,7 +12,7 @@ pub use row::{OptionRow, ValueError};
 pub use value::{OptionValues, Value};
 pub use values::{Least, NotTaken, Unit, Values, Word};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -7,9 +7,9 @@ use crate::{Value, Values, Word};
 pub struct OptionRow {
     /// Name, on the command line and in reports.
     pub name: &'static str,
-    /// What it takes.
+    /// Values that it takes.
     pub values: Values,
-    /// What it is for, one line of help without a full stop, with names of other options in backticks. Help adds the range and
+    /// Purpose, one line of help without a full stop, with names of other options in backticks. Help adds the range and
     /// the default.
     pub doc: &'static str,
     /// The value where none is given; absent where that depends on more than the option.
@@ -26,9 +26,9 @@ pub struct OptionRow {
 pub struct ValueError {
     /// The option.
     pub option: &'static str,
-    /// What was given.
+    /// Value that was given.
     pub value: String,
-    /// What is taken.
+    /// Values that the option takes, in words.
     pub expected: String,
 }
 
@@ -48,13 +48,13 @@ impl OptionRow {
         Self::new(name, Values::SWITCH, doc)
     }
 
-    /// The same with a default.
+    /// Sets the default.
     #[must_use]
     pub const fn by_default(self, default: Value) -> Self {
         Self { default: Some(default), ..self }
     }
 
-    /// The same with values that tests try.
+    /// Sets the values that tests try.
     #[must_use]
     pub const fn trying(self, tried: &'static [&'static str]) -> Self {
         Self { tried, ..self }
@@ -90,7 +90,7 @@ impl OptionRow {
         ValueError { option: self.name, value: value.to_string(), expected }
     }
 
-    /// What it is for, with its range and its default.
+    /// Purpose, with the range and the default.
     pub fn help(&self) -> String {
         let range = self.values.range().map(|range| format!(" [{range}]"));
         let default = self.default.map(|value| format!(" [default: {value}]"));

@@ -75,7 +75,7 @@ impl From<f32> for Value {
     }
 }
 
-/// What was given of options, by name; what is left out follows the default.
+/// Values given for options, by name; options left out follow the default.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OptionValues(BTreeMap<&'static str, Value>);
 
@@ -85,22 +85,22 @@ impl OptionValues {
         self.0.iter().map(|(name, value)| (*name, *value))
     }
 
-    /// How many options were given.
+    /// Number of options given.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether none was given.
+    /// True if no option was given.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// What was given for an option.
+    /// Value given for an option.
     pub fn get(&self, option: &str) -> Option<Value> {
         self.0.get(option).copied()
     }
 
-    /// What was given for an option, as it is typed.
+    /// Value given for an option, as it is typed.
     pub fn text(&self, option: &str) -> Option<String> {
         self.get(option).map(|value| value.to_string())
     }
@@ -115,14 +115,14 @@ impl OptionValues {
         self.0.remove(option);
     }
 
-    /// The same with one more value.
+    /// Adds one more value.
     #[must_use]
     pub fn with(mut self, option: &'static str, value: impl Into<Value>) -> Self {
         self.set(option, value);
         self
     }
 
-    /// What was given of options whose names `keep` accepts.
+    /// Values given for options whose names `keep` accepts.
     #[must_use]
     pub fn filtered(&self, keep: impl Fn(&str) -> bool) -> Self {
         Self(self.0.iter().filter(|(name, _)| keep(name)).map(|(name, value)| (*name, *value)).collect())

@@ -1,4 +1,4 @@
-//! What an option takes, and how it is read.
+//! Values that an option takes, and the parsing of text.
 
 use crate::Value;
 use crate::text::{number, numbers, sides};
@@ -6,7 +6,7 @@ use crate::text::{number, numbers, sides};
 /// A word that an option takes, and what it means.
 pub type Word = (&'static str, &'static str);
 
-/// What a number counts.
+/// Quantity that a number counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// Metres.
@@ -24,7 +24,7 @@ pub enum Least {
     AboveZero,
 }
 
-/// What an option takes.
+/// Values that an option takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Values {
     /// One of these words.
@@ -43,7 +43,7 @@ pub enum Values {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{}", .0.expected())]
 pub struct NotTaken(
-    /// What is taken.
+    /// Values that are taken.
     pub Values,
 );
 
@@ -68,7 +68,7 @@ impl Values {
         value.filter(|value| self.takes(*value)).ok_or(NotTaken(self))
     }
 
-    /// Whether a value is one of these.
+    /// True if a value is one of these.
     pub fn takes(self, value: Value) -> bool {
         match (self, value) {
             (Self::Words(words), Value::Word(given)) => words.iter().any(|(word, _)| *word == given),
@@ -83,12 +83,12 @@ impl Values {
         }
     }
 
-    /// Whether the words are `on` and `off`.
+    /// True if the words are `on` and `off`.
     pub fn is_switch(self) -> bool {
         self == Self::SWITCH
     }
 
-    /// What a value must be, after its name.
+    /// The condition on a value, as words to follow its name.
     pub fn expected(self) -> String {
         match self {
             Self::Words(words) => {
@@ -107,7 +107,7 @@ impl Values {
         }
     }
 
-    /// What is taken, as a cell of a table in Markdown.
+    /// Values that are taken, as a cell of a table in Markdown.
     pub fn in_markdown(self) -> String {
         match self {
             Self::Words(words) => {

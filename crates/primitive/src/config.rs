@@ -7,7 +7,7 @@ use rasray_shaders_glsl::constants::primitive as numbers;
 
 use crate::{Accept, Coverage, Depths, March, Stop};
 
-/// How the lists of a cell are kept. Changes no hit.
+/// Storage of the lists of a cell. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
     /// Linked nodes of triangle and next, as in the paper: 8 bytes per entry, one geometry pass less.
@@ -33,12 +33,12 @@ pub enum Centre {
 
 words! { Centre { Eye "eye", Scene "scene", Fixed "fixed" } }
 
-/// What is drawn.
+/// Views that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Views {
     /// The six faces of a cube.
     Cube,
-    /// What the camera sees: all else is missed (section 5.2, single-view ray tracing). A build needs a
+    /// The view of the camera: all else is missed (section 5.2, single-view ray tracing). A build needs a
     /// [`rasray_ads::Viewpoint`] with a camera, and the centre is at the eye.
     Camera,
 }
@@ -65,13 +65,13 @@ pub struct Config {
     pub tile: u32,
     /// Depth buckets per tile, 1 to 64. Changes no hit where [`Config::is_exact`].
     pub buckets: u32,
-    /// What is drawn.
+    /// Views that are drawn.
     pub views: Views,
-    /// How lists are kept.
+    /// Storage of lists.
     pub storage: Storage,
     /// The point at which the faces touch.
     pub centre: Centre,
-    /// How triangles are binned into tiles. Changes no hit.
+    /// Way of binning triangles into tiles. Changes no hit.
     pub builder: Builder,
     /// With [`Config::skip`]: depth bounds of blocks of tiles, which a ray skips. Changes no hit where
     /// [`Config::is_exact`].
@@ -84,17 +84,17 @@ pub struct Config {
     pub accept: Accept,
     /// Where the search of a tile ends.
     pub stop: Stop,
-    /// What the depths of a triangle in a tile are.
+    /// Depths of a triangle in a tile.
     pub depths: Depths,
-    /// How a ray goes on from a tile.
+    /// Rule by which a ray goes on from a tile.
     pub march: March,
     /// Skip tiles and buckets that the ray's depths cannot reach. Changes no hit where [`Config::is_exact`].
     pub skip: bool,
-    /// How pools are reached.
+    /// Addressing of pools: descriptors or device addresses.
     pub addressing: Addressing,
     /// Entries to allocate for the first build; a guess from the cells where absent.
     pub entries: Option<u64>,
-    /// How much of their work rays record. Changes no hit.
+    /// Detail in which rays record their work. Changes no hit.
     pub counters: Counters,
     /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
     pub work_budget: Option<u32>,
@@ -143,7 +143,7 @@ impl Config {
         }
     }
 
-    /// Whether every hit equals that of brute force: no rule of the paper that loses some is chosen.
+    /// True if every hit equals that of brute force: no rule of the paper that loses some is chosen.
     pub fn is_exact(&self) -> bool {
         self.lossy_rule().is_none()
     }
@@ -184,7 +184,7 @@ impl Config {
         self.resolution.div_ceil(self.tile.max(1))
     }
 
-    /// Whether there are blocks of cells.
+    /// True if there are blocks of cells.
     pub(crate) fn has_pyramid(&self) -> bool {
         self.pyramid && self.skip
     }

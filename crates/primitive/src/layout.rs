@@ -65,7 +65,7 @@ fn pyramid_words(config: &Config) -> u64 {
     if config.has_pyramid() { Pyramid::words(&[faces(config)]) } else { 0 }
 }
 
-/// What primitive lists of this configuration allocate to hold `demand`.
+/// Sizes of the pools of primitive lists of this configuration for `demand`.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit indices can address.

@@ -24,7 +24,7 @@ pub use rules::{Accept, Coverage, Depths, March, Stop};
 pub use structure::{Passes, PrimitiveLists};
 pub use validate::{Contents, Fault, well_formed};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

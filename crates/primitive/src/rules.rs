@@ -46,7 +46,7 @@ pub enum Stop {
 
 words! { Stop { Best "best", Bucket "bucket" } }
 
-/// What the depths of a triangle in a tile are, which choose its buckets.
+/// Depths of a triangle in a tile, which choose its buckets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depths {
     /// Those of all of it that lies in the tile.
@@ -58,7 +58,7 @@ pub enum Depths {
 
 words! { Depths { Clipped "clipped", Corners "corners" } }
 
-/// How a ray goes on from a tile.
+/// Rule by which a ray goes on from a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
     /// Over the boundary at which it leaves the tile.

@@ -19,7 +19,7 @@ pub type PrimitiveLists = Pooled<Passes>;
 #[derive(Debug)]
 pub struct Passes(Build);
 
-/// What of the header says how the camera sees metres along the axes; zeros without its view.
+/// Camera columns of the header, which give metres along the axes as the camera sees them; zeros without its view.
 ///
 /// # Errors
 /// There is no camera.

@@ -22,7 +22,7 @@ pub struct Contents {
     pub near: Vec<u32>,
 }
 
-/// What is wrong with a list.
+/// A fault in a list.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -51,7 +51,7 @@ pub enum Fault {
         cell: usize,
         /// Bucket.
         bucket: usize,
-        /// What is stored.
+        /// The index that is stored.
         primitive: u32,
     },
     /// A triangle is in a list twice.
@@ -98,7 +98,7 @@ impl Contents {
 }
 
 impl Contents {
-    /// What the tiles of each view hold; triangles of the near region are not among them.
+    /// Counts of the entries in the tiles of each view; triangles of the near region are not among them.
     ///
     /// # Errors
     /// A list leaves the pool.

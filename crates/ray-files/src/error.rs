@@ -10,7 +10,7 @@ pub enum FileError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The name has another extension than `.rays` and `.npy`.
@@ -30,7 +30,7 @@ pub enum FileError {
     Format {
         /// The file.
         path: PathBuf,
-        /// What is wrong with its bytes.
+        /// Fault in its bytes.
         source: FormatError,
     },
 }
@@ -42,15 +42,15 @@ pub enum FormatError {
     /// The first bytes are those of another format.
     #[error("does not begin as a {format} file does")]
     Magic {
-        /// What was expected.
+        /// Format that was expected.
         format: &'static str,
     },
     /// The version is not one that is known here.
     #[error("is of version {version}, and only {known} can be read")]
     Version {
-        /// What the file says.
+        /// Version in the file.
         version: String,
-        /// What is known.
+        /// Versions that are known.
         known: &'static str,
     },
     /// The bytes end before, or after, what the header promises.
@@ -64,15 +64,15 @@ pub enum FormatError {
     /// The header cannot be understood.
     #[error("its header is not valid: {what}")]
     Header {
-        /// What is wrong.
+        /// Fault in the header.
         what: String,
     },
     /// The array holds something else.
     #[error("holds {what}, not {wanted}")]
     Content {
-        /// What it holds.
+        /// Contents of the array.
         what: String,
-        /// What is wanted.
+        /// Contents that are wanted.
         wanted: &'static str,
     },
     /// A ray that cannot be traced, or a hit that is none.
@@ -80,13 +80,13 @@ pub enum FormatError {
     Entry {
         /// Counted from 0.
         index: usize,
-        /// What is wrong.
+        /// Fault in the entry.
         what: &'static str,
     },
     /// More than [`super::LIMIT`] entries.
     #[error("holds {entries} entries; at most {} can be read", super::LIMIT)]
     TooMany {
-        /// What the header says.
+        /// Entries, by its header.
         entries: u64,
     },
 }

@@ -14,14 +14,14 @@ pub struct TrueHit {
     pub primitive: u32,
     /// Weights of vertices 1 and 2.
     pub barycentrics: [f64; 2],
-    /// Whether f32 may decide otherwise.
+    /// True if f32 may decide otherwise.
     pub ambiguous: bool,
 }
 
 /// Hits that another tracer found, one per ray.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HitsFile {
-    /// What the report calls the tracer.
+    /// Name of the tracer in the report.
     pub name: String,
     /// In the order of the rays.
     pub hits: Vec<Hit>,

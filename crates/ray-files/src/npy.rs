@@ -120,7 +120,7 @@ impl Array {
         }
     }
 
-    /// The same for messages.
+    /// Shape and fields for messages.
     pub(super) fn describe(&self) -> String {
         let shape = self.shape.iter().map(usize::to_string).collect::<Vec<_>>().join(" x ");
         let fields = self.fields.iter().map(|field| match field.name.as_str() {

@@ -93,7 +93,7 @@ fn hits_survive_npy_bit_for_bit() {
     assert_eq!(read, [Hit { t: 2.5, primitive: 3, a: 0.5, b: 0.25 }]);
 }
 
-/// What `numpy.save` of version 2.1 wrote for `numpy.array([[1., -1.], [2.5, 7.]])`.
+/// Bytes that `numpy.save` of version 2.1 wrote for `numpy.array([[1., -1.], [2.5, 7.]])`.
 const BY_NUMPY: &[u8] = b"\x93NUMPY\x01\x00v\x00{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }                                                          \n\
 \x00\x00\x00\x00\x00\x00\xf0\x3f\x00\x00\x00\x00\x00\x00\xf0\xbf\x00\x00\x00\x00\x00\x00\x04\x40\x00\x00\x00\x00\x00\x00\x1c\x40";
 

@@ -15,7 +15,7 @@ pub use layout::{bytes, views_of};
 pub use maps::{Emitters, Lights, ShadowMaps};
 pub use rasray_shaders_glsl::records::{EmissiveTriangle, Light};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

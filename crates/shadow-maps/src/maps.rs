@@ -24,12 +24,13 @@ const MODULES: Modules =
 /// Threads of a workgroup of `shadow_maps/build_0_views`.
 const LIGHTS_PER_GROUP: u32 = 64;
 
-/// What shadow rays lead to.
+/// Lights that shadow rays lead to.
 #[derive(Clone, Copy, Debug)]
 pub struct Lights<'a> {
     /// [`Light`] records of lights without extent on the device, from its start. Each build reads where they are then.
     pub records: &'a Buffer,
-    /// The same as the host knows them: which kinds there are, and how wide cones are. Where they are is not looked at.
+    /// These records as the host knows them: which kinds there are, and how wide cones are. Where they are is not
+    /// looked at.
     pub known: &'a [Light],
     /// Triangles that emit, where there are any.
     pub emitters: Option<Emitters<'a>>,
@@ -40,7 +41,7 @@ pub struct Lights<'a> {
 pub struct Emitters<'a> {
     /// [`EmissiveTriangle`](crate::EmissiveTriangle) records on the device, from its start, of which the triangle is read.
     pub records: &'a Buffer,
-    /// How many there are.
+    /// Number of triangles.
     pub count: u32,
 }
 
@@ -67,7 +68,7 @@ pub struct ShadowMaps {
     of_lights: OfLights,
 }
 
-/// What is made anew for other lights.
+/// Sizes and buffers that are made anew for other lights.
 #[derive(Debug)]
 struct OfLights {
     lights: u32,
@@ -79,7 +80,7 @@ struct OfLights {
 }
 
 impl ShadowMaps {
-    /// What a device must offer.
+    /// Requirements of a device: the floor, stores of fragment shaders, and those of its modules.
     pub fn requirements() -> Requirements {
         let mut requirements = Requirements::floor();
         requirements.required.push(Feature::FragmentStoresAndAtomics);

@@ -1,4 +1,4 @@
-//! How often maps and traces differ: the share of shadow rays falls as the resolution grows.
+//! Share of shadow rays on which maps and traces differ: it falls as the resolution grows.
 
 use std::path::{Path, PathBuf};
 

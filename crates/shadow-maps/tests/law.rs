@@ -69,7 +69,7 @@ impl View {
     }
 }
 
-/// What a naive map says of a point.
+/// Answer of a naive map to a point.
 pub enum Naive {
     Occluded,
     Open,
@@ -115,7 +115,7 @@ fn stored(view: &View, [a, b, c]: [DVec3; 3], centre: [f64; 2], half_texel: f64)
     Ok(Some(z + extent))
 }
 
-/// What the map of a light says of a ray. The triangle `excluded` is not on it.
+/// Answer of the map of a light to a ray. The triangle `excluded` is not on it.
 pub fn naive(
     light: &rasray_shadow_maps::Light,
     excluded: Option<u32>,

@@ -150,7 +150,7 @@ impl Lit {
         Self { device: device.clone(), scene, structure, maps, positions, indices }
     }
 
-    /// The same scene with other maps.
+    /// Replaces the maps.
     pub fn with(self, config: Config) -> Self {
         let lights = lights_of(&self.scene);
         let (geometry, binding) = (self.scene.geometry(), self.scene.binding());
@@ -162,7 +162,7 @@ impl Lit {
         self.device.submit(|recorder| self.maps.record_build(recorder)).expect("the build runs");
     }
 
-    /// Whether each ray is occluded: by maps, or traced.
+    /// True for each ray that is occluded: by maps, or traced.
     pub fn occluded(&self, rays: &[Ray], by_maps: bool) -> Vec<bool> {
         let hits = self.hits(rays, by_maps, Domain::First(rays.len() as u32));
         hits.iter().map(Hit::is_hit).collect()
@@ -204,7 +204,8 @@ impl Lit {
         })
     }
 
-    /// The same to places spread at random over an emitting triangle, the number of which and corners are given.
+    /// From points spread evenly over all surfaces to places spread at random over an emitting triangle, which number
+    /// and corners give.
     pub fn rays_to_emitter(&self, emitter: u32, corners: [DVec3; 3], count: usize) -> Vec<Ray> {
         self.rays_to(self.scene.lights().len() as u32 + emitter, count, |random, p| {
             let (root, along) = (random.next().sqrt(), random.next());

@@ -1,4 +1,4 @@
-//! What is given for one option, and what a system makes of it.
+//! Values given for options, and the setters that take them.
 
 use rasray_options::{Value, ValueError};
 

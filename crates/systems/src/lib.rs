@@ -25,7 +25,7 @@ pub use registry::SYSTEMS;
 pub use spec::{PaperFrame, Preset, Spec, System};
 pub use structure_option::{Group, Hits, StructureOption};
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -8,10 +8,10 @@ use crate::SystemsError;
 use crate::options::{OPTIONS, option};
 use crate::structure_option::{Group, StructureOption};
 
-/// How closely a system follows its paper.
+/// Closeness of a system to its paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Preset {
-    /// The same structure with its errors repaired.
+    /// The paper's structure with its errors repaired.
     Robust,
     /// The paper's approximations included.
     Published,
@@ -26,7 +26,7 @@ impl Preset {
         Self::ALL.into_iter().find(|preset| preset.name() == name)
     }
 
-    /// What it is, for help.
+    /// Description for help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Robust => "The same structure with its errors repaired",
@@ -52,7 +52,7 @@ pub struct PaperFrame {
     pub options: &'static [(&'static str, &'static str)],
     /// Where first hits come from.
     pub primary: &'static str,
-    /// What answers shadow rays.
+    /// Occluder of shadow rays.
     pub occluder: &'static str,
 }
 
@@ -63,7 +63,7 @@ pub struct System {
     pub name: &'static str,
     /// Presets it has.
     pub presets: &'static [Preset],
-    /// What it is, for help.
+    /// Description for help.
     pub doc: &'static str,
     /// The frame that pictures of its published preset are made with, where no integrator is asked for; absent where no paper
     /// shows it.
@@ -78,16 +78,16 @@ pub struct System {
     pub without_scene: &'static [(&'static str, &'static str)],
     /// The name of the structure that it traces.
     pub structure: &'static str,
-    /// What that structure shares with its shaders, the header first.
+    /// Records that the structure shares with its shaders, the header first.
     pub records: &'static [RecordLayout],
     /// Options over the robust preset with which a pool is larger than the 128 MiB that a binding of small devices holds,
     /// whatever the triangles; none where pools grow with these alone.
     pub large_pools: &'static [(&'static str, &'static str)],
     /// Names of the options it has.
     pub(crate) options: fn() -> Vec<&'static str>,
-    /// What a device must and may offer for a spec; also where a spec's values are checked.
+    /// Required and optional features of a device for a spec; also where a spec's values are checked.
     pub(crate) requirements: fn(&Spec) -> Result<Requirements, SystemsError>,
-    /// What the hits of a spec are.
+    /// Kind of the hits of a spec.
     pub(crate) kind: fn(&Spec) -> Result<StructureKind, SystemsError>,
     /// Makes the structure of a spec.
     pub(crate) create: Create,
@@ -134,7 +134,7 @@ impl System {
         options.into_iter().map(read).collect()
     }
 
-    /// Whether it has an option.
+    /// True if it has an option.
     pub fn has(&self, option: &str) -> bool {
         (self.options)().contains(&option)
     }
@@ -180,21 +180,21 @@ impl Spec {
         Ok(spec)
     }
 
-    /// The same with rays that record this much of their work.
+    /// Makes rays record their work in this detail.
     #[must_use]
     pub fn with_counters(self, counters: impl Into<Counters>) -> Self {
         Self { counters: counters.into(), ..self }
     }
 
-    /// The same with rays that spend this many units of work in a dispatch, from 2 on, and then wait for the
-    /// next. Changes no hit; rays that need more dispatches than they are given are counted as unfinished. Brute
-    /// force keeps the shared default.
+    /// Makes rays spend this many units of work in a dispatch, from 2 on, and then wait for the next. Changes no hit;
+    /// rays that need more dispatches than they are given are counted as unfinished. Brute force keeps the shared
+    /// default.
     #[must_use]
     pub fn with_work_budget(self, units: u32) -> Self {
         Self { work_budget: Some(units), ..self }
     }
 
-    /// The same with one more option over the preset.
+    /// Adds one more option over the preset.
     ///
     /// # Errors
     /// The system has no such option or value.
@@ -202,7 +202,7 @@ impl Spec {
         self.with_options([(option.to_owned(), value.to_owned())])
     }
 
-    /// The same with more options over the preset, checked all at once: some are valid only with others.
+    /// Adds more options over the preset, checked all at once: some are valid only with others.
     ///
     /// # Errors
     /// The system has no such option or value.
@@ -235,7 +235,7 @@ impl Spec {
         &self.options
     }
 
-    /// How much of their work rays record.
+    /// Detail in which rays record their work.
     pub fn counters(&self) -> Counters {
         self.counters
     }
@@ -245,7 +245,7 @@ impl Spec {
         self.work_budget
     }
 
-    /// What a device must and may offer.
+    /// Required and optional features of a device.
     ///
     /// # Errors
     /// An option has an impossible value.
@@ -263,7 +263,7 @@ impl Spec {
         })
     }
 
-    /// What the hits of its structure are, without a device.
+    /// Kind of the hits of its structure, without a device.
     ///
     /// # Errors
     /// An option has an impossible value.
@@ -325,7 +325,7 @@ mod tests {
         for system in SYSTEMS {
             let size = ["resolution", "grid"].into_iter().find(|option| system.has(option));
             assert_eq!(system.size_option(), size, "{}", system.name);
-            // What has cells has pools that grow with them.
+            // Systems with cells have pools that grow with them.
             assert_eq!(size.is_some(), !system.large_pools.is_empty(), "{}", system.name);
         }
         let size = |name| System::named(name).and_then(System::size_option);

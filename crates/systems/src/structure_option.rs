@@ -1,16 +1,16 @@
-//! What the registry says of an option in addition to its row: what it is for, and whether it may change a hit.
+//! Facts of an option in addition to its row: its group, and whether it may change a hit.
 
 use rasray_ads::StructureKind;
 use rasray_options::{OptionRow, Values, Word};
 
-/// What an option is for, the order in which help shows them.
+/// Purpose of an option, in the order in which help shows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Group {
     /// The resolution of a structure.
     Size,
-    /// What is stored, and what counts as a hit: mostly choices between a paper's method and another.
+    /// Stored data, and conditions of a hit: mostly choices between a paper's method and another.
     Method,
-    /// What changes only time and memory.
+    /// Options that change only time and memory.
     Speed,
     /// Limits of memory and work.
     Limit,
@@ -34,7 +34,7 @@ impl Group {
     }
 }
 
-/// Whether an option may change a hit, by what hits are. Where it may not, hits are bit-identical whatever its value.
+/// Cases in which an option may change a hit, by kind of hits. Elsewhere hits are bit-identical whatever its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hits {
     /// Never.
@@ -48,7 +48,7 @@ pub enum Hits {
 }
 
 impl Hits {
-    /// Whether hits of that kind may change.
+    /// True if hits of that kind may change.
     pub fn may_change(self, kind: StructureKind) -> bool {
         match (self, kind) {
             (Self::Same, _) => false,
@@ -74,9 +74,9 @@ impl Hits {
 pub struct StructureOption {
     /// Its name, what it takes, and what it says.
     pub row: OptionRow,
-    /// What it is for.
+    /// Purpose.
     pub group: Group,
-    /// Whether it may change a hit.
+    /// Cases in which it may change a hit.
     pub hits: Hits,
 }
 
@@ -118,7 +118,7 @@ pub(crate) const fn switch(
     of(OptionRow::switch(name, doc), group, hits)
 }
 
-/// The same with other values for tests to try.
+/// Replaces the values that tests try.
 pub(crate) const fn trying(tried: &'static [&'static str], option: StructureOption) -> StructureOption {
     StructureOption { row: option.row.trying(tried), ..option }
 }

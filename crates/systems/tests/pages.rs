@@ -96,7 +96,7 @@ fn the_page_of_published_frames_has_a_line_for_each() {
     }
 }
 
-/// What a structure with these options requires; absent where it does not have them.
+/// Requirements of a structure with these options; absent where it does not have them.
 fn requirements(system: &str, options: &[(&str, &str)]) -> Option<Requirements> {
     let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
     Spec::new(system, "robust", given).ok()?.requirements().ok()
@@ -160,7 +160,7 @@ fn the_table_of_features_is_what_structures_require() {
         written == table,
         "the table of docs/embedding.md is not this: write it with RASRAY_WRITE_PAGES=1\n{table}"
     );
-    // What the page says of addresses.
+    // Device addresses are required with `addressing` address alone, as the page says.
     let addressed = SYSTEMS.iter().filter(|system| system.has("addressing"));
     for system in addressed {
         let with = |addressing| requirements(system.name, &[("addressing", addressing)]).expect("an option");

@@ -13,7 +13,7 @@ use crate::{FrameOutcome, FrameStructure, TracerError};
 /// adds a margin.
 const REBUILDS: u32 = 8;
 
-/// What a build cost.
+/// Cost of a build.
 #[derive(Clone, Debug, Default)]
 pub struct BuildOutcome {
     /// Passes of the last, complete build.
@@ -56,23 +56,23 @@ pub fn refresh_until_complete(
     until_complete(device, structure, viewpoint.into(), timing)
 }
 
-/// What became of a build.
+/// Outcome of a build.
 enum Step {
     Complete,
-    /// What was too small has grown.
+    /// Pools that were too small have grown.
     Grown,
     /// Incomplete, and growing does not help or is not allowed any more.
     Stuck,
 }
 
-/// What [`until_complete`] builds.
+/// A structure, or one over frames, that [`until_complete`] builds.
 trait Builds {
     fn prepare(&mut self, device: &Device, viewpoint: Viewpoint) -> Result<(), AdsError>;
     fn record(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError>;
     /// After the build.
     fn finish(&mut self, device: &Device, may_grow: bool) -> Result<Step, AdsError>;
     fn structure(&self) -> &dyn Structure;
-    /// What was recorded was not submitted.
+    /// Takes back a recording that was not submitted.
     fn take_back(&mut self) {}
 }
 

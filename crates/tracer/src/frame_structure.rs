@@ -7,7 +7,7 @@ use rasray_gpu::{Device, Recorder};
 
 use crate::Refresh;
 
-/// How a structure is kept over frames.
+/// Settings of a structure kept over frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Keeping {
     /// Frames in flight, at least 1.
@@ -23,7 +23,7 @@ impl Default for Keeping {
     }
 }
 
-/// What became of the build that a frame was traced through.
+/// Outcome of the build that a frame was traced through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameOutcome {
     /// Everything was stored: what was traced is right.
@@ -57,10 +57,10 @@ struct Built {
     viewpoint: Viewpoint,
 }
 
-/// What is known of a part that is built by itself.
+/// State of a part that is built by itself.
 #[derive(Default)]
 struct Part {
-    /// What the next frame can be traced through, unless something changed.
+    /// The build that the next frame can be traced through, unless something changed.
     built: Option<Built>,
     /// Builds recorded so far.
     builds: u64,
@@ -70,12 +70,12 @@ struct Part {
     ended: Option<(u64, bool)>,
 }
 
-/// What a slot's frame was traced through.
+/// Build that a slot's frame was traced through.
 #[derive(Clone, Copy)]
 struct Used {
     /// Number of the build.
     build: u64,
-    /// Whether this frame recorded it.
+    /// True if this frame recorded it.
     made: bool,
 }
 
@@ -127,8 +127,9 @@ impl FrameStructure {
         self.parts_moved(&[]);
     }
 
-    /// The same of parts that move, for each of them whether it moved; one that is not stated did. What is built for a part in
-    /// a space of its own stays ([`Structure::follows`]). Without parts, all of the vertices have moved where any have.
+    /// Takes for each of the parts that move whether its vertices moved; one that is not stated did. What is built for
+    /// a part in a space of its own stays ([`Structure::follows`]). Without parts, all of the vertices have moved where
+    /// any have.
     pub fn parts_moved(&mut self, moved: &[bool]) {
         if !self.is_in_parts() {
             if moved.is_empty() || moved.contains(&true) {
@@ -175,7 +176,7 @@ impl FrameStructure {
         (0..self.parts.len()).fold(0, |sum, part| self.structure.part(part).rounds().saturating_add(sum))
     }
 
-    /// Whether the triangles are in parts, so that others are handed over by [`FrameStructure::set_parts`].
+    /// True if the triangles are in parts, so that others are handed over by [`FrameStructure::set_parts`].
     pub fn is_in_parts(&self) -> bool {
         self.structure.count() > 1
     }
@@ -191,7 +192,7 @@ impl FrameStructure {
         Ok(())
     }
 
-    /// Whether a frame from this viewpoint records a build.
+    /// True if a frame from this viewpoint records a build.
     pub fn is_stale(&self, viewpoint: Viewpoint) -> bool {
         (0..self.parts.len()).any(|part| self.is_part_stale(part, viewpoint))
     }
@@ -290,7 +291,7 @@ impl FrameStructure {
         Ok(FrameOutcome::Incomplete)
     }
 
-    /// Whether what a slot's frame used of a part was complete.
+    /// True if the build of a part that a slot's frame used was complete.
     fn finish_part(&mut self, device: &Device, index: usize, slot: u32) -> Result<bool, AdsError> {
         let Some(used) = self.parts[index].used.get_mut(slot as usize).and_then(Option::take) else {
             return Ok(true);
@@ -325,7 +326,7 @@ impl FrameStructure {
         }
     }
 
-    /// Whether the build of a part in a slot was complete; grows if not.
+    /// True if the build of a part in a slot was complete; grows if not.
     fn read(&mut self, device: &Device, index: usize, slot: u32) -> Result<bool, AdsError> {
         let structure = self.structure.part(index);
         let status = structure.status(slot)?;

@@ -33,9 +33,9 @@ pub struct Ended {
     pub number: u64,
     /// Its slot: what its recording wrote for the host is there until the slot is used again.
     pub slot: u32,
-    /// Whether what it traced is right.
+    /// Says whether what it traced is right.
     pub outcome: FrameOutcome,
-    /// Whether it recorded a build.
+    /// True if it recorded a build.
     pub built: bool,
     /// Times of its passes, where they are timed.
     pub passes: Vec<PassTiming>,

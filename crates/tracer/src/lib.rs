@@ -21,7 +21,7 @@ pub use frames::{Ended, Frames};
 pub use refresh::Refresh;
 pub use replay::Replay;
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,4 +1,4 @@
-//! What frames build anew.
+//! Structures over frames, of which a frame builds all or parts anew.
 
 use rasray_ads::{AdsError, Combined, Geometry, GeometryParts, SceneBinding, Structure};
 use rasray_gpu::Device;
@@ -13,7 +13,7 @@ pub enum Refresh {
 }
 
 impl Refresh {
-    /// What rays are traced through.
+    /// The structure that rays are traced through.
     pub fn structure(&self) -> &dyn Structure {
         match self {
             Self::All(structure) => structure.as_ref(),
@@ -21,7 +21,7 @@ impl Refresh {
         }
     }
 
-    /// The same, to be changed as a whole.
+    /// The structure, to be changed as a whole.
     pub(crate) fn structure_mut(&mut self) -> &mut dyn Structure {
         match self {
             Self::All(structure) => structure.as_mut(),

@@ -22,7 +22,7 @@ pub struct Replay {
     pub structure: &'static str,
     /// The ray.
     pub ray: Ray,
-    /// Whether the nearest hit or occlusion was traced.
+    /// The mode of the trace: nearest hit or occlusion.
     pub mode: TraceMode,
     /// The steps, in order.
     pub steps: Vec<TraceStep>,

@@ -1,4 +1,4 @@
-//! How many rays go into one submission.
+//! Number of rays in one submission.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};

@@ -34,7 +34,7 @@ const OUTSET: [[f32; 3]; 3] = [
     [-0.141_329_76, -0.110_606_64, 1.251_936_4],
 ];
 
-/// What is shown as itself.
+/// Linear value that is shown as itself.
 const MIDDLE_GREY: f32 = 0.18;
 /// Stops below and above middle grey that are shown.
 const STOPS: (f32, f32) = (10.0, 6.5);
@@ -42,7 +42,7 @@ const STOPS: (f32, f32) = (10.0, 6.5);
 const GAMMA: f32 = 2.4;
 /// Of the sigmoid at middle grey.
 const SLOPE: f32 = 2.4;
-/// How sharply the sigmoid bends.
+/// Sharpness of the sigmoid's bend.
 const POWER: f32 = 1.5;
 /// The share of the shift of hue that stays.
 const HUE_SHIFT: f32 = 0.4;
