@@ -1,4 +1,4 @@
-//! What is true: exact hits, and images computed naively on the CPU from the scene model.
+//! The truth: exact hits, and images computed naively on the CPU from the scene model.
 
 pub mod integrators;
 pub mod oracle;

@@ -120,7 +120,7 @@ pub fn parallel_view(eye: [f64; 3], target: [f64; 3], half_height: f32, size: u3
     view
 }
 
-/// Whether the mean of the pixels' first channel is `expected` within four standard errors plus `slack`.
+/// True if the mean of the pixels' first channel is `expected` within four standard errors plus `slack`.
 pub fn agrees(image: &Image, expected: f64, slack: f64) -> bool {
     let values: Vec<f64> = image.pixels.iter().map(|pixel| f64::from(pixel[0])).collect();
     let count = values.len() as f64;

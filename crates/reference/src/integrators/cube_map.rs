@@ -29,7 +29,7 @@ pub(super) struct CubeMap {
     position: Vec3,
     /// Width of the cone of a ray per metre.
     cone_spread: f32,
-    /// Whether what it shows is in shadow.
+    /// True if surfaces that it shows are in shadow.
     has_shadows: bool,
 }
 
@@ -66,7 +66,7 @@ fn centre_of_smooth(posed: &PosedScene<'_>, rules: &Rules) -> Option<Vec3> {
 }
 
 impl Tracer<'_> {
-    /// What a cube map shows in a direction, W/(sr m^2).
+    /// Light that a cube map shows in a direction, W/(sr m^2).
     pub(super) fn looked_up(&self, rules: &Rules, map: &CubeMap, random: Numbers, direction: Vec3) -> Vec3 {
         let axis = (0..3).fold(
             0,

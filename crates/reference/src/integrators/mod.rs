@@ -82,7 +82,7 @@ impl NaiveIntegrator {
 struct Tracer<'a> {
     posed: &'a PosedScene<'a>,
     oracle: Oracle<'a>,
-    /// Whether light goes straight through smooth thin panes.
+    /// True if light goes straight through smooth thin panes.
     passes_panes: bool,
     /// Surfaces less rough than this are perfectly smooth.
     mirror_roughness: f32,
@@ -135,7 +135,7 @@ impl PosedScene<'_> {
         self.render_smoothed(view, (passes_panes, 0.0), sample)
     }
 
-    /// The same with surfaces of more roughness that are perfectly smooth.
+    /// Renders with surfaces of more roughness that are perfectly smooth.
     fn render_smoothed(
         &self,
         view: &View,
@@ -145,7 +145,7 @@ impl PosedScene<'_> {
         self.render_prepared(view, smoothed, |_| (), |tracer, (), random| sample(tracer, random))
     }
 
-    /// The same with what all samples share.
+    /// Renders with a value that `prepare` makes once for all samples.
     fn render_prepared<P: Sync>(
         &self,
         view: &View,

@@ -19,17 +19,17 @@ pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
     render: |posed, view, values| posed.render_path(view, path_options(values)),
 };
 
-/// What paths do.
+/// Options of paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PathOptions {
     /// At most this many scatterings.
     pub bounces: u32,
-    /// Whether light goes straight through smooth thin panes and takes their tint, unless there are no bounces; else panes
-    /// stop shadow rays, and going through is a scattering.
+    /// True if light goes straight through smooth thin panes and takes their tint, unless there are no bounces; else
+    /// panes stop shadow rays, and going through is a scattering.
     pub passes_panes: bool,
     /// Where shadow rays of smooth surfaces start.
     pub shadow_terminator: ShadowTerminator,
-    /// Whether surfaces reflect by Ward's lobe ([`Surface::is_ward`]).
+    /// True if surfaces reflect by Ward's lobe ([`Surface::is_ward`]).
     pub is_ward: bool,
 }
 
@@ -108,7 +108,7 @@ impl PathState {
         }
     }
 
-    /// Whether the path goes straight on through a surface, with this probability.
+    /// True if the path goes straight on through a surface, with this probability.
     pub fn chooses(&mut self, probability: f32) -> bool {
         let dimension = RANDOM_OPACITY_FIRST + self.choices;
         self.choices += 1;
@@ -243,7 +243,8 @@ impl Tracer<'_> {
     }
 }
 
-/// What the surface sends along `o` of an unoccluded light sample, weighted; `is_found` where scattered rays find it, too.
+/// Light that the surface sends along `o` of an unoccluded light sample, weighted; `is_found` where scattered rays find
+/// it, too.
 fn reflected(surface: &Surface, o: Vec3, light: &LightSample, is_found: bool) -> Vec3 {
     let value = bsdf_times_cosine(surface, o, light.direction);
     let weight = if light.delta || !is_found {

@@ -25,7 +25,7 @@ impl Tracer<'_> {
 }
 
 impl PosedScene<'_> {
-    /// What camera rays hit, lit from the eye; W/(sr m^2), with a light of 1 there.
+    /// Renders the surfaces that camera rays hit, lit from the eye; W/(sr m^2), with a light of 1 there.
     ///
     /// # Errors
     /// If the image is empty or the scene has more triangles than ids.

@@ -21,16 +21,16 @@ pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rules {
     pub ray_depth: u32,
-    /// What a ray must carry more of to be followed. Rays without weight change no picture, so none is followed here.
+    /// Weight above which a ray is followed. Rays without weight change no picture, so none is followed here.
     pub threshold: f32,
-    /// What the camera sees sends no ray on unless it mirrors.
+    /// Surfaces that the camera sees send no ray on unless they mirror.
     pub from_reflective: bool,
     /// Surfaces that neither mirror nor refract are lit without shadow rays.
     pub specular_shadows: bool,
     /// Reflections and refractions up to which surfaces are in shadow.
     pub shadow_depth: Option<u32>,
     pub mirror_roughness: f32,
-    /// What answers mirrored and refracted rays in place of their trees.
+    /// Answers mirrored and refracted rays in place of their trees.
     pub map: Option<CubeMap>,
     /// Rays go on behind smooth surfaces that they hit from behind.
     pub passes_backs: bool,
@@ -58,13 +58,13 @@ impl Rules {
         }
     }
 
-    /// Whether a surface of this roughness counts as perfectly smooth.
+    /// True if a surface of this roughness counts as perfectly smooth.
     pub fn are_smooth(&self, roughness: f32) -> bool {
         roughness < self.mirror_roughness.max(SMOOTH_ROUGHNESS)
     }
 }
 
-/// What a ray is in the tree of a sample.
+/// A ray in the tree of a sample.
 #[derive(Clone, Copy)]
 pub(super) struct Node {
     throughput: Vec3,
@@ -77,7 +77,7 @@ pub(super) struct Node {
 }
 
 impl Node {
-    /// What a tree begins with.
+    /// The first node of a tree.
     pub fn root(branch: u32) -> Self {
         Self { throughput: Vec3::ONE, medium: None, depth: 0, branch }
     }
@@ -89,7 +89,7 @@ impl Node {
 }
 
 impl Tracer<'_> {
-    /// What a ray of a tree finds, W/(sr m^2), as far as the camera sees it.
+    /// Light that a ray of a tree finds, W/(sr m^2), as far as the camera sees it.
     pub(super) fn tree(&self, rules: &Rules, random: Numbers, mut ray: Ray, mut node: Node) -> Vec3 {
         let mut radiance = Vec3::ZERO;
         for _ in 0..=LAYER_LIMIT {
@@ -116,7 +116,7 @@ impl Tracer<'_> {
         radiance
     }
 
-    /// What a surface sends along a ray, without what goes straight through it.
+    /// Light that a surface sends along a ray, without the light that goes straight through it.
     fn surface(&self, rules: &Rules, random: Numbers, ray: &Ray, node: Node, surface: &Surface) -> Vec3 {
         let throughput = node.throughput * surface.opacity;
         let mut radiance = throughput * surface.emission;

@@ -9,16 +9,16 @@ use super::t_bound::SeenTriangle;
 const U: f64 = 1.0 / (1_u64 << 24) as f64;
 /// Unit roundoff of double precision.
 const EPSILON: f64 = f64::EPSILON / 2.0;
-/// What a careful single-precision test may err by, in units of U times the sum of absolute values of what it
-/// adds. Shearing a vertex costs at most 4 (difference, slope, product, difference), the products of an
-/// edge function 2 more; the rest is headroom for tests that shear in another order.
+/// Largest error of a careful single-precision test, in units of U times the sum of absolute values of what it adds.
+/// Shearing a vertex costs at most 4 (difference, slope, product, difference), the products of an edge function 2 more;
+/// the rest is headroom for tests that shear in another order.
 const SINGLE_ERROR: f64 = 8.0 * U;
-/// The same count of roundings in double precision, doubled.
+/// That count of roundings in double precision, doubled.
 const DOUBLE_ERROR: f64 = 16.0 * EPSILON;
 /// A double-precision sum of products is used for t if cancellation costs at most 12 bits.
 const WELL_CONDITIONED: f64 = 1.0 / 4096.0;
 
-/// How a ray hits a triangle, near enough for single precision to report it.
+/// Hit of a ray on a triangle, near enough for single precision to report it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
     /// Exactly inside the triangle and the range.
@@ -37,7 +37,7 @@ pub(super) struct Contact {
     pub touched: [bool; 3],
     /// Vertices in the plane across the ray, relative to it.
     pub seen: [[f64; 2]; 3],
-    /// Whether the triangle winds counter-clockwise as the ray sees it (in the sheared axes).
+    /// True if the triangle winds counter-clockwise as the ray sees it (in the sheared axes).
     pub facing: bool,
     /// The side that the ray meets, in exact arithmetic where it hits.
     pub side: Side,
@@ -287,7 +287,7 @@ impl EdgeFunction {
     }
 }
 
-/// Whether zero lies between the least and the greatest coordinate, give or take their rounding.
+/// True if zero lies between the least and the greatest coordinate, give or take their rounding.
 fn surrounds<const N: usize>(coordinates: [(f64, f64); N]) -> bool {
     coordinates.iter().any(|(x, scale)| *x <= SINGLE_ERROR * scale)
         && coordinates.iter().any(|(x, scale)| *x >= -SINGLE_ERROR * scale)

@@ -14,8 +14,8 @@ struct Member {
     angle: f64,
 }
 
-/// Whether the unsure triangles share edges all around the ray, so that a test which
-/// rounds every vertex in one way and decides every edge in one way must find one of them.
+/// True if the unsure triangles share edges all around the ray, so that a test which rounds every vertex in one way and
+/// decides every edge in one way must find one of them.
 ///
 /// Rounding moves vertices by less than their distance from untouched edges. If all touched edges
 /// cancel, the boundary of what the ray touches consists of untouched edges; its winding number about
@@ -34,7 +34,7 @@ pub(super) fn covered<'a>(contacts: impl Iterator<Item = (&'a Triangle, &'a Cont
 
 fn surrounded(mut members: Vec<Member>) -> bool {
     loop {
-        // How often each edge is run along in its fixed order, and against it.
+        // Times that each edge is run along in its fixed order, and against it.
         let mut runs: HashMap<Edge, [usize; 2]> = HashMap::new();
         for (edge, along) in members.iter().flat_map(|member| &member.touched) {
             runs.entry(*edge).or_default()[usize::from(*along)] += 1;

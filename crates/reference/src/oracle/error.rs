@@ -5,7 +5,7 @@ pub enum OracleError {
     /// Indices come in threes.
     #[error("{indices} indices are no multiple of three; pass three indices for each triangle")]
     IncompleteTriangle {
-        /// How many were given.
+        /// Number of indices given.
         indices: usize,
     },
     /// An index points past the positions.
@@ -17,13 +17,13 @@ pub enum OracleError {
         primitive: usize,
         /// The index.
         index: u32,
-        /// How many positions there are.
+        /// Number of positions.
         positions: usize,
     },
     /// Ids are 32 bits wide and the last one means "none".
     #[error("{triangles} triangles do not fit 32-bit ids; split the scene")]
     TooManyTriangles {
-        /// How many were given.
+        /// Number of triangles given.
         triangles: usize,
     },
 }

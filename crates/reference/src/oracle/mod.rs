@@ -197,7 +197,7 @@ impl<'a> Oracle<'a> {
         rays.par_iter().map(|ray| self.closest(ray)).collect()
     }
 
-    /// Whether anything is hit with `t_min < t < t_max`.
+    /// Says whether anything is hit with `t_min < t < t_max`.
     pub fn occluded(&self, ray: &Ray) -> Occlusion {
         let verdict = self.closest(ray);
         let occluded = matches!(verdict.outcome, Outcome::Hit { .. });
@@ -230,7 +230,7 @@ impl<'a> Oracle<'a> {
         found.contacts.push((slot, contact));
     }
 
-    /// What is left of a contact where the ray passes backs: nothing of a back that single precision sees as well. Where
+    /// Rest of a contact where the ray passes backs: nothing of a back that single precision sees as well. Where
     /// rounding decides the side, the triangle may be reported, and promises nothing.
     fn met(&self, ray: &Ray, slot: usize, contact: Contact) -> Option<Contact> {
         let back = self.backs.get(slot).copied().flatten().filter(|_| ray.culls_back_faces);

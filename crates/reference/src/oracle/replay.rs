@@ -6,7 +6,7 @@ use super::contact::{Contact, ContactTest};
 use super::exact::{self, Point};
 use super::{Oracle, Outcome, Ray, Verdict};
 
-/// What a triangle is to a ray.
+/// Relation of a triangle to a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TestClass {
     /// A hit that every careful single-precision test finds.
@@ -39,7 +39,7 @@ pub struct TestedTriangle {
     /// Signs of the exact edge determinants, each edge named by the vertex opposite; inside where no two
     /// differ strictly.
     pub signs: [i32; 3],
-    /// What it is to the ray.
+    /// Its relation to the ray.
     pub class: TestClass,
     /// t of the plane, and the interval that single precision may report; `None` where the ray passes outside of
     /// by more than rounding.
@@ -57,7 +57,7 @@ pub struct VisitedNode {
     pub triangles: usize,
 }
 
-/// What [`Oracle::closest`] does for one ray.
+/// Steps of [`Oracle::closest`] for one ray.
 #[derive(Clone, Debug)]
 pub struct OracleReplay {
     /// The ray.

@@ -1,4 +1,4 @@
-//! What the oracle says of single rays and meshes; that closed ones do not leak is in `watertight`.
+//! Verdicts of the oracle on single rays and meshes; that closed ones do not leak is in `watertight`.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-/// What a ray hits, in exact arithmetic.
+/// Hit or miss of a ray, in exact arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
     /// The nearest hit.
@@ -33,7 +33,7 @@ pub struct Candidate {
     pub t_low: f64,
     /// Greatest t that may be reported.
     pub t_high: f64,
-    /// Whether the test must find this triangle, unless another one lies in front.
+    /// True if the test must find this triangle, unless another one lies in front.
     pub certain: bool,
 }
 

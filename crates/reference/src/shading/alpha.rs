@@ -1,4 +1,4 @@
-//! Whether a point of a triangle is there at all.
+//! Alpha tests: they decide whether a point of a triangle is there at all.
 
 use glam::Vec2;
 use rasray_scene::AlphaMode;

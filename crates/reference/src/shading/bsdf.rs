@@ -1,4 +1,4 @@
-//! How a surface scatters: value, density and sampling of its lobes.
+//! Scattering at a surface: value, density and sampling of its lobes.
 //!
 //! Diffuse and GGX reflection, thin-wall and volume transmission, with what the facets send out after
 //! several scatterings; below [`SMOOTH_ROUGHNESS`] the
@@ -36,7 +36,7 @@ pub struct BsdfSample {
     pub transmitted: bool,
 }
 
-/// What the rough microfacet family does towards a direction.
+/// The rough microfacet family towards a direction.
 struct Facets {
     /// Of o at the facet.
     cosine: f32,
@@ -123,8 +123,8 @@ fn side_of(surface: &Surface, world_i: Vec3, cosine: f32) -> Option<Side> {
     }
 }
 
-/// What leaves towards a direction, cosine included, in 1/sr: families lie around different normals where one was bent.
-/// And the density with which [`bsdf_sample`] answers it. Delta lobes are left out.
+/// Light that leaves towards a direction, cosine included, in 1/sr: families lie around different normals where one was
+/// bent. And the density with which [`bsdf_sample`] answers it. Delta lobes are left out.
 fn towards(terms: &Terms, surface: &Surface, i: Vec3) -> (Vec3, f32) {
     let (mut value, mut pdf) = (Vec3::ZERO, 0.0);
     if terms.o.z <= 0.0 {
@@ -148,13 +148,13 @@ fn towards(terms: &Terms, surface: &Surface, i: Vec3) -> (Vec3, f32) {
     (value + facets.value * local.z.abs() * colour, pdf + (1.0 - family) * facets.pdf * share)
 }
 
-/// What leaves towards `i` of the light from `o`, times the cosine of `i` at the normal of its lobe; 1/sr. Delta lobes are
+/// Light from `o` that leaves towards `i`, times the cosine of `i` at the normal of its lobe; 1/sr. Delta lobes are
 /// left out. `o` and `i` are unit and point away.
 pub fn bsdf_times_cosine(surface: &Surface, o: Vec3, i: Vec3) -> Vec3 {
     towards(&Terms::new(surface, o), surface, i).0
 }
 
-/// The same, cosine at the shading normal not included.
+/// [`bsdf_times_cosine`] over the cosine at the shading normal.
 pub fn bsdf_evaluate(surface: &Surface, o: Vec3, i: Vec3) -> Vec3 {
     let cosine = surface.normal.dot(i).abs();
     if cosine > 0.0 { bsdf_times_cosine(surface, o, i) / cosine } else { Vec3::ZERO }
@@ -165,7 +165,7 @@ pub fn bsdf_pdf(surface: &Surface, o: Vec3, i: Vec3) -> f32 {
     towards(&Terms::new(surface, o), surface, i).1
 }
 
-/// Whether a surface scatters otherwise than in one direction; `o` as in [`bsdf_times_cosine`].
+/// True if a surface scatters otherwise than in one direction; `o` as in [`bsdf_times_cosine`].
 pub fn bsdf_is_rough(surface: &Surface, o: Vec3) -> bool {
     let terms = Terms::new(surface, o);
     terms.cosine_probability().family > 0.0 || !terms.mirror

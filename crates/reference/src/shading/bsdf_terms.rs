@@ -1,5 +1,5 @@
-//! What scattering at one surface towards one direction needs to know: shares, probabilities and the light that leaves
-//! the facets after several scatterings.
+//! Terms of scattering at one surface towards one direction: shares, probabilities and the light that leaves the facets
+//! after several scatterings.
 
 use std::f32::consts::PI;
 
@@ -19,7 +19,7 @@ pub const SMOOTH_ROUGHNESS: f32 = 0.03;
 const STRAIGHT_INDEX: f32 = 1.0e-3;
 /// Bounds of the probability of the cosine family where both families exist.
 const COSINE_BOUNDS: (f32, f32) = (0.05, 0.95);
-/// How often its share of the light that probability may be at its lower bound.
+/// Multiple of its share of the light that this probability may be at its lower bound.
 const COSINE_FACTOR: f32 = 4.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +43,7 @@ pub struct Terms {
     /// Index on the side of o over the index on the other side; 1: straight on.
     pub eta: f32,
     pub mirror: bool,
-    /// What goes straight through is followed apart, and is in no lobe.
+    /// Light that goes straight through is followed apart, and is in no lobe.
     pane: bool,
     /// World from local; z is the normal of the facets.
     pub frame: Mat3,
@@ -56,7 +56,7 @@ pub struct Terms {
     energy: Energy,
 }
 
-/// What becomes of light that one scattering at the boundary of a rough volume loses.
+/// Light that one scattering at the boundary of a rough volume loses, and where it goes.
 struct Glass {
     table: &'static glass_albedo::Table,
     roughness: f32,
@@ -71,7 +71,7 @@ struct Glass {
     passed: Vec3,
 }
 
-/// What becomes of light that one scattering at the facets loses.
+/// Light that one scattering at the facets loses, and where it goes.
 #[derive(Default)]
 struct Energy {
     /// Share that is lost from o, and its mean over the hemisphere.
@@ -289,7 +289,7 @@ impl Terms {
         (1.0 - self.metallic) * (1.0 - self.transmission)
     }
 
-    /// What left the boundary of a rough volume after several scatterings; 1/sr.
+    /// Light that left the boundary of a rough volume after several scatterings; 1/sr.
     fn several_in_glass(&self, cosine: f32, side: Side) -> Vec3 {
         let Some(glass) = self.glass.as_ref().filter(|glass| glass.mean > 0.0) else { return Vec3::ZERO };
         let share = |block| glass.loss * glass.table.share(block, glass.roughness, cosine) / PI;

@@ -10,7 +10,7 @@ use super::{
     },
 };
 
-/// What is rendered.
+/// Camera, size, samples and seed of an image.
 #[derive(Clone, Debug)]
 pub struct View {
     /// Placement and projection, world.

@@ -1,4 +1,4 @@
-//! How photons leave the lights.
+//! Emission of photons from the lights.
 
 use std::f32::consts::PI;
 

@@ -80,7 +80,7 @@ impl EnvironmentTable {
         }
     }
 
-    /// Whether light samples are worth taking.
+    /// True if light samples are worth taking.
     pub fn is_sampled(&self) -> bool {
         self.sampled
     }

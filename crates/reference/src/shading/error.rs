@@ -10,9 +10,9 @@ pub enum ReferenceError {
     /// The scene names something that it does not have.
     #[error("{what}, but the scene has {count}; load it through the scene crate, which checks this")]
     Malformed {
-        /// What is named where.
+        /// The mismatch, such as `instance a names mesh 3`.
         what: String,
-        /// How many there are.
+        /// Number that the scene has.
         count: usize,
     },
     /// Posed positions given from outside do not fit the scene.
@@ -20,9 +20,9 @@ pub enum ReferenceError {
         "{given} posed positions were given for a scene of {expected}; pass one for each vertex of each instance"
     )]
     PositionCount {
-        /// How many were given.
+        /// Number of positions given.
         given: usize,
-        /// How many the scene has.
+        /// Number of positions of the scene.
         expected: usize,
     },
     /// An image without pixels or samples.

@@ -1,6 +1,6 @@
-//! What rough glass loses in one scattering, tabulated for every index and reflectance that is asked for. After Kulla and
-//! Conty 2017. The points are those of the shaders' tables, so that the two differ by rounding alone; tests integrate in
-//! another way.
+//! Light that rough glass loses in one scattering, tabulated for every index and reflectance that is asked for. After
+//! Kulla and Conty 2017. The points are those of the shaders' tables, so that the two differ by rounding alone; tests
+//! integrate in another way.
 
 use std::{
     collections::HashMap,
@@ -17,7 +17,7 @@ const STEP: usize = 1597;
 /// Share of the light, a row for every roughness.
 type Rows = [[f32; STEPS + 1]; STEPS + 1];
 
-/// What is tabulated.
+/// Quantity that is tabulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Block {
     /// Lost where light arrives at the front.

@@ -1,4 +1,4 @@
-//! What lies between a hit and its radiance, computed naively from the scene model.
+//! Shading from a hit to its radiance, computed naively from the scene model.
 //!
 //! The mathematics is that of `docs/shading.md` and is written a second time here, in single precision
 //! and in the order of the shaders, because the outcome of a random choice depends on it. Nothing

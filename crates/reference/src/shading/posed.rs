@@ -181,7 +181,7 @@ impl<'a> PosedScene<'a> {
         color.powf(distance / unit)
     }
 
-    /// Whether any draw needs the alpha test.
+    /// True if any draw needs the alpha test.
     pub fn has_alpha_masks(&self) -> bool {
         self.draws.iter().any(|draw| matches!(self.material(draw).alpha_mode, AlphaMode::Mask { .. }))
     }

@@ -1,4 +1,4 @@
-//! How rays leave a surface without hitting it again through rounding.
+//! Start of rays that leave a surface without hitting it again through rounding.
 
 use glam::Vec3;
 

@@ -10,7 +10,7 @@ use super::{
     triangle::{barycentric_weights, triangle_normal, triangle_point},
 };
 
-/// What is shaded.
+/// A point of a surface that is shaded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
     /// Metres relative to the frame origin.
@@ -31,7 +31,7 @@ pub struct Surface {
     pub emission: Vec3,
     /// Perceptual, in [0, 1].
     pub roughness: f32,
-    /// How much rougher facets are along `rougher`, in [0, 1].
+    /// Strength of the additional roughness of facets along `rougher`, in [0, 1].
     pub anisotropy: f32,
     /// Not normalised; read where there is anisotropy.
     pub rougher: Vec3,
@@ -43,7 +43,7 @@ pub struct Surface {
     pub opacity: f32,
     /// Metres; 0 is a thin wall.
     pub thickness: f32,
-    /// What the surface lets through in a straight line, as a smooth thin wall, is followed apart: scattering leaves it out.
+    /// Light through it in a straight line, as through a smooth thin wall, is followed apart: scattering leaves it out.
     pub is_pane: bool,
     /// Reflects by Ward's lobe where it lets no light through.
     pub is_ward: bool,
@@ -163,7 +163,7 @@ fn shading_normal(interpolated: Vec3, geometric_normal: Vec3) -> Vec3 {
 }
 
 impl PosedScene<'_> {
-    /// What `ray` hits at `t` metres on a triangle; `barycentrics` are the weights of vertices 1 and 2.
+    /// Surface that `ray` hits at `t` metres on a triangle; `barycentrics` are the weights of vertices 1 and 2.
     pub fn surface(&self, ray: &Ray, t: f32, primitive: u32, barycentrics: Vec2) -> Surface {
         let draw = self.draw_of(primitive);
         let material = self.material(draw);

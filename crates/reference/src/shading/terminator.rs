@@ -1,4 +1,4 @@
-//! What light samples see of smooth triangles.
+//! The surface that light samples see of smooth triangles.
 
 use glam::Vec3;
 

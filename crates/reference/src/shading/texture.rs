@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::{DVec2, Vec2, Vec3, Vec4};
 use rasray_scene::{Filter, Image, Scene, TextureRef, Wrap};
 
-/// What the red, green and blue of an image mean.
+/// Encoding of the red, green and blue of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Use {
     /// sRGB.

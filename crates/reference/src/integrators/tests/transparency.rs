@@ -62,8 +62,8 @@ fn blended_surfaces_let_their_share_pass() {
     assert_mean(&image, 0.7, 0.0, 0.04);
 }
 
-/// What lies behind a blended sheet is lit through it, by light samples and by scattered rays: the floor sees the sky with
-/// 0.7 of its light, and is itself seen with 0.7.
+/// A floor behind a blended sheet is lit through it, by light samples and by scattered rays: it sees the sky with 0.7
+/// of its light, and is itself seen with 0.7.
 #[test]
 fn light_through_a_blended_sheet_is_counted_once() {
     let blended = Material { base_color: [0.0, 0.0, 0.0, 0.3], alpha_mode: AlphaMode::Blend, ..diffuse(0.0) };

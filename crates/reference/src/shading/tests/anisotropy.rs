@@ -55,8 +55,8 @@ fn facets_are_rougher_along_one_direction_as_the_extension_says() {
     }
 }
 
-/// What is lost is made up for as if facets were as rough on average in all directions: what a white metal sends back is right
-/// over the hemisphere, and not from every angle.
+/// Lost light is made up for as if facets were as rough on average in all directions: the light that a white metal
+/// sends back is right over the hemisphere, and not from every angle.
 #[test]
 fn white_brushed_metals_lose_little() {
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);

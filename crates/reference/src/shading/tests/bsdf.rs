@@ -166,7 +166,7 @@ fn weights_are_value_times_cosine_over_density() {
 }
 
 pub(super) fn directional_albedo(surface: &Surface, o: Vec3) -> f64 {
-    // What little roughness refracts straight on is narrow.
+    // Light that little roughness refracts straight on is narrow.
     let narrow = surface.thickness > 0.0 && surface.roughness < 0.2;
     over_sphere_in_rows(if narrow { 2160 } else { 720 }, o, |i| {
         [f64::from(bsdf_evaluate(surface, o, i).max_element() * i.z.abs())]
