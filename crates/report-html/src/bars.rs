@@ -37,7 +37,7 @@ struct Part<'a> {
     words: String,
 }
 
-/// What a pass took of the figure that it is a part of.
+/// Milliseconds of a pass in the figure that it is a part of.
 fn share(pass: &Pass) -> f64 {
     pass.ms_share.unwrap_or(pass.ms_median)
 }

@@ -50,7 +50,7 @@ fn part_table(body: &mut Markup, experiment: &Experiment) {
                     cells.leaf("td", &[], row.setting(name));
                 }
                 for column in &columns {
-                    // What a click on the heading sorts by; null stays at the end.
+                    // Number that a click on the heading sorts by; null stays at the end.
                     let value = row.results.get(column.name).map_or("null".to_owned(), f64::to_string);
                     let attributes = [("class", "number"), ("data-value", value.as_str())];
                     cells.leaf("td", &attributes, column.of(row));

@@ -60,7 +60,7 @@ const WRONG: Measure = Measure {
 const FLIP: Measure =
     Measure { name: "image.flip_mean", title: "FLIP", words: "FLIP, mean", spread: None, is_error: true };
 
-/// What a row is called where others differ from it in these settings.
+/// Name of a row where others differ from it in these settings.
 struct Label {
     /// System, preset, options.
     contestant: String,
@@ -145,7 +145,7 @@ fn parameters(experiment: &Experiment) -> Vec<&str> {
     experiment.varied().into_iter().filter(is_parameter).collect()
 }
 
-/// What stands under each name, in order of appearance.
+/// Values under names, in order of appearance.
 type Named<T> = Vec<(String, T)>;
 
 /// Rows with the result, by two names of theirs.
@@ -163,7 +163,7 @@ fn grouped<'a>(
     groups
 }
 
-/// What stands under a name, made where there is nothing.
+/// Value under a name, made where there is none.
 fn place_of<T: Default>(named: &mut Named<T>, name: String) -> &mut T {
     let place = named.iter().position(|(other, _)| *other == name).unwrap_or_else(|| {
         named.push((name, T::default()));
@@ -277,7 +277,7 @@ fn scatter(anchor: &str, experiment: &Experiment, speed: &Measure, error: &Measu
         grouped(experiment, speed, names)
     };
     let mut groups = groups_by(|label| (label.contestant, label.workload));
-    // What has no other beside it is told apart by what it was asked for.
+    // A single contestant is told apart by its workloads.
     if groups.len() == 1 {
         groups = groups_by(|label| (label.workload, label.contestant));
     }

@@ -1,4 +1,4 @@
-//! How |dt|/t is distributed: histograms, and percentiles next to each other.
+//! Distribution of |dt|/t: histograms, and percentiles next to each other.
 
 use super::axes;
 use super::coincide::{Curve, covered, sentence};

@@ -10,11 +10,11 @@ use std::borrow::Cow;
 const POLICY: &str =
     "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
-/// What heads a page.
+/// Head of a page.
 pub(super) struct Head<'a> {
     /// The command whose page it is.
     pub command: &'static str,
-    /// What it is about.
+    /// Its subject.
     pub subject: &'a str,
     /// Names and what is to be known by them.
     pub facts: Vec<(&'static str, Cow<'a, str>)>,

@@ -38,7 +38,7 @@ pub(super) fn section(report: &Report) -> Option<Section> {
     Some(Section::new("hard-cases", "Hard cases", body))
 }
 
-/// How many cases each contestant passed.
+/// Number of cases that each contestant passed.
 fn scores(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
     let mut names: Vec<String> = Vec::new();
     for (run, _) in runs {

@@ -68,7 +68,7 @@ fn check(report: &Report, figures: &Figures) -> Result<(), HtmlError> {
     }
 }
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

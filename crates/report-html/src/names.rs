@@ -1,4 +1,4 @@
-//! How runs are named, grouped and coloured, the same in every part of the page.
+//! Names, groups and colours of runs, the same in every part of the page.
 
 use rasray_report::{Run, grouped};
 
@@ -10,7 +10,7 @@ const COLOURS: [&str; 8] =
 /// Hard cases up to which each gets plots of its own.
 pub(super) const MOST_HARD_CASES: usize = 4;
 
-/// How many different hard cases were traced.
+/// Number of different hard cases that were traced.
 pub(super) fn hard_cases(runs: &[Run]) -> usize {
     let mut cases: Vec<&str> = runs.iter().filter_map(|run| Some(run.hard.as_ref()?.id.as_str())).collect();
     cases.sort_unstable();
@@ -18,7 +18,7 @@ pub(super) fn hard_cases(runs: &[Run]) -> usize {
     cases.len()
 }
 
-/// What the run's rays are: a hard case, the name of a ray set, or the integrator of an image.
+/// Workload of a run: a hard case, the name of a ray set, or the integrator of an image.
 pub(super) fn workload(run: &Run) -> String {
     if let Some(hard) = &run.hard {
         return format!("hard:{}", hard.id);
@@ -45,7 +45,7 @@ pub(super) fn by_workload(runs: &[Run]) -> Vec<(String, Vec<usize>)> {
     groups
 }
 
-/// How a run is drawn: one colour a system, one symbol and dash a preset.
+/// Look of a run: one colour a system, one symbol and dash a preset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Look {
     /// `#rrggbb`.
@@ -69,7 +69,7 @@ pub(super) fn look(runs: &[Run], run: &Run) -> Look {
     }
 }
 
-/// How many different names come before `wanted`.
+/// Number of different names before `wanted`.
 fn position<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> usize {
     let mut seen: Vec<&str> = Vec::new();
     for name in names.take_while(|name| *name != wanted) {

@@ -1,4 +1,4 @@
-// What the page does with a script: draws plots, sorts the summary table, slides between images.
+// The script of the page: draws plots, sorts the summary table, slides between images.
 // Every part of the page that is not there is skipped.
 (() => {
   "use strict";

@@ -11,7 +11,7 @@ pub(super) struct Section {
     pub id: Cow<'static, str>,
     /// Its heading.
     pub title: Cow<'static, str>,
-    /// What it holds.
+    /// Its contents.
     pub body: Markup,
     /// Plots whose places are in `body`.
     pub plots: Vec<Plot>,
@@ -59,7 +59,7 @@ pub(super) struct Plot {
     pub title: String,
     /// More about how it is drawn, or nothing.
     pub note: String,
-    /// What it shows, in words, for those who cannot see it.
+    /// Description in words, for those who cannot see it.
     pub description: String,
     /// Pixels from top to bottom.
     pub height: usize,
@@ -91,7 +91,7 @@ impl Plot {
         body.fixed("\n");
     }
 
-    /// What the page's script draws.
+    /// Value that the page's script draws.
     pub fn value(&self) -> Value {
         json!({"id": self.id, "data": self.data, "layout": self.layout})
     }

@@ -16,9 +16,9 @@ struct Entry<'a> {
     run: &'a Run,
     /// Where it stands from left to right.
     x: f64,
-    /// How fast it is: more is better.
+    /// Speed: more is better.
     speed: f64,
-    /// What was measured.
+    /// The error that was measured.
     error: f64,
     /// The error's interval, where there is one.
     interval: Option<[f64; 2]>,
@@ -26,13 +26,13 @@ struct Entry<'a> {
     note: String,
 }
 
-/// What a plot's axes are.
+/// Axes of a plot.
 struct Measure {
     id: &'static str,
     title: &'static str,
     x: &'static str,
     y: &'static str,
-    /// Whether a faster run stands to the right.
+    /// True if a faster run stands to the right.
     faster_is_right: bool,
     /// Where errors too small to be told from zero are drawn; absent on an axis that has a zero.
     floor: Option<f64>,
@@ -192,7 +192,7 @@ fn front_line(mut steps: Vec<[f64; 2]>, faster_is_right: bool, x: &Value, y: &Va
     })
 }
 
-/// What to know of the floor, and its line in the plot.
+/// Note on the floor, and its line in the plot.
 fn caption(floor: Option<f64>, rays: Option<u64>) -> (String, Vec<Value>) {
     let Some(floor) = floor else { return (String::new(), Vec::new()) };
     let note = match rays {

@@ -7,11 +7,11 @@ use super::sortable::{Heading, table};
 use rasray_report::{Accuracy, Counters, ImageError, ListRecord, RateRecord, Report, Run, Statistics};
 use rasray_report::{bytes, grouped};
 
-/// What a cell says and what it is sorted by.
+/// Text of a cell and the value it is sorted by.
 struct Cell {
     text: String,
     value: f64,
-    /// How sure the value is, in small print.
+    /// Confidence of the value, in small print.
     range: Option<String>,
 }
 
@@ -30,7 +30,7 @@ struct Column {
     heading: &'static str,
     meaning: &'static str,
     cell: fn(&Run) -> Option<Cell>,
-    /// Whether it stands beside speed and error in the first table, which is as wide as a page; the others have one of
+    /// True if it stands beside speed and error in the first table, which is as wide as a page; the others have one of
     /// their own.
     is_main: bool,
 }
@@ -81,7 +81,7 @@ fn counter<T>(run: &Run, field: impl Fn(&Counters) -> Option<T>) -> Option<T> {
     run.counters.as_ref().and_then(field)
 }
 
-/// What the lists of all cells hold.
+/// Counts of the lists of all cells.
 fn all_lists(run: &Run) -> Option<&ListRecord> {
     run.counters.as_ref()?.lists.first()
 }
@@ -329,7 +329,7 @@ pub(super) fn section(report: &Report) -> Option<Section> {
     Some(Section::new("summary", "Summary", body))
 }
 
-/// How sure the rates are, one by one and together.
+/// Writes the confidence of the rates, one by one and together.
 fn certainty(body: &mut Markup, statistics: &Statistics) {
     let percent = |part: f64| {
         let digits = format!("{:.4}", 100.0 * part);

@@ -1,4 +1,4 @@
-//! What each pixel's ray cost: heat maps of cells, entries and tests on one scale a quantity.
+//! Work of each pixel's ray: heat maps of cells, entries and tests on one scale a quantity.
 
 use super::markup::Markup;
 use super::picture::{address, ramp};

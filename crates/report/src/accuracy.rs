@@ -1,5 +1,4 @@
-//! How right a run was: hits against the oracle, images against the reference, hard cases against what
-//! is stated of them.
+//! Accuracy of a run: hits against the oracle, images against the reference, hard cases against what is stated of them.
 
 use crate::absent::absent;
 use rasray_metrics::{HitConfusion, Rate};
@@ -90,22 +89,22 @@ impl From<&HitConfusion> for Accuracy {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RateRecord {
-    /// How often it happened.
+    /// Times that the event happened.
     pub count: u64,
-    /// How often it could have happened, at least 1.
+    /// Trials, at least 1.
     pub of: u64,
     /// `count / of`.
     pub rate: f64,
-    /// How the intervals were made.
+    /// Method of the intervals.
     pub bound: Bound,
     /// Where the true rate lies with 95 % confidence.
     pub interval: [f64; 2],
-    /// The same such that all rates of the report hold together, see [`crate::Statistics`].
+    /// Such an interval with which all rates of the report hold together, see [`crate::Statistics`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub family_interval: Option<[f64; 2]>,
 }
 
-/// How an interval was made.
+/// Method of an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Bound {
@@ -178,21 +177,21 @@ pub struct ImageError {
     pub non_finite: Option<u64>,
 }
 
-/// What a hard case demands and whether a run passes.
+/// Target of a hard case and whether a run meets it.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HardRecord {
     /// The case.
     pub id: String,
-    /// What it is.
+    /// One line that describes it.
     pub title: String,
-    /// What is looked at.
+    /// The quantity that is measured.
     pub measure: String,
-    /// What is demanded of structures of this kind.
+    /// Demand on structures of this kind.
     pub target: String,
     /// Triangles of the case; those that loaders drop included.
     pub triangles: u64,
-    /// Whether the target was met; absent where one run cannot tell.
+    /// True if the target was met; absent where one run cannot tell.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub met: Option<bool>,
     /// Why.

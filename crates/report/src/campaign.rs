@@ -5,7 +5,7 @@ use crate::{Cell, Device, ExperimentRecord, Report, Run};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a campaign measured.
+/// Results of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Campaign {
     /// One line.
@@ -30,7 +30,7 @@ pub struct Experiment {
 /// A cell and what came of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// What the run is known by.
+    /// Key of the run.
     pub key: String,
     /// By name, such as `scene`, `system`, `samples` or `ray-set`; what a cell does not have is absent.
     pub settings: BTreeMap<String, String>,
@@ -59,7 +59,7 @@ const AFTER: [&str; 11] = [
     "repetitions",
 ];
 
-/// What a plan says that is seen by what there is.
+/// Settings of a plan that are evident from its cells.
 const SEEN: [&str; 2] = ["image", "statistics"];
 
 /// Fields of a run that say how it was made, not what came of it.
@@ -154,7 +154,7 @@ impl Row {
     }
 }
 
-/// What a cell is made with, by the names of the command's options.
+/// Settings of a cell, by the names of the command's options.
 pub fn cell_settings(cell: &Cell) -> BTreeMap<String, String> {
     let mut settings = BTreeMap::new();
     let mut set = |name: &str, value: Option<String>| {
@@ -303,7 +303,7 @@ pub(crate) mod tests {
         let parts = first.parts();
         let shape: Vec<_> = parts.iter().map(|part| (part.rows.len(), part.varied())).collect();
         assert_eq!(shape, [(2, vec!["system", "samples"]), (1, vec![])]);
-        // What the plan says and a cell does not.
+        // A setting that the plan has and the cell has not.
         assert_eq!(campaign.experiments[1].rows[0].setting("environment"), "sky1.hdr");
         assert_eq!(Campaign::of(&[Report { cell: None, ..lines[0].clone() }]), None);
     }

@@ -10,12 +10,12 @@ pub struct Column {
     pub name: &'static str,
     /// Heads the column.
     pub head: &'static str,
-    /// What it means, one line.
+    /// Meaning, one line.
     pub meaning: &'static str,
     form: Form,
 }
 
-/// How a number is written.
+/// Form in which a number is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     /// Three digits that count.
@@ -106,7 +106,7 @@ impl Experiment {
         COLUMNS.into_iter().filter(has).collect()
     }
 
-    /// What all rows have in common, in words; empty without rows.
+    /// Settings that all rows share, in words; empty without rows.
     pub fn common(&self) -> String {
         let Some(first) = self.rows.first() else { return String::new() };
         let varied = self.varied();

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What one run of a comparison depends on: one system on one set of rays, or the image of one system.
+/// Settings that one run of a comparison depends on: one system on one set of rays, or the image of one system.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cell {
@@ -20,7 +20,7 @@ pub struct Cell {
     /// From where it is seen; absent for hard cases, which have an eye of their own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<CellView>,
-    /// What is uploaded and compiled in, by name; absent for hard cases, where it is everything.
+    /// Data that is uploaded and compiled in, by name; absent for hard cases, where it is everything.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub needs: Option<Vec<String>>,
     /// Such as `mmrt`; of a file of hits its name in the report.
@@ -36,13 +36,13 @@ pub struct Cell {
     /// Hash of the hits of a file; absent where rays are traced.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hits: Option<String>,
-    /// What is traced; absent for images, and for files that are only loaded.
+    /// Rays that are traced; absent for images, and for files that are only loaded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rays: Option<CellRays>,
-    /// What is rendered; absent for rays.
+    /// Image that is rendered; absent for rays.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<CellImage>,
-    /// Whether what the structure's lists hold was counted.
+    /// True if the contents of the structure's lists were counted.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub lists: bool,
     /// Seed of all random numbers.
@@ -92,9 +92,9 @@ pub struct CellImage {
     pub adaptive: Option<String>,
     /// Where random numbers come from.
     pub sampler: String,
-    /// How what the camera sees first is found.
+    /// Way in which first hits of camera rays are found.
     pub primary: String,
-    /// What answers shadow rays.
+    /// Occluder of shadow rays.
     pub occluder: String,
     /// Texels along a side of a shadow map, where it is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -108,18 +108,18 @@ pub struct CellImage {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CellRecord {
-    /// What the run is known by, 64 hexadecimal digits: a hash of the program and of all that it depends on.
+    /// Key of the run, 64 hexadecimal digits: a hash of the program and of all that it depends on.
     pub key: String,
     /// Place in the list of the comparison, from 0.
     pub place: u32,
     /// Cells of the list.
     pub cells: u32,
-    /// The same for all cells of the list: a hash of their keys.
+    /// Key of the list, equal for all its cells: a hash of their keys.
     pub list: String,
     /// The campaign that asked for it; absent for a comparison.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub campaign: Option<CampaignRecord>,
-    /// What the run depends on.
+    /// Settings that the run depends on.
     pub depends_on: Cell,
 }
 
@@ -141,7 +141,7 @@ pub struct ExperimentRecord {
     pub place: u32,
     /// One line.
     pub name: String,
-    /// What the plan says of the comparison of the cell, by the names of options, such as `environment`.
+    /// Settings of the plan for the comparison of the cell, by the names of options, such as `environment`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub settings: BTreeMap<String, String>,
 }

@@ -1,4 +1,4 @@
-//! What a run cost: times, bytes, and counts that do not depend on the machine.
+//! Cost of a run: times, bytes, and counts that do not depend on the machine.
 
 use crate::absent::absent;
 use serde::{Deserialize, Serialize};
@@ -20,7 +20,7 @@ pub struct Spread {
     pub max: f64,
 }
 
-/// What measured the times.
+/// Clock that measured the times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Timer {
@@ -33,7 +33,7 @@ pub enum Timer {
 /// The four figures, milliseconds, and the ray rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Times {
-    /// What measured them.
+    /// Clock that measured them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timer: Option<Timer>,
     /// Instances to posed positions.
@@ -55,7 +55,7 @@ pub struct Times {
     /// Rays in to hits out.
     #[serde(default, skip_serializing_if = "absent")]
     pub trace_ms: Option<f64>,
-    /// What the camera sees, found by drawing; absent where its rays were traced.
+    /// First hits of camera rays by drawing; absent where these were traced.
     #[serde(default, skip_serializing_if = "absent")]
     pub visible_ms: Option<f64>,
     /// All passes of an image on the device, traces, drawing and shading; absent for sets of rays.
@@ -80,7 +80,7 @@ pub struct StageTime {
     pub stage: String,
     /// Median.
     pub ms: f64,
-    /// How far the times lie apart.
+    /// Spread of the times.
     pub spread: Spread,
 }
 
@@ -108,7 +108,7 @@ pub struct Pass {
     /// The stage that it belongs to, as [`StageTime::stage`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stage: Option<String>,
-    /// What it is a part of.
+    /// The figure that it is a part of.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub of: Option<PassOf>,
     /// Its share of the figure that it is a part of: its time in the repetition whose time is that median, or the mean
@@ -159,10 +159,10 @@ pub struct Memory {
     /// Kept only to measure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diagnostic_bytes: Option<u64>,
-    /// What an image is made in: film, queues, states, and what draws; without structure, scene and shadow maps.
+    /// Bytes of buffers of an image: film, queues, states, and those of drawing; without structure, scene, shadow maps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame_bytes: Option<u64>,
-    /// The same per pixel of the image.
+    /// `frame_bytes` per pixel of the image.
     #[serde(default, skip_serializing_if = "absent")]
     pub frame_bytes_per_pixel: Option<f64>,
     /// Most that was allocated on the device at a time.
@@ -173,7 +173,7 @@ pub struct Memory {
     pub by_part: BTreeMap<String, u64>,
 }
 
-/// What the lists of some cells of a structure hold.
+/// Counts of the lists of some cells of a structure.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ListRecord {
@@ -183,7 +183,7 @@ pub struct ListRecord {
     pub cells: u64,
     /// Those that hold something; of voxels, those that rays search.
     pub occupied: u64,
-    /// What all these cells hold: fragments, or triangles, each once per cell.
+    /// Fragments in all these cells, or triangles, each once per cell.
     pub layers: u64,
     /// Mean over the occupied cells; absent where there are none.
     #[serde(default, skip_serializing_if = "absent")]
@@ -215,7 +215,7 @@ pub struct Counters {
     /// List entries stored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub entries: Option<u64>,
-    /// What the lists of the structure's cells hold: all together first, then view by view.
+    /// Counts of the lists of the structure's cells: all together first, then view by view.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lists: Vec<ListRecord>,
     /// List entries or tree nodes read per ray.

@@ -1,4 +1,4 @@
-//! What a page shows and the JSON leaves out: images, and the work of single rays.
+//! Figures that a page shows and the JSON leaves out: images, and the work of single rays.
 
 /// Pictures and maps of a comparison; `run` is always a position in [`crate::Report::runs`].
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,7 +12,7 @@ pub struct Figures {
 }
 
 impl Figures {
-    /// The same where runs are at other positions, which `place` gives.
+    /// Moves runs to other positions, which `place` gives.
     #[must_use]
     pub fn moved(mut self, place: impl Fn(usize) -> usize) -> Self {
         let images =
@@ -48,7 +48,7 @@ pub struct SystemImage {
     pub flip: Vec<f32>,
 }
 
-/// What the ray through each pixel's centre cost, rows from the top.
+/// Work of the ray through each pixel's centre, rows from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WorkMap {
     /// The run.
@@ -65,7 +65,7 @@ pub struct WorkMap {
     pub tests: Vec<u32>,
 }
 
-/// How |dt|/t is distributed over hits that the system and the oracle share.
+/// Distribution of |dt|/t over hits that the system and the oracle share.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DepthErrors {
     /// The run.

@@ -1,4 +1,4 @@
-//! What was measured, as data: the schema `rasray-report/1`, which the command and the full tier of the tests write; and as
+//! Measurements as data: the schema `rasray-report/1`, which the command and the full tier of the tests write; and as
 //! text: tables for terminals ([`table()`]), and for pages in Markdown ([`markdown()`]).
 
 mod absent;
@@ -44,7 +44,7 @@ const CONFIDENCE: f64 = 0.95;
 /// Confidence that all family intervals of a report hold.
 const FAMILY_CONFIDENCE: f64 = 0.95;
 
-/// What makes a report.
+/// Program and command that made a report.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
     /// Version of the program.
@@ -74,7 +74,7 @@ impl Report {
         }
     }
 
-    /// The same with the camera that it was seen from.
+    /// Adds the camera that it was seen from.
     #[must_use]
     pub fn seen_from(mut self, camera: CameraRecord) -> Self {
         self.camera = Some(camera);
@@ -124,7 +124,7 @@ fn widen_intervals(runs: &mut [Run]) -> Option<Statistics> {
     })
 }
 
-/// What the readme shows compiles.
+/// Compiles the examples of the readme.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -37,7 +37,7 @@ fn interval(rate: &RateRecord) -> String {
     }
 }
 
-/// What lists hold as rows of a table, under their heads; no row where there are none.
+/// Counts of lists as rows of a table, under their heads; no row where there are none.
 pub fn list_rows(lists: &[ListRecord]) -> Vec<Vec<String>> {
     let head =
         ["cells of", "cells", "occupied", "layers", "on average", "at most", "entries", "slots", "unfilled"];
@@ -58,12 +58,12 @@ pub fn list_rows(lists: &[ListRecord]) -> Vec<Vec<String>> {
     heads.into_iter().chain(rows).collect()
 }
 
-/// Whether a target was met, in words.
+/// Verdict on a target, in words.
 pub(super) fn verdict(hard: &HardRecord) -> &'static str {
     hard.met.map_or("one run cannot tell", |met| if met { "met" } else { "NOT MET" })
 }
 
-/// What a run was.
+/// Description of a run.
 pub(super) fn heading(run: &Run) -> String {
     let mut text = run.contestant();
     for part in [&run.ray_set, &run.integrator].into_iter().flatten() {

@@ -26,7 +26,7 @@ pub struct Report {
     pub command: Option<String>,
     /// Where it ran.
     pub device: Device,
-    /// What it ran on.
+    /// The scene that it ran on.
     pub scene: SceneRecord,
     /// From where it was seen; absent for hard cases, which have an eye of their own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -34,7 +34,7 @@ pub struct Report {
     /// Of a comparison, which of its runs this is, where each has a line of its own; absent otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cell: Option<CellRecord>,
-    /// What the intervals of all rates hold together; absent where no rate was estimated.
+    /// Confidence of the intervals of all rates together; absent where no rate was estimated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statistics: Option<Statistics>,
     /// One entry per system, preset and ray set or image.
@@ -51,7 +51,7 @@ impl Report {
     }
 }
 
-/// How many rates a report estimates, and what must hold for all of them.
+/// Number of rates of a report, and the confidence in all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Statistics {
@@ -73,7 +73,7 @@ pub struct Device {
     pub name: String,
     /// Driver and its version.
     pub driver: String,
-    /// Whether it is a program on the processor: its times are for ratios on that device.
+    /// True if it is a program on the processor: its times are for ratios on that device.
     pub software: bool,
 }
 
@@ -137,7 +137,8 @@ pub struct FramesRecord {
     /// Which share of them the command makes, such as `2/8`; absent where it makes all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<String>,
-    /// The same for all shares, 64 hexadecimal digits: a hash of the first frame's key and of frames per second.
+    /// Key of the sequence, equal for all shares, 64 hexadecimal digits: a hash of the first frame's key and of frames
+    /// per second.
     pub key: String,
 }
 
@@ -219,8 +220,7 @@ pub struct Run {
     /// Why the system was taken, where none was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chosen: Option<String>,
-    /// What a picture is known by, 64 hexadecimal digits: a hash of everything that decides its values; absent for ray
-    /// sets.
+    /// Key of a picture, 64 hexadecimal digits: a hash of everything that decides its values; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub key: Option<String>,
     /// Which share of the samples was made, such as `2/8`; absent where all were.
@@ -228,7 +228,7 @@ pub struct Run {
     pub shard: Option<String>,
     /// Options as resolved from preset and command line.
     pub options: BTreeMap<String, Value>,
-    /// What the device decided: builder, coverage, atomics.
+    /// Choices of the device: builder, coverage, atomics.
     pub paths: BTreeMap<String, String>,
     /// Where the rays come from; absent for images.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -245,7 +245,7 @@ pub struct Run {
     /// Samples per pixel that were made.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spp: Option<u32>,
-    /// How samples were shared among the pixels, where some got more than others; then `spp` is the most that one could get.
+    /// Sharing of samples among the pixels, where some got more than others; then `spp` is the most that one could get.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<AdaptiveRecord>,
     /// Scatterings at most; absent unless paths are traced.
@@ -278,8 +278,7 @@ pub struct Run {
     /// Times and rate.
     #[serde(flatten)]
     pub times: Times,
-    /// How far repeated times lie apart, by the name of their median: `build_ms`, `build_host_ms`,
-    /// `trace_ms`.
+    /// Spread of repeated times, by the name of their median: `build_ms`, `build_host_ms`, `trace_ms`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub spread: BTreeMap<String, Spread>,
     /// Every stage that was timed, in the order of a frame.

@@ -63,7 +63,7 @@ fn summary(runs: &[Run], width: Option<usize>) -> String {
     width.map_or_else(|| columns(&rows, 1), |width| columns_within(&rows, 1, width))
 }
 
-/// How sure the rates are, one by one and together.
+/// Note on the confidence of the rates, one by one and together.
 fn certainty(statistics: &Statistics) -> String {
     format!(
         "<: upper end of the interval; intervals hold with {} % each (Clopper-Pearson; 3/N where nothing or everything happened); for all {} rates \
@@ -84,8 +84,8 @@ pub fn table(report: &Report, camera: Option<&str>, full: bool) -> String {
     table_within(report, camera, full, None)
 }
 
-/// The same in lines of at most `width` characters, where that is given: columns that do not fit come below in further blocks,
-/// and longer lines are broken between words, but for the camera's, which is there to be copied.
+/// [`table()`] in lines of at most `width` characters, where that is given: columns that do not fit come below in
+/// further blocks, and longer lines are broken between words, but for the camera's, which is there to be copied.
 pub fn table_within(report: &Report, camera: Option<&str>, full: bool, width: Option<usize>) -> String {
     let whole = unbroken(report, camera, full, width);
     let Some(width) = width else { return whole };
@@ -154,7 +154,7 @@ fn unbroken(report: &Report, camera: Option<&str>, full: bool, width: Option<usi
     text
 }
 
-/// What a run is and what it took, in two lines.
+/// A run and its times, in two lines.
 fn in_short(run: &Run) -> String {
     let times = &run.times;
     let took = |name: &str, value: Option<f64>| value.map(|value| format!("{name} {}", duration(value)));
@@ -213,7 +213,7 @@ mod tests {
         assert!(last.contains("brute-force robust eye") && last.trim_end().ends_with('-'), "{last}");
     }
 
-    /// What stands in the table stands there once, however narrow a terminal is.
+    /// Every cell of the table stands there once, however narrow a terminal is.
     #[test]
     fn a_table_fits_its_terminal() {
         let rate = RateRecord::of(Rate { count: 812, total: 199_000 }).expect("something was tried");

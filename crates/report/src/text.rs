@@ -8,12 +8,12 @@ pub fn shown(text: &str) -> Cow<'_, str> {
     written_out(text, &['\n', '\t'])
 }
 
-/// The same but for these characters.
+/// [`shown`], but for these characters.
 pub fn shown_but<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
     written_out(text, &[&['\n', '\t'], kept].concat())
 }
 
-/// The same for a name within a line, whose line breaks and tabs are written out as well.
+/// [`shown`] for a name within a line, whose line breaks and tabs are written out as well.
 pub fn in_line(text: &str) -> Cow<'_, str> {
     written_out(text, &[])
 }

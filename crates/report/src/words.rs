@@ -37,8 +37,8 @@ pub fn columns(rows: &[Vec<String>], left: usize) -> String {
     text
 }
 
-/// The same in lines of at most `width` characters where that can be: columns that do not fit beside the first `left` come
-/// below, in further blocks that repeat these.
+/// [`columns`] in lines of at most `width` characters where that can be: columns that do not fit beside the first
+/// `left` come below, in further blocks that repeat these.
 pub fn columns_within(rows: &[Vec<String>], left: usize, width: usize) -> String {
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
     let widest = |column: usize| {

@@ -143,7 +143,7 @@ fn numbers_that_change_change_the_page() {
     assert_eq!(page(&report, &figures), before, "the same report makes the same page");
 }
 
-/// What a bar chart shows: its title, and each bar's name with the sum of its parts.
+/// Contents of a bar chart: its title, and each bar's name with the sum of its parts.
 fn bars(page: &str, id: &str) -> Vec<(String, Vec<(String, f64)>)> {
     let start = "<script type=\"application/json\" id=\"plots\">";
     let plots = page.split(start).nth(1).and_then(|rest| rest.split("</script>").next()).expect("plots");
@@ -298,7 +298,7 @@ fn the_page_is_well_formed() {
     assert_eq!(page.matches(" alt=\"\"").count(), 2);
 }
 
-/// Whether every element that begins ends, in order; scripts and styles are skipped over.
+/// Checks that every element that begins ends, in order; scripts and styles are skipped over.
 fn well_formed(page: &str) -> Result<(), String> {
     const EMPTY: [&str; 4] = ["meta", "img", "input", "!doctype"];
     let mut open: Vec<&str> = Vec::new();

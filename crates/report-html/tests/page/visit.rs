@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// How long a browser may take on a busy machine before it is given up.
+/// Time that a browser may take on a busy machine before it is given up.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// What any page shows: how many plots there are, how many were drawn, and how far it scrolls sideways.
+/// Script that measures any page: the number of plots, the number drawn, and how far it scrolls sideways.
 pub const LOOK: &str = r##"<script>
 addEventListener("load", () => {
   // In a frame the answers go to the page around it, whose elements are the ones that are read.
@@ -30,10 +30,10 @@ pub fn browser() -> Option<PathBuf> {
         .find(|candidate| candidate.is_file())
 }
 
-/// What a page came to: its elements after the scripts ran, and what they complained about.
+/// Result of a visit: the elements after the scripts ran, and their complaints.
 pub struct Visit {
     elements: String,
-    /// What its scripts complained of.
+    /// Complaints of its scripts.
     pub complaints: Vec<String>,
 }
 
