@@ -7,7 +7,7 @@ use basisu::{DecodeFlags, SourceFormat, TargetFormat, Transcoder};
 use image::RgbaImage;
 use ktx2::{Header, LevelIndex, SupercompressionScheme};
 
-/// Whether bytes begin as a KTX2 file does.
+/// True if bytes begin as a KTX2 file does.
 pub(crate) fn is_ktx2(bytes: &[u8]) -> bool {
     bytes.starts_with(b"\xABKTX 20\xBB\r\n\x1A\n")
 }
@@ -15,7 +15,7 @@ pub(crate) fn is_ktx2(bytes: &[u8]) -> bool {
 /// Bytes that 4x4 texels of UASTC take.
 const BLOCK_BYTES: u64 = 16;
 
-/// What is wrong with an image, as a sentence about it goes on.
+/// Faults of an image, as words that follow its name.
 const DAMAGED: &str = "is damaged or cut short";
 const OTHER: &str = "is a KTX2 file of another kind than glTF has: one picture of ETC1S or UASTC texels; encode it anew with \
                      npx @gltf-transform/cli etc1s (or uastc)";

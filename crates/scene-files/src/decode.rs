@@ -14,7 +14,7 @@ use rasray_scene::{Image, SceneError, Warning};
 /// Longest side of an image, texels.
 const MAX_SIDE: u32 = 1 << 16;
 
-/// What is wrong with an image beyond that.
+/// Fault of an image beyond that.
 const TOO_LARGE: &str = "is too large to be decoded";
 
 /// Decodes a PNG, JPEG or KTX2 image (ETC1S or UASTC), told apart by its first bytes, to RGBA8 with the first
@@ -104,7 +104,7 @@ fn decode_as(
     format: ImageFormat,
     limits: &Limits,
 ) -> Result<DynamicImage, SceneError> {
-    // What a decoder says of its inner state helps nobody who has only the file.
+    // The inner state of a decoder helps nobody who has only the file.
     let failed = |error: image::ImageError| SceneError::Image {
         path: path.to_owned(),
         image: name.to_owned(),
@@ -136,7 +136,7 @@ fn check_size(path: &Path, name: &str, width: u32, height: u32, limits: &Limits)
     Limits::check(path, &what, pixels, limits.image_pixels, "image_pixels")
 }
 
-/// What a caught panic said.
+/// Message of a caught panic.
 pub(crate) fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
     panic
         .downcast_ref::<String>()

@@ -4,7 +4,7 @@
 //! index and unwrap freely, are never touched. Everything a file claims is checked here first:
 //! indices, types, byte ranges (in u128), the node graph (iteratively), references to other files.
 //!
-//! What the chosen scene does not need is not read: a buffer, image or accessor that only another part
+//! Only parts that the chosen scene needs are read: a buffer, image or accessor that only another part
 //! of the file refers to may be missing or broken.
 //!
 //! Units are taken as written: metres, radians, and for light the number in the file, which is

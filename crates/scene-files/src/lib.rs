@@ -27,7 +27,7 @@ pub use environment_map::load_environment;
 pub use limits::{Limits, LoadOptions, SceneChoice};
 pub use load::load;
 
-/// What the readme shows compiles.
+/// Examples of the readme, compiled.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,4 +1,4 @@
-//! How much a scene file may ask for, and which scene of it is meant.
+//! Limits of what a scene file may ask for, and the choice of a scene of it.
 
 use std::path::Path;
 
@@ -77,10 +77,10 @@ pub enum SceneChoice {
     Name(String),
 }
 
-/// How a scene is loaded.
+/// Options of loading a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadOptions {
-    /// What a file may ask for.
+    /// Limits of what a file may ask for.
     pub limits: Limits,
     /// Which scene of the file.
     pub scene: SceneChoice,

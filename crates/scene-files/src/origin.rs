@@ -26,18 +26,18 @@ use rasray_scene::{Instance, Material, Mesh, Texture, Wrap};
 /// See the module's documentation.
 const FAR: f64 = 8.0;
 
-/// How many times as wide as the boxes on either side the gap between groups of a mesh is where they lie apart.
+/// Width of the gap between groups of a mesh that lie apart, over that of the boxes on either side.
 const APART: f64 = 32.0;
 
-/// How often a file is divided at most: gaps that are nested deeper are no plausible file, and would take long to find.
+/// Most levels of division of a file: gaps that are nested deeper are no plausible file, and would take long to find.
 const DEPTH: u32 = 32;
 
-/// How origins are chosen.
+/// Choice of origins.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Origins<'a> {
     /// By what the file holds.
     Own,
-    /// The same, also where this file loses nothing: others follow, which are placed by its origins.
+    /// By what the file holds, also where this file loses nothing: others follow, which are placed by its origins.
     First,
     /// Those of an earlier file, mesh by mesh; zero beyond them.
     Given(&'a [DVec3]),
@@ -79,7 +79,7 @@ pub(crate) fn texture_coordinates(
     wide.iter().map(|[u, v]| [on_axis(0, *u), 1.0 - on_axis(1, *v)]).collect()
 }
 
-/// Whether a material has textures, and all of them look the same a whole number of coordinates further.
+/// True if a material has textures, and all of them look the same a whole number of coordinates further.
 fn repeats(material: &Material, textures: &[Texture]) -> bool {
     let used = [
         material.base_color_texture,
@@ -130,7 +130,7 @@ fn relative(point: DVec3, origin: DVec3) -> [f32; 3] {
     (if keeps { point } else { point - origin }).as_vec3().to_array()
 }
 
-/// Whether a position can be shown; NaN fails the comparison.
+/// True if a position can be shown; NaN fails the comparison.
 fn is_usable(point: DVec3) -> bool {
     point.to_array().iter().all(|x| x.abs() <= f64::from(MAX_COORDINATE))
 }
@@ -141,7 +141,7 @@ struct Part {
     number: usize,
     low: DVec3,
     high: DVec3,
-    /// Whether every coordinate is a single-precision number.
+    /// True if every coordinate is a single-precision number.
     is_exact: bool,
 }
 
@@ -241,7 +241,7 @@ fn divide(parts: &mut [Part], spares: bool, depth: u32, origins: &mut [DVec3]) {
 /// The origin of a box.
 fn origin(low: DVec3, high: DVec3) -> DVec3 {
     let side = (high - low).max_element();
-    // What is a point has no size that could be lost.
+    // A point has no size that could be lost.
     if side <= 0.0 || !side.is_normal() {
         return DVec3::ZERO;
     }

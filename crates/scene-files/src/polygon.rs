@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
 
-/// How a polygon becomes triangles.
+/// Division of a polygon into triangles.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Filling {
     /// A fan from the first corner.
@@ -40,7 +40,7 @@ pub(crate) struct Polygons {
 }
 
 impl Polygons {
-    /// How a polygon with these corners, in order, is filled.
+    /// Divides a polygon with these corners, in order.
     pub fn fill(&mut self, corners: &[DVec3]) -> Filling {
         let Some((&first, rest)) = corners.split_first() else { return Filling::Fan };
         if rest.len() < 3 || !corners.iter().all(|corner| corner.is_finite()) {
@@ -51,7 +51,7 @@ impl Polygons {
         let normal: DVec3 = from_first().zip(from_first().skip(1)).map(|(a, b)| a.cross(b)).sum();
         let size = from_first().map(|side| side.abs().max_element()).fold(0.0, f64::max);
         let steepest = normal.abs().max_position();
-        // What is left of the cross products after rounding.
+        // The cross products may be rounding alone.
         if normal[steepest].abs() <= 1.0e-14 * size * size {
             let is_line = from_first().zip(from_first().skip(1)).all(|(a, b)| is_line(a, b));
             return if is_line { Filling::Fan } else { Filling::Crossing };
@@ -73,12 +73,12 @@ impl Polygons {
     }
 }
 
-/// Whether two vectors from one point lie on a line.
+/// True if two vectors from one point lie on a line.
 fn is_line(a: DVec3, b: DVec3) -> bool {
     a.cross(b).length() <= ROUNDING * a.length() * b.length()
 }
 
-/// Whether a fan from the first corner, which is zero, fills a polygon that runs to the left.
+/// True if a fan from the first corner, which is zero, fills a polygon that runs to the left.
 fn is_fan(flat: &[[f64; 2]]) -> bool {
     let mut was_right = false;
     flat[1..].windows(2).all(|pair| {
@@ -246,7 +246,7 @@ mod tests {
                 ],
                 3.0,
             ),
-            // The same from another corner on.
+            // From another corner on.
             (
                 &[
                     [1.0, 2.0],
@@ -329,7 +329,7 @@ mod tests {
         }
     }
 
-    /// What takes longest: a comb whose teeth are all behind one another, and a spiral.
+    /// The slowest cases: a comb whose teeth are all behind one another, and a spiral.
     #[test]
     fn large_polygons_take_no_time() {
         let start = std::time::Instant::now();

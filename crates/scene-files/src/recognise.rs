@@ -1,4 +1,4 @@
-//! What a file is that is not what its name says: told by its first bytes.
+//! Kinds of files that are not what their names say, told by their first bytes.
 
 use std::path::Path;
 
@@ -58,7 +58,7 @@ const BEGINNINGS: [(&[u8], &str, &str); 23] = [
     (b"%pdf", "a PDF document", AGAIN),
 ];
 
-/// What `bytes` are, where that can be told; formats of scenes and images included.
+/// Kind of `bytes`, where it can be told; formats of scenes and images included.
 pub(crate) fn recognise(bytes: &[u8]) -> Option<Foreign> {
     if bytes.is_empty() {
         return Some(Foreign { what: "empty", fix: AGAIN });
@@ -71,10 +71,10 @@ pub(crate) fn recognise(bytes: &[u8]) -> Option<Foreign> {
     found.map(|&(_, what, fix)| Foreign { what, fix })
 }
 
-/// What no text is.
+/// Kind of bytes that are no text.
 pub(crate) const BINARY: Foreign = Foreign { what: "binary data", fix: AGAIN };
 
-/// Whether bytes that should be text are not: text has no zero bytes.
+/// Returns [`BINARY`] for bytes that should be text but are not: text has no zero bytes.
 pub(crate) fn binary(bytes: &[u8]) -> Option<Foreign> {
     let head = &bytes[..bytes.len().min(4096)];
     head.contains(&0).then_some(BINARY)

@@ -11,7 +11,7 @@ pub(crate) enum Place {
     Below(PathBuf),
     /// Outside of the folder, or nowhere. Such a file is never read.
     Outside {
-        /// What is wrong, such as `is absolute`.
+        /// Fault, such as `is absolute`.
         reason: &'static str,
         /// A file in the folder that has the name at the end of the reference; it may be missing.
         beside: Option<PathBuf>,

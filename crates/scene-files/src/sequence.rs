@@ -52,7 +52,7 @@ impl<'a> Pattern<'a> {
     }
 }
 
-/// Whether a path is a pattern of a sequence: its file name has a `#`, and no file has just that name.
+/// True if a path is a pattern of a sequence: its file name has a `#`, and no file has just that name.
 pub fn is_pattern(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str());
     name.is_some_and(|name| name.contains('#')) && !path.is_file()

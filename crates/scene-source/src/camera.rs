@@ -19,8 +19,8 @@ pub struct Chosen {
 }
 
 impl Chosen {
-    /// The same with a lens: the diameter of its opening, metres (0: a pinhole), and the distance of the plane in focus, metres
-    /// along the view.
+    /// This camera with a lens: the diameter of its opening, metres (0: a pinhole), and the distance of the plane in
+    /// focus, metres along the view.
     ///
     /// # Errors
     /// A parallel projection, or a lens without a distance.
@@ -37,7 +37,7 @@ impl Chosen {
         Ok(self)
     }
 
-    /// What reports say of it.
+    /// Record of the camera in reports.
     pub fn record(&self) -> CameraRecord {
         let frame = &self.camera.world_from_camera;
         let (kind, fov_y_degrees, height_m) = match self.camera.projection {

@@ -27,7 +27,7 @@ pub enum LoadError {
     Gone {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// A scene cannot be read.

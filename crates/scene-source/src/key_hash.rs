@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 pub struct KeyHash(Sha256);
 
 impl KeyHash {
-    /// The same with one more value.
+    /// This hash with one more value.
     #[must_use]
     pub fn with(mut self, name: &str, value: impl AsRef<[u8]>) -> Self {
         for bytes in [name.as_bytes(), value.as_ref()] {

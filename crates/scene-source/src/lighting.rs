@@ -1,11 +1,11 @@
-//! What lights a scene that was loaded.
+//! Lights of a scene that was loaded.
 
 use crate::error::LoadError;
 use crate::key_hash::KeyHash;
 use crate::loaded::LoadedScene;
 use rasray_scene::{Environment, Moment, Scene, default_view as view};
 
-/// What lights a scene.
+/// Source of a scene's light.
 #[derive(Clone, Debug, Default)]
 pub(crate) enum Lighting {
     /// The scene itself, or nothing yet.
@@ -38,9 +38,9 @@ impl LoadedScene {
         }
     }
 
-    /// The same for frames, which have one light: the scene gets the default light where nothing lights it at any of these
-    /// times, seconds. Where surfaces alone may light it, it is looked at one time after the other until it is lit; with
-    /// numbered files, every file is read for that.
+    /// Lights the scene for frames, which have one light: the scene gets the default light where nothing lights it at
+    /// any of these times, seconds. Where surfaces alone may light it, it is looked at one time after the other until
+    /// it is lit; with numbered files, every file is read for that.
     ///
     /// # Errors
     /// It has no such clip, or its deformer fails.
@@ -96,7 +96,7 @@ impl LoadedScene {
         self.lighting = Lighting::Own;
         self.scene.warnings.retain(|warning| warning.kind != "default-light");
         let is_lit = match self.moment.clone() {
-            // What cannot be posed is not shown either, and whoever poses it says why.
+            // A moment that cannot be posed is not shown either, and whoever poses it says why.
             Some(moment) if view::is_lit_at_times(&self.scene) => self.is_lit_at(&moment).unwrap_or(true),
             _ => view::is_lit(&self.scene),
         };
@@ -105,7 +105,7 @@ impl LoadedScene {
         }
     }
 
-    /// Whether the default light was added.
+    /// True if the default light was added.
     pub fn has_default_light(&self) -> bool {
         matches!(self.lighting, Lighting::Default(_))
     }
@@ -115,7 +115,7 @@ impl LoadedScene {
         view::add_default_light(&mut self.scene);
     }
 
-    /// Whether anything lights the scene at a moment.
+    /// True if anything lights the scene at a moment.
     fn is_lit_at(&mut self, moment: &Moment) -> Result<bool, LoadError> {
         // They do not change, may be most of the memory, and shape what surfaces emit.
         let images = std::mem::take(&mut self.scene.images);

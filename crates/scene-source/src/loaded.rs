@@ -37,14 +37,14 @@ pub struct LoadedScene {
     pub pose: Option<PoseRecord>,
     /// Images that were made smaller for the device.
     pub smaller_images: Vec<SmallerImageRecord>,
-    /// Whether every surface was made opaque.
+    /// True if every surface was made opaque.
     pub(crate) holes_closed: bool,
-    /// What lights it.
+    /// Source of its light.
     pub(crate) lighting: Lighting,
 }
 
 impl LoadedScene {
-    /// What reports say of it.
+    /// Record of the scene in reports.
     pub fn record(&self) -> SceneRecord {
         SceneRecord {
             name: self.scene.name.clone(),
@@ -70,7 +70,7 @@ pub fn load(name: &OsStr) -> Result<LoadedScene, LoadError> {
     load_with(name, &LoadOptions::default())
 }
 
-/// The same with other options than the defaults.
+/// [`load`] with other options than the defaults.
 ///
 /// # Errors
 /// Those of [`load`].
@@ -187,7 +187,7 @@ impl LoadedScene {
         Ok(self.moved(named_view(&self.scene, name)?))
     }
 
-    /// What reports say of a time.
+    /// Record of a time in reports.
     fn record_of(&self, seconds: f64, clips: &[usize], file: Option<&Path>) -> PoseRecord {
         let clips = clips.iter().map(|clip| self.scene.animation.clips[*clip].clone()).collect();
         let file = file.and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
@@ -218,7 +218,7 @@ impl LoadedScene {
         Ok(())
     }
 
-    /// Whether anything moves the scene.
+    /// True if anything moves the scene.
     pub fn moves(&self) -> bool {
         !self.scene.animation.clips.is_empty() || self.scene.animation.deformer.is_some()
     }

@@ -63,7 +63,7 @@ impl NodeTransform {
     }
 }
 
-/// How an instance hangs on a node.
+/// Place of an instance below a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// Index into [`Rig::nodes`].
@@ -88,7 +88,7 @@ pub struct Clip {
 pub struct Channel {
     /// Index into [`Rig::nodes`].
     pub node: usize,
-    /// What lies between keys.
+    /// Interpolation between keys.
     pub interpolation: Interpolation,
     /// Seconds, finite, ascending, at least one.
     pub times: Vec<f32>,
@@ -96,7 +96,7 @@ pub struct Channel {
     pub values: ChannelValues,
 }
 
-/// What a channel animates, with its keys.
+/// Property that a channel animates, with its keys.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ChannelValues {
     /// Metres.
@@ -114,7 +114,7 @@ pub enum ChannelValues {
     },
 }
 
-/// What lies between two keys.
+/// Value between two keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
     /// The earlier key.
@@ -152,7 +152,7 @@ pub struct DeformedMesh {
     pub targets: Vec<MorphTarget>,
     /// Weight of each target at rest; as many as targets.
     pub weights: Vec<f32>,
-    /// How joints move the vertices.
+    /// Joints and weights that move the vertices.
     pub skin: Option<SkinBinding>,
 }
 

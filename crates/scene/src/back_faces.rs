@@ -23,7 +23,7 @@ impl BackFaces {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Meaning, in one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Camera => {
@@ -34,12 +34,12 @@ impl BackFaces {
         }
     }
 
-    /// Whether camera rays pass.
+    /// True if camera rays pass.
     pub fn lets_camera_rays(self) -> bool {
         self != Self::None
     }
 
-    /// Whether scattered and shadow rays pass.
+    /// True if scattered and shadow rays pass.
     pub fn lets_other_rays(self) -> bool {
         self == Self::All
     }

@@ -1,4 +1,4 @@
-//! What every mesh must satisfy before anything else sees it, whatever format it came from.
+//! Checks and repairs of every mesh before anything else sees it, whatever format it came from.
 
 mod attributes;
 mod place;
@@ -43,8 +43,8 @@ pub fn clean(path: &Path, mesh: &mut Mesh, remarks: &mut Remarks) -> Result<(), 
     clean_deformed(path, mesh, None, remarks)
 }
 
-/// The same of a mesh at rest, with its positions `before` something deforms it: triangles are remarked on that have no area
-/// then, since what they are for a while is no fault of the file.
+/// [`clean`] of a mesh at rest, with its positions `before` something deforms it: triangles are remarked on that have
+/// no area then, since what they are for a while is no fault of the file.
 pub fn clean_deformed(
     path: &Path,
     mesh: &mut Mesh,
@@ -57,14 +57,14 @@ pub fn clean_deformed(
     Ok(())
 }
 
-/// Whether no triangle has an area. Indices need not have been checked.
+/// True if no triangle has an area. Indices need not have been checked.
 pub(crate) fn is_flattened(mesh: &Mesh) -> bool {
     let is_whole = |corners: &[u32]| corners.iter().all(|&corner| (corner as usize) < mesh.positions.len());
     let mut triangles = mesh.indices.chunks_exact(3);
     triangles.all(|corners| is_whole(corners) && triangles::is_degenerate(&mesh.positions, corners))
 }
 
-/// The same of normals, tangents, texture coordinates and colours alone.
+/// [`clean`] of normals, tangents, texture coordinates and colours alone.
 pub(crate) fn clean_attributes(mesh: &mut Mesh, remarks: &mut Remarks) {
     attributes::clean(mesh, remarks);
 }

@@ -11,7 +11,7 @@ use crate::warning::Warning;
 ///
 /// The number of meshes, instances and materials never changes, nor do transforms of instances.
 pub trait Deformer: Debug + Send + Sync {
-    /// Whether triangles stay what they are.
+    /// Constancy of the triangles.
     fn topology(&self) -> Topology;
 
     /// Seconds from which on nothing changes any more.
@@ -33,7 +33,7 @@ pub trait Deformer: Debug + Send + Sync {
     }
 }
 
-/// Whether the triangles of a mesh stay what they are.
+/// Constancy of the triangles of a mesh over time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Topology {
     /// Only [`Shape::Vertices`] are given: vertices move, triangles keep their number, order and corners.
@@ -47,7 +47,7 @@ pub enum Topology {
 pub struct Deformation {
     /// Index into [`Scene::meshes`](crate::Scene::meshes), and the mesh then.
     pub shapes: Vec<(usize, Shape)>,
-    /// What was dropped or replaced in them.
+    /// Data that was dropped or replaced in them.
     pub warnings: Vec<Warning>,
 }
 
@@ -79,7 +79,7 @@ impl Shape {
     }
 }
 
-/// How a scene changes with time.
+/// Changes of a scene with time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// Not at all.
@@ -103,7 +103,7 @@ impl Motion {
         }
     }
 
-    /// What changes, in words.
+    /// Changes, in words.
     pub fn described(self) -> &'static str {
         match self {
             Self::Still => "nothing moves",

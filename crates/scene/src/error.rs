@@ -1,4 +1,4 @@
-//! What can go wrong while a scene is read.
+//! Errors of reading a scene.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ pub enum SceneError {
     Read {
         /// The scene file.
         path: PathBuf,
-        /// What the operating system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// A file that the scene refers to, and cannot be shown without, could not be read.
@@ -26,7 +26,7 @@ pub enum SceneError {
         place: String,
         /// The file that could not be read.
         file: PathBuf,
-        /// What the operating system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// A limit of how a scene is loaded was exceeded. More may be allowed by the field `option`.
@@ -34,11 +34,11 @@ pub enum SceneError {
     TooLarge {
         /// The scene file.
         path: PathBuf,
-        /// What is too large.
+        /// Name of the quantity that is too large.
         what: String,
-        /// How much there is.
+        /// Amount found.
         found: u64,
-        /// How much is allowed.
+        /// Amount allowed.
         limit: u64,
         /// The field of the limits that decides.
         option: &'static str,
@@ -54,9 +54,9 @@ pub enum SceneError {
     NotThisFormat {
         /// The scene file.
         path: PathBuf,
-        /// What was found, such as `is an HTML page, not glTF`.
+        /// Kind of file found, such as `is an HTML page, not glTF`.
         found: String,
-        /// How to get a file that can be loaded.
+        /// Advice on getting a file that can be loaded.
         fix: &'static str,
     },
     /// The bytes do not follow the grammar of the format.
@@ -64,7 +64,7 @@ pub enum SceneError {
     Syntax {
         /// The scene file.
         path: PathBuf,
-        /// What is wrong, and where (line, byte or element).
+        /// Fault, and its place (line, byte or element).
         reason: String,
     },
     /// The file can be parsed, but contradicts itself or its format.
@@ -74,7 +74,7 @@ pub enum SceneError {
         path: PathBuf,
         /// The element at fault, such as `accessors[3]`.
         place: String,
-        /// What is wrong with it.
+        /// Fault of the element.
         reason: String,
     },
     /// A triangle refers to a vertex that does not exist.
@@ -94,7 +94,7 @@ pub enum SceneError {
     NoTriangles {
         /// The scene file.
         path: PathBuf,
-        /// What became of them.
+        /// Fates of the triangles.
         reason: String,
     },
     /// The file cannot be shown without something that is not supported.
@@ -104,7 +104,7 @@ pub enum SceneError {
         path: PathBuf,
         /// Name of the extension.
         extension: String,
-        /// How to get a file that can be loaded.
+        /// Advice on getting a file that can be loaded.
         fix: &'static str,
     },
     /// A reference to another file leaves the folder of the scene, or is not a file.
@@ -116,7 +116,7 @@ pub enum SceneError {
         place: String,
         /// The reference as written, shortened.
         uri: String,
-        /// What is wrong with it.
+        /// Fault of the reference, as words that follow it.
         reason: &'static str,
     },
     /// An image could not be decoded.
@@ -126,7 +126,7 @@ pub enum SceneError {
         path: PathBuf,
         /// Name or file of the image.
         image: String,
-        /// What is wrong with it.
+        /// Fault of the image.
         reason: String,
     },
     /// The file has no such scene.
@@ -134,7 +134,7 @@ pub enum SceneError {
     NoSuchScene {
         /// The scene file.
         path: PathBuf,
-        /// What was asked for.
+        /// Scene that was asked for.
         wanted: String,
         /// Names or numbers of the scenes in the file.
         available: String,
@@ -144,7 +144,7 @@ pub enum SceneError {
     Sequence {
         /// The pattern, or the file at fault.
         path: PathBuf,
-        /// What is wrong.
+        /// Fault, as a sentence.
         problem: String,
     },
     /// The parameters of a built-in scene are wrong.
@@ -152,7 +152,7 @@ pub enum SceneError {
     Builtin {
         /// The name with its parameters, as written.
         spec: String,
-        /// What is wrong with them, and what would be right.
+        /// Fault of the parameters, and the valid ones.
         problem: String,
     },
     /// A library that reads the format panicked; the panic was caught. This is a defect, please

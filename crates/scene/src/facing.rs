@@ -1,4 +1,4 @@
-//! How the surfaces of a scene face the axes, and what follows for fragments along them.
+//! Areas of the surfaces of a scene along the axes, and the fragments that follow from them.
 
 use glam::DVec3;
 

@@ -31,7 +31,7 @@ pub use model::*;
 pub use pose::Moment;
 pub use shadow_terminator::ShadowTerminator;
 
-/// What the readme shows compiles.
+/// Examples of the readme, compiled.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,4 +1,4 @@
-//! What a scene is made of.
+//! Types of scenes.
 
 use std::sync::Arc;
 
@@ -26,13 +26,13 @@ pub struct Scene {
     pub images: Vec<Image>,
     /// Punctual lights in world space. Emissive triangles are lights too, found through materials.
     pub lights: Vec<Light>,
-    /// What a ray sees that leaves the scene.
+    /// Radiance of rays that leave the scene.
     pub environment: Environment,
     /// Cameras in world space, in scene order.
     pub cameras: Vec<Camera>,
-    /// What changes it with time: clips, skins and morph targets as read, or a deformer.
+    /// Changes with time: clips, skins and morph targets as read, or a deformer.
     pub animation: Animation,
-    /// What was dropped, replaced or not supported, each with a count and a place.
+    /// Data that was dropped, replaced or not supported, each with a count and a place.
     pub warnings: Vec<Warning>,
     /// Files that the scene's own file refers to and that were read: buffers, images and material libraries, in the order
     /// in which they were read. One that is referred to twice may be here twice.
@@ -50,7 +50,7 @@ pub struct Instance {
     pub world_from_mesh: DAffine3,
 }
 
-/// How alpha is read.
+/// Interpretation of alpha.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub enum AlphaMode {
     /// Alpha is ignored.
@@ -81,7 +81,7 @@ pub struct Material {
     pub roughness: f32,
     /// Roughness in G, metallic in B, linear.
     pub metallic_roughness_texture: Option<TextureRef>,
-    /// How much rougher facets are along one direction, in [0, 1].
+    /// Excess roughness of facets along one direction, in [0, 1].
     pub anisotropy: f32,
     /// Where that direction lies, radians from the tangent to the bitangent.
     pub anisotropy_rotation: f32,
@@ -111,7 +111,7 @@ pub struct Material {
     pub specular: f32,
     /// Colour of the dielectric specular reflection at normal incidence.
     pub specular_color: [f32; 3],
-    /// How alpha is read.
+    /// Interpretation of alpha.
     pub alpha_mode: AlphaMode,
     /// Emission leaves both sides, not the front alone.
     pub double_sided: bool,
@@ -176,7 +176,7 @@ pub struct Texture {
     pub wrap_v: Wrap,
     /// Nearest where the magnification filter says so.
     pub filter: Filter,
-    /// Whether smaller levels are used for distant surfaces.
+    /// True if smaller levels are used for distant surfaces.
     pub mipmapped: bool,
 }
 
@@ -192,7 +192,7 @@ pub enum Wrap {
     Clamp,
 }
 
-/// How texels are combined.
+/// Combination of texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Filter {
     /// The texel that holds the point.
@@ -255,7 +255,7 @@ pub enum Light {
 /// Radiance from outside.
 #[derive(Clone, Debug)]
 pub enum Environment {
-    /// The same in every direction, linear RGB, W/(sr m^2). Black: no environment.
+    /// One radiance in every direction, linear RGB, W/(sr m^2). Black: no environment.
     Constant([f32; 3]),
     /// Latitude-longitude map: u grows with the azimuth from +x over +z, v from +y (top) down.
     LatLong {
@@ -317,7 +317,7 @@ impl Camera {
     }
 }
 
-/// How a camera maps directions to pixels.
+/// Mapping of directions to pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// Pinhole.
@@ -332,7 +332,7 @@ pub enum Projection {
     },
 }
 
-/// What changes a scene with time, as read from the file.
+/// Changes of a scene with time, as read from the file.
 #[derive(Clone, Debug, Default)]
 pub struct Animation {
     /// Names of the clips.
@@ -345,8 +345,8 @@ pub struct Animation {
     pub morphed_meshes: usize,
     /// Nodes, keys, skins and morph targets: all that posing needs.
     pub rig: crate::animation::Rig,
-    /// What changes meshes without a rig: a simulation, or a file for each frame.
+    /// Source of meshes without a rig: a simulation, or a file for each frame.
     pub deformer: Option<Arc<dyn crate::deforming::Deformer>>,
-    /// What the deformer remarked on at the time that is shown; [`Scene::warnings`] holds it too.
+    /// Remarks of the deformer at the time that is shown; [`Scene::warnings`] holds it too.
     pub deformer_warnings: Vec<Warning>,
 }

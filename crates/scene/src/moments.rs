@@ -4,8 +4,8 @@ use crate::deforming::{Deformation, Topology};
 use crate::{Moment, Motion, Scene, SceneError};
 
 impl Scene {
-    /// How the scene changes with time. In every case the number of instances and materials stays; meshes may be added by
-    /// [`Self::at`] where nodes share one that they deform differently.
+    /// Changes of the scene with time. In every case the number of instances and materials stays; meshes may be added
+    /// by [`Self::at`] where nodes share one that they deform differently.
     pub fn motion(&self) -> Motion {
         match self.animation.deformer.as_ref().map(|deformer| deformer.topology()) {
             Some(Topology::Changing) => Motion::Changing,
@@ -15,9 +15,9 @@ impl Scene {
         }
     }
 
-    /// Whether the scene at any moment is the scene at rest with other positions, normals and places, so that a device can
-    /// pose it: not where vertices and triangles may be others at every time, as in numbered files, nor where a deformer
-    /// changes what a rig deforms as well.
+    /// True if the scene at any moment is the scene at rest with other positions, normals and places, so that a device
+    /// can pose it: not where vertices and triangles may be others at every time, as in numbered files, nor where a
+    /// deformer changes what a rig deforms as well.
     pub fn is_posed_in_place(&self) -> bool {
         let Some(deformer) = &self.animation.deformer else { return true };
         let by_rig = |mesh: &usize| self.animation.rig.deformed.iter().any(|shape| shape.mesh == *mesh);

@@ -1,4 +1,4 @@
-//! What of a scene a render can observe; the rest need not be uploaded, stored, compiled in or traced.
+//! Parts of a scene that a render can observe; the rest need not be uploaded, stored, compiled in or traced.
 //!
 //! Two things decide whether a [`Term`] is needed: the scene must have it where a ray can hit it,
 //! and the workload must look at it. Every verdict comes with a sentence that says why.
@@ -17,12 +17,12 @@ pub use workload::Workload;
 
 use crate::Scene;
 
-/// Whether a term is needed, and why.
+/// Decision on whether a term is needed, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Verdict {
-    /// What the verdict is on.
+    /// Term decided on.
     pub term: Term,
-    /// Whether the render can observe it.
+    /// True if the render can observe it.
     pub needed: bool,
     /// One sentence, without a full stop.
     pub why: String,
@@ -35,7 +35,7 @@ pub struct Needs {
 }
 
 impl Needs {
-    /// What `workload` can observe of `scene`.
+    /// Terms of `scene` that `workload` can observe.
     pub fn of(scene: &Scene, workload: Workload) -> Self {
         let survey = survey::Survey::of(scene, workload);
         let verdicts = Term::ALL
@@ -56,7 +56,7 @@ impl Needs {
         Self { verdicts: Term::ALL.into_iter().map(verdict).collect() }
     }
 
-    /// The same with a term that is needed; `why` is one sentence without a full stop.
+    /// These needs with `term` needed; `why` is one sentence without a full stop.
     #[must_use]
     pub fn with(mut self, term: Term, why: &str) -> Self {
         for verdict in self.verdicts.iter_mut().filter(|verdict| verdict.term == term && !verdict.needed) {
@@ -65,7 +65,7 @@ impl Needs {
         self
     }
 
-    /// Whether a term is needed.
+    /// True if a term is needed.
     pub fn requires(&self, term: Term) -> bool {
         self.verdicts.iter().any(|verdict| verdict.term == term && verdict.needed)
     }

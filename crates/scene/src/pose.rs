@@ -80,7 +80,7 @@ impl Pose {
         self.world_from_node.get(node).copied().unwrap_or(DAffine3::IDENTITY)
     }
 
-    /// How much of each morph target of a mesh is shown at a node: as animated, else as at rest.
+    /// Weights of the morph targets of a mesh at a node: as animated, else as at rest.
     pub fn weights_of(&self, node: usize, deformed: &DeformedMesh) -> Vec<f64> {
         let animated = self.weights.get(node).cloned().flatten();
         animated.unwrap_or_else(|| deformed.weights.iter().copied().map(f64::from).collect())
@@ -131,7 +131,7 @@ fn multiply(rig: &Rig, local: &[NodeTransform]) -> Vec<DAffine3> {
 struct Between {
     first: usize,
     second: usize,
-    /// How far from the first to the second, 0 to 1.
+    /// Share of the way from the first to the second, 0 to 1.
     share: f64,
     /// Seconds between them.
     seconds: f64,
@@ -145,12 +145,12 @@ impl Between {
             return Self { first: key, second: key, share: 0.0, seconds: 0.0 };
         }
         let (begin, end) = (f64::from(times[after - 1]), f64::from(times[after]));
-        // What is not at the first key lies between both.
+        // Values past the first key lie between both.
         let share = if time::is_at(begin, seconds) { 0.0 } else { (seconds - begin) / (end - begin) };
         Self { first: after - 1, second: after, share, seconds: end - begin }
     }
 
-    /// What is added up for a value that is interpolated number by number: places in the list of elements, with their shares.
+    /// Terms of a value that is interpolated number by number: places in the list of elements, with their shares.
     fn terms(&self, interpolation: Interpolation) -> [(usize, f64); 4] {
         let Self { first, second, share: s, seconds } = *self;
         match interpolation {
@@ -205,7 +205,7 @@ impl Between {
     }
 }
 
-/// How joints have moved since a mesh was bound to them.
+/// Movements of joints since a mesh was bound to them.
 pub struct Joints<'a> {
     binding: &'a SkinBinding,
     /// Of each joint: from mesh space to the world.
@@ -236,10 +236,10 @@ impl<'a> Joints<'a> {
     }
 }
 
-/// What positions are rounded to f32 relative to, so that each keeps its digits: the world's origin where it lies among
-/// them or not far away, so that they are rounded once; else a place among them, on a grid of at least their size, which
-/// stays while they move a little. Wherever that is, a position
-/// is rounded by at most a unit in the last place of half their size.
+/// Origin relative to which positions are rounded to f32, so that each keeps its digits: the world's origin where it
+/// lies among them or not far away, so that they are rounded once; else a place among them, on a grid of at least their
+/// size, which stays while they move a little. Wherever that is, a position is rounded by at most a unit in the last
+/// place of half their size.
 fn origin_for(positions: &[DVec3]) -> DVec3 {
     let finite = positions.iter().filter(|position| position.is_finite());
     let (lower, upper) = finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lower, upper), position| {
@@ -274,7 +274,7 @@ pub fn deform(
                 displacement.map_or(sum, |by| sum + DVec3::from(by.map(f64::from)) * **weight)
             })
         };
-    // What nothing moves keeps every bit.
+    // A mesh that nothing moves keeps every bit.
     let is_still = shown.is_empty();
     if is_still && joints.is_none() {
         return None;
@@ -408,7 +408,7 @@ pub fn posed_mesh(
         .as_ref()
         .and_then(|binding| Some(Joints::new(rig.skins.get(binding.skin)?, binding, &pose.world_from_node)));
     let placed = deform(&mut mesh, deformed, weights, joints.as_ref());
-    // What was wrong with the file was said when it was read.
+    // Faults of the file were reported when it was read.
     check::clean_attributes(&mut mesh, &mut Remarks::default());
     (mesh, placed)
 }

@@ -1,4 +1,4 @@
-//! What a reader has to say of a file: collected while it is read, told once.
+//! Remarks of a reader on a file: collected while it is read, told once.
 
 use std::collections::HashMap;
 use std::path::PathBuf;

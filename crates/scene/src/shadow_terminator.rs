@@ -20,7 +20,7 @@ impl ShadowTerminator {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Meaning, in one line of help.
     pub const fn doc(self) -> &'static str {
         match self {
             Self::None => "On the triangle: true to the mesh, whose edges show where light grazes it",

@@ -17,7 +17,7 @@ pub fn sentence(text: impl Display) -> String {
     cut(text.to_string(), LONGEST_SENTENCE)
 }
 
-/// What the operating system said, without the number it says it by.
+/// Message of the operating system, without its error number.
 pub fn reason(error: &std::io::Error) -> String {
     let whole = sentence(error);
     match whole.rfind(" (os error ") {

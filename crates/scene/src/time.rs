@@ -7,12 +7,12 @@
 /// of a frame, by which some exporters go: two roundings of half a unit in the last place each.
 const SAME: f64 = 1.0 / (1 << 22) as f64;
 
-/// Whether a time that is asked for is that of a key, both in seconds.
+/// True if a time that is asked for is that of a key, both in seconds.
 pub(crate) fn is_at(key: f64, seconds: f64) -> bool {
     (key - seconds).abs() <= SAME * key.abs()
 }
 
-/// Whether a key has been reached at a time, both in seconds.
+/// True if a key has been reached at a time, both in seconds.
 pub(crate) fn has_come(key: f64, seconds: f64) -> bool {
     key <= seconds || is_at(key, seconds)
 }

@@ -1,4 +1,4 @@
-//! What readers say of a scene.
+//! Warnings of readers about a scene.
 
 /// Something the user should know about a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -272,7 +272,7 @@ fn element_size(component: ComponentType, kind: Type) -> usize {
     columns * (rows * component.size()).next_multiple_of(4)
 }
 
-/// What the format calls a type of elements.
+/// Name of a type of elements in the format.
 fn type_name(kind: Type) -> &'static str {
     match kind {
         Type::Scalar => "SCALAR",

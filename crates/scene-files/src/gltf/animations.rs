@@ -143,7 +143,7 @@ fn read_channel(
     Ok(Ok(channel))
 }
 
-/// What is wrong with the keys of a channel.
+/// Fault of the keys of a channel.
 fn fault(channel: &Channel) -> Option<String> {
     let Channel { interpolation, times, values, .. } = channel;
     if times.is_empty() {

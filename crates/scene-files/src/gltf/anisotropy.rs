@@ -5,7 +5,7 @@ use ::gltf::json::material::Material as JsonMaterial;
 use ::gltf::json::texture::Info;
 use ::gltf::json::{Error, Value};
 
-/// What a material says of it, whose form was checked.
+/// Anisotropy of a material, in the form that was checked.
 pub(super) struct Anisotropy {
     pub strength: f32,
     /// Radians.
@@ -13,7 +13,7 @@ pub(super) struct Anisotropy {
     pub texture: Option<Info>,
 }
 
-/// What a material says of it; the typed tree keeps it as plain JSON.
+/// Reads the extension of a material; the typed tree keeps it as plain JSON.
 pub(super) fn anisotropy(source: &JsonMaterial) -> Result<Option<Anisotropy>, Error> {
     let extensions = source.extensions.as_ref();
     let Some(found) = extensions.and_then(|found| found.others.get("KHR_materials_anisotropy")) else {

@@ -15,7 +15,7 @@ pub(super) const EXTENSIONS: [&str; 2] = ["KHR_meshopt_compression", "EXT_meshop
 /// Most bytes that one byte of a stream can stand for: 256 elements of four bytes, none of which changes.
 const MOST_BYTES: u64 = 1024;
 
-/// What a buffer view says of how it is stored.
+/// Compression of a buffer view.
 struct Compressed {
     /// Such as `bufferViews[3].extensions.EXT_meshopt_compression`.
     place: String,
@@ -29,7 +29,7 @@ struct Compressed {
     filter: Filter,
 }
 
-/// How a stream is made.
+/// Kind of data that a stream encodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Mode {
     Attributes,
@@ -37,7 +37,7 @@ enum Mode {
     Indices,
 }
 
-/// What is done to decoded elements.
+/// Filter undone on decoded elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Filter {
     None,
@@ -81,7 +81,7 @@ pub(super) fn decode(document: &Document<'_>, view: usize) -> Result<Option<Deco
 }
 
 impl Compressed {
-    /// What a view says, of the form that the schema asks for; `None` if it says nothing.
+    /// Compression of a view, of the form that the schema asks for; `None` if it has none.
     fn of(document: &Document<'_>, view: usize) -> Result<Option<Self>, SceneError> {
         let extensions = document.root.buffer_views[view].extensions.as_ref();
         let found = EXTENSIONS.iter().find_map(|&name| Some((name, extensions?.others.get(name)?)));
@@ -120,7 +120,7 @@ impl Compressed {
         }))
     }
 
-    /// What the extensions demand of a view of `claim` bytes.
+    /// Checks the demands of the extensions on a view of `claim` bytes.
     fn check(&self, claim: u64) -> Result<(), String> {
         let Self { count, stride, mode, filter, .. } = *self;
         let strides: &[usize] = match (mode, filter) {
@@ -173,7 +173,7 @@ impl Compressed {
 
     /// Decodes a stream into as many bytes as [`Compressed::check`] found right; false if it is malformed.
     fn decode_into(&self, stream: &[u8], decoded: &mut [u32]) -> bool {
-        // What `check` has found equal to a length that was allocated.
+        // Their product is a length that was allocated, as `check` found.
         let (count, stride) = (self.count as usize, self.stride);
         assert!(count * stride <= size_of_val(decoded));
         let (to, from, size) = (decoded.as_mut_ptr().cast(), stream.as_ptr(), stream.len());

@@ -10,7 +10,7 @@ use super::shape::{Kind, Member, ROOT};
 use rasray_scene::SceneError;
 use rasray_scene::text::shown;
 
-/// What a tree holds in addition to what the typed tree can.
+/// Contents of a tree that the typed tree has no place for.
 #[derive(Default)]
 pub(super) struct Found {
     /// Values of enumerations that the format does not know, by their place, as they are written.

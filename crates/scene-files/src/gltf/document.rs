@@ -25,11 +25,11 @@ pub(super) struct Document<'a> {
     pub locals: Vec<NodeTransform>,
     pub buffers: Buffers<'a>,
     pub draco: Streams,
-    /// What is remarked while the file is read.
+    /// Remarks made while the file is read.
     pub remarks: RefCell<Remarks>,
     /// Values of enumerations that the format does not know, by their place.
     unknown: HashMap<String, String>,
-    /// What is not read of primitives, by mesh and primitive.
+    /// Attributes of primitives that are not read, by mesh and primitive.
     pub unread: HashMap<(usize, usize), Unread>,
     /// Elements read so far, against [`Limits::elements`].
     elements: Cell<u64>,
@@ -82,7 +82,7 @@ impl<'a> Document<'a> {
         SceneError::invalid(self.path, place, reason)
     }
 
-    /// What is wrong with an enumeration whose value the format does not know.
+    /// Fault of an enumeration whose value the format does not know.
     pub fn unknown(&self, place: &str) -> String {
         let value = self.unknown.get(place).map_or("of a kind", String::as_str);
         format!("is {value}, which the format does not know")

@@ -23,7 +23,7 @@ const EXTENSION: &str = "KHR_draco_mesh_compression";
 /// The streams of a file, decoded when they are first needed.
 #[derive(Default)]
 pub(super) struct Streams {
-    /// What each accessor of a compressed primitive is of.
+    /// Part of a stream that an accessor of a compressed primitive is.
     parts: HashMap<usize, Part>,
     /// By buffer view.
     decoded: HashMap<usize, OnceCell<Decoded>>,
@@ -51,7 +51,7 @@ pub(super) struct Elements {
 }
 
 impl Streams {
-    /// What the primitives of `root` refer to, whose accessors are in range.
+    /// Streams of the primitives of `root`, whose accessors are in range.
     pub fn of(path: &Path, root: &Root) -> Result<Self, SceneError> {
         let mut streams = Self::default();
         for (i, mesh) in root.meshes.iter().enumerate() {

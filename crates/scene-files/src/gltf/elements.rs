@@ -23,7 +23,7 @@ pub(super) struct Placed {
     pub deformed: Vec<DeformedMesh>,
 }
 
-/// What identifies the geometry of a primitive: mesh, primitive, and the node if that has a skin or
+/// Identity of the geometry of a primitive: mesh, primitive, and the node if that has a skin or
 /// morph weights of its own.
 type MeshKey = (usize, usize, Option<usize>);
 

@@ -56,7 +56,7 @@ pub(super) fn report<'a>(used: impl Iterator<Item = &'a String>, remarks: &mut R
     }
 }
 
-/// How to get rid of an extension.
+/// Advice on getting rid of an extension.
 fn fix_for(name: &str) -> &'static str {
     match name {
         "EXT_meshopt_compression" | "KHR_meshopt_compression" => {

@@ -150,7 +150,7 @@ impl Check<'_> {
         for (member, info) in infos {
             self.optional(place, member, info.map(|info| info.index), textures)?;
         }
-        // What cannot be read is refused where it is.
+        // Extensions that cannot be read are refused where they are.
         let anisotropy = anisotropy(material).ok().flatten();
         let info = anisotropy.and_then(|found| found.texture);
         self.optional(place, "anisotropyTexture", info.map(|info| info.index), textures)?;

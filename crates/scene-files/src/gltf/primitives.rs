@@ -35,7 +35,7 @@ impl Skipped {
         count("empty-mesh", self.empty, "primitives without triangles were dropped");
     }
 
-    /// How the triangles of a primitive are made, and its positions; counts it if it has none.
+    /// Mode of the triangles of a primitive, and its positions; counts it if it has none.
     fn triangles_of(
         &mut self,
         document: &Document<'_>,
@@ -68,11 +68,11 @@ pub(super) struct Shown {
     pub primitive: usize,
 }
 
-/// What became of a primitive. `Mesh::material` is the index in the file, or the number of
+/// A primitive as read. `Mesh::material` is the index in the file, or the number of
 /// materials for the default one; `DeformedMesh::mesh` is not known here.
 pub(super) struct Read {
     pub mesh: Mesh,
-    /// What it was before morph targets and joints moved it, if any do.
+    /// The mesh before morph targets and joints moved it, if any do.
     pub deformed: Option<DeformedMesh>,
     /// Where a skinned mesh is; other meshes are where their node is.
     pub world_from_mesh: Option<DAffine3>,

@@ -7,7 +7,7 @@ use Kind::{
     Code, Extensions, Flag, List, Map, Number, Numbers, Object, OpenCode, OpenWord, Size, Text, Whole, Word,
 };
 
-/// What a value must be.
+/// Values that are allowed.
 pub(super) enum Kind {
     /// An index, a stride or a number of the format: at most what 32 bits hold.
     Whole,

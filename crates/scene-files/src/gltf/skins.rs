@@ -9,7 +9,7 @@ use super::document::Document;
 use rasray_scene::SceneError;
 use rasray_scene::animation::{Skin, SkinBinding};
 
-/// How far the last row of a matrix may be from (0, 0, 0, 1).
+/// Largest deviation of the last row of a matrix from (0, 0, 0, 1).
 const PROJECTIVE_TOLERANCE: f32 = 1e-4;
 
 /// Reads all skins of a file.

@@ -14,7 +14,7 @@ use crate::images::{Encoded, count_texels, read_image};
 use crate::reference::{self, Place};
 use rasray_scene::{Filter, Image, SceneError, Texture, TextureRef, Wrap};
 
-/// What a texture reference says, whichever of the typed structs it came from.
+/// A reference to a texture, whichever of the typed structs it came from.
 pub(super) struct Use<'a> {
     pub texture: usize,
     pub uv_set: u32,
@@ -170,8 +170,8 @@ impl<'a, 'd> TextureReader<'a, 'd> {
 }
 
 impl TextureReader<'_, '_> {
-    /// What the reference of an image means. One that cannot be followed is a missing texture, which a scene can do without:
-    /// `None`, with a remark, unless a file of its name stands in.
+    /// Resolves the reference of an image. One that cannot be followed is a missing texture, which a scene can do
+    /// without: `None`, with a remark, unless a file of its name stands in.
     fn image_reference(&self, place: &str, uri: &str) -> Result<Option<Reference>, SceneError> {
         let Document { path, limits, remarks, .. } = self.document;
         match resolve(path, place, uri, limits.file_bytes) {

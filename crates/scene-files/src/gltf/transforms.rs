@@ -9,7 +9,7 @@ use rasray_scene::SceneError;
 use rasray_scene::animation::NodeTransform;
 use rasray_scene::remarks::Remarks;
 
-/// How far the last row of a matrix may be from (0, 0, 0, 1).
+/// Largest deviation of the last row of a matrix from (0, 0, 0, 1).
 const PROJECTIVE_TOLERANCE: f64 = 1e-6;
 
 /// Reads the transform of every node.

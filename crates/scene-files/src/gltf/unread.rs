@@ -15,7 +15,8 @@ pub(super) struct Unread {
     displacements: Vec<String>,
 }
 
-/// What is not read of each primitive, by mesh and primitive, where there is anything. The typed tree has no place for it.
+/// Attributes of primitives that are not read, by mesh and primitive, where there are any. The typed tree has no place
+/// for it.
 pub(super) fn find(tree: &Value) -> HashMap<(usize, usize), Unread> {
     let mut found = HashMap::new();
     for (mesh, source) in tree.get("meshes").and_then(Value::as_array).into_iter().flatten().enumerate() {
@@ -37,15 +38,15 @@ pub(super) fn find(tree: &Value) -> HashMap<(usize, usize), Unread> {
 
 fn add(names: &mut Vec<String>, attributes: &Value, is_read: impl Fn(&str) -> bool) {
     for name in attributes.as_object().into_iter().flat_map(|object| object.keys()) {
-        // What begins with an underscore is of an application and means nothing to others.
+        // Names that begin with an underscore are an application's own and mean nothing to others.
         if !name.starts_with('_') && !is_read(name) && !names.contains(name) {
             names.push(name.clone());
         }
     }
 }
 
-/// Whether an attribute is read, or named elsewhere where it is needed: further texture coordinates by the textures that
-/// ask for them, joints and weights by the skin.
+/// True if an attribute is read, or named elsewhere where it is needed: further texture coordinates by the textures
+/// that ask for them, joints and weights by the skin.
 fn is_read(name: &str) -> bool {
     let is_numbered =
         |prefix: &str| name.strip_prefix(prefix).is_some_and(|number| number.parse::<u32>().is_ok());

@@ -4,7 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use rasray_scene::SceneError;
 
-/// What a reference means.
+/// Target of a reference.
 #[derive(Debug)]
 pub(super) enum Reference {
     /// Bytes that were written into the URI itself.
@@ -61,7 +61,7 @@ pub(super) fn resolve(path: &Path, place: &str, uri: &str, limit: u64) -> Result
     Ok(Reference::File(path.parent().unwrap_or(Path::new("")).join(below)))
 }
 
-/// Whether a reference is one to bytes within itself.
+/// True if a reference is one to bytes within itself.
 pub(super) fn is_data(uri: &str) -> bool {
     strip_scheme(uri, "data:").is_some()
 }

@@ -15,7 +15,7 @@ use crate::polygon::{Filling, Polygons};
 use crate::recognise::{BINARY, RENAME};
 use rasray_scene::{Mesh, SceneError};
 
-/// What an OBJ file holds.
+/// Contents of an OBJ file.
 pub(super) struct Geometry {
     /// `Mesh::material` indexes `material_names`. Without positions.
     pub meshes: Vec<Mesh>,
@@ -159,7 +159,7 @@ struct Reader<'a> {
     /// Meshes whose normals are made, and which.
     made_normals: Vec<(usize, Vec<u32>)>,
     triangles: u64,
-    /// Whether any statement was one of an OBJ file.
+    /// True if any statement was one of an OBJ file.
     known: bool,
     /// Corners of the current face, kept to save an allocation for each.
     face: Vec<Corner>,

@@ -61,7 +61,7 @@ pub(super) fn translate(
         }
         _ => {}
     }
-    // What reflects has an index above 1: exporters write 1 where theirs is about refraction alone.
+    // Reflection needs an index above 1: exporters write 1 where theirs is about refraction alone.
     if material.transmission == 0.0 && strength > 0.0 && material.ior <= 1.0 {
         material.ior = 1.5;
     }
@@ -110,7 +110,7 @@ pub(super) fn translate(
     Ok(material)
 }
 
-/// Whether a material with an `illum` of transparency is glass, by the rule at [`crate::obj`].
+/// True if a material with an `illum` of transparency is glass, by the rule at [`crate::obj`].
 fn is_glass(found: &MtlMaterial) -> bool {
     let has_color = found.diffuse_map.is_some() || found.diffuse.is_some_and(|color| color != [0.0; 3]);
     let bends = found.refraction.map(|ior| ior > 1.0);

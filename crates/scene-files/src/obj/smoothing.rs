@@ -28,7 +28,7 @@ impl Smoothing {
         };
     }
 
-    /// Whether faces are in a group.
+    /// True if faces are in a group.
     pub fn is_on(&self) -> bool {
         self.group != 0
     }

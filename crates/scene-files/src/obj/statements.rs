@@ -85,7 +85,7 @@ impl Statement<'_> {
         self.parsed(path, least, number)
     }
 
-    /// The same in double precision.
+    /// Numbers in double precision.
     pub fn wide_numbers<const N: usize>(
         &self,
         path: &Path,
@@ -134,7 +134,7 @@ pub(super) fn number(word: &[u8]) -> Option<f32> {
     }
 }
 
-/// The same in double precision: the nearest number to the text that, rounded once more, is that of [`number`].
+/// A number in double precision: the nearest number to the text that, rounded once more, is that of [`number`].
 fn wide_number(word: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(word).ok()?;
     let wide: f64 = match text.parse() {

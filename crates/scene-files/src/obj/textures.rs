@@ -29,7 +29,7 @@ pub(super) struct Textures<'a> {
     pixels: u64,
 }
 
-/// What an image of the scene was made from.
+/// Files that an image of the scene was made from.
 #[derive(Clone, PartialEq, Eq, Hash)]
 struct Source {
     color: Option<PathBuf>,

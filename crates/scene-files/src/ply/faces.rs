@@ -18,7 +18,7 @@ use rasray_scene::text::shown;
 /// Stands for an index below zero, which ends a strip.
 const END: u32 = u32::MAX;
 
-/// What a list of indices makes.
+/// Form of the triangles of a list of indices.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shape {
     /// A polygon.
@@ -49,12 +49,12 @@ pub(super) struct Group {
     polygons: Vec<(usize, usize)>,
 }
 
-/// What was found in faces and strips.
+/// Contents of faces and strips.
 #[derive(Default)]
 pub(super) struct Faces {
     /// Number of textures that the header names.
     textures: usize,
-    /// Whether vertices are split by what faces give them.
+    /// True if vertices are split by values of faces.
     pub splits: bool,
     /// In the order of first use.
     pub groups: Vec<Group>,
@@ -64,7 +64,7 @@ pub(super) struct Faces {
     pub crossing: usize,
     /// Those whose texture coordinates are not two numbers for each corner.
     pub bare: usize,
-    /// Whether any have colours.
+    /// True if any have colours.
     pub colored: bool,
     /// Those whose colour has an alpha below 1.
     pub faded: usize,

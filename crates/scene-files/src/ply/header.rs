@@ -6,7 +6,7 @@ use crate::recognise::{binary, recognise};
 use rasray_scene::SceneError;
 use rasray_scene::text::shown;
 
-/// How numbers stand in the body.
+/// Encoding of numbers in the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
     Ascii,
@@ -75,7 +75,7 @@ pub(super) struct Element {
     pub properties: Vec<Property>,
 }
 
-/// What stands before the body.
+/// Header of the file, before the body.
 pub(super) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,

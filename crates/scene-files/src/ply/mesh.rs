@@ -15,7 +15,7 @@ use rasray_scene::remarks::Remarks;
 use rasray_scene::text::shown;
 use rasray_scene::{Mesh, SceneError};
 
-/// What a file holds.
+/// Contents of a file.
 #[derive(Default)]
 pub(super) struct Content {
     /// One for each texture that faces use, without positions, texture coordinates, names and materials. None if there are
@@ -84,7 +84,7 @@ pub(super) fn read(
     Ok(content)
 }
 
-/// What of a mesh is rounded later.
+/// Coordinates of a mesh, which are rounded later.
 struct Points {
     positions: Vec<DVec3>,
     uvs: Option<Vec<[f64; 2]>>,

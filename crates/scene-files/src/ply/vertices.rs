@@ -22,7 +22,7 @@ pub(super) struct Vertices {
     pub colors: Option<Vec<[f32; 4]>>,
 }
 
-/// What a property of a vertex means: place in a row of twelve numbers.
+/// Properties of a vertex, each with its place in a row of twelve numbers.
 const COLUMNS: [(&str, usize); 14] = [
     ("x", 0),
     ("y", 1),

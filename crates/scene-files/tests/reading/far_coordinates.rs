@@ -101,7 +101,7 @@ fn corners(scene: &Scene) -> Vec<DVec3> {
     placed.collect()
 }
 
-/// The same of the file, in the order of a fan for each square.
+/// Corners of the file's triangles, in the order of a fan for each square.
 fn truth(vertices: &[[f64; 3]]) -> Vec<DVec3> {
     let fan = squares().flat_map(|[a, b, c, d]| [a, b, c, a, c, d]);
     fan.map(|corner| DVec3::from_array(vertices[corner])).collect()
@@ -156,7 +156,8 @@ fn doubles_and_whole_numbers_far_from_the_origin_are_what_they_are() {
     }
 }
 
-/// What single precision holds is not touched, wherever it is; nor is what is large against its distance.
+/// Single-precision coordinates are not touched, wherever they are; nor are things that are large against their
+/// distance.
 #[test]
 fn what_loses_nothing_keeps_its_bits() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -260,7 +261,7 @@ fn groups_of_one_material_that_lie_apart_have_origins_of_their_own() {
     assert_eq!([origins[0], origins[2]], [DVec3::ZERO; 2]);
     assert!(origins[1].y > 4.6e6, "{origins:?}");
     assert_close(&corners(&scene), &wanted.concat(), 1.0, "all parts, in the order of the file");
-    // What is near has the bits that it has alone; the attributes follow the vertices.
+    // The near group has the bits that it has alone; the attributes follow the vertices.
     let alone = read(folder.path(), "alone.obj", file([&near, &near, &near]));
     assert_eq!((alone.meshes.len(), alone.meshes[0].positions.len()), (1, 3 * SIDE * SIDE));
     let count = SIDE * SIDE;

@@ -147,7 +147,7 @@ fn pipes_are_never_waited_for() {
     }
 }
 
-/// What was downloaded by mistake in place of a buffer, image or library.
+/// Pages that were downloaded by mistake in place of a buffer, image or library.
 #[test]
 fn foreign_references_are_named() {
     let folder = tempfile::tempdir().expect("a temporary folder");

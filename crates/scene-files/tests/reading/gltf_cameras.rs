@@ -2,7 +2,7 @@
 
 use crate::gltf_support::moving::{File, TRIANGLE, messages};
 
-/// What a camera frames is in every image; images of another shape show more.
+/// Every image holds the frame of the camera; images of another shape show more.
 #[test]
 fn cameras_frame_what_they_say() {
     let file = File::new();

@@ -75,7 +75,7 @@ struct Error {
 impl Error {
     fn of(plain: Corner, twin: Corner) -> Self {
         let greatest = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-        // What one of them lacks is as far off as can be.
+        // An attribute that one of them lacks is as far off as can be.
         let pair = |a: Option<&[f32]>, b: Option<&[f32]>| match (a, b) {
             (Some(a), Some(b)) => greatest(a, b),
             (None, None) => 0.0,
@@ -133,7 +133,7 @@ fn compare(file: &str, plain: &Scene, twin: &Scene) -> Error {
     worst
 }
 
-/// What exporters compress equals what they were given, to the numbers of bits that they were told to keep.
+/// Compressed scenes equal those that exporters were given, to the numbers of bits that they were told to keep.
 #[test]
 fn compressed_scenes_equal_their_plain_twins() {
     let plain = read("plain.glb");
@@ -218,7 +218,7 @@ fn load_with(file: &str, from: &str, to: &str) -> Result<Scene, SceneError> {
     gltf::from_slice(&folder().join(file), &bytes, &LoadOptions::default())
 }
 
-/// What a view says of its stream is checked before the stream is decoded; the message names the view.
+/// Values of a view are checked before its stream is decoded; the message names the view.
 #[test]
 fn what_views_say_of_their_streams_is_checked() {
     for (from, to, words) in [
@@ -252,7 +252,7 @@ fn what_views_say_of_their_streams_is_checked() {
     }
 }
 
-/// What accessors claim of a Draco stream is held against the stream.
+/// Claims of accessors are held against the Draco stream.
 #[test]
 fn what_accessors_claim_of_draco_streams_is_checked() {
     for (from, to, words) in [

@@ -1,4 +1,4 @@
-//! What is read: geometry, instances, materials, lights, cameras, deformation.
+//! Content that is read: geometry, instances, materials, lights, cameras, deformation.
 
 use crate::gltf_support::rich::{png, rich_glb};
 use crate::gltf_support::{

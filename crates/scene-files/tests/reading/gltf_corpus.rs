@@ -84,7 +84,7 @@ fn files_below(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// How loading a file ends: the words that its error must hold, or triangles and kinds of warnings.
+/// End of loading a file: the words that its error must hold, or triangles and kinds of warnings.
 enum End {
     Error(&'static str),
     Loads(usize, &'static [&'static str]),
@@ -180,7 +180,7 @@ fn every_file_of_the_corpus_is_listed() {
     assert!(missing.is_empty(), "not in the tables: {missing:?}");
 }
 
-/// What can move has a rig, and nothing else has. Posed by no clip it is what it is at rest, to the bit.
+/// Scenes that can move have a rig, and no others have. Posed by no clip it is what it is at rest, to the bit.
 #[test]
 fn what_moves_has_a_rig() {
     let Some(folder) = scenes_folder("what_moves_has_a_rig") else { return };

@@ -70,7 +70,7 @@ fn primitives_without_targets_are_not_displaced() {
 /// The path with its node, times and values of a channel, its interpolation, and what is said of it.
 type Channel<'a> = (&'a str, &'a [f32], &'a [f32], &'a str, &'a str);
 
-/// What is wrong with a channel is said of what is wrong.
+/// The remark on a channel that cannot be played names its fault.
 #[test]
 fn a_channel_that_cannot_be_played_says_why() {
     let nan = f32::NAN;

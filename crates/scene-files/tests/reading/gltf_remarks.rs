@@ -1,4 +1,4 @@
-//! What a file may get wrong and is shown all the same: each is named in a warning, or accepted where
+//! Faults with which a file is shown all the same: each is named in a warning, or accepted where
 //! the meaning is plain.
 
 use crate::gltf_support::rich::png;
@@ -186,7 +186,7 @@ fn misplaced_chunks_are_named() {
     assert_says(&load(&late), "glb-chunks", &["not the second"]);
 }
 
-/// What nothing of the scene reads may be missing, unknown or broken.
+/// Parts that nothing of the scene reads may be missing, unknown or broken.
 #[test]
 fn unused_parts_may_be_broken() {
     let cases = [

@@ -1,4 +1,4 @@
-//! What exporters mean by materials, references and smoothing groups of OBJ files.
+//! Exporters' dialects of materials, references and smoothing groups of OBJ files.
 
 use std::fs;
 use std::path::Path;

@@ -290,7 +290,7 @@ fn what_is_not_supported_is_named() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// What is written is read back: positions in order of use, triangles in file order.
+    /// Written meshes are read back: positions in order of use, triangles in file order.
     #[test]
     fn written_meshes_are_read_back(
         points in prop::collection::vec(prop::array::uniform3(-1.0e3_f32..1.0e3), 3..40),

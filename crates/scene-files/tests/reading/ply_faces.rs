@@ -1,4 +1,4 @@
-//! What faces of PLY files have of their own, and what is not read.
+//! Values that faces of PLY files have of their own, and those that are not read.
 
 use std::fs;
 use std::path::Path;

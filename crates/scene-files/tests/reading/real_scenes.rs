@@ -6,7 +6,7 @@ use rasray_scene_files::{LoadOptions, load};
 
 use crate::gltf_support::{assert_well_formed, scenes_folder};
 
-/// Whether the default camera stands within the bounds.
+/// True if the default camera stands within the bounds.
 fn stands_inside(scene: &Scene) -> bool {
     let (low, high) = bounds(scene).expect("triangles");
     let eye = default_camera(scene).world_from_camera.translation;

@@ -64,7 +64,7 @@ fn numbered_files_are_one_scene_over_time() {
         assert_eq!(triangles(&shown), [0, 2, 5, 1][number - 7], "{seconds}");
         assert_eq!((shown.instances.len(), shown.materials.len()), (1, 1));
     }
-    // What is remarked on is of the file that is shown.
+    // Remarks are on the file that is shown.
     let empty =
         |scene: &Scene| scene.warnings.iter().filter(|warning| warning.kind == "no-triangles").count();
     let later = at(&scene, 0.9);

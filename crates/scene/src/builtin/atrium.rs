@@ -221,7 +221,7 @@ fn spandrel(
         let angle = if facing > 0.0 { PI * (1.0 - u) } else { PI * u };
         (point(angle, v), normal)
     });
-    // What the fan leaves open: between the springing line, the slanted border and the bay's edge.
+    // The wall beside the fan: between the springing line, the slanted border and the bay's edge.
     let corner = |x: f64, y: f64| middle + along * x + DVec3::Y * y;
     for side in [-1.0, 1.0] {
         let (foot, edge, high) =

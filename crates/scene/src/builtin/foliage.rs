@@ -20,12 +20,12 @@ use crate::{Animation, Light, Material, Mesh, Scene, SceneError};
 pub struct Foliage {
     /// Leaves of the trees and blades of grass, within [`Foliage::LEAVES`].
     pub leaves: u64,
-    /// Whether a leaf of a tree is a square card with an alpha mask instead of its outline in triangles.
+    /// True if a leaf of a tree is a square card with an alpha mask instead of its outline in triangles.
     pub cards: bool,
 }
 
 impl Foliage {
-    /// How many can be asked for.
+    /// Numbers that can be asked for.
     pub const LEAVES: RangeInclusive<u64> = 1_000..=1_000_000;
 }
 
@@ -150,7 +150,7 @@ struct Blade {
     long: DVec3,
     /// Half the width, metres, across `long`.
     wide: DVec3,
-    /// How far the wind takes its foot and its tip, metres.
+    /// Ways that the wind takes its foot and its tip, metres.
     give: [f64; 2],
     /// Where it is in its own flutter, as a share of a turn.
     phase: f64,

@@ -13,7 +13,7 @@ use super::shape::Shapes;
 /// Cosine of the angle between two steps of a profile beyond which their edge is sharp: 40 degrees.
 const CREASE: f64 = 0.766;
 
-/// How often curved surfaces are divided.
+/// Factor on the numbers of divisions of curved surfaces.
 #[derive(Clone, Copy)]
 pub(super) struct Fineness(pub f64);
 
@@ -112,7 +112,7 @@ impl Shapes {
             .map(|step| DVec2::new(step.y, -step.x).normalize_or(DVec2::X))
             .collect();
         let ring = profile[0] == profile[steps];
-        // What the next step does on the other side of a point of the profile.
+        // Normal of the next step on the other side of a point of the profile.
         let beyond = |point: usize, own: usize| match point {
             _ if 0 < point && point < steps => across[if own == point { point - 1 } else { point }],
             _ if ring => across[if own == 0 { steps - 1 } else { 0 }],

@@ -117,7 +117,7 @@ fn choose(candidates: &[Shapes], fixed: &[Shapes], camera: &Camera, share: f64) 
     pixels[..candidates.len()].iter().map(&mut take).collect()
 }
 
-/// What can be a mirror, in the order in which it becomes one, and what cannot.
+/// Parts that can be mirrors, in the order in which they become mirrors, and those that cannot.
 fn parts() -> (Vec<Shapes>, Vec<Shapes>) {
     let mut parts = Vec::new();
     wall_panes(&mut parts);

@@ -84,7 +84,7 @@ pub const NAMES: [&str; 15] = [
     "cloth-ball",
 ];
 
-/// What of a picture suits a built-in scene, where a picture of any scene would not.
+/// Size and samples that suit a built-in scene where those of any scene would not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Picture {
     /// Pixels a row, and rows: in the proportions of what the scene's camera looks at.

@@ -204,7 +204,7 @@ fn vessel(outside: &[DVec2], inside: &[DVec2], fineness: Fineness) -> Vec<DVec2>
     profile.iter().map(|point| DVec2::new(point.x.max(0.0), point.y)).collect()
 }
 
-/// What fills a vessel up to `level`: within its inside by a gap, level on top.
+/// Profile of the filling of a vessel up to `level`: within its inside by a gap, level on top.
 fn filling(inside: &[DVec2], level: f64, fineness: Fineness) -> Vec<DVec2> {
     let mut profile: Vec<DVec2> = curve(inside, fineness.of(6.0, 2))
         .into_iter()

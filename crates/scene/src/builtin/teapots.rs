@@ -12,7 +12,7 @@ use super::teapot::{BODY, teapot};
 use crate::default_view::{camera_looking_at, default_light};
 use crate::{Environment, Instance, Material, Scene};
 
-/// How far the mirror reaches beyond the middle of the outermost pot, metres.
+/// Width of the mirror beyond the middle of the outermost pot, metres.
 const MARGIN: f64 = 4.0;
 /// Quads along a side of a patch.
 const STEPS: usize = 10;
@@ -26,16 +26,16 @@ const SEED: u64 = 0x5EED_0005;
 /// Parameters of [`teapots`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Teapots {
-    /// How many there are, within [`Teapots::POTS`].
+    /// Number of pots, within [`Teapots::POTS`].
     pub pots: u64,
-    /// What they stand on.
+    /// Ground under the pots.
     pub ground: Ground,
     /// Rectangular lamps above them, within [`Teapots::LAMPS`]. Without one the environment is a map:
     /// [`default_light`].
     pub lamps: u64,
 }
 
-/// What the pots of [`teapots`] stand on.
+/// Ground under the pots of [`teapots`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ground {
     /// A plane mirror.
@@ -45,14 +45,14 @@ pub enum Ground {
 }
 
 impl Ground {
-    /// What the parameter takes.
+    /// Values of the parameter.
     pub const NAMES: [&'static str; 2] = ["mirror", "matt"];
 }
 
 impl Teapots {
-    /// How many can be asked for.
+    /// Numbers of pots that can be asked for.
     pub const POTS: RangeInclusive<u64> = 1..=2_000;
-    /// How many lamps there may be.
+    /// Numbers of lamps that can be asked for.
     pub const LAMPS: RangeInclusive<u64> = 0..=2;
 }
 

@@ -72,7 +72,7 @@ pub(super) fn clean(mesh: &mut Mesh, before: Option<&[[f32; 3]]>, remarks: &mut 
     remarks.count("degenerate-triangles", &place, degenerate, text);
 }
 
-/// Whether the area of a triangle is zero, in f64.
+/// True if the area of a triangle is zero, in f64.
 pub(super) fn is_degenerate(positions: &[[f32; 3]], corners: &[u32]) -> bool {
     face_normal(positions, corners) == DVec3::ZERO
 }

@@ -1,4 +1,4 @@
-//! How much light the surfaces of a scene send out, spread over all of them.
+//! Light that the surfaces of a scene send out, spread over all of them.
 
 use glam::DVec3;
 

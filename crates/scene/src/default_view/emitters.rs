@@ -2,12 +2,12 @@
 
 use crate::{Material, Scene};
 
-/// Whether surfaces of this material send out light by themselves.
+/// True if surfaces of this material send out light by themselves.
 pub fn emits(material: &Material) -> bool {
     shines(&material.emission) || (material.unlit && shines(&material.base_color[..3]))
 }
 
-/// Whether a colour is not black.
+/// True if a colour is not black.
 pub(super) fn shines(color: &[f32]) -> bool {
     color.iter().any(|channel| *channel > 0.0)
 }

@@ -1,16 +1,16 @@
-//! Whether a scene is lit, and what lights it if it is not.
+//! Tests of whether a scene is lit, and the light of one that is not.
 
 use super::emission::mean_emission;
 use super::emitters::{emits, shines, shown_materials};
 use super::sky::sky;
 use crate::{Environment, Light, Motion, Scene, Warning};
 
-/// What the surfaces of a scene emit lights it from this much on: the mean radiance over all of its surfaces,
-/// W/(sr m^2). The lamp of a Cornell box gives the box 0.09; a white surface that saw 0.05 all around would be
+/// Least emission that lights a scene: the mean radiance over all of its surfaces, W/(sr m^2). The lamp of a Cornell
+/// box gives the box 0.09; a white surface that saw 0.05 all around would be
 /// shown as a dark grey.
 const LEAST_EMISSION: f64 = 0.05;
 
-/// Whether anything lights the scene: a punctual light that is not black, an environment that is not black, or
+/// True if anything lights the scene: a punctual light that is not black, an environment that is not black, or
 /// surfaces that emit a mean radiance of at least 0.05 W/(sr m^2). That mean is over the area of all placed
 /// triangles, with emission by luminance, as textures shape it, once for each side that emits; surfaces of unlit
 /// materials emit their base colour on both sides.
@@ -20,13 +20,13 @@ pub fn is_lit(scene: &Scene) -> bool {
     is_lit_always(scene) || mean_emission(scene) >= LEAST_EMISSION
 }
 
-/// Whether [`is_lit`] depends on the time at which the scene is shown: nothing but surfaces may light it, and how much of
-/// all surfaces those are that emit changes with what moves.
+/// True if [`is_lit`] depends on the time at which the scene is shown: nothing but surfaces may light it, and how much
+/// of all surfaces those are that emit changes with what moves.
 pub fn is_lit_at_times(scene: &Scene) -> bool {
     scene.motion() != Motion::Still && scene.materials.iter().any(emits) && !is_lit_always(scene)
 }
 
-/// Whether anything lights it that does not depend on its surfaces.
+/// True if anything lights it that does not depend on its surfaces.
 fn is_lit_always(scene: &Scene) -> bool {
     let environment = match &scene.environment {
         Environment::Constant(radiance) => shines(radiance),

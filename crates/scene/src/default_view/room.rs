@@ -91,13 +91,13 @@ struct View {
     way: f64,
 }
 
-/// What is seen from a point.
+/// View from a point.
 struct Surroundings {
     /// Metres; infinite if nothing is seen.
     nearest: f64,
     /// Share of all directions that end on a front.
     fronts: f64,
-    /// The same of the directions within 45 degrees of straight down.
+    /// Share of the directions within 45 degrees of straight down.
     fronts_below: f64,
 }
 
@@ -128,7 +128,7 @@ impl Room<'_> {
     /// by the cosine law, hit nothing.
     fn outer_share(&self) -> f64 {
         let places = self.sight.places(PLACES_ON_SURFACE);
-        // What is closer than this is the surface that the place lies on.
+        // A hit closer than this is on the surface that the place lies on.
         let own = self.clearance * 1.0e-4;
         let is_outside = |&(place, normal): &(DVec3, DVec3)| {
             let ways = sphere_of(DIRECTIONS_FROM_SURFACE).map(|point| (normal + point).normalize_or(normal));

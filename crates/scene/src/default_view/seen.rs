@@ -1,4 +1,4 @@
-//! What a camera sees first in each pixel.
+//! First hits of a camera's pixels.
 
 use glam::DVec3;
 

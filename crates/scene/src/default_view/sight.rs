@@ -1,4 +1,4 @@
-//! What a ray inside a scene hits first: a uniform grid over the placed triangles, in f64.
+//! First hits of rays inside a scene: a uniform grid over the placed triangles, in f64.
 //!
 //! It answers a few thousand rays, once, so it is made for little work in the making: a grid of about
 //! as many cells as triangles, which is coarsened until the lists in the cells stay short in total.
@@ -26,7 +26,7 @@ const MAX_TESTS: usize = 50_000_000;
 pub(super) struct Hit {
     /// Distance in lengths of the direction.
     pub t: f64,
-    /// Whether the front side, the one seen counter-clockwise, faces the ray. Placements that mirror
+    /// True if the front side, the one seen counter-clockwise, faces the ray. Placements that mirror
     /// turn the order of the corners, not the side.
     pub front: bool,
     /// Index into [`Scene::instances`].
@@ -102,7 +102,7 @@ impl<'a> Sight<'a> {
         self.first_beyond(origin, direction, 0.0)
     }
 
-    /// The same of hits at a distance of at least `least`.
+    /// [`Self::first`] at a distance of at least `least`.
     pub fn first_beyond(&self, origin: DVec3, direction: DVec3, least: f64) -> Option<Hit> {
         let mut cell = self.cell_at(origin);
         let mut best: Option<Hit> = None;
@@ -200,7 +200,7 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// How many cells the triangle's box overlaps, and the first and the last of them.
+    /// Number of cells that the triangle's box overlaps, and the first and the last of them.
     fn cells_of(&self, triangle: [u32; 2]) -> (usize, UVec3, UVec3) {
         let Some(([a, b, c], _)) = corners(self.scene, triangle) else { return (0, UVec3::ONE, UVec3::ZERO) };
         let (first, last) = (self.cell_at(a.min(b).min(c)), self.cell_at(a.max(b).max(c)));

@@ -3,7 +3,7 @@
 use super::workload::Workload;
 use crate::{AlphaMode, Material, TextureRef};
 
-/// What a material's textures are read for.
+/// Purposes for which a material's textures are read.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Reads<'a> {
     /// As colour, or for partial opacity.
@@ -55,22 +55,22 @@ impl<'a> Reads<'a> {
     }
 }
 
-/// Whether the base colour, of material, texture or vertices, changes what the workload shows.
+/// True if the base colour, of material, texture or vertices, changes what the workload shows.
 pub(super) fn reads_base_color(material: &Material, workload: Workload) -> bool {
     workload.shades || (workload.emission && material.unlit) || blends(material, workload)
 }
 
-/// Whether the workload lets light through where a material blends.
+/// True if the workload lets light through where a material blends.
 pub(super) fn blends(material: &Material, workload: Workload) -> bool {
     workload.blends && material.alpha_mode == AlphaMode::Blend
 }
 
-/// Whether the workload shows that facets are rougher along one direction.
+/// True if the workload shows that facets are rougher along one direction.
 pub(super) fn is_anisotropic(material: &Material, workload: Workload) -> bool {
     workload.scatters && !material.unlit && material.anisotropy > 0.0
 }
 
-/// Whether a colour is not black.
+/// True if a colour is not black.
 pub(super) fn is_lit(color: &[f32]) -> bool {
     color.iter().any(|channel| *channel > 0.0)
 }

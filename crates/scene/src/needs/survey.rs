@@ -1,4 +1,4 @@
-//! What a scene has, as far as a workload could look at it.
+//! Terms that a scene has, as far as a workload could look at them.
 
 use super::moving::moving_instances;
 use super::reads::{Reads, blends, is_anisotropic, is_lit, reads_base_color};
@@ -33,7 +33,7 @@ fn placed_meshes(scene: &Scene) -> impl Iterator<Item = &Mesh> {
         .map(|(mesh, _)| mesh)
 }
 
-/// How many of something there are, and the first.
+/// Number of finds, and the name of the first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Found {
     pub count: usize,
@@ -97,7 +97,7 @@ pub(super) fn unseen(term: Term, workload: Workload) -> Option<&'static str> {
     let seen = match term {
         Term::Motion | Term::AlphaMask | Term::Uv0 | Term::Uv1 | Term::Colors => true,
         Term::Emission | Term::EmissionTextures | Term::Environment => workload.emission,
-        // What is not lit shows it as emission.
+        // Unlit materials show it as emission.
         Term::BaseColorTextures => workload.emission || workload.shades || workload.blends,
         Term::AlphaBlend => workload.blends,
         Term::Normals | Term::Tangents | Term::NormalTextures => workload.shades,

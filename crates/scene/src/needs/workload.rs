@@ -1,6 +1,6 @@
-//! What is looked at of a scene.
+//! Properties of hits that a workload looks at.
 
-/// What is looked at of what rays hit. Alpha masks, motion, and what these read are looked at by all.
+/// Properties of hits that are looked at. Alpha masks, motion, and what these read are looked at by all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Workload {
     /// Light that surfaces and the environment emit is seen.
@@ -29,7 +29,7 @@ impl Workload {
     pub const ALL: Self =
         Self { emission: true, shades: true, scatters: true, blends: true, why: "it is not looked at" };
 
-    /// Whether only visibility is asked for, and nothing of what is hit.
+    /// True if only visibility is asked for.
     pub fn is_visibility(self) -> bool {
         !(self.emission || self.shades || self.scatters || self.blends)
     }

@@ -123,7 +123,7 @@ fn hollow_things_are_seen_from_outside() {
     for without in [&[][..], &[FLOOR], &[FRONT], &[0], &[FLOOR, FRONT]] {
         assert!(!stands_inside(&scene_of(lined(without))), "without {without:?}");
     }
-    // What is in it, as in a machine, makes no room of it.
+    // Things inside, as in a machine, make no room of it.
     let part = |x: f64| (box_mesh([0.3; 3], false, &[]), DAffine3::from_translation(DVec3::new(x, 0.5, 0.0)));
     let machine = [lined(&[]), vec![part(-0.6), part(0.0), part(0.6)]].concat();
     assert!(!stands_inside(&scene_of(machine)));
@@ -233,7 +233,7 @@ fn the_default_light_shows_grey_things_before_grey() {
         let solid_angle = polar.sin() * 2.0 * std::f64::consts::PI.powi(2) / f64::from(width * height);
         (DVec3::new(polar.sin() * azimuth.cos(), polar.cos(), polar.sin() * azimuth.sin()), solid_angle)
     };
-    // What a surface of base colour 0.8 shows, by the direction it faces.
+    // Radiance of a surface of base colour 0.8, by the direction it faces.
     let shown = |normal: DVec3| -> f64 {
         let light = radiance.iter().enumerate().map(|(index, radiance)| {
             let (direction, solid_angle) = direction(index);

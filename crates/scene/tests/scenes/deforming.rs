@@ -29,7 +29,7 @@ fn triangles(scene: &Scene) -> usize {
     scene.meshes.iter().map(Mesh::triangle_count).sum()
 }
 
-/// Whether every edge of a mesh has a triangle on both sides.
+/// True if every edge of a mesh has a triangle on both sides.
 fn is_closed(mesh: &Mesh) -> bool {
     let mut sides: HashMap<(u32, u32), i32> = HashMap::new();
     for corners in mesh.indices.chunks_exact(3) {
@@ -147,7 +147,7 @@ fn the_cloth_falls_over_the_ball_and_keeps_its_triangles() {
         let normals = cloth.normals.as_ref().expect("smooth");
         assert!(normals.iter().all(|n| (DVec3::from(n.map(f64::from)).length() - 1.0).abs() < 1.0e-5));
     }
-    // What was asked for before makes no difference, nor do copies, nor times that are out of range.
+    // Earlier moments make no difference, nor do copies, nor times that are out of range.
     let (fresh, used) = (scene("cloth-ball:2k"), scene("cloth-ball:2k"));
     let later = at(&used.clone(), 0.7);
     assert_eq!(mesh(&at(&later, 0.4), "cloth").positions, mesh(&at(&fresh, 0.4), "cloth").positions);

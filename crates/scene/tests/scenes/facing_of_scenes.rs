@@ -1,4 +1,4 @@
-//! What surfaces allow to be saved where each triangle is kept in one of three views.
+//! Fragments saved where each triangle is kept in one of three views.
 
 use approx::assert_abs_diff_eq;
 use rasray_scene::facing::Facing;

@@ -1,4 +1,4 @@
-//! What workloads observe of scenes.
+//! Terms of scenes that workloads observe.
 
 use glam::DAffine3;
 use rasray_scene::animation::{

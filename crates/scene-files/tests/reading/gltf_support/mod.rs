@@ -33,7 +33,7 @@ pub fn kinds(scene: &Scene) -> Vec<&'static str> {
     scene.warnings.iter().map(|warning| warning.kind).collect()
 }
 
-/// What [`Scene`] and [`rasray_scene::Mesh`] promise, whatever was read.
+/// Asserts the promises of [`Scene`] and [`rasray_scene::Mesh`], whatever was read.
 pub fn assert_well_formed(scene: &Scene) {
     assert!(!scene.materials.is_empty());
     for mesh in &scene.meshes {

@@ -25,13 +25,13 @@ const CLEARANCE: f64 = 0.004;
 
 /// m/s^2.
 const GRAVITY: f64 = 9.81;
-/// What the air takes of a velocity, per second.
+/// Damping of velocities by air, 1/s.
 const DRAG: f64 = 0.6;
 /// Share of a difference of velocities between neighbours that a step takes away: friction of the threads.
 const THREADS: f64 = 0.08;
 /// Friction on the ball and on the ground.
 const FRICTION: (f64, f64) = (0.35, 0.7);
-/// How fast a deviation is corrected, 1/s: of diagonals, and of distances that resist bending.
+/// Rate at which a deviation is corrected, 1/s: of diagonals, and of distances that resist bending.
 const SHEAR: f64 = 500.0;
 const BEND: f64 = 160.0;
 /// Length over which bending is resisted, metres.
@@ -191,7 +191,7 @@ impl Simulation {
 /// Metres that vertices keep from the ball and the ground: what lies between them keeps some of it.
 fn clearance(squares: usize) -> f64 {
     let square = SIDE / squares as f64;
-    // How far the middle of a square's diagonal is below a sphere that its ends are on.
+    // Depth of the middle of a square's diagonal below a sphere that its ends are on.
     CLEARANCE + square * square / (4.0 * RADIUS)
 }
 

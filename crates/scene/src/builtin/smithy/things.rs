@@ -1,4 +1,4 @@
-//! What stands, lies and hangs in the room.
+//! Things that stand, lie and hang in the room.
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 

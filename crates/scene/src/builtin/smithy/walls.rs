@@ -1,4 +1,4 @@
-//! What the room is built of: stones, flags, beams, the forge.
+//! Walls and fittings of the room: stones, flags, beams, the forge.
 
 use glam::{DVec2, DVec3};
 

@@ -16,7 +16,7 @@ pub(super) struct Part {
     cones: Vec<(usize, RoundCone)>,
     /// Planes that cut all of it off: a place, and the way to what is left out.
     cuts: Vec<(DVec3, DVec3)>,
-    /// The same of one solid each, by its place in `cones`.
+    /// Such planes of one solid each, by its place in `cones`.
     ends: Vec<(usize, DVec3, DVec3)>,
     /// Over how many metres solids run into one another.
     seam: f64,
@@ -179,7 +179,7 @@ fn shoes(joints: &[Joint]) -> Part {
             0.034,
         );
     }
-    // What would reach into the ground is cut off just above it.
+    // Cut off just above the ground.
     part.cuts.push((at(0.0, 0.002, 0.0), DVec3::NEG_Y));
     part
 }

@@ -1,4 +1,4 @@
-//! How the walker walks: a circle of whole strides, so that the end of the clip is its beginning.
+//! Gait of the walker: a circle of whole strides, so that the end of the clip is its beginning.
 //!
 //! Feet stand still where they are set down; legs follow by inverse kinematics, everything above swings against them.
 
@@ -23,7 +23,7 @@ const REACH: f64 = 0.25;
 /// Distance of the feet from the line of walking, metres.
 const TRACK: f64 = 0.065;
 
-/// How all joints are turned, and where the first is.
+/// Turns of all joints, and the place of the first.
 pub(super) struct Stance {
     /// Of the pelvis, metres, world.
     pub pelvis: DVec3,
@@ -81,11 +81,11 @@ fn arm(side: Side, swing: f64, rotations: &mut [DQuat; COUNT]) {
 struct Foot {
     /// Of the ankle, metres, world.
     ankle: DVec3,
-    /// How the foot is turned about the vertical.
+    /// Turn of the foot about the vertical, radians.
     yaw: f64,
-    /// How far the heel is above the toes, radians.
+    /// Slope from the toes up to the heel, radians.
     pitch: f64,
-    /// How far the toes are bent up, radians.
+    /// Bend of the toes upwards, radians.
     bend: f64,
 }
 
