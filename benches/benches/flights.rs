@@ -1,7 +1,7 @@
-//! What frames in flight gain: `cargo bench --bench flights -- [SCENE] [WIDTHxHEIGHT] [FRAMES] [SYSTEM]`.
+//! Gains of frames in flight: `cargo bench --bench flights -- [SCENE] [WIDTHxHEIGHT] [FRAMES] [SYSTEM]`.
 //!
-//! The same pictures of a scene that moves, of one path of four bounces per pixel: made step by step, each waited for, and
-//! in frames with one to three in flight. Ways take turns; medians over rounds of the milliseconds per frame, with
+//! Pictures of a scene that moves, of one path of four bounces per pixel: made step by step, each waited for, and in
+//! frames with one to three in flight. Ways take turns; medians over rounds of the milliseconds per frame, with
 //! quartiles. Pictures of all ways must be equal bit for bit. Times of software devices are for ratios on that device.
 
 use std::error::Error;
@@ -66,7 +66,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// What one way renders with.
+/// Scene and integrator that one way renders with.
 struct Setting<'a> {
     device: &'a Device,
     loaded: &'a LoadedScene,

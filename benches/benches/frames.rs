@@ -1,5 +1,4 @@
-//! What a frame of a scene that moves costs: `cargo bench --bench frames -- [SCENE] [WIDTHxHEIGHT] [FRAMES]
-//! [SYSTEM,...]`.
+//! Costs of frames of a scene that moves: `cargo bench --bench frames -- [SCENE] [WIDTHxHEIGHT] [FRAMES] [SYSTEM,...]`.
 //!
 //! Per system the medians over frames of pose, build, trace, surfaces and shade, each timed by itself, and from these
 //! the time of a frame at 1, 4 and 16 rays per pixel, divided by that of a tree rebuilt by Morton codes. `crossover` is the
@@ -60,7 +59,7 @@ struct Frame {
     shade: f64,
 }
 
-/// What a ray reads on average.
+/// Work per ray, on average.
 #[derive(Clone, Copy)]
 struct Work {
     cells: f64,
@@ -68,7 +67,7 @@ struct Work {
     tests: f64,
 }
 
-/// What is said of a system.
+/// Costs of a system.
 struct Measured {
     title: String,
     frame: Frame,
@@ -151,7 +150,7 @@ fn crossover(frame: &Frame, baseline: &Frame) -> String {
     }
 }
 
-/// What is measured of one system.
+/// Setting of the measurements of one system.
 struct Setting<'a> {
     device: &'a Device,
     stage: DeviceScene,

@@ -1,4 +1,4 @@
-//! What the layout of an engine's buffers costs: `cargo bench --bench geometry -- [SCENE] [RAYS]`.
+//! Costs of layouts of an engine's buffers: `cargo bench --bench geometry -- [SCENE] [RAYS]`.
 //!
 //! Prints, for each layout of vertices and indices, the medians of the builds and of the traces of random rays through the
 //! default systems of triangles, alternated between layouts in one process, and their ratios to packed buffers. Hits are the
@@ -25,7 +25,7 @@ const REPETITIONS: u32 = 7;
 /// Triangles of a draw: its vertices have indices of 16 bits.
 const DRAW_TRIANGLES: usize = 20_000;
 
-/// How triangles lie in buffers.
+/// Layout of triangles in buffers.
 #[derive(Clone, Copy)]
 struct Layout {
     name: &'static str,

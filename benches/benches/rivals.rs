@@ -270,7 +270,7 @@ fn print_set(device: &Device, rows: &[Row<'_>], set: &Rays) -> Result<()> {
     Ok(())
 }
 
-/// What of nearest hits is wrong, as the columns have it.
+/// Errors of nearest hits, in the order of the columns.
 fn of_hits(verdicts: &[Verdict], hits: &[Option<DeviceHit>]) -> Result<[String; 7]> {
     let found = HitConfusion::measure(verdicts, hits, 0.0)?;
     let counts = [
@@ -286,7 +286,7 @@ fn of_hits(verdicts: &[Verdict], hits: &[Option<DeviceHit>]) -> Result<[String; 
     Ok([missed, false_hits, wrong, lost, edges, off, largest])
 }
 
-/// What of shadows is wrong: only whether anything is hit is asked for.
+/// Errors of shadows: only whether anything is hit is asked for.
 fn of_shadows(verdicts: &[Verdict], hits: &[Option<DeviceHit>]) -> [String; 7] {
     let [mut missed, mut false_hits, mut lost] = [0_u64; 3];
     for (verdict, hit) in verdicts.iter().zip(hits) {

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-/// What a call took.
+/// Time of a call.
 #[derive(Clone, Copy, Debug)]
 pub struct Spent {
     /// Milliseconds on the wall.

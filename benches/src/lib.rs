@@ -1,4 +1,4 @@
-//! What benches have in common: the words of their command lines, tracers of others to be measured beside, clocks.
+//! Shared parts of benches: the words of their command lines, tracers of others to be measured beside, clocks.
 
 pub mod clock;
 pub mod embree;

@@ -1,4 +1,4 @@
-//! What benches of scenes that move read behind the words of the command.
+//! Arguments of benches of scenes that move, behind the words of the command.
 
 use std::error::Error;
 
@@ -18,7 +18,7 @@ impl Arguments {
     /// Reads them; `frames` are made unless told.
     ///
     /// # Errors
-    /// What is there is no size, or no number of frames above 0.
+    /// A word that is no size, or no number of frames above 0.
     pub fn read(frames: u32) -> Result<Self, Box<dyn Error>> {
         let mut words = std::env::args().skip(1).filter(|word| !word.starts_with("--"));
         let scene = words.next().unwrap_or_else(|| "walker".to_owned());

@@ -17,11 +17,11 @@ pub const SIZE: [u32; 2] = [64, 64];
 pub struct Setting {
     /// Name of the scene.
     pub name: String,
-    /// How many rays.
+    /// Number of rays.
     pub rays: u32,
     /// From where it is seen.
     pub camera: Camera,
-    /// What traces.
+    /// Device that traces.
     pub device: Device,
     /// The scene there.
     pub stage: DeviceScene,

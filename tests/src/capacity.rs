@@ -6,14 +6,14 @@ use rasray_tracer::build_until_complete;
 
 use crate::harness::Bench;
 
-/// What a build counts, and the pool that has capacity for so many.
+/// A count of a build, and the pool that has capacity for so many.
 #[derive(Clone, Copy, Debug)]
 pub struct Counted {
     /// Its name in the status of a build.
     pub demand: &'static str,
     /// The name of the pool that grows with it.
     pub pool: &'static str,
-    /// Whether it is pages, of which builds differ a little: the number of begun pages depends on which threads
+    /// True for pages, of which builds differ a little: the number of begun pages depends on which threads
     /// collide.
     pub pages: bool,
 }
@@ -21,8 +21,8 @@ pub struct Counted {
 /// The share of pages by which builds of larger scenes may differ on any device.
 const SPREAD_OF_PAGES: u64 = 64;
 
-/// How far the demands of two builds in pages may be apart: the number of begun pages depends on which threads collide.
-/// On a processor so few run at a time that small scenes have the same pages in every build.
+/// Largest difference between the demands of two builds in pages: the number of begun pages depends on which threads
+/// collide. On a processor so few run at a time that small scenes have the same pages in every build.
 pub fn spread_of_pages(device: &Device, demand: u64) -> u64 {
     if device.is_software() { 0 } else { demand / 4 }
 }
@@ -102,7 +102,7 @@ pub fn check_capacities<T: PartialEq>(
         let more = if counted.pages { found / VARYING_SHARE } else { 0 };
         let enough = sizes(found + more).elements(counted.pool);
         assert_eq!(grown.elements(counted.pool), enough, "capacity for {capacity}");
-        // What is counted later, or in other pools, may have to grow then.
+        // Pools that are counted later, or others, may have to grow then.
         let answers = (0..4).find_map(|_| {
             let (check, _, answers) = built(structure, &grown);
             if let Check::Grow(more) = check {

@@ -48,7 +48,7 @@ fn shared_device() -> &'static Device {
     })
 }
 
-/// Whether the device of the tests can have a structure. Where it cannot, that is said once, as a test that is skipped.
+/// True if the device of the tests can have a structure. Where it cannot, that is said once, as a test that is skipped.
 ///
 /// # Panics
 /// If there is no suitable device, or an option has an impossible value.
@@ -169,7 +169,7 @@ impl Bench {
         tracer.trace(structure, rays, TraceMode::Closest, Timing::None).expect("all rays finish")
     }
 
-    /// What rays hit, and what is shaded there.
+    /// Hits of rays, and the surfaces shaded there.
     ///
     /// # Panics
     /// If the device fails, or the structure was made without a scene.
@@ -198,7 +198,7 @@ impl Bench {
         hits.into_iter().zip(surfaces).collect()
     }
 
-    /// Whether each ray hits anything.
+    /// True for each ray that hits anything, else false.
     ///
     /// # Panics
     /// If the device fails or rays do not finish.

@@ -1,4 +1,4 @@
-//! What the tests of rasray share: a device, triangles, random numbers, hard cases.
+//! Shared parts of rasray's tests: a device, triangles, random numbers, hard cases.
 
 pub mod capacity;
 pub mod conformance;

@@ -17,7 +17,7 @@ pub fn stage(bench: &Bench, name: &str, size: u32) -> GpuScene {
     staged(bench, &builtin(name).expect("it is built in").expect("it needs no parameters"), size)
 }
 
-/// The same of any scene that has a camera.
+/// [`stage`] for any scene that has a camera.
 ///
 /// # Panics
 /// If it has none or the device refuses it.
@@ -55,7 +55,7 @@ pub fn rendered(
     rendered_through(bench, integrator, film, samples, (&*structure).into())
 }
 
-/// The same through more than a structure.
+/// [`rendered`] through more than a structure.
 ///
 /// # Panics
 /// If the device fails.

@@ -87,7 +87,7 @@ pub fn layers_and_sphere(rows: usize) -> Vec<Triangle> {
     triangles
 }
 
-/// The same triangles with every third of them once more.
+/// These triangles with every third of them once more.
 pub fn with_twins(mut triangles: Vec<Triangle>) -> Vec<Triangle> {
     triangles.extend(triangles.clone().into_iter().step_by(3));
     triangles

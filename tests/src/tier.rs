@@ -1,4 +1,4 @@
-//! How much a run tests.
+//! Tiers of tests.
 //!
 //! The quick tier is what every change must pass; the full tier (`RASRAY_FULL=1`, `tools/test --full`) has the large
 //! counts. A program on the processor traces far fewer rays than a GPU does, so a count of the full tier may be
@@ -8,7 +8,7 @@ use std::fmt::Debug;
 
 use rasray_gpu::Device;
 
-/// Whether the large counts are requested (`RASRAY_FULL=1`).
+/// True if the large counts are requested (`RASRAY_FULL=1`).
 pub fn is_full() -> bool {
     std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
 }
@@ -26,13 +26,13 @@ pub fn first<T>(all: &[T], quick: usize) -> &[T] {
     if is_full() { all } else { &all[..quick] }
 }
 
-/// Whether this run tries a pair of two lists, by the places of both: every pair in the full tier, one of `share` in the
-/// quick one. Each place of either list then occurs in some pair, where the other list has `share` places or more.
+/// True if this run tries a pair of two lists, by the places of both: every pair in the full tier, one of `share` in
+/// the quick one. Each place of either list then occurs in some pair, where the other list has `share` places or more.
 pub fn is_pair(one: usize, other: usize, share: usize) -> bool {
     is_full() || (one + other).is_multiple_of(share)
 }
 
-/// How often something is done, by tier and kind of device.
+/// Counts by tier and kind of device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts<T> {
     /// In every run.

@@ -15,7 +15,7 @@ pub const FACE_NEAR: u32 = 6;
 /// Roundings of single precision that a march may lose along a ray: 64 units of 2^-24.
 pub const ROUNDING: f64 = 64.0 / (1_u64 << 24) as f64;
 
-/// What double precision cannot tell from zero, relative.
+/// Largest number that double precision cannot tell from zero, relative.
 const EXACT: f64 = 1.0e-13;
 
 /// A part of a ray that lies in one closed cell.
@@ -241,7 +241,7 @@ pub fn exact_grid_chords(ray: &Ray, size: u32) -> Vec<Chord<[i32; 3]>> {
     chords
 }
 
-/// Whether a visited cell really holds the ray's point at t, up to rounding.
+/// True if a visited cell really holds the ray's point at t, up to rounding.
 pub fn visit_holds(visit: &Visit, ray: &Ray, t: f64, resolution: u32, near_size: f32) -> bool {
     let slack = unresolved_length(ray, t);
     let p = point(ray, t);

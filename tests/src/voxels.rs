@@ -27,7 +27,7 @@ pub fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
     Voxels::new(bench.device(), config, &geometry, None).expect("the options are valid")
 }
 
-/// The same, built in as much capacity as it takes.
+/// [`made`], built in as much capacity as it takes.
 ///
 /// # Panics
 /// As [`made`], or if it cannot be built.
@@ -35,7 +35,7 @@ pub fn built(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
     built_of(bench, config, &bench.geometry(triangles))
 }
 
-/// The same of a geometry that was uploaded.
+/// [`built`] of a geometry that was uploaded.
 ///
 /// # Panics
 /// As [`built`].
@@ -46,7 +46,7 @@ pub fn built_of(bench: &Bench, config: Config, geometry: &Geometry) -> Voxels {
     structure
 }
 
-/// What a structure holds.
+/// Contents of a structure.
 ///
 /// # Panics
 /// If the device fails.

@@ -1,4 +1,4 @@
-//! The same hits on every driver: one small scene through every robust preset. The test programs run on one driver;
+//! Equal hits on every driver: one small scene through every robust preset. The test programs run on one driver;
 //! this one runs on each of the others as well.
 
 use rasray_ads::{Hit, Ray};

@@ -37,7 +37,7 @@ fn every_option_of_every_system_is_tried() {
     }
     for StructureOption { row, hits, .. } in OPTIONS {
         for value in row.tried() {
-            // What may change no hit is tried alone or in pairs, what may is only taken.
+            // Options that may change no hit are tried alone or in pairs, others are only taken.
             let tried = |subject: &Subject| {
                 if hits.may_change(subject.kind) {
                     takes(subject, OPTIONS.iter(), (row.name, value))
@@ -88,7 +88,7 @@ fn one_option_at_a_time_changes_no_hit() {
     }
 }
 
-/// How many pairs of a subject's options exclude each other: cells along the axes have no slices, those of a cube's faces
+/// Pairs of a subject's options that exclude each other: cells along the axes have no slices, those of a cube's faces
 /// are not divided; layers are peeled by drawing, and several passes draw; trees that the device builds have one triangle per
 /// leaf; boxes give bounds to three of six storages, and are drawn.
 const REFUSED: &[(&str, usize)] = &[
@@ -214,7 +214,7 @@ fn the_order_of_triangles_changes_no_hit() {
     }
 }
 
-/// How many driver threads a child process is given; its answers are printed as text.
+/// Number of driver threads of a child process; its answers are printed as text.
 const THREADS: &str = "LP_NUM_THREADS";
 const CHILD: &str = "RASRAY_TEST_PRINT_ANSWERS";
 

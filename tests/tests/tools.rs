@@ -66,7 +66,7 @@ impl Project {
         command.output().expect("it starts")
     }
 
-    /// What a tool says where it succeeds.
+    /// Output of a tool that succeeds.
     fn said(&self, tool: &str, words: &[&str], cache: &str) -> String {
         let output = self.run(tool, words, cache);
         assert_eq!(output.status.code(), Some(0), "{tool} {words:?}: {}", stderr(&output));
@@ -106,7 +106,7 @@ fn libraries_are_kept_without_the_workspace_and_come_back() {
     }
     let kept = project.names("cache/libraries");
     assert_eq!(kept.len(), 1, "{kept:?}");
-    // What is there already stays.
+    // Files that are there already stay.
     project.said("cache", &["restore"], "cache");
     assert_eq!(project.names("target/debug/deps").len(), 2);
     let forget = || fs::remove_dir_all(project.place("target")).expect("removed");

@@ -148,14 +148,14 @@ impl Owned {
         unsafe { (self.functions.device_property)(self.handle, property) }
     }
 
-    /// What went wrong in this thread since it was asked last.
+    /// Takes the error of this thread since the last call.
     fn check(&self) -> Result<(), EmbreeError> {
         // SAFETY: the handle is a device.
         described(unsafe { (self.functions.device_error)(self.handle) })
     }
 }
 
-/// What an `RTCError` means.
+/// Meaning of an `RTCError`.
 fn described(code: c_int) -> Result<(), EmbreeError> {
     let reason = match code {
         NO_ERROR => return Ok(()),
@@ -231,7 +231,7 @@ impl Device {
         Ok(scene)
     }
 
-    /// What went wrong where something did.
+    /// Error of a call that failed.
     fn failed(&self) -> EmbreeError {
         self.0.check().err().unwrap_or_else(|| EmbreeError::Failed("it does not say why".to_owned()))
     }
@@ -298,7 +298,7 @@ impl Scene {
         self.device.check()
     }
 
-    /// What went wrong in this thread since it was asked last.
+    /// Takes the error of this thread since the last call.
     pub fn check(&self) -> Result<(), EmbreeError> {
         self.device.check()
     }
@@ -308,7 +308,7 @@ impl Scene {
         self.trace::<N>(packet, excludes, 0);
     }
 
-    /// Whether a packet's rays hit anything.
+    /// Tests whether a packet's rays hit anything.
     pub fn occluded<const N: usize>(&self, packet: &mut Packet<N>, excludes: bool) {
         self.trace::<N>(packet, excludes, 1);
     }

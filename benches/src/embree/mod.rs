@@ -17,8 +17,8 @@ use std::time::Instant;
 /// Names a file of the library, or the folder that it is in.
 pub const LIBRARY_VARIABLE: &str = "RASRAY_EMBREE";
 
-/// How the names of its files begin and what they hold, on this system; the name under which it is looked up as all
-/// libraries are.
+/// Beginning of its files' names, a part that they hold, and the name to look it up by as all libraries are, on this
+/// system.
 const FILE: (&str, &str, &str) = if cfg!(target_os = "windows") {
     ("embree4", ".dll", "embree4.dll")
 } else if cfg!(target_os = "macos") {
@@ -40,7 +40,7 @@ pub enum EmbreeError {
          `embreex.libs`, or the file of another one"
     )]
     Missing {
-        /// What the system says.
+        /// Message of the system.
         reason: String,
     },
     /// It is of another version than 4, whose functions are other ones.
@@ -48,7 +48,7 @@ pub enum EmbreeError {
     Unsuitable {
         /// The library.
         name: OsString,
-        /// What it lacks.
+        /// Part that it lacks.
         reason: String,
     },
     /// It refused the triangles or this processor.
@@ -56,7 +56,7 @@ pub enum EmbreeError {
     Failed(String),
 }
 
-/// How much work is put into a tree.
+/// Work put into a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quality {
     /// By Morton codes, as for scenes that move.
@@ -67,10 +67,10 @@ pub enum Quality {
     High,
 }
 
-/// How a tree is made.
+/// Options of making a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TreeOptions {
-    /// What is put into it.
+    /// Work put into it.
     pub quality: Quality,
     /// `RTC_SCENE_FLAG_ROBUST`: boxes and triangles are tested so that rays do not slip through shared edges.
     pub robust: bool,
@@ -93,7 +93,7 @@ pub struct Tree<'a> {
     build_milliseconds: f64,
 }
 
-/// What rays hit, and how long that took.
+/// Hits of rays, and the time that they took.
 #[derive(Clone, Debug)]
 pub struct Traced {
     /// One a ray; of occlusion t is 0 and the triangle unknown.

@@ -108,13 +108,13 @@ impl<const N: usize> Packet<N> {
         }
     }
 
-    /// What a lane hit after nearest hits were searched for.
+    /// Hit of a lane, after nearest hits were searched for.
     pub fn hit(&self, lane: usize) -> Option<DeviceHit> {
         (self.geometry[lane] != NOTHING)
             .then(|| DeviceHit { t: self.far[lane], primitive: Some(self.primitive[lane]) })
     }
 
-    /// Whether a lane hit anything, after any hit was searched for: then its end is at minus infinity.
+    /// Hit of a lane without its t, after any hit was searched for: then its end is at minus infinity.
     pub fn occlusion(&self, lane: usize) -> Option<DeviceHit> {
         (self.far[lane] == f32::NEG_INFINITY).then_some(DeviceHit { t: 0.0, primitive: None })
     }

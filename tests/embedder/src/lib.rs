@@ -1,4 +1,4 @@
-//! What a crate of somebody else has of rasray's packages: a structure, its GLSL by name, and a shader of its own.
+//! Uses of rasray's packages by a crate of somebody else: a structure, its GLSL by name, and a shader of its own.
 
 use rasray_bricks::{Bricks, Config, Views};
 
@@ -11,7 +11,7 @@ pub fn features() -> Vec<&'static str> {
     requirements.required.iter().map(|feature| feature.name()).collect()
 }
 
-/// What a shader may include of bricks.
+/// Files of bricks that a shader may include.
 pub fn includes() -> impl Iterator<Item = &'static str> {
     rasray_shaders_glsl::files().iter().map(|file| file.name).filter(|name| name.starts_with("bricks/"))
 }

@@ -8,7 +8,7 @@ use std::time::Duration;
 /// Set for the process that may crash.
 const CHILD: &str = "RASRAY_FAULTS_CHILD";
 
-/// How long that process may say nothing: a driver compiles a kernel within it, on a machine that has other work.
+/// Longest silence of that process: a driver compiles a kernel within it, on a machine that has other work.
 const PATIENCE: Duration = Duration::from_secs(240);
 
 /// Runs the test of this name again in a process of its own; true in that process.

@@ -1,4 +1,4 @@
-//! What the tests of faults do again and again: a device, a small picture, a few hits.
+//! Shared parts of the tests of faults: a device, a small picture, a few hits.
 //!
 //! The faults themselves are in `rasray_gpu::faults`, which exists only where the feature `fault-injection` of
 //! `rasray-gpu` is on: in the tests of this package.

@@ -17,7 +17,7 @@ pub fn picture(device: &Device, spec: &Spec) -> Result<Vec<[u32; 3]>, Failure> {
     picture_of(device, spec, &stage(device)?)
 }
 
-/// The same of a scene that is on the device.
+/// [`picture`] of a scene that is on the device.
 ///
 /// # Errors
 /// The device or the structure fails.

@@ -22,7 +22,7 @@ const SYSTEMS: [(&str, Counts<usize>); 2] = [
 /// after each, as always for what is left behind.
 const LOOK: Counts<usize> = Counts { quick: 6, software: 1, full: 1 };
 
-/// What must be as before after a failure.
+/// State that must be as before after a failure.
 #[derive(Debug, PartialEq)]
 struct Inventory {
     objects: Vec<(&'static str, i64)>,
@@ -41,7 +41,7 @@ fn is_courtesy(call: &str) -> bool {
     call == "vkSetDebugUtilsObjectNameEXT"
 }
 
-/// What an error must say: the call, and what it was for.
+/// Asserts that an error names the call, and says what it was for.
 fn check_message(injected: Injected, error: &GpuError) {
     let text = error.to_string();
     assert!(text.contains(injected.call), "{injected:?}: `{text}` does not name the call");

@@ -26,7 +26,7 @@ fn name(spec: &Spec) -> String {
     format!("{} {}", spec.system().name, spec.preset().name())
 }
 
-/// Whether hits of a preset are compared: the full tier compares those of all, the quick one of each system's own.
+/// True if hits of a preset are compared: the full tier compares those of all, the quick one of each system's own.
 fn is_compared(spec: &Spec) -> bool {
     is_full() || spec.preset() == Preset::Robust
 }
@@ -59,7 +59,7 @@ fn every_feature_can_be_missing_or_is_missed_by_name() {
         }
         let lacking = made.expect("a device without what is optional");
         assert!(!lacking.has(feature));
-        // What was never enabled cannot be missed: such a device is the same as before.
+        // A feature that was never enabled cannot be missed: such a device is the same as before.
         let is_same = lacking.enabled() == all && lacking.limits() == device.limits();
         assert_eq!(is_same, !all.contains(&feature) && feature != Feature::TimestampQueries);
         for (spec, expected) in subjects.iter().zip(&expected) {

@@ -72,10 +72,10 @@ pub(super) const CENTRES_64: &[Deviation] = &[
     deviation("T2", NEEDLE, 0.524, 0.826),
 ];
 
-/// The same with lost triangles and those seen edge-on in conservative lists.
+/// Planes with lost triangles and those seen edge-on in conservative lists, in 64 x 64 cells per face.
 pub(super) const EDGE_ON_64: &[Deviation] = &[deviation("V16", THIN, 0.39, 0.63)];
 
-/// The same where fragments carry the planes themselves.
+/// Planes that fragments carry themselves, in 64 x 64 cells per face.
 pub(super) const PLANES_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -117,7 +117,7 @@ pub(super) const CAMERA_64: &[Deviation] = &[
     deviation("T2", NEEDLE, 0.69, 1.0),
 ];
 
-/// The same cells of a cube's faces, and twice as many along a side of that camera's view.
+/// Planes in 64 x 64 cells of a cube's faces, and twice as many along a side of that camera's view.
 pub(super) const CUBE_CAMERA_64: &[Deviation] = &[
     deviation("G1", THIN, 0.69, 1.0),
     deviation("G2", THIN, 0.99, 1.0),

@@ -1,4 +1,4 @@
-//! What the published rules of DIRT lose: rates with the quick meshes, which do not fall with the size of tiles.
+//! Losses of the published rules of DIRT: rates with the quick meshes, which do not fall with the size of tiles.
 
 use super::Deviation;
 use super::deviations::deviation;
@@ -28,10 +28,10 @@ pub(super) const PUBLISHED: &[Deviation] = &[
     deviation("X9", PASSED, 0.051, 0.079),
 ];
 
-/// The same in 16 x 16 tiles per face.
+/// All rules in 16 x 16 tiles per face.
 pub(super) const PUBLISHED_16: &[Deviation] = &[];
 
-/// The same with the tiles whose centres the rasterizer covers, of a pixel each.
+/// All rules with the tiles whose centres the rasterizer covers, of a pixel each.
 pub(super) const HARDWARE: &[Deviation] = &[
     deviation("C2", GAPS, 0.064, 0.1),
     deviation("C3", GAPS, 0.431, 0.673),

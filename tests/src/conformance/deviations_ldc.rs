@@ -73,7 +73,7 @@ pub(super) const PUBLISHED_16: &[Deviation] = &[
     deviation("Z7", DETAIL, 0.4, 0.626),
 ];
 
-/// The same in 64 x 64 cells per view.
+/// As [`PUBLISHED_16`], in 64 x 64 cells per view.
 pub(super) const PUBLISHED_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),

@@ -13,7 +13,7 @@ pub fn confidence() -> f64 {
     1.0 - FALSE_ALARM / comparisons() as f64
 }
 
-/// What of a measurement breaks the row's demand on this case; empty if nothing does.
+/// Faults of a measurement against the row's demand on this case; empty if it has none.
 ///
 /// Rates are known up to their interval at [`confidence`]: a limit is broken where all of the interval lies beyond.
 /// Exact rows have no such tolerance: one wrong answer is a fault.

@@ -15,7 +15,7 @@ pub fn answers(bench: &Bench, structure: &mut dyn Structure, prepared: &Prepared
     try_answers(bench, structure, prepared).expect("the build completes")
 }
 
-/// The same, where the pools may be larger than what the device holds.
+/// [`answers`], where the pools may be larger than what the device holds.
 ///
 /// # Errors
 /// The build fails.

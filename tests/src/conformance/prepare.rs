@@ -18,7 +18,7 @@ pub struct Prepared {
     pub case: HardCase,
     /// One per ray.
     pub verdicts: Vec<Verdict>,
-    /// What a loader keeps of the triangles.
+    /// Triangles that a loader keeps.
     pub geometry: Geometry,
     /// The rays with ids as the device counts them.
     pub rays: Vec<Ray>,
@@ -64,7 +64,7 @@ impl Prepared {
         }
     }
 
-    /// Whether a ray is not evaluated: only what the camera sees is, and something that it may hit lies outside.
+    /// True for rays that are not evaluated: only what the camera sees is, and something that it may hit lies outside.
     pub fn is_unseen(&self, index: usize) -> bool {
         let Some(camera) = self.viewpoint.camera.filter(|_| self.only_camera) else { return false };
         let (ray, verdict) = (&self.case.rays[index], &self.verdicts[index]);

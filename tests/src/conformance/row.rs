@@ -4,7 +4,7 @@ use rasray_systems::{Preset, Spec};
 
 use crate::harness::Bench;
 
-/// What is demanded of a row.
+/// Demand on the hits of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Demand {
     /// Every unambiguous ray finds its triangle at a t within the oracle's bounds of rounding, give or
@@ -55,11 +55,11 @@ pub struct Law {
     pub reason: &'static str,
     /// Of the unambiguous rays, times the resolution.
     pub per_cell: f64,
-    /// How the limit falls.
+    /// Fall of the limit.
     pub curve: Curve,
 }
 
-/// How the largest rate of a law falls with the resolution N.
+/// Fall of the largest rate of a law with the resolution N.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curve {
     /// `per_cell / N`: each ray hits one border, whose share of the rays is as wide as a cell.
@@ -109,7 +109,7 @@ pub enum Cases {
 pub const DEEP: &[&str] = &["C10", "Z6", "Z6-pixel", "Z7"];
 
 impl Cases {
-    /// Whether the case with this id is among them.
+    /// True if the case with this id is among them.
     pub fn contain(self, id: &str) -> bool {
         match self {
             Self::All => true,
@@ -143,7 +143,7 @@ pub struct Row {
     pub tier: Tier,
     /// Against which cases.
     pub cases: Cases,
-    /// What every case demands.
+    /// Demand on the answers to every case.
     pub demand: Demand,
     /// The cases that are known not to meet it. None may be listed for [`Demand::Exact`].
     pub deviations: &'static [Deviation],
@@ -162,7 +162,7 @@ impl Row {
         Self { name, system, preset: Preset::Robust, options, tier, cases, demand, deviations: &[] }
     }
 
-    /// What the registry makes the structure from.
+    /// Specification of the structure.
     ///
     /// # Panics
     /// If the registry does not know the row's words.
@@ -192,7 +192,7 @@ impl Row {
             .unwrap_or_else(|error| panic!("row {} cannot be made by address: {error}", self.name))
     }
 
-    /// How deep hits may be off in the error rate, and how far t may be beyond the oracle's bounds.
+    /// Largest error of depth in the error rate, and of t beyond the oracle's bounds.
     pub fn tolerances(&self) -> (f64, f64) {
         match self.demand {
             Demand::Exact { rounding } => (0.0, rounding),
@@ -201,12 +201,12 @@ impl Row {
         }
     }
 
-    /// Whether it has no views but the camera's, so that only what that sees is evaluated.
+    /// True if it has no views but the camera's, so that only what that sees is evaluated.
     pub fn only_camera(&self) -> bool {
         self.options.contains(&("views", "camera"))
     }
 
-    /// Whether every answer must be right.
+    /// True if every answer must be right.
     pub fn is_exact(&self) -> bool {
         matches!(self.demand, Demand::Exact { .. })
     }
@@ -223,7 +223,7 @@ impl Row {
         }
     }
 
-    /// What bounds its answers on a case, in words.
+    /// Bound on its answers to a case, in words.
     pub fn limit(&self, case: &str) -> String {
         let deviation = self.deviations.iter().find(|deviation| deviation.case == case);
         match (self.demand, deviation) {
@@ -253,7 +253,7 @@ impl Row {
     }
 }
 
-/// What the published presets of fragment structures are held to.
+/// Demand on the published presets of fragment structures.
 pub(super) const fn published_law(resolution: u32) -> Demand {
     // A fragment is a depth at its cell's centre: surfaces that lean by 45 degrees are off by half a cell.
     Demand::Law { resolution, per_cell: 1.92, depth_tolerance: 2e-2, laws: &[] }

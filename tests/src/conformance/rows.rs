@@ -10,7 +10,7 @@ pub static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
         .concat()
 });
 
-/// How often a row is evaluated in all runs together: each law and each end of a deviation is one comparison,
+/// Comparisons of rows with cases in all runs together: each law and each end of a deviation is one comparison,
 /// for rays that the oracle decides and for those that it does not.
 pub fn comparisons() -> usize {
     let cases = |row: &Row| hard_cases::ids().iter().filter(|id| row.cases.contain(id)).count();
@@ -23,10 +23,10 @@ pub const SHARE: usize = 4;
 /// Cases of a hundred thousand triangles and more, which take software drivers far longer than others.
 pub const LARGE: &[&str] = &["E2-400", "E2-400-far", "C3", "C3-random"];
 
-/// What [`SHARE`] is for [`LARGE`] cases: no more than there are rows of either kind.
+/// [`SHARE`] of [`LARGE`] cases: no more than there are rows of either kind.
 const LARGE_SHARE: usize = 10;
 
-/// Whether this run holds a row against a case: in the full tier every pair. In the quick one rows and cases go round
+/// True if this run holds a row against a case: in the full tier every pair. In the quick one rows and cases go round
 /// against each other, apart for rows that find triangles without loss and for others, and apart for [`DEEP`], [`LARGE`]
 /// and other cases: each row has some of the deep and some of the other cases that it is held against, each case some
 /// rows of each kind.

@@ -107,7 +107,7 @@ pub(super) const ROWS: &[Row] = &[
             deviations::PLANES_64,
         )
     },
-    // What reaches into a cell is kept there: hits are those of triangles.
+    // Every triangle that reaches into a cell is kept there: hits are those of triangles.
     Row::exact("mmrt-robust-16", "mmrt", &[("resolution", "16")], Tier::Quick, Cases::All),
     Row::exact("mmrt-robust-64", "mmrt", &[("resolution", "64")], Tier::Full, Cases::Shallow),
     Row::exact(

@@ -55,7 +55,7 @@ pub(super) const ROWS: &[Row] = &[
         published_law(128),
         deviations_voxel::PARITY_128,
     ),
-    // What reaches into a cell is kept there: hits are those of triangles.
+    // Every triangle that reaches into a cell is kept there: hits are those of triangles.
     Row::exact("hu-robust-16", "hu", &[("resolution", "16")], Tier::Quick, Cases::Shallow),
     Row::exact("hu-robust-64", "hu", &[("resolution", "64")], Tier::Full, Cases::Shallow),
     Row::exact("selective-robust-32", "selective", &[("resolution", "32")], Tier::Full, Cases::Shallow),

@@ -49,12 +49,12 @@ fn integrate(cosine_o: f64, roughness: f64, value: impl Fn(f64, f64, f64) -> f64
     sum * 2.0 * (0.5 * PI / STEPS[0] as f64) * (PI / STEPS[1] as f64)
 }
 
-/// What facets of one roughness do with the light of a white sky.
+/// Shares of a white sky's light, for facets of one roughness.
 #[derive(Clone, Copy)]
 struct Facets {
     /// Share that facets of reflectance 1 lose in one scattering, under the given cosine.
     lost: f64,
-    /// What facets of reflectance (1 - o.h)^5 send back.
+    /// Share that facets of reflectance (1 - o.h)^5 send back.
     schlick: f64,
     /// Mean of `lost` over the hemisphere, weighted with the cosine.
     mean_lost: f64,
@@ -75,7 +75,7 @@ impl Facets {
         }
     }
 
-    /// What facets of this reflectance at normal incidence send back, after however many scatterings.
+    /// Share that facets of this reflectance at normal incidence send back, after however many scatterings.
     fn reflected(&self, f0: f64) -> f64 {
         let once = f0 * (1.0 - self.lost - self.schlick) + self.schlick;
         // Light that is lost hits facets again, each time with their mean reflectance.
@@ -90,7 +90,7 @@ pub fn metal_albedo(base_color: f64, roughness: f64, cosine_o: f64) -> f64 {
     Facets::new(roughness, cosine_o).reflected(base_color)
 }
 
-/// The same of a plastic.
+/// Share of a white sky that a plastic shows under the cosine `cosine_o`.
 pub fn plastic_albedo(plastic: Plastic, cosine_o: f64) -> f64 {
     let f0 = ((plastic.ior - 1.0) / (plastic.ior + 1.0)).powi(2);
     let reflected = Facets::new(plastic.roughness, cosine_o).reflected(f0);

@@ -13,7 +13,7 @@ pub const CHECK_LIMIT: usize = 350;
 /// Checks of this program so far.
 static CHECKS: AtomicUsize = AtomicUsize::new(0);
 
-/// What single precision adds to an estimate, relative: sums of some thousand terms.
+/// Error of an estimate by single precision, relative: sums of some thousand terms.
 const ROUNDING: f64 = 1e-5;
 
 /// The mean of an image by channel, and how sure it is.

@@ -15,7 +15,7 @@ pub fn diffuse(albedo: [f32; 3]) -> Material {
     }
 }
 
-/// The same with emission, W/(sr m^2).
+/// [`diffuse`] with emission, W/(sr m^2).
 pub fn glowing(albedo: [f32; 3], emission: [f32; 3]) -> Material {
     Material { emission, ..diffuse(albedo) }
 }
@@ -59,7 +59,7 @@ pub fn box_faces(centre: DVec3, half: DVec3, material: usize) -> Vec<Mesh> {
         .collect()
 }
 
-/// The same with fronts inwards.
+/// [`box_faces`] with fronts inwards.
 pub fn box_around(centre: DVec3, half: DVec3, material: usize) -> Vec<Mesh> {
     let mut faces = box_faces(centre, half, material);
     for face in &mut faces {

@@ -13,7 +13,7 @@ use rasray_systems::Spec;
 use super::Estimate;
 use crate::harness::Bench;
 
-/// What rays are traced through.
+/// Structures that rays are traced through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum System {
     /// Every triangle: exact.
@@ -23,7 +23,7 @@ pub enum System {
 }
 
 impl System {
-    /// What the registry makes it from.
+    /// Specification of the system.
     fn spec(self) -> Spec {
         let spec = match self {
             Self::BruteForce => Spec::new("brute-force", "robust", []),
@@ -98,7 +98,7 @@ impl<'a> Studio<'a> {
         self.stage.scene.set_sampling(sampling).expect("the frame can be written");
     }
 
-    /// What is rendered.
+    /// View that is rendered.
     pub fn view(&self) -> &View {
         &self.view
     }

@@ -2,7 +2,7 @@ use rasray_systems::StructureOption;
 
 use super::Subject;
 
-/// Whether a subject takes an option's value, alone or together with a value of one of `others`.
+/// True if a subject takes an option's value, alone or together with a value of one of `others`.
 pub fn takes(
     subject: &Subject,
     mut others: impl Iterator<Item = &'static StructureOption>,
@@ -38,7 +38,7 @@ pub fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)
     options.collect()
 }
 
-/// What pairs are made of: of an option some of whose values exclude others', that it stays as it is comes first.
+/// Choices that pairs are made of; where values of an option exclude others', leaving it as it is comes first.
 pub fn choices<'a>(
     subject: &Subject,
     options: &[(&'a str, Vec<&'a str>)],

@@ -1,4 +1,4 @@
-//! What it takes to hold every system against what the registry says of options: which may change a hit.
+//! Holds every system against the registry's rules of options: which may change a hit.
 //!
 //! Structures that find triangles give the same bits whatever their options. Structures that store
 //! fragments give the same bits under everything that only arranges what they store. Any other change is

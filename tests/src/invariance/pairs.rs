@@ -40,7 +40,7 @@ fn filled(
     pair: Pair,
     allowed: &impl Fn(&[usize]) -> bool,
 ) -> Option<Vec<usize>> {
-    // What is not chosen yet has its first value, which leaves options that exclude others as they are.
+    // An option not chosen yet has its first value, which leaves options that exclude others as they are.
     let mut row = vec![0; values.len()];
     let mut chosen: Vec<(usize, usize)> = pair.to_vec();
     for (option, value) in pair {

@@ -40,9 +40,9 @@ fn more() -> impl Iterator<Item = &'static Row> {
 /// A preset of a system with its options for tests.
 #[derive(Clone, Debug)]
 pub struct Subject {
-    /// What is made.
+    /// Specification of the structure.
     pub spec: Spec,
-    /// What its hits are.
+    /// Kind of its hits.
     pub kind: StructureKind,
 }
 
@@ -51,7 +51,7 @@ pub struct Subject {
 pub struct Answers {
     /// t, primitive, and the barycentrics where hits are on triangles.
     pub closest: Vec<[u32; 4]>,
-    /// Whether anything is hit.
+    /// True for each ray that hits anything.
     pub occluded: Vec<bool>,
 }
 
@@ -109,7 +109,7 @@ impl Subject {
         )
     }
 
-    /// The same with other values of options; absent where the system does not take them.
+    /// This subject with other values of options; absent where the system does not take them.
     pub fn with(&self, options: &[(&str, &str)]) -> Option<Self> {
         let given = options.iter().map(|(option, value)| ((*option).to_owned(), (*value).to_owned()));
         let spec = self.spec.with_options(given).ok()?;

@@ -25,7 +25,7 @@ impl<'a> Stage<'a> {
         Self { bench, shown: shown.expect("the scene is whole and fits") }
     }
 
-    /// What the rays through pixel centres hit.
+    /// Hits of the rays through pixel centres.
     fn aovs(
         &self,
         system: &str,
@@ -48,7 +48,7 @@ impl<'a> Stage<'a> {
         Ok(found)
     }
 
-    /// The same through an A-buffer with a cell a pixel.
+    /// [`Self::aovs`] through an A-buffer with a cell a pixel.
     fn of_view(&self, options: &[(&str, &str)], stored: bool) -> Vec<AovPixel> {
         let view = [("views", "camera"), ("camera-resolution", "96x64"), ("resolution", "64")];
         self.aovs("mmrt", &[&view, options].concat(), stored).expect("there are first hits")

@@ -28,7 +28,7 @@ fn sampled() -> Config {
 
 type Change = fn(Config) -> Config;
 
-/// How many of [`CHANGES`] are tried in the quick tier: the first ones try every option in company.
+/// Number of [`CHANGES`] tried in the quick tier: the first ones try every option in company.
 const IN_COMPANY: usize = 8;
 
 /// One change per row.
@@ -120,7 +120,7 @@ const CHANGES: &[(&str, Change)] = &[
     ("counters", |config| Config { counters: Counters::Sums, ..config }),
 ];
 
-/// What of a hit may not change. With interval acceptance a and b are the fragment's place in the pool,
+/// Words of a hit that may not change. With interval acceptance a and b are the fragment's place in the pool,
 /// which is the order in which threads came.
 fn key(config: &Config, hit: &Hit) -> [u32; 4] {
     let [a, b] = if config.accept.needs_triangles() { [hit.a.to_bits(), hit.b.to_bits()] } else { [0; 2] };

@@ -72,7 +72,7 @@ fn compare(
     let single = Config { single_layer: true, ..all };
     let (_, of_all) = built(bench, all, geometry, scene, eye);
     let (structure, of_single) = built(bench, single, geometry, scene, eye);
-    // Whether or not a mask cuts them out.
+    // Those that a mask cuts out included.
     let (_, covering) = built(bench, all, geometry, None, eye);
     let (of_all, kept, covering) = (cells(&of_all), cells(&of_single), cells(&covering));
     for (cell, (all, kept)) in of_all.iter().zip(&kept).enumerate() {
@@ -123,7 +123,7 @@ fn a_single_layer_is_the_nearest_of_all() {
     }
 }
 
-/// What a mask cuts out is not the nearest.
+/// Fragments that a mask cuts out are not the nearest.
 #[test]
 fn holes_of_masks_show_the_layer_behind() {
     let bench = Bench::new();

@@ -1,4 +1,4 @@
-//! How rays pass from view to view: as published they lose what lies within a cell of a view's side, and nothing else.
+//! Ways of rays from view to view: as published they lose what lies within a cell of a view's side, and nothing else.
 
 use rasray_abuffer::{ABuffer, Config, March, ViewSwitching, Views};
 use rasray_ads::{CameraView, Hit, Ray, TraceMode, Viewpoint};
@@ -36,7 +36,7 @@ fn key(hit: &Hit) -> [u32; 2] {
     [hit.t.to_bits(), hit.primitive]
 }
 
-/// How many cells a point of a ray is away from the nearest side of the face that it is in.
+/// Distance in cells of a point of a ray from the nearest side of the face that it is in.
 fn cells_to_side(ray: &Ray, t: f32, resolution: u32) -> f64 {
     let mut sizes: [f64; 3] = std::array::from_fn(|axis| {
         let origin = f64::from(ray.origin[axis]) - f64::from(EYE[axis]);

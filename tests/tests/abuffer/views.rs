@@ -111,7 +111,7 @@ fn a_turned_camera_keeps_the_law_of_fragments() {
     let triangles = sphere([0.0; 3], 6.0, 10);
     let camera = TURNED;
     let rays = seen_rays(camera, 2000).into_iter().map(|ray| Ray { t_max: f32::INFINITY, ..ray });
-    // What a ray hits inside a closed sphere may lie outside of what is seen.
+    // A hit inside a closed sphere may lie outside of the view.
     let oracle = oracle_of(&triangles);
     let (rays, truths): (Vec<Ray>, Vec<_>) = rays
         .filter_map(|ray| {

@@ -16,7 +16,7 @@ use rasray_tracer::build_until_complete;
 
 use super::scenes::{frame_of, scene as built_in};
 
-/// What a build by Morton codes has that one that keeps their order has not.
+/// Kernel of builds by Morton codes that builds that keep their order lack.
 const SORT: &str = "bvh/build_5_scatter";
 const REFIT: &str = "bvh/build_9_refit";
 
@@ -188,7 +188,8 @@ fn small_trees_are_refitted() {
     }
 }
 
-/// What was recorded may never run, run later, or be incomplete: only a status that was read says that there is an order.
+/// A recorded build may never run, run later, or be incomplete: only a status that was read says that there is an
+/// order.
 #[test]
 fn only_an_order_that_is_known_to_exist_is_kept() {
     let triangles = scene();
@@ -212,7 +213,7 @@ fn only_an_order_that_is_known_to_exist_is_kept() {
     assert!(!stage.build(&mut other), "the build before was incomplete");
     assert!(stage.build(&mut other));
     stage.same_hits(&other, &now, "after an incomplete build");
-    // The same after an order was known: it is still the one.
+    // After an order was known: it is still the one.
     stage.put(&moved(&triangles, 5), false);
     assert!(keeps_order(&stage.record(&mut other, 0, true)));
     assert!(!other.status(0).expect("readable").complete);
@@ -248,7 +249,7 @@ fn other_triangles_or_pools_are_ordered_anew() {
     sizes.pools[1].elements += 1;
     tree.resize(device, &sizes).expect("it fits");
     assert!(!stage.build(&mut tree), "other pools");
-    // What is written from outside may be anything.
+    // Words written from outside may be anything.
     let contents = tree.download(device).expect("readable");
     let mut damaged = contents.clone();
     damaged.nodes.iter_mut().for_each(|node| (node.child_0, node.child_1) = (0, 0));

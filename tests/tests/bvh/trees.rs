@@ -76,12 +76,12 @@ fn kinds() -> impl Iterator<Item = Config> {
     builders.into_iter().flat_map(|config| [of_two(config), of_four(config)])
 }
 
-/// The same with two children per node.
+/// `config` with two children per node.
 pub(crate) fn of_two(config: Config) -> Config {
     Config { width: Some(Width::Two), ..config }
 }
 
-/// The same with four.
+/// `config` with four children per node.
 fn of_four(config: Config) -> Config {
     Config { width: Some(Width::Four), ..config }
 }
@@ -265,7 +265,7 @@ fn damaged_trees_are_noticed() {
     }
 }
 
-/// The same where nodes hold four children.
+/// Such damage where nodes hold four children.
 #[test]
 fn damaged_trees_of_four_children_per_node_are_noticed() {
     let bench = Bench::new();

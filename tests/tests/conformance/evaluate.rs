@@ -19,7 +19,7 @@ fn row(name: &str) -> &'static Row {
     ROWS.iter().find(|row| row.name == name).expect("the row exists")
 }
 
-/// What a structure without errors would answer.
+/// Answers of a structure without errors.
 fn perfect(prepared: &Prepared) -> Hits {
     let hit = |(primitive, t): (u32, f64)| DeviceHit { t: t as f32, primitive: Some(primitive) };
     prepared.verdicts.iter().map(|verdict| verdict.hit().map(hit)).collect()

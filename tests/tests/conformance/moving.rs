@@ -46,7 +46,7 @@ struct Moving {
     /// Seconds.
     times: &'static [f64],
     tier: Tier,
-    /// How the errors of structures that store fragments fall with the resolution: [`laws`].
+    /// Fall of the errors of structures that store fragments with the resolution: [`laws`].
     laws: Laws,
 }
 
@@ -141,7 +141,7 @@ const FRAGMENTS: [&str; 3] = ["mmrt-centres-64", "hu-centres-64", "ldc-planes-64
 /// Rows that find triangles, and those of fragments whose rules are robust: of each structure one in the quick tier. Those
 /// of a law are held to that of the scene, and where it states none only to what the structure answers when it is made anew.
 fn rows(moving: &'static Moving) -> impl Iterator<Item = Row> {
-    // What only has smaller cells than another row.
+    // A row that differs from another in smaller cells alone.
     const FINER: &str = "bricks-cube-128";
     let is_held = |row: &&Row| {
         let is_law = matches!(row.demand, Demand::Law { .. }) && row.preset == Preset::Robust;

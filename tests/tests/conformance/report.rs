@@ -1,4 +1,4 @@
-//! What the full tier found, as a report: a run for every row and case.
+//! Results of the full tier as a report: a run for every row and case.
 
 use rasray_ads::{Structure, StructureKind};
 use rasray_report::{Accuracy, Device, HardRecord, Origin, RateRecord, Report, Run, SceneRecord, Times};

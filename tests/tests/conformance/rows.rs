@@ -36,14 +36,14 @@ const LARGEST_LIMIT: f64 = 0.75;
 /// traced again and again.
 const REPEATED: &[&str] = &["Z4", "Z14", "C10"];
 
-/// How often, in the quick tier and in the full one.
+/// Repetitions, in the quick tier and in the full one.
 const REPEATS: [usize; 2] = [1, 19];
 
 /// Rays of a case for rows that are evaluated by rates in the full tier, with the meshes of the quick one: bounds of rates
 /// hold for those.
 const RATES_FULL: Scale = Scale { rays: 20_000, ..Scale::QUICK };
 
-/// What became of rows on their cases.
+/// Results of rows on their cases.
 #[derive(Default)]
 struct Held {
     faults: Vec<String>,
@@ -247,7 +247,7 @@ fn every_preset_has_a_row_and_every_deviation_names_a_case() {
             assert!(cases.insert(deviation.case), "{} twice in {}", deviation.case, row.name);
             assert!(0.0 < deviation.at_least_rate && deviation.at_least_rate <= deviation.at_most_rate);
             assert!(deviation.at_most_rate <= 1.0 && !deviation.reason.is_empty());
-            // What the catalogue promises of fragments without a law is not negotiable, nor that hits are finite.
+            // Promises of the catalogue for fragments without a law are not negotiable, nor that hits are finite.
             let target = hard_cases::catalogue_row(deviation.case).expect("it is in the catalogue").target;
             let negotiable = match row.demand {
                 Demand::Loss { .. } => target.primitives != Target::Finite,
@@ -276,7 +276,7 @@ fn tiny_triangles_far_from_a_ray_are_not_hit() {
     assert_eq!(evaluate(row, &prepared, &measured), Vec::<String>::new());
 }
 
-/// What loaders drop is not on the device, and ids are still those of the file.
+/// Triangles that loaders drop are not on the device, and ids are still those of the file.
 #[test]
 fn bad_coordinates_are_dropped_before_they_poison_anything() {
     let bench = Bench::new();

@@ -13,7 +13,7 @@ const RAYS: usize = 300;
 /// Triangles of a case, at most: brute force is what hits are compared with.
 const TRIANGLES: usize = 200_000;
 
-/// What rounding may add to a t, in voxels: marks are wider by a 256th.
+/// Error of t by rounding, in voxels: marks are wider by a 256th.
 const ROUNDING: f64 = 1.0 / 64.0;
 
 /// A point of a ray in voxels from the lower corner of the cube.
@@ -24,7 +24,7 @@ fn place(header: &Header, ray: &Ray, t: f32) -> [f64; 3] {
     })
 }
 
-/// Whether a point lies in the voxel in which the ray begins, within rounding: that voxel is not entered.
+/// True if a point lies in the voxel in which the ray begins, within rounding: that voxel is not entered.
 fn is_where_it_begins(header: &Header, ray: &Ray, t: f32) -> bool {
     let (begin, end) = (place(header, ray, ray.t_min), place(header, ray, t));
     begin.iter().zip(end).all(|(begin, end)| {

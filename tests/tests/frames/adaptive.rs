@@ -34,7 +34,7 @@ pub fn cornell() -> Scene {
     builtin::builtin("cornell").expect("it is built in").expect("it needs no parameter")
 }
 
-/// The same with a block that light goes straight through: other kernels add to the film.
+/// [`cornell`] with a block that light goes straight through: other kernels add to the film.
 pub fn glazed() -> Scene {
     let mut glazed = cornell();
     let block = glazed.meshes[glazed.instances.last().expect("a block").mesh].material;
@@ -95,8 +95,8 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Whether films that different kernels made are the same: bit for bit on a software device. Hardware may contract a product
-/// and a sum in one kernel and not in another.
+/// True if films that different kernels made are equal: bit for bit on a software device. Hardware may contract a
+/// product and a sum in one kernel and not in another.
 fn is_same(device: &Device, a: &FilmPixel, b: &FilmPixel) -> bool {
     let is_close = |(a, b): (&f32, &f32)| (a - b).abs() <= 1.0e-5 * b.abs();
     a.samples == b.samples

@@ -27,7 +27,7 @@ fn bits(pixels: &[FilmPixel]) -> Vec<([u32; 3], u32)> {
     pixels.iter().map(|pixel| (pixel.sum.map(f32::to_bits), pixel.samples)).collect()
 }
 
-/// What an image is made with.
+/// Settings of an image.
 #[derive(Clone, Copy)]
 struct With {
     adaptive: Option<Adaptive>,

@@ -9,7 +9,7 @@ use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation
 use rasray_tests::random::Random;
 use rasray_tests::shapes::Triangle;
 
-/// What one frame shows.
+/// Eye, triangles and rays of one frame.
 #[derive(Clone)]
 pub struct Shown {
     pub eye: [f32; 3],
@@ -104,7 +104,7 @@ impl Crowd {
         Geometry::new(&self.device, desc).expect("geometry fits")
     }
 
-    /// What the host writes for a frame, into memory that no frame in flight reads.
+    /// Writes a frame's data on the host, into memory that no frame in flight reads.
     pub fn write(&self, slot: u32, shown: &Shown) {
         let slot = &self.slots[slot as usize];
         slot.positions.write(0, bytemuck::cast_slice(&shown.triangles)).expect("memory of the host");
@@ -119,7 +119,7 @@ impl Crowd {
         self.bounds.record(recorder, geometry);
     }
 
-    /// The same where only one part moves.
+    /// [`Self::record_move`] where only one part moves.
     pub fn record_move_parts(&self, recorder: &mut Recorder<'_>, slot: u32, parts: &GeometryParts) {
         let triangles = parts.whole().triangle_count();
         let size = u64::from(triangles) * size_of::<Triangle>() as u64;
@@ -141,7 +141,7 @@ impl Crowd {
         recorder.copy(self.queue.header(), 0, &slot.header, 0, slot.header.size());
     }
 
-    /// What a frame found.
+    /// Hits and counters of a frame.
     pub fn read(&self, slot: u32) -> (Vec<Hit>, QueueCounters) {
         let Slot { hits, header, .. } = &self.slots[slot as usize];
         let hits = hits.read(0, hits.size()).expect("memory of the host");

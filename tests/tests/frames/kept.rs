@@ -5,7 +5,7 @@ use rasray_gpu::PassCommands;
 use rasray_tests::harness::{Bench, bits, processor_seconds};
 use rasray_tracer::{FrameOutcome, FrameStructure, Keeping, Refresh};
 
-/// What a frame recorded in passes that structures label.
+/// Work of a frame recorded in passes that structures label.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Recorded {
     pub dispatches: u32,

@@ -32,12 +32,12 @@ fn that_may_differ() -> Vec<Subject> {
     Subject::all().into_iter().filter(|subject| subject.kind != StructureKind::Primitive).collect()
 }
 
-/// Whether a hit lies on its triangle, not only on the plane of it.
+/// True if a hit lies on its triangle, not only on the plane of it.
 fn is_inside(hit: &Hit) -> bool {
     hit.a >= 0.0 && hit.b >= 0.0 && hit.a + hit.b <= 1.000_001
 }
 
-/// Whether a hit is on a stored fragment, with or without the id of its triangle.
+/// True if a hit is on a stored fragment, with or without the id of its triangle.
 fn is_stored(hit: &Hit) -> bool {
     hit.is_hit() && (hit.primitive == PRIMITIVE_UNKNOWN || hit.b.to_bits() == HIT_STORED)
 }
@@ -72,7 +72,7 @@ impl Alone {
         Self { geometry: bench.geometry(&own), ids }
     }
 
-    /// What its structure hits, by the ids of the whole.
+    /// Hits of its structure, by the ids of the whole.
     fn hits(&self, bench: &Bench, subject: &Subject, eye: [f32; 3], rays: &[Ray]) -> (Vec<Hit>, Vec<bool>) {
         let number = |id: u32| self.ids.binary_search(&id).map_or(PRIMITIVE_NONE, |at| at as u32);
         let own = |ray: &Ray| Ray { exclude_primitive: number(ray.exclude_primitive), ..*ray };

@@ -17,7 +17,7 @@ use crate::frames::kept::{Kept, Recorded};
 use crate::frames::refresh::{header, rays};
 use crate::frames::scenes::{hall_of_objects, view};
 
-/// What is built anew in a frame.
+/// Parts built anew in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Anew {
     All,
@@ -41,7 +41,7 @@ struct Walked {
     work: [f64; 3],
     /// Recorded for a trace of nearest hits.
     dispatches: u32,
-    /// How far rounding may move corners of objects, in the last frame.
+    /// Bounds on shifts of objects' corners by rounding, in the last frame.
     errors: Vec<f32>,
 }
 

@@ -44,7 +44,7 @@ pub fn swinging() -> Scene {
     scene
 }
 
-/// What one way to render is made of.
+/// Scene, pose pass and integrator of one way to render.
 struct Set {
     gpu: GpuScene,
     pose: PosePass,
@@ -113,7 +113,7 @@ pub fn still(
     still_with(device, scene, tables, spec, input, None)
 }
 
-/// The same with shadow maps.
+/// [`still`] with shadow maps.
 pub fn still_with(
     device: &Device,
     scene: &Scene,

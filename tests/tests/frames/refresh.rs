@@ -77,7 +77,7 @@ fn hold(bench: &Bench, name: &str, scene: &Scene, times: &[f64], specs: &[Spec])
     hold_parts(bench, name, (scene, None), times, specs);
 }
 
-/// The same with a part for each of at most that many objects.
+/// [`hold`] with a part for each of at most that many objects.
 fn hold_parts(
     bench: &Bench,
     name: &str,
@@ -293,7 +293,7 @@ fn pictures_are_the_same() {
     }
 }
 
-/// What moves grows from frame to frame, and its pools with it; those of the static part stay, with what is in them.
+/// Moving parts grow from frame to frame, and their pools with them; those of the static part keep their contents.
 #[test]
 fn what_moves_outgrows_its_pools() {
     let bench = Bench::new();

@@ -136,7 +136,7 @@ pub fn third(node: usize) -> bool {
     node % 3 == 1
 }
 
-/// What the camera of a scene sees, `moved` metres to its right.
+/// View of the camera of a scene, `moved` metres to its right.
 pub fn view(scene: &Scene, size: [u32; 2], moved: f64) -> View {
     let mut camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(scene));
     camera.world_from_camera *= DAffine3::from_translation(DVec3::X * moved);

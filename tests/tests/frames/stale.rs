@@ -111,6 +111,6 @@ fn a_ring_is_used_in_turn() {
     assert_eq!((first.number, first.slot, first.built), (0, 0, true));
     let second = frames.take().expect("the device works").expect("one is in flight");
     assert_eq!((second.number, second.slot, second.built), (1, 1, false));
-    // What the second was traced through is what the first built.
+    // The second was traced through what the first built.
     assert_eq!(first.outcome, second.outcome);
 }

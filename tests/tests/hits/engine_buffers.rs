@@ -13,7 +13,7 @@ use rasray_tests::shapes::{Triangle, closed_box};
 /// Vertices of no triangle, before all others.
 const UNUSED_VERTICES: u32 = 5;
 
-/// How triangles lie in the buffer.
+/// Layout of triangles in the buffer.
 #[derive(Clone, Copy)]
 struct Layout {
     name: &'static str,
@@ -209,7 +209,8 @@ fn triangles_beyond_the_count_of_the_device_do_not_exist() {
     let (whole, counter) = geometry(&bench, &triangles, layout);
     let counter = counter.expect("it is counted");
     let bounds = whole.desc().bounds;
-    // What the host knows the number of; cells are laid out for the same maximum where that decides hits.
+    // Geometry whose number of triangles the host knows; cells are laid out for the same maximum where that decides
+    // hits.
     let alone = |count: u32| {
         let desc = GeometryDesc { triangle_count: count, count: None, bounds, ..whole.desc().clone() };
         Geometry::new(bench.device(), desc).expect("it is part of it")

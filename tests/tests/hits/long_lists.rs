@@ -31,7 +31,7 @@ fn rays() -> Vec<Ray> {
         .collect()
 }
 
-/// What a thread that sorts several lists has no steps left for, and contiguous lists beyond the limit of a dispatch.
+/// Lists for which a thread that sorts several has no steps left, and contiguous lists beyond the limit of a dispatch.
 #[test]
 fn every_edge_capacity_of_long_lists_of_a_buffers() {
     use rasray_abuffer::{ABuffer, Config, Demand, Storage, plan};

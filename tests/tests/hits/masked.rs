@@ -28,7 +28,7 @@ const EXACT: &[(&str, &[(&str, &str)])] = &[
     ("mmrt", &[("resolution", "64"), ("coverage", "conservative")]),
 ];
 
-/// How many of [`EXACT`] the quick tier tries.
+/// Number of [`EXACT`] tried in the quick tier.
 const QUICK: usize = 5;
 
 /// Presets that must be among those found by what they promise.

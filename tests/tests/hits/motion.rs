@@ -143,7 +143,7 @@ fn positions_that_the_device_moved_are_built_where_they_are() {
         let mut structure = subject.structure(&bench, &geometry);
         device.upload_slice(&geometry.desc().positions.buffer, 0, &moved).expect("the device works");
         let unmeasured = bench.build_once(structure.as_mut(), EYE);
-        // What has no pools needs no bounds.
+        // Structures without pools need no bounds.
         let is_found = !unmeasured.complete && unmeasured.outside > 0;
         assert!(is_found || unmeasured.pools.is_empty(), "{name}: {unmeasured:?}");
         device.submit(|recorder| bounds_pass.record(recorder, &geometry)).expect("the device works");

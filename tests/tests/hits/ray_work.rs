@@ -36,7 +36,7 @@ fn trace(bench: &Bench, subject: &Subject, counters: Counters, rays: &[Ray]) -> 
     MODES.map(|mode| tracer.trace(structure.as_ref(), rays, mode, Timing::None).expect("all rays finish"))
 }
 
-/// What is wrong with work against sums.
+/// Difference between work and sums.
 fn difference(work: &[RayWork], sums: &QueueCounters) -> Option<String> {
     let sum = |part: fn(&RayWork) -> u32| work.iter().map(|w| u64::from(part(w))).sum::<u64>();
     let added =

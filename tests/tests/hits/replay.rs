@@ -40,7 +40,7 @@ const MORE: [Row; 6] = [
     ("selective", "published", &[("march", "exact"), ("payload", "index")]),
 ];
 
-/// How many of [`MORE`] the quick tier tries.
+/// Number of [`MORE`] tried in the quick tier.
 const QUICK: usize = 2;
 
 /// Presets of every system, and more of them; budgets are small, so that rays pause.
@@ -53,7 +53,7 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
         let size = spec.system().size_option();
         let cells = size.map(|option| (option.to_owned(), RESOLUTION.to_string()));
         let spec = spec.with_options(cells).expect("so many cells are valid").with_counters(counters);
-        // What lists triangles finds one soon, and needs less to pause.
+        // A structure that lists triangles finds one soon, and needs less to pause.
         let is_short = spec.kind().expect("the options are valid") != StructureKind::Fragment;
         let spec = spec.clone().with_work_budget(if is_short { 5 } else { 60 });
         let mut structure = spec.create(bench.device(), geometry, None).expect("the options are valid");
@@ -149,7 +149,7 @@ fn cell_of(p: [f64; 3]) -> (u32, i32, i32) {
     (face, place(q[0]), place(q[1]))
 }
 
-/// What the replay of a ray says about a hit that was lost.
+/// Reason of a lost hit, by the replay of its ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Loss {
     /// The triangle was tested in a cell and refused there.

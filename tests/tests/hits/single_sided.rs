@@ -170,7 +170,7 @@ fn brute_force_passes_backs_as_the_oracle_does() {
         passed > RAYS / 3 && ambiguous > 0 && ambiguous < RAYS / 5,
         "{passed} pass a back, {ambiguous} are ambiguous"
     );
-    // Whether anything is hit is the same question.
+    // Any hits are found where closest hits are.
     let occluded = hits(&bench, &structure, &passing, TraceMode::Occluded);
     let differs = occluded.iter().zip(&found).filter(|(any, closest)| any.is_hit() != closest.is_hit());
     assert_eq!(differs.count(), 0);

@@ -16,7 +16,7 @@ const SLOTS: u32 = 300;
 /// Work units per dispatch: more than any structure needs at once, less than most rays spend.
 const BUDGET: u32 = 128;
 
-/// What no trace writes.
+/// A hit that no trace writes.
 const UNTOUCHED: Hit = Hit { t: -7.0, primitive: 7, a: -7.0, b: -7.0 };
 
 /// Selects slots as shaders would, by the host: the list that the next take makes valid, and its length.

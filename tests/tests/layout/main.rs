@@ -15,7 +15,7 @@ use crate::layout::reader::{Member, Record, difference, push_constants, read_by_
 /// A module with the records that each of the two readers finds in it, the own one first.
 type Found = (&'static Shader, [BTreeMap<String, Record>; 2]);
 
-/// What both readers find in every module, the own one first.
+/// Records that both readers find in every module, the product's own reader first.
 fn found_in_modules() -> &'static [Found] {
     static FOUND: LazyLock<Vec<Found>> = LazyLock::new(|| {
         shaders::ALL.iter().map(|shader| (*shader, [read_by_us(shader), read_by_spirq(shader)])).collect()

@@ -20,7 +20,7 @@ pub struct Record {
     pub stride: Option<usize>,
 }
 
-/// What the product's own reader says.
+/// Records that the product's own reader finds.
 pub fn read_by_us(shader: &Shader) -> BTreeMap<String, Record> {
     layouts(&shader.words())
         .into_iter()
@@ -64,7 +64,7 @@ fn reflected(shader: &Shader) -> Vec<EntryPoint> {
         .unwrap_or_else(|error| panic!("{shader:?}: {error}"))
 }
 
-/// What an independent reader says.
+/// Records that an independent reader finds.
 pub fn read_by_spirq(shader: &Shader) -> BTreeMap<String, Record> {
     let mut found = BTreeMap::new();
     for variable in reflected(shader).iter().flat_map(|entry_point| &entry_point.vars) {
@@ -97,7 +97,7 @@ pub fn collect(ty: &Type, stride: Option<usize>, found: &mut BTreeMap<String, Re
     }
 }
 
-/// How a record differs from what Rust has; `None` if it does not.
+/// Difference between a record and Rust's; `None` if there is none.
 pub fn difference(record: Option<&Record>, members: &[Member], size: usize) -> Option<String> {
     let Some(record) = record else {
         return Some("the module does not have it".to_owned());

@@ -145,7 +145,7 @@ fn every_edge_capacity_by_address_with_short_depths() {
     });
 }
 
-/// What is allocated after the exact demand has been met is what the formula says.
+/// Bytes allocated after the exact demand has been met are those of the formula.
 #[test]
 fn bytes_are_those_of_the_formula() {
     let bench = Bench::new();

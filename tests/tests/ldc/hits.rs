@@ -1,4 +1,4 @@
-//! What the layered depth cube answers: rooms, layers, edges between views, long traversals, pauses, limits, bad rays.
+//! Answers of the layered depth cube: rooms, layers, edges between views, long traversals, pauses, limits, bad rays.
 
 use rasray_ads::{BruteForce, Counters, Hit, Ray, Structure, Surface, TraceMode};
 use rasray_gpu::Timing;
@@ -95,7 +95,7 @@ fn a_lamp_is_not_taken_for_its_ceiling() {
             Ray::new(origin, [x - origin[0], height - origin[1], z - origin[2]])
         })
         .collect();
-    // Whether each ray hits the lamp, and at which t.
+    // For each ray, true if it hits the lamp, and its t.
     let lit = |structure: &dyn Structure| -> Vec<(bool, f32)> {
         let surfaces = bench.surfaces(structure, &rays);
         let lit = |surface: &Surface| surface.valid != 0 && surface.emission[0] > 0.0;

@@ -32,7 +32,7 @@ fn made(bench: &Bench, geometry: &Geometry, config: Config) -> LayeredDepthCube 
     structure
 }
 
-/// What must be the same however layers are made.
+/// Contents that are equal however layers are made.
 struct Layers {
     /// Depth and triangle of each fragment of each cell.
     lists: Vec<Vec<(u32, u32)>>,

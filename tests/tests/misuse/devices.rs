@@ -12,7 +12,7 @@ use crate::misuse::unbuilt::{EYE, rays};
 /// Structures that can be built by computing. The quick tier has those whose kernels other tests have as well, and one more.
 const COMPUTED: &[&str] = &["bricks", "bvh", "grid", "brute-force", "abuffer", "primitive", "voxel", "ldc"];
 
-/// How many of [`COMPUTED`] the quick tier tries.
+/// Number of [`COMPUTED`] tried in the quick tier.
 const QUICK: usize = 5;
 
 /// A box around the eye.
@@ -36,7 +36,7 @@ fn geometry(device: &Device) -> Geometry {
     Geometry::new(device, desc).expect("the buffers hold it")
 }
 
-/// What is built by computing needs nothing to draw with.
+/// Structures built by computing need nothing to draw with.
 #[test]
 fn structures_that_compute_are_built_and_traced_without_dynamic_rendering() {
     let desc =

@@ -37,7 +37,7 @@ fn dirty_memory(bench: &Bench) {
     buffers.iter().for_each(fill);
 }
 
-/// The same with more elements in the last pool.
+/// `sizes` with more elements in the last pool.
 fn larger(mut sizes: Sizes) -> Sizes {
     if let Some(pool) = sizes.pools.last_mut() {
         pool.elements += 256;

@@ -1,4 +1,4 @@
-//! What a structure was built for and what it is traced with: other triangles, another scene, frames that were never
+//! Structures built for one input and traced with another: other triangles, another scene, frames that were never
 //! recorded.
 
 use rasray_ads::{
@@ -167,7 +167,7 @@ fn a_number_of_triangles_that_changed_makes_builds_stale() {
             [(); 2].map(|()| subject.spec.create(device, &geometry, None).expect("it can be made"));
         build_until_complete(device, one.as_mut(), EYE, Timing::None).expect("it is built");
         build_until_complete(device, other.as_mut(), EYE, Timing::None).expect("it is built");
-        // The same number: both answer.
+        // With an equal number, both answer.
         assert!(bench.trace(one.as_ref(), &rays()).hits.iter().all(Hit::is_hit));
         assert!(bench.trace(other.as_ref(), &rays()).hits.iter().all(Hit::is_hit));
         device.upload_slice(&count, 0, &[1_u32]).expect("the device works");
@@ -182,7 +182,7 @@ fn a_number_of_triangles_that_changed_makes_builds_stale() {
     }
 }
 
-/// What has to be gathered or counted first is not there before.
+/// Data to be gathered or counted first is not there before.
 #[test]
 fn brute_force_waits_for_indices_that_are_gathered_and_triangles_that_are_counted() {
     let bench = Bench::new();

@@ -14,9 +14,8 @@ const SIZE: u32 = 32;
 const SAMPLES: u32 = 4;
 const BOUNCES: u32 = 2;
 
-/// How far the means of occlusion and of light may be off, relative, where hits may be: at least and at most,
-/// so that what passes unexpectedly is noticed. Published fragments of mmrt are as thick as half a step, which hides more
-/// than there is.
+/// Least and largest relative errors of the means of occlusion and of light, where hits may be off, so that what passes
+/// unexpectedly is noticed. Published fragments of mmrt are as thick as half a step, which hides more than there is.
 const ALLOWED: &[(&str, Preset, [[f32; 2]; 2])] = &[
     ("mmrt", Preset::Published, [[0.2, 0.8], [0.03, 0.2]]),
     ("dirt", Preset::Published, [[0.0, 0.12], [0.0, 0.03]]),

@@ -65,7 +65,7 @@ fn secondary_rays_hit_fragments_without_ids() {
             let options = [("resolution", "256"), ("payload", payload)];
             mean(&bench, &scene, made(&bench, &scene, system, &options).as_mut())
         };
-        // The same rules with and without ids: rays start a little apart, so a few hit something else.
+        // Equal rules with and without ids: rays start a little apart, so a few hit something else.
         let (with_ids, without_ids) = (mean_of("index"), mean_of("attributes"));
         println!("{system}: {with_ids} with ids, {without_ids} without");
         assert!(with_ids < 0.9, "{system}: walls occlude: {with_ids}");
@@ -112,7 +112,7 @@ fn largest(color: [f32; 3]) -> f32 {
     color.into_iter().fold(0.0, f32::max)
 }
 
-/// Whether a hit is a fragment's, not that of a triangle close to the eye, of which the A-buffer alone has a list.
+/// True if a hit is a fragment's, not that of a triangle close to the eye, of which the A-buffer alone has a list.
 fn is_fragment(system: &str, hit: &Hit) -> bool {
     system != "mmrt" || hit.primitive == PRIMITIVE_UNKNOWN
 }
@@ -126,7 +126,7 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
 fn terms(system: &str, of_triangle: &Surface) -> [f32; 3] {
     match system {
         "mmrt" | "hu" => [of_triangle.metallic, of_triangle.roughness, of_triangle.specular],
-        // What reflects is a mirror.
+        // Reflecting materials are mirrors.
         "selective" => [of_triangle.metallic, if of_triangle.metallic > 0.0 { 0.0 } else { 1.0 }, 0.0],
         _ => [0.0, 1.0, 0.0],
     }
@@ -137,12 +137,12 @@ fn difference(left: [f32; 3], right: [f32; 3]) -> f32 {
     (0..3).fold(0.0, |largest, i| (left[i] - right[i]).abs().max(largest))
 }
 
-/// What a ray is answered: t, the triangle, and where it hits something position, normal and error of the position.
+/// Answer to a ray: t, the triangle, and where it hits something position, normal and error of the position.
 type Answer = (f32, u32, Option<([f32; 3], [f32; 3], f32)>);
 
-/// What the paper stores for ambient occlusion is enough for it: hits are those of all attributes, bit for bit, and so are
-/// normals except for one ray in a hundred where fragments have the same t: a ray that enters a cell behind several of
-/// them within their thickness hits all of these where it enters.
+/// Attributes that the paper stores for ambient occlusion are enough for it: hits are those of all attributes, bit for
+/// bit, and so are normals except for one ray in a hundred where fragments have the same t: a ray that enters a cell
+/// behind several of them within their thickness hits all of these where it enters.
 #[test]
 fn normals_alone_serve_ambient_occlusion() {
     let bench = Bench::new();

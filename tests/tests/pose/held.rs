@@ -20,7 +20,7 @@ pub struct DeviceScene<'a> {
     origin: DVec3,
 }
 
-/// How far the device is from the host, at worst.
+/// Largest differences between device and host.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Figures {
     /// Of positions, in units in the last place of the largest coordinate of the draw.

@@ -156,7 +156,7 @@ fn what_leaves_the_range_of_numbers_is_counted() {
         for (seconds, outside) in [(0.0, 0), (1.0, 7), (0.0, 0)] {
             stage.pose(&at(&stage.scene, seconds));
             let status = bench.build_once(structure.as_mut(), [0.0; 3]);
-            // What has no pools has nothing to place by bounds.
+            // Structures without pools have nothing to place by bounds.
             let outside = if status.pools.is_empty() { 0 } else { outside };
             println!("{name} at {seconds} s: {} outside", status.outside);
             assert_eq!(status.outside, outside, "{name} at {seconds} s");
@@ -166,7 +166,7 @@ fn what_leaves_the_range_of_numbers_is_counted() {
     assert_eq!(stage.fresh(&at(&stage.scene, 1.0)).posed.dropped_triangles, 7, "as the host counts them");
 }
 
-/// What a scale of 0 hides at rest, of a node or of a joint, is whole when it is shown, with its normals and tangents.
+/// Meshes hidden at rest by a scale of 0, of a node or of a joint, are whole when shown, with normals and tangents.
 #[test]
 fn what_is_hidden_at_rest_is_whole_when_it_is_shown() {
     let bench = Bench::new();

@@ -1,4 +1,4 @@
-//! What moves in a scene, posed on the device: held against the same scene posed on the host.
+//! Motion of a scene, posed on the device: held against the same scene posed on the host.
 
 mod deformed;
 mod far_away;

@@ -144,7 +144,7 @@ fn bricks_take_another_geometry() {
     assert_eq!(trace(&bench, &structure, &rays), trace(&bench, &expected, &rays));
 }
 
-/// What is allocated after the exact demand has been met is what the formula says.
+/// Bytes allocated after the exact demand has been met are those of the formula.
 #[test]
 fn bytes_are_those_of_the_formula() {
     let bench = Bench::new();

@@ -47,7 +47,7 @@ fn mixed(random: &mut Random) -> Vec<Triangle> {
     triangles
 }
 
-/// Whether a triangle reaches into the box between two corners; in double precision, by cutting it at the six sides.
+/// True if a triangle reaches into the box between two corners; in double precision, by cutting it at the six sides.
 fn reaches_into(triangle: &[[f64; 3]; 3], lower: [f64; 3], upper: [f64; 3]) -> bool {
     let mut polygon = triangle.to_vec();
     for axis in 0..3 {
@@ -69,7 +69,8 @@ fn reaches_into(triangle: &[[f64; 3]; 3], lower: [f64; 3], upper: [f64; 3]) -> b
     !polygon.is_empty()
 }
 
-/// What [`check_lists`] counts: cells of each level, entries, and those of a triangle that reaches into the cell without margins.
+/// Counts of [`check_lists`]: cells of each level, entries, and those of a triangle that reaches into the cell without
+/// margins.
 #[derive(Debug)]
 struct Listed {
     of_levels: [usize; 4],
@@ -199,7 +200,7 @@ fn cells_of_a_flat_scene_are_divided_within_its_plane() {
     for axis in 0..3 {
         let mut triangles = crowded(&mut Random::new(42));
         triangles.iter_mut().flatten().for_each(|corner| corner[axis] = 2.0);
-        // What was across another axis is a line now, which no cell lists.
+        // A triangle across another axis is a line now, which no cell lists.
         triangles.retain(|[a, b, c]| {
             let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
             let side = |p: &[f32; 3]| [p[u] - a[u], p[v] - a[v]].map(f64::from);

@@ -32,7 +32,7 @@ fn within(eye: [f32; 3], view: &CameraView, random: &mut Random, depth: f32) -> 
     [0, 1, 2].map(|i| eye[i] + x * view.right[i] + y * view.up[i] + depth * view.forward[i])
 }
 
-/// Whether a point is well within the view.
+/// True if a point is well within the view.
 fn sees(view: &CameraView, eye: [f32; 3], point: [f32; 3]) -> bool {
     let narrower =
         CameraView { half_width: 0.9999 * view.half_width, half_height: 0.9999 * view.half_height, ..*view };

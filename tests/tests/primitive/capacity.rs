@@ -57,7 +57,7 @@ fn missing_capacity_for_triangles_is_noticed() {
     missing_capacity_for_triangles::<Passes>(lists);
 }
 
-/// What is allocated after the exact demand has been met is what the formula says.
+/// Bytes allocated after the exact demand has been met are those of the formula.
 #[test]
 fn bytes_are_those_of_the_formula() {
     let bench = Bench::new();

@@ -1,5 +1,5 @@
-//! What tests of pools of either structure share: the scene, the rays, and every edge capacity of entries and of the
-//! near-region list.
+//! Shared parts of tests of pools of either structure: the scene, the rays, and every edge capacity of entries and of
+//! the near-region list.
 
 use rasray_ads::{BuildStatus, Check, Design, Geometry, Hit, Pooled, Ray, Structure, TraceMode};
 use rasray_tests::conformance::trace_in_rounds;

@@ -17,7 +17,7 @@ use rasray_tracer::build_until_complete;
 
 const EYES: [[f32; 3]; 3] = [[0.0; 3], [0.125, -0.25, 0.375], [-3.0, 2.0, 1.5]];
 
-/// What is made.
+/// Structure under test.
 #[derive(Clone, Copy, Debug)]
 enum Made {
     Lists(Config),
@@ -40,7 +40,7 @@ impl Made {
         structure
     }
 
-    /// The same with options that change no hit: the other builder, pools by address, no blocks of tiles.
+    /// The structure with options that change no hit: the other builder, pools by address, no blocks of tiles.
     fn otherwise(self) -> Self {
         let other = |builder| match builder {
             Builder::Raster => Builder::Binning,
@@ -65,7 +65,7 @@ impl Made {
         }
     }
 
-    /// Whether triangles around the eye are in a list of their own.
+    /// True if triangles around the eye are in a list of their own.
     fn has_near_region_list(self) -> bool {
         !matches!(self, Self::Bricks(BricksConfig { views: Views::Axes, .. }))
     }

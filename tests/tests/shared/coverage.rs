@@ -80,7 +80,7 @@ fn triangles(resolution: u32, random: &mut Random, count: usize) -> Vec<Triangle
         .collect()
 }
 
-/// What the test kernel says of cases.
+/// Results of the test kernel on cases.
 fn evaluated(bench: &Bench, cases: &[Case], resolution: u32) -> Vec<CoverageResult> {
     let constants = CoverageTestConstants { case_count: cases.len() as u32, resolution };
     let (found, _) = run_kernel::<CoverageResult, _>(

@@ -39,7 +39,7 @@ fn traverse(bench: &Bench, rays: &[Ray], size: u32) -> Vec<Vec<Cell>> {
     all
 }
 
-/// What is wrong with the visits of a ray; `None` if nothing is.
+/// Fault of the visits of a ray; `None` if there is none.
 fn fault(ray: &Ray, visits: &[Cell], size: u32) -> Option<String> {
     let visited: HashSet<Cell> = visits.iter().copied().collect();
     if let Some(cell) = visits.iter().find(|cell| cell.iter().any(|i| !(0..size as i32).contains(i))) {

@@ -1,4 +1,4 @@
-//! What lists hold, counted from closed forms: k parallel triangles are k layers in every cell that they cover.
+//! Contents of lists, counted from closed forms: k parallel triangles are k layers in every cell that they cover.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -42,7 +42,7 @@ fn height(layer: u64) -> f64 {
     0.13 * layer + 0.01 * layer * layer
 }
 
-/// Whether a point is in the flat triangle; no point that is asked for is close to an edge.
+/// True if a point is in the flat triangle; no point that is asked for is close to an edge.
 fn is_covered(point: [f64; 2]) -> bool {
     let edges: [f64; 3] = std::array::from_fn(|corner| {
         let (a, b) = (FLAT[corner], FLAT[(corner + 1) % 3]);
@@ -246,7 +246,8 @@ fn a_tile_has_each_triangle_once_however_many_of_its_buckets_list_it() {
     assert!(several > 0, "no triangle reached into two buckets of a tile");
 }
 
-/// What can be said of every structure: a cell that holds something holds no more than most, and nothing is counted twice.
+/// Bounds that hold for every structure: a cell that holds something holds no more than most, and nothing is counted
+/// twice.
 #[test]
 fn counts_of_every_structure_agree_with_what_it_reports() {
     let bench = Bench::new();

@@ -64,7 +64,7 @@ fn traverse(bench: &Bench, rays: &[Ray], resolution: u32, near: f32) -> Vec<Vec<
     first.into_iter().map(|visits| visits.or_else(&mut traversed_again).unwrap_or_default()).collect()
 }
 
-/// What is wrong with the visits of a ray; `None` if nothing is.
+/// Fault of the visits of a ray; `None` if there is none.
 fn fault(ray: &Ray, visits: &[Visit], resolution: u32, near: f32, random: &mut Random) -> Option<String> {
     if ray.t_min >= ray.t_max {
         return (!visits.is_empty()).then(|| "an empty range is traversed".to_owned());

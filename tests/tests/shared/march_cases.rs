@@ -63,7 +63,7 @@ pub fn random(random: &mut Random, count: usize, resolution: u32) -> Vec<Ray> {
         .collect()
 }
 
-/// The same rays about a scene of another size.
+/// These rays about a scene of another size.
 pub fn scaled(rays: &[Ray], factor: f32) -> Vec<Ray> {
     rays.iter().map(|ray| Ray { origin: ray.origin.map(|x| x * factor), ..*ray }).collect()
 }

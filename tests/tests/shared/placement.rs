@@ -50,7 +50,7 @@ fn rays_from_the_eye_are_never_too_far_from_the_centre() {
             cases.push((direction.map(|x: f32| x * distance + 0.5), BOUNDS));
         }
     }
-    // How far the eye is from the centre over how far the geometry is, along an axis.
+    // Distance of the eye from the centre over that of the geometry, along an axis.
     let ratios: Vec<f32> = centres(&cases)
         .iter()
         .zip(&cases)
@@ -140,7 +140,7 @@ fn cells_hold_the_geometry_with_its_margins() {
             assert!(last < f64::from(case.cells[axis]) - 2.0 * margin, "{case:?}: {last} {margin}");
         }
         if case.bounds[0] == case.bounds[1] {
-            // What has no size has nothing but margins.
+            // A box without size has nothing but margins.
             continue;
         }
         let most = case.cells.into_iter().max().expect("three axes");

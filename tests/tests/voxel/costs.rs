@@ -1,4 +1,5 @@
-//! What builds and rays of the paper's comparators cost, as a table: [the page](../../../docs/measurements/hu.md#a-sparse-octree).
+//! Costs of builds and rays of the paper's comparators, as a table: [the
+//! page](../../../docs/measurements/hu.md#a-sparse-octree).
 
 use rasray_ads::{Counters, Hit, Structure};
 use rasray_tests::harness::{Bench, bits_of_any_build, processor_seconds};

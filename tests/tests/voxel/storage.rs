@@ -1,4 +1,4 @@
-//! What voxels and axis A-buffers hold, and what follows for rays: fragments saved against what geometry allows,
+//! Contents of voxels and axis A-buffers, and what follows for rays: fragments saved against what geometry allows,
 //! builds that repeat, and hits that do not depend on budgets and on how lists are kept.
 
 use rasray_ads::{Hit, Ray, Structure};

@@ -10,7 +10,7 @@ use rasray_tracer::{BatchTracer, TracerError, build_until_complete};
 
 pub const RAYS: u32 = 96;
 
-/// How traces say that something is wrong.
+/// Signs of damage in traces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flag {
     /// Rays in a cyclic list are given up and counted.
@@ -87,7 +87,7 @@ pub fn survive<D: Design<Contents: Clone>>(
     assert_eq!(finish(device), Vec::<String>::new());
 }
 
-/// What a trace said.
+/// Report of a trace, in words.
 pub fn words(result: &Result<Vec<Hit>, TracerError>) -> String {
     match result {
         Ok(hits) => format!("{} hits", hits.iter().filter(|hit| hit.is_hit()).count()),

@@ -25,7 +25,7 @@ fn each_link(contents: &mut Contents, mut change: impl FnMut(u32) -> u32) {
     }
 }
 
-/// What leads just past the end.
+/// Link to just past the end.
 fn past(contents: &Contents) -> u32 {
     let link = contents.header.demand.min(contents.header.capacity) + 1;
     if contents.config.storage == Storage::Paged { link << 4 | 1 } else { link }

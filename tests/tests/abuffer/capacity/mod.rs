@@ -21,7 +21,7 @@ fn config(storage: Storage) -> Config {
     Config { storage, ..Config::at_centres(16) }
 }
 
-/// The same with conservative lists.
+/// [`config`] with conservative lists.
 fn nearby(storage: Storage) -> Config {
     Config { coverage: Coverage::Conservative, ..config(storage) }
 }
@@ -36,7 +36,7 @@ fn capacity(fragments: u64, near_triangles: u64) -> Demand {
     }
 }
 
-/// What rays hit, bit for bit but for the numbers of nodes.
+/// Hits of rays, bit for bit but for the numbers of nodes.
 fn trace(bench: &Bench, structure: &ABuffer, rays: &[Ray]) -> Vec<[u32; 4]> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
     assert_eq!((counters.not_ready, counters.unfinished), (0, 0));
@@ -153,7 +153,7 @@ fn every_edge_capacity_with_addresses() {
     }
 }
 
-/// What has no capacity in the conservative list is counted, whether or not the lists have capacity.
+/// Triangles beyond the capacity of the conservative list are counted, whether or not the lists have capacity.
 #[test]
 fn every_edge_capacity_of_the_conservative_lists() {
     let edge_on = Config { coverage: Coverage::EdgeOn, ..config(Storage::Dllb) };
@@ -264,7 +264,7 @@ fn formula_equals_allocations_without_slack() {
         assert_eq!(report.stored, Some(fragments + conservative));
         let counted = Demand { conservative, ..capacity(demand(&status, "nodes"), demand(&status, "near")) };
         assert_eq!(report.formula_bytes, formula_bytes(&config, counted).total());
-        // What is reported is what was allocated: downloads have that size, and so has device memory.
+        // Reported bytes are those allocated: downloads have that size, and so has device memory.
         assert_eq!(report.bytes(), structure.sizes().bytes());
         let contents = check_well_formed(&bench, &structure);
         let words = [

@@ -6,14 +6,14 @@ use rasray_tests::image_truth::{Studio, System};
 
 use super::{SIZE, cornell, reference, rendered};
 
-/// How one image differs from another.
+/// Difference between two images.
 #[derive(Clone, Copy, Debug)]
 struct Difference {
     /// Pixels that differ by more than a thousandth of their value.
     share: f64,
     /// Root of the mean square.
     rms: f64,
-    /// The same over the pixels that agree.
+    /// Root mean square over the pixels that agree.
     rms_of_others: f64,
 }
 

@@ -1,4 +1,4 @@
-//! How the error of rendered images falls, what of it is not noise, and how it is stated:
+//! Fall of the error of rendered images, the part of it that is not noise, and its statement:
 //! `docs/image-truth.md`.
 
 mod coupled;
@@ -21,7 +21,7 @@ fn cornell() -> (Scene, Camera) {
     (scene, camera)
 }
 
-/// The same view on the CPU.
+/// The view on the CPU.
 fn reference(scene: &Scene, camera: &Camera, origin: DVec3, seed: u32) -> Vec<[f32; 3]> {
     let view = View {
         camera: camera.clone(),
@@ -35,7 +35,7 @@ fn reference(scene: &Scene, camera: &Camera, origin: DVec3, seed: u32) -> Vec<[f
     posed.render_path(&view, BOUNCES).expect("the image has pixels").pixels
 }
 
-/// What the device shows.
+/// Pixels of the device.
 fn rendered(stage: &Studio<'_>) -> Vec<[f32; 3]> {
     let picture = stage.render(&stage.path(BOUNCES), 0..SAMPLES);
     assert_eq!(picture.non_finite, 0);

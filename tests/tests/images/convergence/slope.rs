@@ -14,7 +14,7 @@ use rasray_tests::tier::is_full;
 /// Each pixel is a repetition of its own, for each seed.
 const SIZE: u32 = 32;
 const SEEDS: [u32; 2] = [1, 2];
-/// What the slope may be off.
+/// Largest error of the slope.
 const TOLERANCE: f64 = 0.05;
 
 /// A slope in log-log and its standard error.

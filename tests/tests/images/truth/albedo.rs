@@ -13,7 +13,7 @@ use super::grey;
 
 const SIZE: u32 = 64;
 
-/// What the polynomials that stand for the integrals of facets may be off by (docs/shading.md, "Energy").
+/// Largest error of the polynomials that stand for the integrals of facets (docs/shading.md, "Energy").
 const FITTED: f64 = 0.01;
 
 /// Base colour, metallic, roughness.

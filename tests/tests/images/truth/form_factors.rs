@@ -1,4 +1,4 @@
-//! What squares, spheres and walls exchange or hide.
+//! Light that squares, spheres and walls exchange or hide.
 
 use std::f64::consts::PI;
 

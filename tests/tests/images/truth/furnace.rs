@@ -74,7 +74,7 @@ fn lossless_mirrors_and_glass_vanish_in_a_white_sky() {
     let (path, broken_path) = (stage.path(SCATTERINGS), broken.path(SCATTERINGS));
     let samples = samples(&bench, 8);
     for (i, name) in ["mirror", "glass", "thin glass"].into_iter().enumerate() {
-        // What is still in the glass after so many scatterings is below a thousandth.
+        // Light still in the glass after so many scatterings is below a thousandth.
         let slack = 1e-3;
         stage.look(camera(i));
         assert_truth(name, &stage.estimate(&path, samples), grey(1.0), slack);

@@ -1,4 +1,4 @@
-//! The same laws for a scene that comes from a file: emissive strength, specular, node transforms.
+//! Laws of light in a scene that comes from a file: emissive strength, specular, node transforms.
 
 use std::path::Path;
 

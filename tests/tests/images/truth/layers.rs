@@ -33,7 +33,7 @@ fn pane(color: [f32; 3]) -> Material {
     Material { base_color: [red, green, blue, 1.0], specular: 0.0, thickness: 0.0, ..glass(1.5) }
 }
 
-/// What lights the floor.
+/// Light on the floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Lamp {
     Sun,

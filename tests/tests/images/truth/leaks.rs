@@ -86,7 +86,7 @@ fn stage<'a>(bench: &'a Bench, material: Material, light: Option<Light>) -> Stud
     Studio::new(bench, &scene, camera, 32, System::BruteForce)
 }
 
-/// Whether all samples are finite, no pixel is negative, and the terminator is in the picture.
+/// True if all samples are finite, no pixel is negative, and the terminator is in the picture.
 fn sound(stage: &Studio<'_>) -> bool {
     let picture = stage.render(&stage.path(3), 0..16);
     let mut values = picture.pixels.iter().flatten();

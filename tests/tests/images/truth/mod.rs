@@ -33,7 +33,7 @@ fn by_system<T>(system: System, exact: T, fragments: T) -> T {
     if system == System::BruteForce { exact } else { fragments }
 }
 
-/// What a structure may be off, relative, in an image whose samples depend on `traces` traces: nothing, or
+/// Largest error of a structure, relative, in an image whose samples depend on `traces` traces: nothing, or
 /// the share of wrong rays that the conformance rows allow.
 fn law(system: System, traces: u32) -> f64 {
     match system {
@@ -42,7 +42,7 @@ fn law(system: System, traces: u32) -> f64 {
     }
 }
 
-/// The same in all channels.
+/// One value in all channels.
 fn grey(value: f64) -> [f64; 3] {
     [value; 3]
 }
