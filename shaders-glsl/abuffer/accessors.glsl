@@ -21,10 +21,10 @@ POOL_WORDS(abuffer, conservative, 7)
 const bool ABUFFER_BUCKETED = ABUFFER_STORAGE == ABUFFER_STORAGE_LLB || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB
     || ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
 
-// Whether a cell has several lists: where only the nearest fragments are kept it has one, whatever the storage.
+// True where a cell has several lists: where only the nearest fragments are kept it has one, whatever the storage.
 const bool ABUFFER_HAS_BUCKETS = ABUFFER_BUCKETED && ABUFFER_SINGLE_LAYER == 0u;
 
-// Whether cells know the smallest and largest depth of their fragments.
+// True where cells know the smallest and largest depth of their fragments.
 const bool ABUFFER_HAS_ENDS = ABUFFER_BUCKETED || ABUFFER_STEP == ABUFFER_STEP_SKIPS || ABUFFER_SINGLE_LAYER != 0u;
 
 // Nodes in pages that are linked.
@@ -36,10 +36,10 @@ const bool ABUFFER_DOUBLY = ABUFFER_STORAGE == ABUFFER_STORAGE_DLL || ABUFFER_ST
 // Contiguous nodes of a list, without links.
 const bool ABUFFER_CONTIGUOUS = ABUFFER_STORAGE == ABUFFER_STORAGE_SB;
 
-// Whether lists can be read from their far end.
+// True where lists can be read from their far end.
 const bool ABUFFER_HAS_FAR_END = ABUFFER_DOUBLY || ABUFFER_CONTIGUOUS;
 
-// Whether cells store how far triangles reach in depth from their fragments.
+// True where cells store the reach of triangles in depth from their fragments.
 const bool ABUFFER_HAS_EXTENT = ABUFFER_TEST != ABUFFER_TEST_DEPTHS || ABUFFER_ACCEPT == ABUFFER_ACCEPT_SLOPE;
 
 // Words of bounds per cell: ends, the extent, where there are buckets as well as an extent the scale, and the
@@ -90,7 +90,7 @@ void abuffer_widen_bounds(AbufferRef s, uint cell, float lower, float upper) {
     atomicMax(ABUFFER_POOL(s, bounds)[word + 1u], floatBitsToUint(upper));
 }
 
-// The same for one end only, where only the nearest fragments are kept: the near end is known before they
+// Widens one end only, where only the nearest fragments are kept: the near end is known before they
 // are stored, the far end is that of the stored fragments.
 void abuffer_widen_near(AbufferRef s, uint cell, float z) {
     atomicMax(ABUFFER_POOL(s, bounds)[cell * ABUFFER_BOUNDS_STRIDE], ~floatBitsToUint(z));
@@ -145,7 +145,7 @@ void abuffer_mark(AbufferRef s, uint primitive, uint set) {
 }
 #endif
 
-// Whether a triangle has a fragment.
+// True if a triangle has a fragment.
 bool abuffer_is_marked(AbufferRef s, uint primitive) {
     uint word = abuffer_marks(s) + primitive / 32u;
     return primitive < ABUFFER_HEADER(s).triangles && (ABUFFER_POOL(s, bounds)[word] & 1u << (primitive % 32u)) != 0u;

@@ -53,8 +53,8 @@ bool abuffer_box(AbufferRef s, uint box, out vec3 lower, out vec3 upper) {
     return ABUFFER_POOL(s, bounds)[word + 3u] != 0u;
 }
 
-// How far rounding may move a point of a box, relative to the eye, and a corner of a triangle in it, against each other
-// in a view. Turning a point into a face does not round.
+// Largest shift by rounding of a point of a box, relative to the eye, and a corner of a triangle in it, against
+// each other in a view. Turning a point into a face does not round.
 vec3 abuffer_box_rounding(AbufferRef s, uint view, vec3 lower, vec3 upper) {
     if (view != ABUFFER_CAMERA) {
         return vec3(0.0);
@@ -65,8 +65,8 @@ vec3 abuffer_box_rounding(AbufferRef s, uint view, vec3 lower, vec3 upper) {
     return 1.0e-6 * sums;
 }
 
-// What a view sees of a box with corners relative to the eye: its corners along the axes of the view, and the bounds in
-// x/z and y/z (lower, upper) of the cells whose centres what is in it may cover. False where there are none.
+// View of a box with corners relative to the eye: its corners along the axes of the view, and the bounds in x/z and y/z
+// (lower, upper) of the cells whose centres what is in it may cover. False where there are none.
 bool abuffer_see_box(AbufferRef s, uint view, vec3 lower, vec3 upper, out vec3 first, out vec3 last, out vec4 bounds) {
     float side = float(abuffer_resolution(s, view));
     float limit = 1.0 + 2.0 / side;

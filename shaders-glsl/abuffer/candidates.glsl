@@ -10,14 +10,14 @@
 #include "abuffer/nodes.glsl"
 #include "abuffer/stored_plane.glsl"
 
-// Whether a fragment without an id replaces the best hit: it is nearer, or as near as another such one with lower
+// True if a fragment without an id replaces the best hit: it is nearer, or as near as another such one with lower
 // words.
 bool abuffer_is_better(AbufferRef s, Hit best, float t, uint link) {
     bool tie = t == best.t && best.primitive == PRIMITIVE_UNKNOWN;
     return t < best.t || (tie && abuffer_payload_is_lower(s, link, floatBitsToUint(best.a)));
 }
 
-// Whether a ray passes a fragment because it meets the back of what it stands for.
+// True if a ray passes a fragment because it meets the back of its surface.
 bool abuffer_is_passed(AbufferRef s, Ray ray, uint primitive, uint link) {
     if (!ray_culls_back_faces(ray)) {
         return false;

@@ -2,18 +2,18 @@
 #ifndef ABUFFER_CONSTANTS_GLSL
 #define ABUFFER_CONSTANTS_GLSL
 
-// How a ray steps through cells.
+// Steps of a ray through cells.
 #define ABUFFER_MARCH_SAMPLES 0u
 #define ABUFFER_MARCH_EXACT 1u
 #define ABUFFER_MARCH_DDA 2u
 #define ABUFFER_MARCH_PYRAMID 3u
 
-// How a ray steps, by which modules differ: from cell to cell, skipping blocks of them, or by samples.
+// Steps of a ray, by which modules differ: from cell to cell, skipping blocks of them, or by samples.
 #define ABUFFER_STEP_CELLS 0u
 #define ABUFFER_STEP_SKIPS 1u
 #define ABUFFER_STEP_SAMPLES 2u
 
-// What a ray tests, by which modules differ: triangles only, the planes of fragments, or their depths.
+// Candidates that a ray tests, by which modules differ: triangles only, the planes of fragments, or their depths.
 #define ABUFFER_TEST_TRIANGLES 0u
 #define ABUFFER_TEST_PLANES 1u
 #define ABUFFER_TEST_DEPTHS 2u
@@ -36,13 +36,13 @@
 #define ABUFFER_ACCEPT_PLANE 2u
 #define ABUFFER_ACCEPT_SLOPE 3u
 
-// What a fragment carries.
+// Payload of a fragment.
 #define ABUFFER_PAYLOAD_INDEX 0u
 #define ABUFFER_PAYLOAD_ATTRIBUTES 1u
 #define ABUFFER_PAYLOAD_NORMAL 2u
 #define ABUFFER_PAYLOAD_PLANE 3u
 
-// What decides that a cell is covered; conservative: exact, and triangles that reach into a cell outside of its
+// Rule by which a cell is covered; conservative: exact, and triangles that reach into a cell outside of its
 // centre are kept, so that triangles can be tested in place of planes; edge-on: of these only triangles that no cell
 // keeps or that are seen edge-on.
 #define ABUFFER_COVERAGE_HARDWARE 0u
@@ -50,11 +50,10 @@
 #define ABUFFER_COVERAGE_CONSERVATIVE 2u
 #define ABUFFER_COVERAGE_EDGE_ON 3u
 
-// How much farther than wide, in cells, a triangle's plane must reach in depth over a cell to count as seen
-// edge-on there: about seven degrees.
+// Ratio of depth to width over a cell beyond which a triangle's plane counts as edge-on there: about seven degrees.
 #define ABUFFER_EDGE_ON_SLOPE 8.0
 
-// What the depth bounds of a cell enclose before fragments are stored: those that it will have, or the boxes around
+// Contents of the depth bounds of a cell before fragments are stored: those that it will have, or the boxes around
 // objects that are over it.
 #define ABUFFER_BOUNDS_GEOMETRY 0u
 #define ABUFFER_BOUNDS_BOXES 1u
@@ -65,7 +64,7 @@
 // Words of such a box.
 #define ABUFFER_BOX_WORDS 6u
 
-// How the fragments of a cell are kept.
+// Storage of the fragments of a cell.
 #define ABUFFER_STORAGE_LL 0u
 #define ABUFFER_STORAGE_DLL 1u
 #define ABUFFER_STORAGE_LLB 2u
@@ -76,7 +75,7 @@
 // A contiguous list of more nodes than this is bisected for the depth to begin at.
 #define ABUFFER_SEEK_LENGTH 16u
 
-// How far a fragment's plane reaches beyond its triangle, in widths of a cell at that depth. More closes
+// Reach of a fragment's plane beyond its triangle, in widths of a cell at that depth. More closes
 // gaps between triangles smaller than a cell, less keeps planes seen edge-on out of the way.
 #define ABUFFER_PLANE_REACH 2.0
 

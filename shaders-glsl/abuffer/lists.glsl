@@ -120,7 +120,7 @@ AbufferCursor abuffer_list_resume(AbufferRef s, uint list, bool backward, uint l
     return cursor;
 }
 
-// Whether a link points to a node that was stored; a link that does not is counted.
+// True if a link points to a node that was stored; one that does not is counted.
 bool abuffer_is_stored(AbufferRef s, uint link) {
     if (link - 1u < abuffer_stored(s)) {
         return true;

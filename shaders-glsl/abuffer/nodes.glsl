@@ -83,7 +83,7 @@ uvec4 abuffer_payload(AbufferRef s, uint link) {
     return words;
 }
 
-// Whether a fragment's payload has the lower words, the first that differ: nearly always the first of all, so
+// True if a fragment's payload has the lower words, the first that differ: nearly always the first of all, so
 // that a loop that ends there costs less than one that is unrolled. Not for sorts, whose steps leave no budget
 // for iterations in addition to their own.
 bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {

@@ -11,7 +11,7 @@ ivec2 abuffer_place(vec4 frag_coord) {
     return ivec2(frag_coord.xy) - 1;
 }
 
-// What a fragment invocation finds in its cell; false where the triangle does not cover it.
+// Cell and coverage of a fragment invocation; false where the triangle does not cover it.
 bool abuffer_fragment(uint primitive, uint view, vec4 frag_coord, out uint cell, out CellCoverage coverage) {
     uint resolution = abuffer_resolution(build.structure, view);
     ivec2 place = abuffer_place(frag_coord);

@@ -31,7 +31,7 @@ struct AbufferSearch {
     bool in_conservative;       // the conservative list has been begun
 };
 
-// Whether the depths that a fragment represents overlap those of the ray: [low, high] is the interval searched.
+// True if the depths that a fragment represents overlap those of the ray: [low, high] is the interval searched.
 bool abuffer_intersects(AbufferRef s, AbufferSearch search, uint primitive, float z, float low, float high) {
     if (ABUFFER_TEST != ABUFFER_TEST_DEPTHS) {
         return z >= low && z <= high;

@@ -20,7 +20,7 @@
 
 #define ABUFFER_SEGMENT_LIMIT (SEGMENT_LIMIT + ABUFFER_STAGE_FACES)
 
-// How far the segments of a ray have been traversed.
+// Progress of a ray through its segments.
 struct AbufferProgress {
     uint stage;           // the next one
     float t;              // where the next segment in a face begins

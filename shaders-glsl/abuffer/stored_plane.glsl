@@ -32,7 +32,7 @@ uvec4 abuffer_pack_plane(uint primitive, vec2 barycentrics, vec3 eye) {
     return uvec4(floatBitsToUint(unit * scale), floatBitsToUint(offset * scale));
 }
 
-// Whether a stored normal is that of a single-sided surface.
+// True if a stored normal is that of a single-sided surface.
 bool abuffer_plane_is_single_sided(vec3 normal) {
     return dot(normal, normal) > 2.0;
 }
@@ -43,7 +43,7 @@ vec3 abuffer_plane_normal(uvec4 words) {
     return abuffer_plane_is_single_sided(normal) ? 0.5 * normal : normal;
 }
 
-// Whether a ray passes a stored plane because it meets its back.
+// True if a ray passes a stored plane because it meets its back.
 bool abuffer_plane_is_passed(uvec4 words, Ray ray) {
     vec3 normal = uintBitsToFloat(words.xyz);
     return ray_culls_back_faces(ray) && abuffer_plane_is_single_sided(normal) && dot(normal, ray.direction) > 0.0;

@@ -20,15 +20,15 @@ layout(constant_id = 18) const uint ABUFFER_INLINE = 0u;
 layout(constant_id = 19) const uint ABUFFER_PAGE = 4u;
 layout(constant_id = 20) const uint ABUFFER_VIEWS = ABUFFER_VIEWS_CUBE;
 layout(constant_id = 21) const uint ABUFFER_SINGLE_LAYER = 0u;
-// Whether fragments keep their triangle behind a payload without it.
+// 1 where fragments keep their triangle behind a payload without it.
 layout(constant_id = 22) const uint ABUFFER_IDS = 0u;
-// Whether each ray places its samples at an offset of its own within their steps.
+// 1 where each ray places its samples at an offset of its own within their steps.
 layout(constant_id = 23) const uint ABUFFER_JITTER = 0u;
 layout(constant_id = 24) const uint ABUFFER_VIEW_SWITCHING = ABUFFER_SWITCH_EXACT;
-// What a cell's depth bounds enclose before its fragments are stored, of storages with buckets.
+// Contents of a cell's depth bounds before its fragments are stored, of storages with buckets.
 layout(constant_id = 25) const uint ABUFFER_BOUNDS_OF = ABUFFER_BOUNDS_GEOMETRY;
 
-// How rays step and what they test, ABUFFER_STEP_* and ABUFFER_TEST_*. Each is most of a trace's code, so modules that
+// Steps and tests of rays, ABUFFER_STEP_* and ABUFFER_TEST_*. Each is most of a trace's code, so modules that
 // trace are compiled once for each (permutations.txt); elsewhere the options decide.
 #ifdef ABUFFER_STEPS
 const uint ABUFFER_STEP = ABUFFER_STEPS;
@@ -43,17 +43,17 @@ const uint ABUFFER_TEST = ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE ? AB
     : (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE ? ABUFFER_TEST_PLANES : ABUFFER_TEST_DEPTHS);
 #endif
 
-// Whether cells keep every triangle that reaches into them. Then triangles are tested, not planes, and no hit is lost.
+// True where cells keep every triangle that reaches into them: triangles are tested, not planes, and no hit is lost.
 const bool ABUFFER_CONSERVATIVE = ABUFFER_TEST == ABUFFER_TEST_TRIANGLES;
 
-// Whether cells keep triangles outside of their centres.
+// True where cells keep triangles outside of their centres.
 const bool ABUFFER_EDGE_ON = ABUFFER_TEST == ABUFFER_TEST_PLANES && ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON;
 const bool ABUFFER_HAS_CONSERVATIVE = ABUFFER_CONSERVATIVE || ABUFFER_EDGE_ON;
 
-// Whether rays visit the cells that they cross; else they are sampled.
+// True where rays visit the cells that they cross; else they are sampled.
 const bool ABUFFER_FOLLOWS_CELLS = ABUFFER_STEP != ABUFFER_STEP_SAMPLES;
 
-// Whether a ray passes from view to view as published.
+// True where a ray passes from view to view as published.
 const bool ABUFFER_SNAPS = ABUFFER_VIEW_SWITCHING == ABUFFER_SWITCH_SNAP;
 
 // Which views there are.

@@ -23,7 +23,7 @@ float abuffer_near_size(AbufferRef s) {
     return ABUFFER_HEADER(s).near_size;
 }
 
-// How far, in x/z, rounding may move a triangle in a view: cells keep triangles up to that far beyond their sides.
+// Largest shift of a triangle in a view by rounding, in x/z: cells keep triangles up to that far beyond their sides.
 float abuffer_conservative_margin(AbufferRef s, vec3 a, vec3 b, vec3 c) {
     float nearest = max(min(a.z, min(b.z, c.z)), ABUFFER_HEADER(s).near_size);
     return ABUFFER_HEADER(s).rounding / max(nearest, 1.0e-30) + 1.0e-6;

@@ -1,4 +1,4 @@
-// What: what the build does with a triangle in a cell whose centre it covers, the same for every builder: it widens the
+// What: work of the build on a triangle in a cell whose centre it covers, the same for every builder: it widens the
 // cell's bounds, counts, or stores.
 // Reads: bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: bounds, or lists, nodes, data, header.demand, marks.
 // Source: MMRT section 3.3, the two geometry passes.
@@ -12,12 +12,12 @@
 #include "abuffer/attributes.glsl"
 #endif
 
-// How much farther than the nearest a fragment may be to count as part of the same layer, as a share of its
-// depth: a few roundings, by which triangles that touch at a centre differ there. All passes find the same
-// depths, except those of the hardware, which may differ as little.
+// Distance behind the nearest up to which a fragment counts as part of the same layer, as a share of its depth: a few
+// roundings, by which triangles that touch at a centre differ there. All passes find the same depths, except those of
+// the hardware, which may differ as little.
 #define ABUFFER_LAYER_SHARE 4.8e-7
 
-// Whether a triangle is not behind the layer that is kept of a cell, whether or not a mask cuts it out there.
+// True if a triangle is not behind the layer kept of a cell, whether or not a mask cuts it out there.
 bool abuffer_in_layer(uint cell, CellCoverage coverage) {
     if (ABUFFER_SINGLE_LAYER == 0u) {
         return true;

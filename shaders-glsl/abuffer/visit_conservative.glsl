@@ -1,4 +1,4 @@
-// What: what the build does with a triangle in a cell that it reaches into, the same for every builder: with conservative
+// What: work of the build on a triangle in a cell that it reaches into, the same for every builder: with conservative
 // coverage it stores a fragment where the triangle covers the centre, and else the triangle in the conservative list;
 // with edge-on coverage, once all fragments are stored, triangles that have none or are seen edge-on.
 // Reads: geometry, header, marks. Writes: see abuffer/visit.glsl; conservative lists, header.conservative_demand.
@@ -9,7 +9,7 @@
 #include "abuffer/visit.glsl"
 #include "abuffer/conservative.glsl"
 
-// Whether the plane of a triangle reaches much farther in depth over a cell than the cell is wide. a, b, c in the view.
+// True if the plane of a triangle reaches much farther in depth over a cell than the cell is wide. a, b, c in the view.
 bool abuffer_is_edge_on(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
     vec3 normal = cross(b - a, c - a);
     float facing = abs(dot(normal, coverage_center(place, resolution)));

@@ -12,7 +12,7 @@
 
 #define AXIS_VIEWS 3u
 
-// How far rounding may move the depths of a triangle in a cell of the view that it faces most, in cells, where
+// Largest shift by rounding of the depths of a triangle in a cell of the view that it faces most, in cells, where
 // axis_depth_is_certain.
 #define AXIS_DEPTH_SLACK 0.2
 
@@ -77,14 +77,14 @@ vec3 axis_center(AxisView view, ivec2 cell) {
     return vec3(center, 0.0);
 }
 
-// Whether the closed triangle a, b, c (frame of the view) covers the centre of a cell, with its depth and
+// True if the closed triangle a, b, c (frame of the view) covers the centre of a cell, with its depth and
 // barycentrics there.
 bool axis_at_center(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell, out float z, out vec2 barycentrics) {
     float error;
     return triangle_intersect(axis_center(view, cell), vec3(0.0, 0.0, 1.0), a, b, c, z, barycentrics, error);
 }
 
-// Whether a cell is inside the view, not in its border.
+// True if a cell is inside the view, not in its border.
 bool axis_has_cell(uint resolution, ivec2 cell) {
     return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, ivec2(resolution)));
 }
@@ -114,7 +114,7 @@ float axis_reach_slack(AxisView view) {
     return slack;
 }
 
-// Whether a triangle (frame of the view) reaches into a cell, or touches it within rounding: more than is exact,
+// True if a triangle (frame of the view) reaches into a cell, or touches it within rounding: more than is exact,
 // never less. Precise: passes that count and store must agree.
 bool axis_reaches_into(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     // In cells, from the centre.
@@ -150,8 +150,8 @@ bool axis_reaches_into(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     return true;
 }
 
-// Whether rounding moves the depths of a triangle in a cell by less than AXIS_DEPTH_SLACK cells: by less than a tenth of
-// a cell where its plane rises, and than a twentieth at a distance from corner a.
+// True if rounding moves the depths of a triangle in a cell by less than AXIS_DEPTH_SLACK cells: by less than a tenth
+// of a cell where its plane rises, and than a twentieth at a distance from corner a.
 bool axis_depth_is_certain(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     vec3 ab = abs(b - a);
     vec3 ac = abs(c - a);

@@ -1,4 +1,4 @@
-// What: whether a ray passes a triangle because it meets its back.
+// What: tests whether a ray passes a triangle because it meets its back.
 // Reads: draws; geometry where the side is not known. Writes: nothing.
 // Source: glTF 2.0, doubleSided. Which rays pass backs is the ray's (RAY_CULL_BACK_FACES), which triangles have one the
 // draw's (DRAW_SINGLE_SIDED).
@@ -16,12 +16,12 @@ uint back_face_draw_flags_of_id(uint id) {
     return geometry_header.draw_count == 0u ? 0u : geometry_draws[geometry_draw_of_id(id)].flags;
 }
 
-// The same of a triangle of the geometry that is bound.
+// DRAW_* bits of a triangle of the geometry that is bound.
 uint back_face_draw_flags(uint primitive) {
     return back_face_draw_flags_of_id(geometry_id(primitive));
 }
 
-// Whether the ray passes a triangle of the geometry that is bound, which it meets on this side.
+// True if the ray passes a triangle of the geometry that is bound, which it meets on this side.
 bool back_face_is_passed(Ray ray, uint primitive, bool counter_clockwise) {
     if (!ray_culls_back_faces(ray)) {
         return false;
@@ -30,7 +30,7 @@ bool back_face_is_passed(Ray ray, uint primitive, bool counter_clockwise) {
     return (flags & DRAW_SINGLE_SIDED) != 0u && counter_clockwise == ((flags & DRAW_MIRRORED) != 0u);
 }
 
-// The same where a fragment stands for the triangle: the ray meets the side that it would meet of its plane.
+// True if the ray passes a fragment that stands for the triangle: it meets the side that it would meet of its plane.
 bool back_face_is_passed_by_plane(Ray ray, uint primitive) {
     if (!ray_culls_back_faces(ray)) {
         return false;

@@ -48,7 +48,7 @@ void bin_box(vec3 centre, uint primitive, out vec3 lower, out vec3 upper) {
     upper = max(a, max(b, c)) - centre;
 }
 
-// Whether bounds intersect the box of that half side around the centre, the near region.
+// True if bounds intersect the box of that half side around the centre, the near region.
 bool bin_box_is_near(vec3 lower, vec3 upper, float size) {
     return !any(greaterThan(lower, vec3(size))) && !any(lessThan(upper, vec3(-size)));
 }

@@ -48,7 +48,7 @@ BoxClip box_clip_begin(BoxCells axes, uvec3 cells, vec3 a, vec3 b, vec3 c) {
     return clip;
 }
 
-// Whether a triangle is no longer than a cell along any axis.
+// True if a triangle is no longer than a cell along any axis.
 bool box_clip_is_small(BoxClip clip) {
     return all(lessThanEqual(clip.upper - clip.lower, vec3(1.0)));
 }
@@ -101,7 +101,7 @@ void box_clip_corners(BoxClip clip, vec2 lower, vec2 upper, inout vec2 depths) {
     precise vec4 reach = error / (abs(clip.normal.z) - clip.normal_error.z) + clip.slack;
     for (int corner = 0; corner < 4; corner++) {
         if (ab[corner] && bc[corner] && ca[corner]) {
-            // What lies beyond the triangle's own corners is rounding.
+            // Depths beyond the triangle's own corners are rounding.
             precise float nearest = clip.a.z - fall[corner] - reach[corner];
             precise float farthest = clip.a.z - fall[corner] + reach[corner];
             depths = vec2(min(depths.x, max(nearest, clip.lower.z)), max(depths.y, min(farthest, clip.upper.z)));

@@ -25,7 +25,7 @@ uint conservative_pack_depths(vec2 depths) {
     return floatBitsToUint(depths.x) >> 16 | high << 16;
 }
 
-// Whether the depth interval of a node overlaps [low, high].
+// True if the depth interval of a node overlaps [low, high].
 bool conservative_intersects(ConservativeNode node, float low, float high) {
     return !(node.depths.x > high) && !(node.depths.y < low);
 }

@@ -17,7 +17,7 @@
 #define GEOMETRY_RUN_BYTES 8u
 #define GEOMETRY_RIGID_BYTES 72u
 
-// What a structure is traced for: all triangles; the part that is traced first; a next one, which goes on from the hits
+// Role of a structure in a trace: all triangles; the part that is traced first; a next one, which goes on from the hits
 // that the queue has of those before.
 #define PART_WHOLE 0u
 #define PART_FIRST 1u
@@ -25,7 +25,7 @@
 // Where surfaces are found, this is added for each part that was traced after it.
 #define PART_AFTER 4u
 
-// Whether fragments count that are as close to an end of the ray as those of the surface there.
+// Rule for fragments as close to an end of the ray as those of the surface there: counted, or not.
 #define ENDS_TOUCHING 0u
 #define ENDS_CLEAR 1u
 

@@ -1,4 +1,4 @@
-// What: whether a triangle becomes a ray's best hit, and if not, why.
+// What: tests whether a triangle becomes a ray's best hit, and says why not.
 // Reads: geometry, of rays that pass backs also draws; the scene where alpha is tested. Writes: nothing.
 #ifndef ADS_EVALUATE_GLSL
 #define ADS_EVALUATE_GLSL
@@ -42,7 +42,7 @@ uint evaluate_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c,
     return alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
 }
 
-// The same with the corners of the geometry.
+// evaluate_corners with the corners of the geometry.
 uint evaluate_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t, out vec2 barycentrics,
     out float t_error) {
     vec3 a;
@@ -77,7 +77,7 @@ bool test_corners(Ray ray, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, 
     return true;
 }
 
-// The same with the corners of the geometry.
+// test_corners with the corners of the geometry.
 bool test_triangle(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
     vec3 a;
     vec3 b;
@@ -86,7 +86,7 @@ bool test_triangle(Ray ray, uint primitive, float t_low, float t_high, inout Hit
     return test_corners(ray, primitive, a, b, c, t_low, t_high, best);
 }
 
-// The same for hits at any t. Counts the test.
+// test_triangle for hits at any t. Counts the test.
 bool test_anywhere(Ray ray, uint primitive, inout TraceState state) {
     float infinity = uintBitsToFloat(0x7F800000u);
     state.tests++;

@@ -1,5 +1,5 @@
-// What: whether the plane of a fragment's triangle, which represents the surface in the fragment's cell, becomes a
-// ray's best hit, and if not, why.
+// What: tests whether the plane of a fragment's triangle, which represents the surface in the fragment's cell, becomes
+// a ray's best hit, and says why not.
 // Reads: geometry; the scene where alpha is tested. Writes: nothing.
 // Source: not in the papers, which compare depths; see docs/systems/mmrt.md.
 #ifndef ADS_EVALUATE_PLANE_GLSL
@@ -30,12 +30,12 @@ vec2 plane_barycentrics(uint primitive, vec3 p) {
     return triangle_barycentrics(p, a, b, c);
 }
 
-// Whether a point with these barycentrics lies on its triangle, and not only on the plane of it.
+// True if a point with these barycentrics lies on its triangle, and not only on the plane of it.
 bool plane_is_inside(vec2 barycentrics) {
     return barycentrics.x >= 0.0 && barycentrics.y >= 0.0 && barycentrics.x + barycentrics.y <= 1.000001;
 }
 
-// Whether a candidate replaces the best hit: it is nearer; or as near, and on its triangle where the best hit is only
+// True if a candidate replaces the best hit: it is nearer; or as near, and on its triangle where the best hit is only
 // on the plane of one; or else as near, with a lower id. The result does not depend on the order of the candidates.
 bool plane_is_better(Hit best, float t, uint primitive, vec2 barycentrics) {
     bool inside = plane_is_inside(barycentrics);
@@ -130,7 +130,7 @@ void test_listed(Ray ray, uint primitive, float t_low, float t_high, bool with_p
     }
 }
 
-// The same where fragments are hit by their planes.
+// test_listed where fragments are hit by their planes.
 void test_with_planes(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
     test_listed(ray, primitive, t_low, t_high, true, best);
 }

@@ -64,12 +64,12 @@ uint geometry_triangle_count() {
     return geometry_header.triangle_count;
 }
 
-// Whether the build may be complete: only then does what it stored represent the triangles.
+// True if the build may be complete: only then do its pools represent the triangles.
 bool geometry_is_sound() {
     return geometry_header.outside == 0u;
 }
 
-// Whether a status is that of a complete build of these triangles.
+// True if a status is that of a complete build of these triangles.
 bool geometry_is_built(uint status) {
     return (status & STATUS_COMPLETE) != 0u && (status & ~STATUS_FLAGS) == geometry_header.stamp;
 }
@@ -121,7 +121,7 @@ uint geometry_id(uint primitive) {
     return found.y + (primitive - found.x);
 }
 
-// The same of what a hit or a candidate names, which may be nothing or a fragment that does not keep its triangle.
+// The id that a hit or a candidate names, which may be nothing or a fragment that does not keep its triangle.
 uint geometry_id_of(uint primitive) {
     return primitive < PRIMITIVE_UNKNOWN ? geometry_id(primitive) : primitive;
 }
@@ -163,7 +163,7 @@ uint geometry_draw_of_id(uint id) {
     return draw;
 }
 
-// The same of a triangle by its number.
+// The draw of a triangle by its number.
 uint geometry_draw(uint primitive) {
     return geometry_draw_of_id(geometry_id(primitive));
 }

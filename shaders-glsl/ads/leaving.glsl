@@ -22,7 +22,7 @@ Ray leaving_triangle(Ray ray, float reach, vec3 a, vec3 b, vec3 c) {
     return ray;
 }
 
-// The same of the triangle that the ray excludes. Unchanged where it excludes none.
+// leaving_triangle of the triangle that the ray excludes. Unchanged where it excludes none.
 Ray leaving_ray(Ray ray, float reach) {
     if (ray.exclude_primitive >= geometry_triangle_count()) {
         return ray;

@@ -134,7 +134,7 @@ CellMarch march_place(vec3 origin, vec3 direction, uint resolution, float t_begi
     return m;
 }
 
-// The same with the exit.
+// Starts a traversal with the exit of its first cell.
 CellMarch march_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, float t_error) {
     CellMarch m = march_place(origin, direction, resolution, t_begin, t_end, t_error);
     march_find_exit(m);
@@ -149,7 +149,7 @@ bool march_step(inout CellMarch m) {
     m.cell += ivec2(m.step_x ? m.step_direction.x : 0, m.step_y ? m.step_direction.y : 0);
     m.t_in = m.t_out;
     m.error_in = m.error_out;
-    // What was touched at the exit of the last cell is touched at the entry of this one.
+    // Neighbours touched at the exit of the last cell are touched at the entry of this one.
     m.neighbours = m.touched;
     return true;
 }

@@ -8,7 +8,7 @@
 
 #include "ads/march_grid.glsl"
 
-// Whether a point touches, within `guard`, a side of the block from `first` to `last` that has cells behind it.
+// True if a point touches, within `guard`, a side of the block from `first` to `last` that has cells behind it.
 bool grid_touches_block(GridMarch m, ivec3 first, ivec3 last, vec3 p, float guard) {
     bvec3 below = lessThanEqual(abs(p - vec3(first)), vec3(guard));
     bvec3 above = lessThanEqual(abs(p - vec3(last + 1)), vec3(guard));

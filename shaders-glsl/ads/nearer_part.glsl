@@ -1,8 +1,8 @@
 // What: the nearer of the hits that a ray has in parts of a geometry, of structures that store fragments.
 // Reads, writes: nothing.
-// What of a part is hit may depend on the cells that the ray is followed through, so each part is searched as if there were no
-// other. Where both hits are as near, that of a triangle comes first, on the triangle before beyond it on its plane, with the
-// lower id; of two stored fragments that of the part that was traced first.
+// The hit of a part may depend on the cells that the ray is followed through, so each part is searched as if there were
+// no other. Where both hits are as near, that of a triangle comes first, on the triangle before beyond it on its plane,
+// with the lower id; of two stored fragments that of the part that was traced first.
 #ifndef ADS_NEARER_PART_GLSL
 #define ADS_NEARER_PART_GLSL
 

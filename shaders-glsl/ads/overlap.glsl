@@ -1,4 +1,4 @@
-// What: whether a triangle reaches into a cell of a face, and the depths it has there. May accept more than
+// What: tests whether a triangle reaches into a cell of a face, with its depths there. May accept more than
 // is exact, never less.
 // Reads, writes: nothing.
 // Source: DIRT section 3.2 clips each primitive to the tile. Here the depth follows from the plane over
@@ -8,7 +8,7 @@
 
 #include "ads/coverage.glsl"
 
-// Whether all corners lie beyond a side of the cell: below the lower or above the upper end of x/z.
+// True if all corners lie beyond a side of the cell: below the lower or above the upper end of x/z.
 bool overlap_beyond(vec3 x, vec3 z, float lower, float upper) {
     precise vec3 at_lower = lower * z;
     precise vec3 at_upper = upper * z;
@@ -116,7 +116,7 @@ bool overlap_at(float near_size, Overlap o, vec3 center, float half_side, out ve
             depths.y = min(depths.y, farthest_depth);
         }
     }
-    // What is nearer than the near region is tested with the near-region list, and positive depths order like their
+    // Anything nearer than the near region is tested with the near-region list, and positive depths order like their
     // bits.
     depths.x = max(depths.x, 0.5 * near_size);
     depths.y = max(depths.y, depths.x);

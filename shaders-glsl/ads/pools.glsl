@@ -1,6 +1,6 @@
-// What: how the header and the pools of a structure are declared and reached: through the descriptors of STRUCTURE_SET, or
-// (ADDRESSING_ADDRESS) through device addresses, that of the header and those that it holds. Each has one line in the
-// structure's header.glsl or accessors.glsl.
+// What: declarations of the header and the pools of a structure, and access to them: through the descriptors of
+// STRUCTURE_SET, or (ADDRESSING_ADDRESS) through device addresses, that of the header and those that it holds. Each has
+// one line in the structure's header.glsl or accessors.glsl.
 // Reads, writes: nothing. Stages that only read say so (STRUCTURE_READ_ONLY), because writing from a vertex shader is a device
 // feature of its own.
 // `Name` and `name` are those that the structure's records and functions begin with; the other arguments are:

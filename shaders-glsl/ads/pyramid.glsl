@@ -64,7 +64,7 @@ uvec2 pyramid_block(PyramidLevel level, ivec2 cell) {
     return uvec2(cell + 1) >> level.level;
 }
 
-// Whether a block with these words holds nothing from depths.x to depths.y. Comparisons with NaN are false:
+// True if a block with these words holds nothing from depths.x to depths.y. Comparisons with NaN are false:
 // then it does.
 bool pyramid_leaves_out(uvec2 words, vec2 depths) {
     return words.y == 0u || depths.y < uintBitsToFloat(~words.x) || depths.x > uintBitsToFloat(words.y);

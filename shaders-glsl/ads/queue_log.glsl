@@ -9,7 +9,7 @@
 #include "contract/trace_state.glsl"
 #include "ads/geometry.glsl"
 
-// Whether this invocation's slot is the logged one. Evaluated once per ray, since structures log in many places.
+// True if this invocation's slot is the logged one. Evaluated once per ray, since structures log in many places.
 bool trace_log_on = false;
 
 // Of this dispatch: views entered, and cells visited that were not rejected. A cell is rejected where nothing of what it
@@ -65,7 +65,7 @@ void trace_log(uint kind, uint a, uint b, uint c, float t_low, float t_high) {
     }
 }
 
-// The same of a view, a cell, or something of what a cell holds, which are counted as well.
+// Logs and counts a visit to a view, a cell, or something that a cell holds.
 void trace_log_visit(uint kind, uint a, uint b, uint c, float t_low, float t_high) {
     if (COUNTERS >= COUNTERS_SUMS) {
         trace_log_count(kind, a);

@@ -22,7 +22,7 @@ layout(push_constant, scalar) uniform QueueMeetConstants {
     uint part;            // whose status it is
 } pushed;
 
-// How far a ray may pass by the bounds of a triangle that it is tested to hit: 64 units of rounding of its way.
+// Margin by which a ray may pass by the bounds of a triangle that it is tested to hit: 64 units of rounding of its way.
 #define MEET_MARGIN 0.0000038146973
 
 bool meets_bounds(Ray ray, float t_max) {

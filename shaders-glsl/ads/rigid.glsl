@@ -1,4 +1,4 @@
-// What: where a part is whose structure was built in a space of its own, and rays as that space has them.
+// What: place of a part whose structure was built in a space of its own, and rays in that space.
 // Reads: what follows the runs in the header of GEOMETRY_SET. Writes: nothing.
 // Source: Bürger et al. section 1.2, cubes of rigid objects. An affine map keeps t along a ray whose direction keeps its
 // length.
@@ -20,10 +20,10 @@ struct GeometryRigid {
     float error;          // how far rounding may move its corners, where it was built; infinite where there is no map
 };
 
-// How far rounding may move a ray, over its distance from the part: 32 units, for what maps it and for what tests triangles.
+// Largest shift of a ray by rounding, over its distance from the part: 32 units, for mapping it and testing triangles.
 #define RIGID_ROUNDING 0.0000019073486
 
-// The same buffer as the header: the map is the first element behind the runs.
+// The buffer of the header: the map is the first element behind the runs.
 layout(set = GEOMETRY_SET, binding = 0, scalar) readonly buffer GeometryRigidBuffer {
     GeometryRigid geometry_rigids[];
 };

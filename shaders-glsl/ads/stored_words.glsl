@@ -1,5 +1,5 @@
-// What: what traces and surfaces read of the words that fragments store in place of their triangle: the normal of the
-// front, whether there is a back that rays may pass, and whether the fragment emits.
+// What: parts that traces and surfaces read of the words that fragments store in place of their triangle: the normal of
+// the front, whether there is a back that rays may pass, and whether the fragment emits.
 // Reads: of fragments that emit the triangle's geometry and draw. Writes: nothing.
 // Source: MMRT section 3.3, normal 16:16, of which one bit is taken. A normal is octahedral: 16 bits of its first
 // coordinate, 15 of its second above the bit that is set where the surface is single-sided. scene/stored_surface.glsl says
@@ -30,18 +30,18 @@ vec3 stored_unpack_normal(uint word) {
     return normalize(n);
 }
 
-// Whether a ray passes the surface whose front has this normal, because it meets its back.
+// True if a ray passes the surface whose front has this normal, because it meets its back.
 bool stored_normal_is_passed(Ray ray, uint word) {
     return ray_culls_back_faces(ray) && (word & STORED_SINGLE_SIDED) != 0u
         && dot(stored_unpack_normal(word), ray.direction) > 0.0;
 }
 
-// Whether these words are of a fragment that emits: its surface is that of triangle words.y.
+// True if these words are of a fragment that emits: its surface is that of triangle words.y.
 bool stored_emits(uvec2 words) {
     return words.x >> 24 == 0u;
 }
 
-// Whether a ray passes a fragment with these words of colour and normal, because it meets its back.
+// True if a ray passes a fragment with these words of colour and normal, because it meets its back.
 bool stored_is_passed(Ray ray, uvec2 words) {
     return stored_emits(words) ? back_face_is_passed_by_plane(ray, geometry_number(words.y)) : stored_normal_is_passed(ray, words.y);
 }

@@ -17,7 +17,7 @@ struct BucketCase {
 layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { BucketCase cases[]; };
 layout(set = 0, binding = 1, scalar) buffer BucketBuffer { uint buckets[]; };
 
-// What the kernel works on. 4 bytes.
+// Number of cases. 4 bytes.
 layout(push_constant, scalar) uniform BucketTestConstants {
     uint case_count;      // cases
 } pushed;

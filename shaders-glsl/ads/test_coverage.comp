@@ -15,7 +15,7 @@ struct CoverageCase {
     int y;                // row, from -1 to the resolution
 };
 
-// Whether the centre of the cell is covered. 12 bytes.
+// Coverage of the cell's centre. 12 bytes.
 struct CoverageResult {
     uint covered;         // 0 or 1
     float z;              // depth; 0 where it is not covered
@@ -25,7 +25,7 @@ struct CoverageResult {
 layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { CoverageCase cases[]; };
 layout(set = 0, binding = 1, scalar) buffer ResultBuffer { CoverageResult results[]; };
 
-// What the kernel works on. 8 bytes.
+// Number of cases and resolution. 8 bytes.
 layout(push_constant, scalar) uniform CoverageTestConstants {
     uint case_count;      // cases
     uint resolution;      // cells along the side of a face

@@ -21,7 +21,7 @@ layout(set = 0, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
 layout(set = 0, binding = 1, scalar) buffer VisitBuffer { Visit visits[]; };
 layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
 
-// What the kernel works on. 16 bytes.
+// Rays and cells to march through. 16 bytes.
 layout(push_constant, scalar) uniform CellMarchTestConstants {
     uint ray_count;       // rays
     uint resolution;      // cells along the side of a face

@@ -11,7 +11,7 @@ layout(set = 0, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
 layout(set = 0, binding = 1, scalar) buffer VisitBuffer { ivec3 visits[]; };
 layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
 
-// What the kernel works on. 12 bytes.
+// Rays and cells to march through. 12 bytes.
 layout(push_constant, scalar) uniform GridMarchTestConstants {
     uint ray_count;       // rays
     uint size;            // cells along a side

@@ -10,7 +10,7 @@ layout(set = 0, binding = 1, scalar) buffer SlotBuffer { uint slots[]; };
 // The number of pages taken, the words of the lists, and pages of a word and PAGE_SIZE entries: thread number + 1.
 layout(set = 0, binding = 2, scalar) buffer PageBuffer { uint words[]; };
 
-// What the kernel works on. 16 bytes.
+// Threads and pages. 16 bytes.
 layout(push_constant, scalar) uniform PageTestConstants {
     uint thread_count;    // threads, of an entry each
     uint list_count;      // lists

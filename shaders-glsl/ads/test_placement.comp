@@ -6,7 +6,7 @@
 
 layout(local_size_x = 64) in;
 
-// What is placed. 72 bytes.
+// A geometry to place. 72 bytes.
 struct PlacementCase {
     vec3 bounds[2];       // lower and upper corner, metres
     vec3 around[2];       // bounds of the whole
@@ -30,7 +30,7 @@ struct PlacementResult {
 layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { PlacementCase cases[]; };
 layout(set = 0, binding = 1, scalar) buffer ResultBuffer { PlacementResult results[]; };
 
-// What the kernel works on. 4 bytes.
+// Number of cases. 4 bytes.
 layout(push_constant, scalar) uniform PlacementTestConstants {
     uint case_count;      // cases
 } pushed;

@@ -23,7 +23,7 @@ struct TriangleResult {
 layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { TriangleCase cases[]; };
 layout(set = 0, binding = 1, scalar) buffer ResultBuffer { TriangleResult results[]; };
 
-// What the kernel works on. 4 bytes.
+// Number of cases. 4 bytes.
 layout(push_constant, scalar) uniform TriangleTestConstants {
     uint case_count;      // cases
 } pushed;

@@ -6,7 +6,7 @@
 
 #include "ads/constants.glsl"
 
-// What a queue is traced through, and which of its slots. 24 bytes.
+// Structure that a queue is traced through, and the slots traced. 24 bytes.
 layout(push_constant, scalar) uniform TraceConstants {
     StructureRef structure;   // the device address of the header, low word first; zero with descriptors
     uint domain;              // the number of first slots, or DOMAIN_SELECTED

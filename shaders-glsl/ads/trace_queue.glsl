@@ -14,7 +14,7 @@
 #include "ads/nearer_part.glsl"
 #endif
 
-// Whether a hit of the part that was traced before is only looked at once this part has its own.
+// True if a hit of the part that was traced before is only looked at once this part has its own.
 bool trace_is_apart() {
 #ifdef STRUCTURE_STORES_FRAGMENTS
     return trace.part == PART_NEXT && trace.any_hit == 0u;
@@ -37,7 +37,7 @@ void queue_store_work(uint slot, TraceState state) {
         work.views += sum.views;
         work.searched += sum.searched;
         if (trace.part == PART_NEXT) {
-            // What came with this round is added to the work in other parts.
+            // The work of this round is added to the work in other parts.
             TraceState before = queue_states[slot];
             work.cells += sum.cells - (first ? 0u : before.cells);
             work.entries += sum.entries - (first ? 0u : before.entries);

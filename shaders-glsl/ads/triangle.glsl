@@ -30,7 +30,7 @@ void triangle_normal_terms(vec3 a, vec3 b, vec3 c, out vec3 along, out vec3 agai
     against = second;
 }
 
-// Whether a triangle has an area at all; one without is never hit.
+// True if a triangle has an area; one without is never hit.
 bool triangle_has_area(vec3 a, vec3 b, vec3 c) {
     vec3 along;
     vec3 against;
@@ -175,7 +175,7 @@ bool triangle_intersect_side(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c
     return true;
 }
 
-// The same where the side does not matter.
+// triangle_intersect_side where the side does not matter.
 bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics,
     out float t_error) {
     bool counter_clockwise;

@@ -23,7 +23,7 @@ POOL_RECORDS(brick, corners, 7, vec3)
 #define BRICK_VECTORS(s) POOL_VIEW_OF(brick, vectors, BRICK_HEADER(s).bricks_address)
 #define BRICK_CORNERS(s) POOL_VIEW_OF(brick, corners, BRICK_HEADER(s).triangles_address)
 
-// How many small triangles a list has, where cells may be divided: those no longer than a cell along any axis.
+// Number of small triangles of a list, where cells may be divided: those no longer than a cell along any axis.
 #define BRICK_SMALL_COUNT(s, list) BRICK_POOL(s, lists)[BRICK_HEADER(s).cell_capacity + (list)]
 
 // Distances replace the sums of scans.
@@ -45,7 +45,7 @@ BrickSlices brick_slices(BrickRef s) {
     return BrickSlices(int(BRICK_HEADER(s).slices), BRICK_HEADER(s).slice_first, BRICK_HEADER(s).slice_shift);
 }
 
-// How often cells of a level were divided along each axis.
+// Number of divisions of cells of a level along each axis.
 uvec3 brick_divisions(BrickRef s, uint level) {
     return BRICK_DEPTH == 0u ? uvec3(0u) : min(uvec3(level), BRICK_HEADER(s).depths);
 }
@@ -94,7 +94,7 @@ uvec2 brick_divided(BrickRef s, uint brick) {
         : uvec2(BRICK_POOL(s, bricks)[brick_divided_at(brick, 0u)], BRICK_POOL(s, bricks)[brick_divided_at(brick, 1u)]);
 }
 
-// What a ray reads of a brick.
+// Words of a brick that a ray reads.
 struct BrickWords {
     uint word;            // its own word
     uvec2 mask;           // cells that list something
@@ -113,7 +113,7 @@ BrickWords brick_words(BrickRef s, uint brick) {
     return BrickWords(first.x, first.yz, uvec2(first.w, second.x), second.y, second.z);
 }
 
-// Whether a brick of a view lists nothing.
+// True if a brick of a view lists nothing.
 bool brick_has_nothing(BrickRef s, uint brick) {
     uvec2 cells = brick_mask(s, brick) | brick_divided(s, brick);
     return (cells.x | cells.y) == 0u;

@@ -1,4 +1,4 @@
-// What: how far empty bricks reach towards lower and higher slices; one invocation per line of bricks along slices.
+// What: reaches of empty bricks towards lower and higher slices; one invocation per line of bricks along slices.
 // Reads: bricks (masks). Writes: bricks, of empty ones.
 // Source: not in the paper; bricks/distance.glsl.
 #version 460

@@ -73,7 +73,7 @@ bool brick_box_in(BrickWords words, ivec3 shift, ivec3 cell, bvec3 up, inout uin
     return true;
 }
 
-// What is crossed from a cell in one step. Bricks, lists and triangles with an invalid index are counted, here and below.
+// Box crossed from a cell in one step. Bricks, lists and triangles with an invalid index are counted, here and below.
 BrickBox brick_box(BrickRef s, BrickTraversal traversal, uint face, ivec3 cell, bvec3 up, inout uint corrupted) {
     uvec3 of_view = uvec3(traversal.cells >> traversal.shift);
     uint brick = brick_index(face, cell >> traversal.shift, of_view);

@@ -11,11 +11,11 @@
 // Maximum number of empty bricks that one step crosses, its own included.
 #define BRICK_REACH 8u
 
-// How far from its computed place a point of a ray may be, over the distance of the geometry: 16 units.
+// Error of the computed place of a point of a ray, over the distance of the geometry: 16 units.
 #define BRICK_PLACE 9.6e-7
 
-// How often a cell may be divided into 4x4x4 smaller ones, and the small triangles that a cell lists before it is: small ones
-// are no longer than the cell along any axis.
+// Most divisions of a cell into 4x4x4 smaller ones, and the small triangles that a cell lists before it is divided:
+// small ones are no longer than the cell along any axis.
 #define BRICK_DEPTH_MOST 3u
 #define BRICK_CROWDED 16u
 // Margins that smaller cells are wide, at the least: along an axis where they were narrower a cell is not divided.

@@ -8,7 +8,7 @@
 #include "ads/placement.glsl"
 #include "bricks/header.glsl"
 
-// How often cells may be divided along each axis, at the most: smaller ones are not much narrower than their margins, which
+// Most divisions of cells along each axis: smaller ones are not much narrower than their margins, which
 // cells of flat bounds are already.
 uvec3 brick_depths_for(BoxPlacement at) {
     vec3 margins = BRICK_DIVIDED_MARGINS * at.rounding * at.per_metre;

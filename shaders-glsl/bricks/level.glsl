@@ -1,5 +1,5 @@
-// What: what passes have in common that build one level of bricks: their constants, and which bricks or records they visit.
-// Workgroups are counted on the device, so an invocation goes on with every BRICK_LEVEL_STRIDE-th.
+// What: shared parts of passes that build one level of bricks: their constants, and the bricks or records that they
+// visit. Workgroups are counted on the device, so an invocation goes on with every BRICK_LEVEL_STRIDE-th.
 // Reads: header. Writes: nothing.
 #ifndef BRICKS_LEVEL_GLSL
 #define BRICKS_LEVEL_GLSL

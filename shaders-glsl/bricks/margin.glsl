@@ -1,4 +1,4 @@
-// What: how far columns of a cube's faces reach beyond their sides.
+// What: margins of columns of a cube's faces beyond their sides.
 // Reads: header. Writes: nothing.
 #ifndef BRICKS_MARGIN_GLSL
 #define BRICKS_MARGIN_GLSL
@@ -17,7 +17,7 @@ BrickGrid brick_grid(BrickRef s) {
     return BrickGrid(BRICK_HEADER(s).columns, BRICK_HEADER(s).near_size, BRICK_HEADER(s).rounding);
 }
 
-// How far in x/z a column reaches beyond its sides at that depth, so that neither the rounding of a test nor
+// Reach of a column beyond its sides at that depth, in x/z, so that neither the rounding of a test nor
 // that of the march makes a ray miss a triangle that it hits.
 float brick_margin(BrickGrid grid, float depth) {
     precise float margin = grid.rounding / max(depth, grid.near_size) + 3.0e-6;

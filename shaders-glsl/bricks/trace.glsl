@@ -30,12 +30,12 @@
 // The list of the cell has not been begun.
 #define BRICK_LIST_BEGIN 0xFFFFFFFFu
 
-// What is tested one by one before the ray is followed.
+// Triangles tested one by one before the ray is followed.
 #define BRICK_ALONE_NONE 0u
 #define BRICK_ALONE_NEAR 1u
 #define BRICK_ALONE_ALL 2u
 
-// How many of these there are.
+// Number of these.
 uint brick_alone(BrickRef s, uint alone) {
     return alone == BRICK_ALONE_ALL ? geometry_triangle_count()
         : min(BRICK_HEADER(s).near_demand, BRICK_HEADER(s).near_capacity);

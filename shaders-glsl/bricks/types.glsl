@@ -12,7 +12,7 @@ layout(constant_id = 40) const uint BRICK_VIEWS = BRICK_VIEWS_AXES;
 layout(constant_id = 41) const uint BRICK_SKIP = 1u;
 layout(constant_id = 42) const uint BRICK_CORNERS_KEPT = 1u;
 
-// How often cells are divided at most. Bricks that may have divided cells have words for those.
+// Most divisions of a cell. Bricks that may have divided cells have words for those.
 layout(constant_id = 43) const uint BRICK_DEPTH = 0u;
 
 // State and sizes of bricks. 504 bytes.

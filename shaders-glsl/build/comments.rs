@@ -29,7 +29,7 @@ fn is_of_word(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '_'
 }
 
-/// Whether a word is one of the code's rather than of the language's.
+/// True if a word is one of the code's rather than of the language's.
 fn is_name(word: &str) -> bool {
     word.contains('_') && word.chars().any(char::is_alphabetic)
 }

@@ -58,7 +58,7 @@ pub(crate) fn write_prebuilt(
     write_changed(&folder.join("modules.txt"), text.as_bytes())
 }
 
-/// What a folder of modules says of itself.
+/// Index of a folder of modules.
 pub(crate) struct Index {
     sources: u64,
     features: BTreeSet<String>,

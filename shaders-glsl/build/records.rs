@@ -17,10 +17,10 @@ pub(crate) const ZEROS_MISLEAD: [&str; 6] =
 /// Bytes of a scalar.
 const WORD: usize = 4;
 
-/// How a block of push constants begins.
+/// Beginning of a block of push constants.
 const PUSH_CONSTANTS: &str = "layout(push_constant, scalar) uniform ";
 
-/// What a shader gets to a structure by: the device address of its header, whatever the structure.
+/// Reference of a shader to a structure: the device address of its header, whatever the structure.
 const STRUCTURE_REF: &str = "StructureRef";
 
 /// A struct or a block of push constants as GLSL declares it.
@@ -44,12 +44,12 @@ struct Member {
     comment: String,
 }
 
-/// What a member is in Rust.
+/// Type of a member in Rust.
 #[derive(Clone, Debug)]
 struct Type {
     rust: String,
     bytes: usize,
-    /// Whether equality of it is an equivalence.
+    /// True if equality of it is an equivalence.
     has_eq: bool,
 }
 

@@ -29,7 +29,7 @@ void bvh_count_corrupted(BvhRef s, uint corrupted) {
     }
 }
 
-// What a ray that descends along these axes reaches of a node's children, side by side: sides, then references.
+// Children of a node as a ray along these axes reaches them, side by side: sides, then references.
 struct BvhChildren {
     vec4 first_x;           // sides that it reaches first
     vec4 last_x;            // sides that it reaches last

@@ -1,5 +1,5 @@
-// What: which nodes of the tree of two become nodes of four. Each finds that by itself: it goes up until that no longer depends
-// on what is above, which takes a few steps.
+// What: finds the nodes of the tree of two that become nodes of four. Each decides by itself: it goes up until that no
+// longer depends on what is above, which takes a few steps.
 // Reads: header, nodes, scratch (openings). Writes: scratch (numbers: 1 where it becomes one).
 // Source: none; docs/systems/bvh.md, "Opening".
 #version 460
@@ -18,8 +18,8 @@ void main() {
         bvh_set_scratch(build.structure, number_word(node), 0u);
         return;
     }
-    // Whether this node becomes a node of four if the one that is looked at does, is opened as a child of one, or as a
-    // grandchild of one, which is opened no further.
+    // True where this node becomes a node of four if the one that is looked at does, is opened as a child of one, or as
+    // a grandchild of one, which is opened no further.
     bvec3 becomes = bvec3(true, false, false);
     uint link = lowest.parent;
     while (link != BVH_NONE && any(becomes) && !all(becomes)) {

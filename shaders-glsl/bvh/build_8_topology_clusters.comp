@@ -18,14 +18,14 @@ uint record_at(bool is_second, Part part, uint i) {
 }
 
 // Lists the pairs of a round, at most `most` of them, and for the next round the clusters that are left. Answers how many pairs.
-// What is near stands in registers, so each cluster is read once, and each area is found once.
+// Near clusters are in registers, so each cluster is read once, and each area is found once.
 uint list_pairs(bool is_second, bool every_two, Part part, uint most, float per_metre) {
     // The cluster at `place`, those after it, and what is nearest to each so far.
     Cluster clusters[BVH_CLUSTER_REACH + 1u];
     uint records[BVH_CLUSTER_REACH + 1u];
     uint nearest[BVH_CLUSTER_REACH + 1u];
     float smallest[BVH_CLUSTER_REACH + 1u];
-    // The same of those before it, the last one first.
+    // Records and nearest of those before it, the last one first.
     uint records_before[BVH_CLUSTER_REACH];
     uint nearest_before[BVH_CLUSTER_REACH];
     [[unroll]] for (uint i = 0u; i < BVH_CLUSTER_REACH; i++) {

@@ -16,7 +16,7 @@ struct Cluster {
     uint reference;
 };
 
-// What is nowhere near: unions with it have no finite area.
+// A cluster that is nowhere near: unions with it have no finite area.
 const Cluster NO_CLUSTER = Cluster(vec3(-PLACEMENT_LONGEST), vec3(PLACEMENT_LONGEST), BVH_NONE);
 
 // The clusters of an invocation or workgroup.
@@ -90,8 +90,8 @@ void take_nearer(uint place, uint other, float of_both, inout uint best, inout f
     }
 }
 
-// Whether the next round merges every two clusters, near or not: where few merged, or none since no area is a number. So rounds
-// have a bound. The last few do not need that.
+// True if the next round merges every two clusters, near or not: where few merged, or none since no area is a number.
+// So rounds have a bound. The last few do not need that.
 bool is_slow(uint count, uint merged) {
     return merged == 0u || (count > BVH_CLUSTERS_KEPT && merged < count / 16u);
 }

@@ -19,7 +19,7 @@
 // Subtrees a ray remembers; where there are more, all are forgotten, and found again through the links to parents.
 #define BVH_STACK 32u
 
-// How far boxes are widened: 64 units of rounding of the largest coordinate of the tree's corners relative to the ray's
+// Widening of boxes: 64 units of rounding of the largest coordinate of the tree's corners relative to the ray's
 // origin, and 2 of the origin's. docs/systems/bvh.md derives both.
 #define BVH_BOX_MARGIN 0.0000038146973
 #define BVH_ORIGIN_MARGIN 0.00000011920929

@@ -19,7 +19,7 @@ uint bits_get(uint word, int first, int width) {
     return word >> first & ((1u << width) - 1u);
 }
 
-// Whether a field holds anything but zero.
+// True if a field holds anything but zero.
 bool bits_are_set(uint word, int first, int width) {
     return bits_get(word, first, width) != 0u;
 }

@@ -6,7 +6,7 @@
 // "No primitive": a miss, or a structure that does not know the id.
 #define PRIMITIVE_NONE 0xFFFFFFFFu
 
-// What a trace function returns.
+// Results of a trace function.
 #define TRACE_MISS 0u
 #define TRACE_HIT 1u
 // The work budget of this dispatch is used up; the state holds what is needed to resume.
@@ -54,7 +54,7 @@
 #define SURFACE_PRIMITIVE 8u
 #define SURFACE_EMISSION 16u
 
-// How much of the work of rays is recorded; each value includes those below it.
+// Recorded work of rays; each value includes those below it.
 #define COUNTERS_OFF 0u
 // Sums over all rays, in the queue's header.
 #define COUNTERS_SUMS 1u

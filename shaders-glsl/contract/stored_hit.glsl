@@ -15,14 +15,14 @@ void stored_hit_name(inout Hit hit, uint id) {
     hit.b = uintBitsToFloat(HIT_STORED);
 }
 
-// How many parts were traced after the one whose fragment is hit, by the hit's b: where there are any, a is no place in the
+// Number of parts traced after the one whose fragment is hit, by the hit's b: where there are any, a is no place in the
 // pools of the last one. Once one more is traced, HIT_EARLIER less this is the hit's b.
 uint stored_hit_age(float b) {
     uint less = HIT_EARLIER - floatBitsToUint(b);
     return less < PARTS_MOST ? less + 1u : 0u;
 }
 
-// Whether the surface at a hit is that of the fragment with link hit.a. Where fragments carry surfaces, hits on
+// True if the surface at a hit is that of the fragment with link hit.a. Where fragments carry surfaces, hits on
 // triangles of the near-region list and of conservative lists still have none.
 bool stored_hit_is(Hit hit) {
     // Counted down from HIT_STORED, which is 0, HIT_NOT_READY is 1, and what has an age follows; exchanged in pairs, all but

@@ -25,7 +25,7 @@ TraceState trace_state_begin(Ray ray) {
     return state;
 }
 
-// Whether a ray is valid: origin and direction finite, the direction not zero,
+// True if a ray is valid: origin and direction finite, the direction not zero,
 // no end of the range NaN, t_max not negative. Decided on bits: comparisons with NaN are not dependable.
 bool ray_is_valid(Ray ray) {
     const uint infinite = 0x7F800000u;
@@ -36,7 +36,7 @@ bool ray_is_valid(Ray ray) {
     return finite && ends && any(notEqual(ray.direction, vec3(0.0)));
 }
 
-// Whether a candidate at (t, primitive) replaces the best hit: nearer, or as near with a lower id,
+// True if a candidate at (t, primitive) replaces the best hit: nearer, or as near with a lower id,
 // so that the answer does not depend on the order of the candidates.
 bool hit_is_better(Hit best, float t, uint primitive) {
     return t < best.t || (t == best.t && best.primitive != PRIMITIVE_NONE && primitive < best.primitive);

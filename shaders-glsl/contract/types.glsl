@@ -18,7 +18,7 @@ struct Ray {
     float cone_spread;        // growth of the width per metre, radians
 };
 
-// What a ray hit. 16 bytes. A miss has primitive PRIMITIVE_NONE and t = t_max.
+// Hit of a ray. 16 bytes. A miss has primitive PRIMITIVE_NONE and t = t_max.
 // a and b belong to the structure: barycentrics of vertices 1 and 2 where hits are primitives.
 struct Hit {
     float t;                  // in units of the ray direction's length
@@ -52,7 +52,7 @@ struct RayWork {
     uint searched;            // of the cells visited, those in which a list entry was read or cells of its own were searched
 };
 
-// What is shaded. 128 bytes. Metres relative to the frame origin, linear Rec. 709, W/(sr m^2).
+// A surface to be shaded. 128 bytes. Metres relative to the frame origin, linear Rec. 709, W/(sr m^2).
 struct Surface {
     vec3 position;            // where the surface is
     float position_error;     // metres: bound of `|computed - true|` along each axis

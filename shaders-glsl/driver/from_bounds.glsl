@@ -1,4 +1,4 @@
-// What: where boxes are placed for the bounds of the geometry and the eye.
+// What: places boxes for the bounds of the geometry and the eye.
 // Reads: header of the geometry. Reads, writes: header.
 // Source: docs/systems/driver-rt.md.
 #ifndef DRIVER_FROM_BOUNDS_GLSL

@@ -1,4 +1,4 @@
-// What: what the ray of every slot hit as materials and meshes have it, for the pixel's record.
+// What: records the hit of every slot as materials and meshes have it, for the pixel.
 // Reads: surfaces of the queue, geometry, draws, materials, vertex attributes. Writes: surface pixels.
 // Source: docs/images.md, "Further images".
 #version 460
@@ -10,7 +10,7 @@
 
 layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
-// What the ray through a pixel's centre hits, as materials and meshes have it. 48 bytes.
+// Hit of the ray through a pixel's centre, as materials and meshes have it. 48 bytes.
 struct AovSurface {
     vec3 albedo;          // base colour, linear; of an unlit material what it shows; 0: nothing
     vec3 position;        // metres relative to the frame origin; 0: nothing

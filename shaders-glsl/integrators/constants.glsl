@@ -7,7 +7,7 @@
 // WaveConstants.marks of Whitted's integrator, beside WAVE_ROUND_*.
 // Mirrored and refracted rays are traced whatever their weight.
 #define WHITTED_SELECTS_ALL 4u
-// What the camera sees sends rays on where it mirrors, and nowhere else.
+// Surfaces that the camera sees send rays on where they mirror, and nowhere else.
 #define WHITTED_SELECTS_REFLECTIVE 8u
 // Only surfaces that mirror or refract trace shadow rays.
 #define WHITTED_SHADOWS_SPECULAR 16u

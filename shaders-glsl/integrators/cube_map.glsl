@@ -61,7 +61,7 @@ Ray cube_map_ray(uint texel, uint sample_index) {
                frame.camera_ray_flags, 0.0, width * frame.footprint_scale);
 }
 
-// What comes from a direction, W/(sr m^2). A texel has one sample, or none where that was not finite: it is black then.
+// Radiance from a direction, W/(sr m^2). A texel has one sample, or none where that was not finite: it is black then.
 vec3 cube_map_radiance(vec3 direction) {
     vec3 size = abs(direction);
     uint axis = size.x >= size.y && size.x >= size.z ? 0u : (size.y >= size.z ? 1u : 2u);

@@ -11,7 +11,7 @@
 
 layout(location = 0) flat out uvec3 primitive_face_part;
 
-// Whether the box of the triangle reaches into that of this half side around the centre.
+// True if the box of the triangle reaches into that of this half side around the centre.
 bool is_near(vec3 a, vec3 b, vec3 c, float half_side) {
     return all(lessThanEqual(min(a, min(b, c)), vec3(half_side)))
         && all(greaterThanEqual(max(a, max(b, c)), vec3(-half_side)));

@@ -13,7 +13,7 @@
 
 layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
-// What a ray has gathered. 20 bytes.
+// Light gathered along a ray. 20 bytes.
 struct LayersState {
     vec3 radiance;        // so far, W/(sr m^2)
     float left;           // share of the light behind that reaches the eye

@@ -15,7 +15,7 @@
 
 #define PATH_INFINITY uintBitsToFloat(0x7F800000u)
 
-// What a step asks of a surface, in this order.
+// Tasks of a step at a surface, in this order.
 #define PATH_PANE 0u
 #define PATH_LIGHT 1u
 #define PATH_LOBES 2u
@@ -51,7 +51,7 @@ float path_emission_weight(PathState state, float light_pdf) {
     return state.bsdf_pdf > 0.0 ? path_power_heuristic(state.bsdf_pdf, light_pdf) : 1.0;
 }
 
-// Whether a surface may be a smooth thin pane.
+// True if a surface may be a smooth thin pane.
 bool path_is_pane(Surface s) {
     return s.transmission > 0.0 && s.thickness <= 0.0 && s.roughness < BSDF_SMOOTH_ROUGHNESS;
 }
@@ -66,7 +66,7 @@ void path_ask_light(PathState state, Surface s, LightSample light, BsdfValue tow
     asked.target = light.target;
 }
 
-// Whether a path goes straight on through a surface, with this probability.
+// True if a path goes straight on through a surface, with this probability.
 bool path_chooses(inout PathState state, float probability) {
     uint dimension = RANDOM_OPACITY_FIRST + state.choices;
     state.choices += 1u;
@@ -205,13 +205,13 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
     Surface seen = s;
     BsdfTerms terms;
     BsdfSample chosen;
-    // What a pane lets through, what the light chooses, then what the surface does: one copy of the terms serves all, and
-    // one of the random numbers and of the lobes the last two.
+    // Light through a pane, a light sample, then the surface's lobes: one copy of the terms serves all, and one of the
+    // random numbers and of the lobes the last two.
     uint technique = SHADING_PANES && path_is_pane(s) ? PATH_PANE : PATH_LIGHT;
     [[dont_unroll]] for (; technique <= PATH_LOBES; technique++) {
         if (technique == PATH_LIGHT) {
             if (state.bounce >= max_bounces) return asked;
-            // What light samples see: the smooth shape, where that is asked for.
+            // Light samples see the smooth shape, where that is asked for.
             seen = terminator_surface(s, -direction);
         } else {
             seen = s;

@@ -39,8 +39,8 @@ void path_keep(uint slot, PathState state) {
     }
 }
 
-// What the ray of a slot hit; a miss where it hit nothing. SURFACES_OF_HITS: the surface is that of the triangle, and is
-// looked up here; otherwise the queue has it.
+// Surface that the ray of a slot hit; a miss where it hit none. SURFACES_OF_HITS: the surface is that of the triangle,
+// and is looked up here; otherwise the queue has it.
 Surface path_surface(uint slot, Ray ray) {
 #ifdef SURFACES_OF_HITS
     Hit hit = queue_hit(slot);

@@ -1,4 +1,4 @@
-// What: whether the ray of a pixel hits a triangle, and what the round keeps of it.
+// What: tests whether the ray of a pixel hits a triangle, and keeps the round's part of the hit.
 // Reads: geometry, frame, rays of the queue; the scene where alpha is tested. Writes: hits of the queue, counts.
 // Source: the visibility buffer; which pixels a triangle is tested at is proposed by visibility.vert alone.
 #version 460
@@ -40,7 +40,7 @@ void main() {
     }
     Ray ray = queue_ray(slot);
     float infinity = uintBitsToFloat(0x7F800000u);
-    // What another fragment finds meanwhile makes this t smaller, which changes no minimum.
+    // Other fragments make this t smaller meanwhile, which changes no minimum.
     float kept = uintBitsToFloat(min(queue_hit_words[visibility_t_word(slot)], 0x7F800000u));
     Hit best = Hit(nearest ? min(ray.t_max, kept) : ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);
     float t;

@@ -1,5 +1,5 @@
-// What: what passes that find what the camera sees by drawing share: which slots they work on, and the hits of the queue
-// as words, so that fragments can take their minimum.
+// What: shared parts of passes that find what the camera sees by drawing: the slots they work on, and the hits of the
+// queue as words, so that fragments can take their minimum.
 // Reads, writes: hits of the queue, counts.
 // Source: Burns and Hunt 2013, the visibility buffer, with ids decided by the test that rays are decided by.
 #ifndef INTEGRATORS_VISIBILITY_GLSL
@@ -19,7 +19,7 @@ struct VisibilityCounts {
 
 layout(set = INTEGRATOR_SET, binding = 0, scalar) buffer VisibilityCountsBuffer { VisibilityCounts visibility_counts; };
 
-// The same binding as the hits of ads/queue.glsl. Where a hit is filled with ones, it is farther than any hit and names
+// The binding of the hits of ads/queue.glsl. Where a hit is filled with ones, it is farther than any hit and names
 // no primitive. Positive floats order like their bits.
 layout(set = QUEUE_SET, binding = 2, scalar) coherent buffer QueueHitWordBuffer { uint queue_hit_words[]; };
 

@@ -46,8 +46,8 @@ vec3 area_from_camera(Frame frame, Area area, vec3 p) {
     return vec3(pixels / area.half_side, z);
 }
 
-// Whether all corners lie beyond a side of a rectangle of this half size around the centre, by more than `rounding`. True
-// of corners behind the eye, too: then no part of the triangle in front of it lies within.
+// True if all corners lie beyond a side of a rectangle of this half size around the centre, by more than `rounding`.
+// True of corners behind the eye, too: then no part of the triangle in front of it lies within.
 bool is_beyond(vec3 a, vec3 b, vec3 c, vec2 half_size, float rounding) {
     vec3 x = vec3(a.x, b.x, c.x);
     vec3 y = vec3(a.y, b.y, c.y);

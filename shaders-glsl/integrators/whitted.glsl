@@ -17,7 +17,7 @@
 // Anything sends more than one ray on.
 #define WHITTED_BRANCHES (SHADING_TRANSMISSION || SHADING_PASSES)
 
-// What one step asks to be traced. A ray with t_max < 0 is not to be traced.
+// Rays that one step asks to be traced. A ray with t_max < 0 is not to be traced.
 struct WhittedStep {
     WhittedRay next;          // closest hit; the others wait
     Ray shadow_ray;           // occlusion; `pending` counts if nothing is hit. Where surfaces let light pass: closest hit
@@ -30,7 +30,7 @@ bool whitted_has(uint mark) {
     return (wave.marks & mark) != 0u;
 }
 
-// What the ray of a slot hit; a miss where it hit nothing.
+// Surface that the ray of a slot hit; a miss where it hit none.
 Surface whitted_surface(uint slot, Ray ray) {
     if (queue_surfaces[slot].valid == 0u) return surface_miss(ray);
     Surface s = queue_surface(slot);
@@ -54,7 +54,7 @@ void whitted_follow(uint slot, inout WhittedState state, inout WhittedStep asked
     asked.next = followed;
 }
 
-// Whether a ray that carries this share of what it finds is worth being traced.
+// True if a ray that carries this share of what it finds is worth being traced.
 bool whitted_is_worth(vec3 throughput) {
     return largest_component(throughput) > wave.number;
 }
@@ -104,7 +104,7 @@ void whitted_light(WhittedState state, uint pixel, Surface s, BsdfTerms terms, v
     asked.target = light.target;
 }
 
-// Whether the light sample of a surface is tested.
+// True if the light sample of a surface is tested.
 bool whitted_casts_shadows(WhittedNode node, bool is_specular) {
     if (whitted_has(WHITTED_SHADOWS_NONE) || (whitted_has(WHITTED_SHADOWS_FIRST) && node.depth > 0u)) return false;
     return is_specular || !whitted_has(WHITTED_SHADOWS_SPECULAR);

@@ -124,12 +124,12 @@ float ldc_depth_of_bits(LdcRef s, uint bits) {
     return LDC_DEPTH_BITS == 16u ? ldc_half(bits) * LDC_HEADER(s).size : uintBitsToFloat(bits);
 }
 
-// How far a stored depth may be from the depth, metres.
+// Largest error of a stored depth, metres.
 float ldc_depth_rounding(LdcRef s) {
     return LDC_DEPTH_BITS == 16u ? 2.5e-4 * LDC_HEADER(s).size : 0.0;
 }
 
-// How far the fragments of a surface may be from a point of it: over a cell it rises by no more than a cell.
+// Largest distance of a surface's fragments from a point of it: over a cell it rises by no more than a cell.
 float ldc_reach(LdcRef s) {
     return LDC_HEADER(s).cell + LDC_HEADER(s).tolerance + ldc_depth_rounding(s);
 }

@@ -13,15 +13,15 @@
 #define LDC_COVERAGE_EXACT 1u
 #define LDC_COVERAGE_CONSERVATIVE 2u
 
-// What blocks say of the depths in them: the smallest and the largest, or with them which slices of the cube's depth.
+// Depths that blocks tell: the smallest and the largest in them, or with them which slices of the cube's depth.
 #define LDC_OCCUPANCY_BOUNDS 0u
 #define LDC_OCCUPANCY_SLICES 1u
 
-// What a fragment carries: its triangle, or colour and normal of what is shaded there.
+// Payload of a fragment: its triangle, or colour and normal of the surface there.
 #define LDC_PAYLOAD_INDEX 0u
 #define LDC_PAYLOAD_ATTRIBUTES 1u
 
-// How layers are made: all in one pass and then sorted, or one per pass by peeling.
+// Way of making layers: all in one pass and then sorted, or one per pass by peeling.
 #define LDC_BUILD_SINGLE 0u
 #define LDC_BUILD_PEEL 1u
 
@@ -31,26 +31,26 @@
 // Blocks along a side of a block of the second level.
 #define LDC_LEVEL_BLOCKS 8u
 
-// How far a fragment's plane reaches beyond its triangle, in widths of a cell. A triangle has a small slope in the view
+// Reach of a fragment's plane beyond its triangle, in widths of a cell. A triangle has a small slope in the view
 // it faces most, so that its plane leaves the cell before that.
 #define LDC_PLANE_REACH 2.0
 
-// How far a fragment's plane counts before and behind the ray's segment in its cell, in widths of a cell. More keeps
-// rays from leaving a curved surface between two cells, less keeps planes from protruding next to it.
+// Distance before and behind the ray's segment in its cell at which a fragment's plane counts, in widths of a cell.
+// More keeps rays from leaving a curved surface between two cells, less keeps planes from protruding next to it.
 #define LDC_PLANE_SLACK 0.125
 
-// How far a ray has to be from its origin, in widths of a cell, to hit a plane that it started close to.
+// Distance of a ray from its origin, in widths of a cell, from which it can hit a plane that it started close to.
 #define LDC_LEAVING 2.0
 
-// How far from the end of a ray fragments next to it are part of the surface that it ends on, in widths of a cell with
-// the tolerance: a ray that ends at a steeper angle than a seventh has left their depths by then.
+// Distance from the end of a ray within which fragments next to it are part of the surface that it ends on, in widths
+// of a cell with the tolerance: a ray that ends at a steeper angle than a seventh has left their depths by then.
 #define LDC_ENDING 4.0
 
 // Margin for the rounding of what is subtracted from corner and ray, over the largest coordinate of the geometry.
 #define LDC_ROUNDING 4.8e-7
 
-// How much farther cells take triangles in where the cube is in a space of its own, in cells: as far may rounding move where
-// they are posed. Fragments are where cells have their centres, and may be off by more.
+// Extra reach of cells for triangles where the cube is in a space of its own, in cells: rounding moves
+// them as far where they are posed. Fragments are where cells have their centres, and may be off by more.
 #define LDC_RIGID_REACH 0.001
 #define LDC_RIGID_REACH_FRAGMENTS 0.05
 

@@ -1,4 +1,4 @@
-// What: which cells keep a triangle in the view it faces most, and at which depth, the same for every builder.
+// What: cells that keep a triangle in the view it faces most, and its depths there, the same for every builder.
 // Reads: geometry, header, with ALPHA_SCENE the scene. Writes: nothing.
 // Where the rasterizer draws, without attachments, no layers are needed: the view travels as a varying.
 #ifndef LDC_COVERED_GLSL
@@ -62,7 +62,7 @@ bool ldc_fragment(AxisView view, uint primitive, ivec2 cell, out float z, out ve
     return covers;
 }
 
-// Whether a cell keeps a fragment there: where rays meet triangles, masks are evaluated at the hit.
+// True if a cell keeps a fragment there: where rays meet triangles, masks are evaluated at the hit.
 bool ldc_keeps(uint primitive, vec2 barycentrics) {
     return LDC_ACCEPT == LDC_ACCEPT_TRIANGLE || alpha_accepts(primitive, barycentrics);
 }

@@ -7,7 +7,7 @@
 #define LDC_MARCH_GLSL
 
 #ifdef RIGID
-// How far rounding may move the ray, in cells: squares that it passes as close by are crossed, too.
+// Largest shift of the ray by rounding, in cells: squares that it passes as close by are crossed, too.
 float ldc_spread = 0.0;
 #define LDC_SPREAD(wide) + (wide)
 #else

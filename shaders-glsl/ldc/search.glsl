@@ -17,7 +17,7 @@
 // Lists at least this long are entered by bisection.
 #define LDC_BISECTION_LENGTH 8u
 
-// What every step needs of the header, read once.
+// Sizes of the header that every step needs, read once.
 struct LdcSizes {
     uint resolution;      // cells along a side
     uint places;          // that hold fragments
@@ -53,7 +53,7 @@ float ldc_margin(LdcRef s) {
     return (1.001 + slack) * LDC_HEADER(s).cell + 2.0 * ldc_depth_rounding(s);
 }
 
-// How much of t before and behind its segment a fragment can be hit.
+// Range of t before and behind its segment in which a fragment can be hit.
 float ldc_slack(LdcRef s, Ray ray) {
     return LDC_ACCEPT == LDC_ACCEPT_PLANE ? LDC_PLANE_SLACK * LDC_HEADER(s).cell / length(ray.direction) : 0.0;
 }
@@ -107,8 +107,8 @@ void ldc_built_corners(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
 #endif
 }
 
-// How far a fragment may be from the ray, by its triangle's own slope: its rise over half a cell, but no less than two
-// units in the last place of its depth.
+// Largest distance of a fragment from the ray, by its triangle's own slope: its rise over half a cell, but no less than
+// two units in the last place of its depth.
 float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     vec3 a;
     vec3 b;
@@ -120,7 +120,7 @@ float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     return max(min(rise, 1.0) * search.sizes.cell, 2.0 * last_place);
 }
 
-// Whether a fragment without an id replaces a best hit at the same distance: never one on a triangle, and of two
+// True if a fragment without an id replaces a best hit at the same distance: never one on a triangle, and of two
 // fragments the one with the lower words, so that the answer does not depend on where they are stored.
 bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
     if (best.primitive != PRIMITIVE_UNKNOWN) {
@@ -131,7 +131,7 @@ bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
     return words.x < held.x || (words.x == held.x && words.y < held.y);
 }
 
-// Whether a fragment at this depth that the ray passes at t is next to where the ray ends, as close as fragments of the
+// True if a fragment at this depth that the ray passes at t is next to where the ray ends, as close as fragments of the
 // surface there may be.
 bool ldc_is_at_end(LdcRef s, Ray ray, LdcSearch search, float z, float t) {
     if (LDC_ENDS == ENDS_TOUCHING || !(ray.t_max < 3.0e38)) {
@@ -142,8 +142,8 @@ bool ldc_is_at_end(LdcRef s, Ray ray, LdcSearch search, float z, float t) {
     return abs(z - z_end) <= reach && (ray.t_max - t) * length(search.direction) <= LDC_ENDING * reach;
 }
 
-// Whether the ray passes a fragment that keeps its normal, because it meets the back. The normal is that where the cube was
-// built.
+// True if the ray passes a fragment that keeps its normal, because it meets the back. The normal is that where the cube
+// was built.
 bool ldc_is_passed(LdcRef s, Ray ray, LdcSearch search, uint place) {
     uvec2 words = ldc_attributes(s, place);
     ray.direction = stored_emits(words) ? ray.direction : search.direction;
@@ -191,7 +191,7 @@ float ldc_read(LdcRef s, uint place, inout TraceState state, inout uint work) {
     return z;
 }
 
-// Whether a stored depth is that of a triangle that the ray may hit at any depth.
+// True if a stored depth is that of a triangle that the ray may hit at any depth.
 bool ldc_is_anywhere(float z) {
     return LDC_ACCEPT == LDC_ACCEPT_TRIANGLE && z == REACHED_ANY_DEPTH;
 }

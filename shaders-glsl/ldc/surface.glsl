@@ -8,7 +8,7 @@
 #include "scene/stored_surface.glsl"
 #include "ldc/accessors.glsl"
 
-// How much longer a length may be where the part is posed than where its cube was built, and a normal where it is posed. Turned
+// Bound on a length where the part is posed over that where its cube was built, and a normal where it is posed: turned
 // by the transpose of the map, which takes the front to the front.
 float ldc_posed(LdcRef s, inout vec3 normal) {
     if (LDC_RIGID == 0u) {

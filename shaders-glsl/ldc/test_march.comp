@@ -13,7 +13,7 @@ layout(set = 0, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
 layout(set = 0, binding = 1, scalar) buffer VisitBuffer { ivec3 visits[]; };
 layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
 
-// What the kernel works on. 16 bytes.
+// Rays and squares to march through. 16 bytes.
 layout(push_constant, scalar) uniform SquareMarchTestConstants {
     uint ray_count;       // rays
     int first;            // first square of the area, the same along both sides

@@ -58,7 +58,7 @@ bool ldc_next_block(inout LdcTraversal traversal) {
     return LDC_LEVELS == 2u && ldc_march_next(traversal.flat_ray, traversal.upper);
 }
 
-// What the traversal does with a square of blocks.
+// Results of a traversal's look at a square of blocks.
 #define LDC_SKIPPED 0u
 #define LDC_ENTERED 1u
 #define LDC_BEHIND 2u

@@ -86,7 +86,7 @@ vec2 ldc_block_interval(LdcTraversal traversal, uint level, ivec2 block) {
     return ldc_square_interval(traversal, block * cells, (block + 1) * cells);
 }
 
-// Whether nothing in a segment that begins at t_low, or later on the way, can be nearer than the best hit. What comes
+// True if nothing in a segment that begins at t_low, or later on the way, can be nearer than the best hit. What comes
 // later may begin earlier by as much as a segment is widened for its rounding.
 bool ldc_is_behind(LdcTraversal traversal, float t_low, float best_t) {
     return t_low - traversal.sizes.slack - 6.0e-8 * (8.0 * abs(t_low) + 2.0 * traversal.shift)
@@ -109,7 +109,7 @@ bool ldc_begin_level(LdcTraversal traversal, uint level, bool within, ivec2 bloc
     return ldc_march_begin(traversal.flat_ray, ldc_area(traversal.flat_ray, vec2(widths), first, last), t, march);
 }
 
-// Whether the depths in a block overlap those of the ray in its segment.
+// True if the depths in a block overlap those of the ray in its segment.
 bool ldc_block_overlaps(LdcRef s, LdcTraversal traversal, uint level, ivec2 block, vec2 interval) {
     uint place = ldc_block(traversal.sizes.resolution, level, traversal.axis, block);
     LdcBlock held = ldc_block_depths(s, place);

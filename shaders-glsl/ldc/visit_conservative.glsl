@@ -10,7 +10,7 @@
 #include "ldc/covered.glsl"
 #include "ldc/conservative.glsl"
 
-// Whether a fragment of the cell represents a triangle there: one of the same draw, whose plane passes within `close`
+// True if a fragment of the cell represents a triangle there: one of the same draw, whose plane passes within `close`
 // metres of this point of the triangle, in the view. Another draw may be of another material: a lamp let into a ceiling
 // is not the ceiling.
 bool ldc_is_stood_for(

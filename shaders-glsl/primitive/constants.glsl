@@ -2,7 +2,7 @@
 #ifndef PRIMITIVE_CONSTANTS_GLSL
 #define PRIMITIVE_CONSTANTS_GLSL
 
-// How the lists of a cell are kept.
+// Storage of the lists of a cell.
 #define PRIMITIVE_STORAGE_LINKED 0u
 #define PRIMITIVE_STORAGE_CONTIGUOUS 1u
 
@@ -23,7 +23,7 @@
 #define PRIMITIVE_DEPTHS_CLIPPED 0u
 #define PRIMITIVE_DEPTHS_CORNERS 1u
 
-// How a ray leaves a tile: over the next boundary, or half a pixel beyond it.
+// Step of a ray out of a tile: over the next boundary, or half a pixel beyond it.
 #define PRIMITIVE_MARCH_EXACT 0u
 #define PRIMITIVE_MARCH_JUMP 1u
 
@@ -40,7 +40,7 @@
 #define PRIMITIVE_CENTRE_SCENE 1u
 #define PRIMITIVE_CENTRE_FIXED 2u
 
-// What is drawn: the six faces of a cube, or what the camera sees.
+// Views drawn: the six faces of a cube, or the camera's.
 #define PRIMITIVE_VIEWS_CUBE 0u
 #define PRIMITIVE_VIEWS_CAMERA 1u
 // Rounding of points that are turned into the camera's view, over that of differences of positions.

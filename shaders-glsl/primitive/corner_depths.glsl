@@ -36,7 +36,7 @@ vec2 primitive_corner_depths(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 c
     return depths.x <= depths.y ? depths : vec2(view_near, grid.reach);
 }
 
-// Whether the triangle reaches into a cell, and the depths it is listed with.
+// True if the triangle reaches into a cell, with the depths it is listed with.
 bool primitive_reaches(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 cell, out vec2 depths) {
     bool reaches = primitive_overlap(grid, a, b, c, cell, depths);
     if (PRIMITIVE_DEPTHS == PRIMITIVE_DEPTHS_CORNERS && reaches) {

@@ -1,4 +1,4 @@
-// What: whether a triangle reaches into a cell, and the depths it has there. This function decides for
+// What: tests whether a triangle reaches into a cell, with its depths there. This function decides for
 // every builder; it may accept more than is exact, never less.
 // Reads: header. Writes: nothing.
 // Source: DIRT section 3.2 clips each primitive to the tile. Here the depth follows from the plane over
@@ -19,7 +19,7 @@ void primitive_face_vertices(PrimitiveRef s, uint primitive, uint face, out vec3
     c = face_from_world(primitive_seen(s, c - eye), face);
 }
 
-// Whether a triangle is in any list: one without area is never hit, so it is in none.
+// True if a triangle is in any list: one without area is never hit, so it is in none.
 bool primitive_is_listed(uint primitive) {
     vec3 a;
     vec3 b;
@@ -42,7 +42,7 @@ PrimitiveGrid primitive_grid(PrimitiveRef s) {
         PRIMITIVE_HEADER(s).reach);
 }
 
-// How far cells reach beyond their sides, in x/z, so that rounding moves no triangle out of a cell in
+// Reach of cells beyond their sides, in x/z, so that rounding moves no triangle out of a cell in
 // which a ray hits it.
 float primitive_margin(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c) {
     float nearest = max(min(a.z, min(b.z, c.z)), grid.near_size);
@@ -50,7 +50,7 @@ float primitive_margin(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c) {
     return margin;
 }
 
-// Whether a triangle reaches into a cell of a face, and its depths there. a, b, c in face space.
+// True if a triangle reaches into a cell of a face, with its depths there. a, b, c in face space.
 bool primitive_overlap(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 cell, out vec2 depths) {
     precise float half_side = 1.0 / float(grid.tiles) + primitive_margin(grid, a, b, c);
     return overlap_at(grid.near_size, overlap_begin(a, b, c), coverage_center(cell, grid.tiles), half_side, depths);

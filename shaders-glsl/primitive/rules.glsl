@@ -15,7 +15,7 @@ struct PrimitiveTile {
     ivec2 cell;
 };
 
-// Whether the point of the ray at t projects into the tile.
+// True if the point of the ray at t projects into the tile.
 bool primitive_in_tile(PrimitiveRef s, PrimitiveTile tile, float t) {
     vec3 point = tile.origin + t * tile.direction;
     vec2 place = (point.xy / point.z * 0.5 + 0.5) * float(PRIMITIVE_HEADER(s).tiles);

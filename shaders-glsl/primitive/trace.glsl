@@ -43,7 +43,7 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
             trace_log_visit(STEP_CELL, traversal.segment.face, uint(traversal.searched.x), uint(traversal.searched.y),
                 traversal.search.t_low, traversal.search.t_high);
             MarchSkip skip;
-            // What is touched outside of a cell lies within the bounds of its block.
+            // Anything touched outside of a cell lies within the bounds of its block.
             if (PRIMITIVE_PYRAMID != PRIMITIVE_PYRAMID_OFF && all(equal(traversal.searched, traversal.cells.cell))
                 && primitive_skip(s, traversal, skip_from, skip)) {
                 trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, traversal.search.t_low, skip.t_out);
@@ -64,7 +64,7 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
     return false;
 }
 
-// Whether a face has tiles: with the camera's view alone, what lies outside of it is passed.
+// True if a face has tiles: with the camera's view alone, what lies outside of it is passed.
 bool primitive_is_drawn(uint face) {
     return face >= SEGMENT_NEAR || face < primitive_view_count();
 }

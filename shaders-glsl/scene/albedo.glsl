@@ -1,5 +1,5 @@
-// What: how much light a rough surface of facets sends back in one scattering, as polynomials, and what becomes of the
-// rest after more than one.
+// What: light that a rough surface of facets sends back in one scattering, as polynomials, and what becomes of the rest
+// after more than one.
 // Reads: nothing. Writes: nothing.
 // Source: docs/shading.md, "Energy"; Kulla and Conty, "Revisiting physically based shading at Imageworks", 2017.
 // The polynomials are fits to integrals of this GGX; crates/reference integrates again and tests their errors: 0.003 of
@@ -33,7 +33,7 @@ float albedo_loss_mean(float alpha) {
     return max(r * (0.0204 + r * (-0.4171 + r * (2.5315 + r * (-1.7591 + 0.2196 * r)))), 1.0e-4);
 }
 
-// What facets send back that reflect (1 - x)^5 under their own cosine x; `loss` is albedo_loss.
+// Share sent back by facets that reflect (1 - x)^5 under their own cosine x; `loss` is albedo_loss.
 float albedo_schlick(float cosine, float alpha, float loss) {
     float x = cosine / (cosine + alpha);
     float r = sqrt(alpha);

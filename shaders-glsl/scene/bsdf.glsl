@@ -1,4 +1,4 @@
-// What: how a surface scatters: value, density and sampling of its lobes.
+// What: scattering of a surface: value, density and sampling of its lobes.
 // Reads: materials (specular colour only). Writes: nothing.
 // Source: docs/shading.md, "Reflection and transmission", "Energy"; glTF 2.0 appendix B.
 #ifndef SCENE_BSDF_GLSL
@@ -50,7 +50,7 @@ float bsdf_visibility_one(BsdfTerms terms) {
     return ggx_visibility_one(terms.o.z, terms.alpha);
 }
 
-// What the rough microfacet family does towards local i: share of the value and density. The share
+// Scattering of the rough microfacet family towards local i: share of the value and density. The share
 // is per unit of reflected (x) or transmitted light at the facet, whose cosine is `facet_cosine`.
 void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out float value, out float pdf) {
     facet_cosine = 0.0;
@@ -183,7 +183,7 @@ BsdfSample bsdf_choose(BsdfTerms terms, Surface s, vec4 random) {
     return BsdfSample(world, 0.0, vec3(0.0), flags);
 }
 
-// Whether a direction that was chosen still needs bsdf_chosen.
+// True if a direction that was chosen still needs bsdf_chosen.
 bool bsdf_is_open(BsdfSample chosen) { return chosen.flags != 0u && (chosen.flags & SAMPLE_DELTA) == 0u; }
 
 // The sample of a direction that was chosen, from what all lobes do towards it.

@@ -43,8 +43,8 @@ float bsdf_entering_mean(BsdfTerms terms) {
     return max(1.0 - once - terms.returned_most * terms.loss_mean, 1.0e-3);
 }
 
-// What becomes of light that one scattering at the boundary of a rough volume loses: it goes through as facets let it,
-// but no more than is lost for light that takes the same way back.
+// Sets the terms of light that one scattering at the boundary of a rough volume loses: it goes through as facets let
+// it, but no more than is lost for light that takes the same way back.
 void bsdf_set_glass(inout BsdfTerms terms, Surface s) {
     terms.glass = GlassRows(ATTRIBUTE_NONE, 0.0);
     terms.glass_side = s.side == 1u ? GLASS_LOST_FRONT : GLASS_LOST_BACK;
@@ -73,8 +73,8 @@ void bsdf_set_glass(inout BsdfTerms terms, Surface s) {
     terms.glass_passed = terms.base_color * (share * through);
 }
 
-// What becomes of light that one scattering loses, of what is not a volume's. What the dielectric loses on the side of
-// the larger index counts as let in.
+// Sets the terms of light that one scattering loses, where it is not a volume's. Losses of the dielectric on the side
+// of the larger index count as let in.
 void bsdf_set_energy(inout BsdfTerms terms) {
     terms.loss_o = albedo_loss(max(terms.o.z, 0.0), terms.alpha);
     terms.loss_mean = albedo_loss_mean(terms.alpha);
@@ -89,7 +89,7 @@ void bsdf_set_energy(inout BsdfTerms terms) {
     terms.entering_mean = bsdf_entering_mean(terms);
 }
 
-// The same of a material without facets, which lets everything in.
+// Sets these terms of a material without facets, which lets everything in.
 void bsdf_set_no_facets(inout BsdfTerms terms) {
     terms.loss_o = 0.0;
     terms.loss_mean = 1.0;
@@ -100,7 +100,7 @@ void bsdf_set_no_facets(inout BsdfTerms terms) {
     terms.entering_mean = 1.0;
 }
 
-// What left the boundary of a rough volume after several scatterings, 1/sr; as bsdf_cosine_family.
+// Light that left the boundary of a rough volume after several scatterings, 1/sr; as bsdf_cosine_family.
 vec3 bsdf_glass(BsdfTerms terms, float cosine, int side) {
     if (!SHADING_TRANSMISSION || !(terms.glass_mean > 0.0)) return vec3(0.0);
     uint block = side > 0 ? terms.glass_side : GLASS_LOST_BACK - terms.glass_side;

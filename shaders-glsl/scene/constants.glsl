@@ -96,8 +96,8 @@
 // The paths of this round were counted by the last one before it.
 #define WAVE_ROUND_RESUMES 2u
 
-// What a round of drawing keeps of the triangles that a pixel's ray hits: the smallest t, then, of those with this t, the
-// lowest primitive, as hits are ranked in traces.
+// Value that a round of drawing keeps of the triangles that a pixel's ray hits: the smallest t, then, of those with
+// this t, the lowest primitive, as hits are ranked in traces.
 #define VISIBILITY_NEAREST 0u
 #define VISIBILITY_LOWEST 1u
 

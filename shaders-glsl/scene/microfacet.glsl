@@ -43,7 +43,7 @@ float ggx_visibility_one(float cosine_o, float alpha) {
     return 0.5 / (cosine_o + ggx_root(cosine_o, alpha));
 }
 
-// The same for facets of another alpha along x than along y; o and i are directions, on either side.
+// Distribution for facets of another alpha along x than along y; o and i are directions, on either side.
 float ggx_distribution(vec3 h, vec2 alpha) {
     vec3 scaled = vec3(h.xy / alpha, h.z);
     float slope = dot(scaled, scaled);

@@ -1,4 +1,4 @@
-// What: how often lights are chosen where that depends on the bounds: by the power of what shines from far away, which
+// What: shares with which lights are chosen where those depend on the bounds: by the power of lights far away, which
 // falls on the circle around the bounds. One workgroup.
 // Reads: bounds in the header of the geometry, powers of lights. Writes: kind shares of the frame, cumulative shares of
 // lights. Source: docs/shading.md, "Tables": Lights, Kinds; docs/motion.md, "On the device".
@@ -15,7 +15,7 @@ layout(set = 1, binding = 0, scalar) readonly buffer PosePowerBuffer { PoseLight
 layout(set = 1, binding = 1, scalar) buffer PoseFrameBuffer { Frame pose_frame; };
 layout(set = 1, binding = 2, scalar) buffer PoseLightBuffer { Light pose_lights[]; };
 
-// What shines, and with which power. 20 bytes.
+// Lights and their powers. 20 bytes.
 layout(push_constant, scalar) uniform PoseLightConstants {
     uint light_count;       // point, directional and spot lights
     uint emissive;          // 1 where emissive triangles have power

@@ -99,8 +99,8 @@ float pose_largest(vec3 v) {
     return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 
-// Whether a number that is not negative divides: neither 0, nor so small that devices may take it for 0, nor infinite, nor
-// no number.
+// True if a number that is not negative divides: neither 0, nor so small that devices may take it for 0, nor infinite,
+// nor no number.
 bool pose_divides(float x) {
     uint bits = floatBitsToUint(x);
     return bits >= 0x00800000u && bits < 0x7F800000u;

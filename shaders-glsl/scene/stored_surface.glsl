@@ -1,4 +1,4 @@
-// What: what is shaded at a point, stored as two words with the fragments of a structure: colour and normal, which all
+// What: the surface at a point, stored as two words with the fragments of a structure: colour and normal, which all
 // published fragments have.
 // Reads: the scene, when storing, and of what emits when shading. Writes: nothing.
 // Source: MMRT section 3.3, albedo 8:8:8:8 and normal 16:16; Bürger et al. section 1.2.1, Hu et al. section 3.1.
@@ -12,8 +12,8 @@
 #include "ads/triangle.glsl"
 #include "scene/plane_surface.glsl"
 
-// What is shaded at a point of a triangle of the geometry that is bound, as seen from straight ahead of its front; textures
-// at their finest level. a, b and c are its corners where the scene is posed.
+// The surface at a point of a triangle of the geometry that is bound, as seen from straight ahead of its front;
+// textures at their finest level. a, b and c are its corners where the scene is posed.
 Surface stored_source_at(uint primitive, vec2 barycentrics, vec3 a, vec3 b, vec3 c) {
     uint id = geometry_id(primitive);
     float twice_area;
@@ -23,7 +23,7 @@ Surface stored_source_at(uint primitive, vec2 barycentrics, vec3 a, vec3 b, vec3
     return scene_surface_at(ray, 1.0, id, geometry_triangle(primitive), a, b, c, barycentrics);
 }
 
-// The same of a geometry that is where the scene is posed.
+// The surface at a point of a geometry that is where the scene is posed.
 Surface stored_source(uint primitive, vec2 barycentrics) {
     vec3 a;
     vec3 b;
@@ -52,7 +52,7 @@ uvec2 stored_pack(Surface s) {
     return uvec2(packUnorm4x8(vec4(s.base_color, max(s.opacity, STORED_OPACITY))), stored_pack_front(s));
 }
 
-// How the material reflects and transmits, in a further word: metallic, roughness, transmission, specular, 8 bits each.
+// Terms of reflection and transmission, in a further word: metallic, roughness, transmission, specular, 8 bits each.
 uint stored_pack_terms(Surface s) {
     return packUnorm4x8(vec4(s.metallic, s.roughness, s.transmission, s.specular));
 }
@@ -109,7 +109,7 @@ Surface stored_triangle_surface(Ray ray, Hit hit, bool fragment, float position_
     return s;
 }
 
-// Whether a triangle's material may emit.
+// True if a triangle's material may emit.
 bool stored_triangle_emits(uint primitive) {
     DrawShading draw = scene_draw_shading(scene_draw_of(primitive));
     return draw.first_emissive != EMISSIVE_NONE || (scene_material(draw.material).flags & MATERIAL_UNLIT) != 0u;
@@ -126,7 +126,7 @@ Surface stored_surface_along(vec3 normal, uvec2 words, Ray ray, float t, float p
     return s;
 }
 
-// The same with the normal of the words.
+// The surface of such a fragment, with the normal of the words.
 Surface stored_surface(uvec2 words, Ray ray, float t, float position_error) {
     return stored_surface_along(stored_unpack_normal(words.y), words, ray, t, position_error);
 }

@@ -180,7 +180,7 @@ Surface scene_surface_at(
     return s;
 }
 
-// The same of a triangle of the whole geometry, which is bound.
+// scene_surface_at for a triangle of the whole geometry, which is bound.
 Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
     uvec3 triangle = geometry_triangle(primitive);
     vec3 a, b, c;

@@ -8,7 +8,7 @@
 #include "ads/triangle.glsl"
 #include "scene/attributes.glsl"
 
-// Whether light samples see the smooth shape.
+// True where light samples see the smooth shape.
 layout(constant_id = 96) const bool TERMINATOR_IS_SMOOTH = false;
 
 // The surface with its position moved out to the planes through the vertices across their normals, and the smooth normal in

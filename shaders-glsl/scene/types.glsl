@@ -40,7 +40,7 @@ struct Frame {
     uint texel_shift;           // a run of texels has `2^texel_shift` of them; at most 30
 };
 
-// How a draw is shaded; one per draw of the geometry, same order. 44 bytes.
+// Shading of a draw; one per draw of the geometry, same order. 44 bytes.
 // Offsets count words (f32) from the start of the named table; ATTRIBUTE_NONE means absent.
 struct DrawShading {
     uint first_triangle;        // global triangle id of its first triangle
@@ -64,7 +64,7 @@ struct TextureRef {
     vec3 row_v;                 // `v' = dot(row_v, (u, v, 1))`
 };
 
-// What a surface is made of. 300 bytes.
+// Material of a surface. 300 bytes.
 struct Material {
     vec4 base_color;            // linear RGBA
     vec3 emission;              // W/(sr m^2)
@@ -121,7 +121,7 @@ struct EmissiveTriangle {
     float cumulative;           // share of all power up to and including this entry; the last is 1
 };
 
-// What a path carries from one dispatch to the next. 56 bytes.
+// State of a path from one dispatch to the next. 56 bytes.
 struct PathState {
     vec3 throughput;            // share of the light hit next that reaches the camera
     uint pixel;                 // number of the pixel in the whole image: `row * width + column`
@@ -154,7 +154,7 @@ struct LightSample {
     uint ray_flags;             // of the shadow ray, beside what it passes: which light without extent it leads to
 };
 
-// What one step of a path asks to be traced. A ray with t_max < 0 is not to be traced.
+// Rays that one step of a path asks to be traced. A ray with t_max < 0 is not to be traced.
 struct PathStep {
     Ray shadow_ray;             // occlusion; `pending` counts if nothing is hit. Where surfaces let light pass: closest hit
     Ray next_ray;               // closest hit

@@ -6,7 +6,7 @@
 
 #include "scene/microfacet.glsl"
 
-// Whether surfaces that let no light through have this lobe.
+// True where surfaces that let no light through have this lobe.
 layout(constant_id = 108) const bool SPECULAR_IS_WARD = false;
 
 // Distribution of half vectors, 1/sr.

@@ -45,7 +45,7 @@ void main() {
     float z;
     vec2 barycentrics;
     float error;
-    // What is as near to the light as rounding is beyond the end of the rays.
+    // A depth as near to the light as rounding is beyond the end of the rays.
     if (!triangle_intersect(origin, direction, a, b, c, z, barycentrics, error) || !(z > view.rounding)) {
         return;
     }

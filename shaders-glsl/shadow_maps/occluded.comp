@@ -72,7 +72,7 @@ ShadowMapsLight views_of(Ray ray) {
     return ShadowMapsLight(0u, 0u);
 }
 
-// Whether maps answer a ray. `occluded` is the answer.
+// True if maps answer a ray. `occluded` is the answer.
 bool is_answered(Ray ray, out bool occluded) {
     occluded = false;
     if ((ray.flags >> RAY_LIGHT_SHIFT) == 0u || !geometry_is_built(shadow_maps_header.status)) {

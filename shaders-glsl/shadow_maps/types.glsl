@@ -3,7 +3,7 @@
 #ifndef SHADOW_MAPS_TYPES_GLSL
 #define SHADOW_MAPS_TYPES_GLSL
 
-// What all maps have in common. 32 bytes.
+// Values that all maps share. 32 bytes.
 struct ShadowMapsHeader {
     uint status;          // STATUS_COMPLETE with the stamp of the triangles that are drawn; 0: nothing is built
     uint resolution;      // texels along a side of a view

@@ -123,7 +123,7 @@ mod tests {
 
     /// Instructions of a module's entry point once every call stands for what is called, as drivers compile it.
     fn expanded_length(words: &[u32]) -> usize {
-        // What is in a function: its own instructions, and the functions that it calls.
+        // Contents of a function: its own instructions, and the functions that it calls.
         let mut functions: std::collections::HashMap<u32, (usize, Vec<u32>)> =
             std::collections::HashMap::new();
         let (mut entry, mut function, mut place) = (None, None, 5);
@@ -168,11 +168,11 @@ mod tests {
             let structure = shader.name.split('/').next().unwrap_or_default();
             let most = match (shader.entry, structure) {
                 ("ads/surfaces.comp" | "integrators/visibility_resolve.comp", _) => 5_000,
-                // What masks, backs and hits need of a triangle is found by its id, which parts of a geometry look up.
+                // Data of masks, backs and hits of a triangle are found by its id, which parts of a geometry look up.
                 ("ads/trace.comp", "brute" | "bvh" | "bricks" | "grid") => 10_000,
                 // Anisotropic materials have a texture and tangents of their own.
                 ("integrators/path_shade.comp", _) if shader.name.ends_with(".hits") => 25_000,
-                // What photons bring asks all lobes for their value, as light samples do.
+                // Light of photons asks all lobes for their value, as light samples do.
                 ("integrators/path_shade.comp", _) if shader.name.ends_with(".photons") => 25_000,
                 ("integrators/path_shade.comp", _) => 20_000,
                 _ => 32_000,

@@ -42,7 +42,7 @@ pub(crate) struct Ids {
 }
 
 impl Ids {
-    /// How far an id is from a little above the highest, and the id that is so far from it.
+    /// Distance of an id from a little above the highest, and the id at such a distance from it.
     pub(crate) fn apart(&self, id: u32) -> u32 {
         self.highest.wrapping_add(AHEAD).wrapping_sub(id)
     }

@@ -20,7 +20,7 @@ pub mod test_kernels {
     include!(concat!(env!("OUT_DIR"), "/test_records.rs"));
 }
 
-/// What Rust says of a record, as data. A test holds it against every compiled module that has the record.
+/// Layout of a record in Rust, as data. A test holds it against every compiled module that has the record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordLayout {
     /// Name in GLSL.
@@ -103,7 +103,7 @@ impl FilmPixel {
 }
 
 impl Hit {
-    /// Whether anything was hit.
+    /// True if anything was hit.
     pub fn is_hit(&self) -> bool {
         self.primitive != PRIMITIVE_NONE
     }
@@ -124,7 +124,7 @@ impl Ray {
         }
     }
 
-    /// The same, as a shadow ray that leads to the light of that number: lights without extent come first, then emitting
+    /// This ray as a shadow ray that leads to the light of that number: lights without extent come first, then emitting
     /// triangles. What is beyond `RAY_LIGHT_MOST - 1` has no room and is one of no map.
     #[must_use]
     pub fn with_light(self, light: u32) -> Self {

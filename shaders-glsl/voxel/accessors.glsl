@@ -24,7 +24,7 @@ AxisView voxel_view(VoxelRef s, uint axis) {
     return AxisView(VOXEL_HEADER(s).lower, VOXEL_HEADER(s).cell, VOXEL_HEADER(s).resolution, axis);
 }
 
-// The same with one cell per column of voxels.
+// The view along an axis, with one cell per column of voxels.
 AxisView voxel_column_view(VoxelRef s, uint axis) {
     return AxisView(VOXEL_HEADER(s).lower, VOXEL_HEADER(s).voxel, VOXEL_HEADER(s).grid, axis);
 }
@@ -74,7 +74,7 @@ float voxel_leaf_size(VoxelRef s) {
     return VOXEL_LEAVES == VOXEL_LEAVES_VOXELS ? VOXEL_HEADER(s).voxel : VOXEL_HEADER(s).cell;
 }
 
-// Whether the view along an axis keeps the fragments that lie in a voxel.
+// True if the view along an axis keeps the fragments that lie in a voxel.
 bool voxel_keeps(VoxelRef s, uint index, uint axis) {
     return VOXEL_AXES != VOXEL_AXES_VOXEL || (voxel_bits(s, index) >> axis & 1u) != 0u;
 }
@@ -162,7 +162,7 @@ uint voxel_primitive(VoxelRef s, uint place) {
     return VOXEL_PAYLOAD == VOXEL_PAYLOAD_MATERIAL ? PRIMITIVE_UNKNOWN : voxel_word(s, place, 1u);
 }
 
-// Whether of two fragments of one depth the left one comes first: by its triangle, or by what it carries.
+// True if of two fragments of one depth the left one comes first: by its triangle, or by what it carries.
 bool voxel_comes_first(VoxelRef s, uint left, uint right) {
     uvec2 first = uvec2(voxel_word(s, left, 1u), voxel_word(s, right, 1u));
     if (VOXEL_PAYLOAD != VOXEL_PAYLOAD_MATERIAL || first.x != first.y) {

@@ -1,5 +1,5 @@
-// What: how many octants of each node of a level hold something; one dispatch per level, from the lowest of the upper levels
-// to the root.
+// What: counts the octants of each node of a level that hold something; one dispatch per level, from the lowest of the
+// upper levels to the root.
 // Reads: header, voxels, octants. Writes: octants.
 // Source: none; docs/systems/hu.md.
 #version 460

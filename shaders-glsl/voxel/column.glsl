@@ -1,4 +1,4 @@
-// What: which voxels of a column a triangle reaches into. It may accept more than is exact, never less.
+// What: finds the voxels of a column that a triangle reaches into. It may accept more than is exact, never less.
 // Reads, writes: nothing.
 // Source: separating axes of a triangle and a square, and the plane's depths over the square.
 #ifndef VOXEL_COLUMN_GLSL
@@ -7,7 +7,7 @@
 #include "ads/axis_views.glsl"
 #include "voxel/types.glsl"
 
-// Whether all of the square with half side `half_side` around the origin lies beyond the edge p q, on the side away
+// True if all of the square with half side `half_side` around the origin lies beyond the edge p q, on the side away
 // from the triangle, which is wound by the sign of `area`.
 bool column_beyond(vec2 p, vec2 q, float half_side, float area) {
     vec2 span = q - p;

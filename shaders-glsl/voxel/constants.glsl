@@ -10,20 +10,20 @@
 // A view keeps the triangles that face it most; a voxel is searched along the axes of all its triangles.
 #define VOXEL_AXES_TRIANGLE 2u
 
-// What makes a voxel occupied: only the fragments in it, with all axes; or the triangles that reach into it, in a pass
+// Marks of an occupied voxel: only the fragments in it, with all axes; or the triangles that reach into it, in a pass
 // before.
 #define VOXEL_MARKED_BY_FRAGMENTS 0u
 #define VOXEL_MARKED_BY_TRIANGLES 1u
 
-// What a ray hits in an occupied voxel: a fragment of it, or the voxel itself, where the ray enters it.
+// Hit of a ray in an occupied voxel: a fragment of it, or the voxel itself, where the ray enters it.
 #define VOXEL_LEAVES_FRAGMENTS 0u
 #define VOXEL_LEAVES_VOXELS 1u
 
-// How a ray goes from voxel to voxel: one after the other, or over the empty nodes of an octree.
+// Way of a ray from voxel to voxel: one after the other, or over the empty nodes of an octree.
 #define VOXEL_TRAVERSAL_DDA 0u
 #define VOXEL_TRAVERSAL_OCTREE 1u
 
-// What a scan runs over.
+// Counts that a scan runs over.
 #define VOXEL_SCAN_LISTS 0u
 #define VOXEL_SCAN_OCTANTS 1u
 
@@ -31,12 +31,12 @@
 #define VOXEL_LEVEL_LIMIT 10u
 #define VOXEL_NODE_LIMIT 0x1000000u
 
-// How a ray steps within a voxel.
+// Steps of a ray within a voxel.
 #define VOXEL_MARCH_SAMPLES 0u
 #define VOXEL_MARCH_EXACT 1u
 
-// How far before the end of a ray its search stops, in widths of what it hits, a cell or a voxel: the fragments of what it
-// ends on are within a cell of it.
+// Distance before the end of a ray at which its search stops, in widths of a cell or a voxel, whichever it hits: the
+// fragments of the surface it ends on are within a cell of it.
 #define VOXEL_ENDING 2.0
 
 // Which fragments parity counts: all before the point in its cell, or those of them at the depths of the voxel.
@@ -47,13 +47,13 @@
 #define VOXEL_ACCEPT_PARITY 0u
 #define VOXEL_ACCEPT_PLANE 1u
 
-// What a fragment carries in addition to its depth: its triangle; Hu's colour, normal and terms of the material; or
+// Payload of a fragment in addition to its depth: its triangle; Hu's colour, normal and terms of the material; or
 // Selective's colour, reflectivity, normal and triangle.
 #define VOXEL_PAYLOAD_INDEX 0u
 #define VOXEL_PAYLOAD_MATERIAL 1u
 #define VOXEL_PAYLOAD_MIRROR 2u
 
-// How the fragments of a cell are kept: contiguous, after they were counted; linked to one another;
+// Storage of the fragments of a cell: contiguous, after they were counted; linked to one another;
 // or in linked pages of several.
 #define VOXEL_STORAGE_CONTIGUOUS 0u
 #define VOXEL_STORAGE_LINKED 1u
@@ -85,7 +85,7 @@
 // paused ray keeps.
 #define VOXEL_REFINEMENTS 8u
 
-// How far a fragment's plane reaches beyond its triangle, in widths of a cell.
+// Reach of a fragment's plane beyond its triangle, in widths of a cell.
 #define VOXEL_PLANE_REACH 2.0
 
 // Fragments of a list that one invocation counts: drivers may end all loops after 65,535 iterations.

@@ -1,4 +1,4 @@
-// What: which cells of the axis A-buffers a triangle covers, at which depth, and the voxel that the fragment
+// What: cells of the axis A-buffers that a triangle covers, its depths there, and the voxel that the fragment
 // lies in, the same for every builder.
 // Reads: geometry, header. Writes: voxels, normals.
 // Where the rasterizer draws there is one instance per view, or one in all where a triangle is drawn only into
@@ -28,7 +28,7 @@ vec3 voxel_unit_normal(vec3 a, vec3 b, vec3 c) {
     return largest > 0.0 ? normalize(normal / largest) : vec3(0.0);
 }
 
-// What a fragment invocation finds in its cell.
+// Fragment that an invocation finds in its cell.
 struct VoxelFound {
     uint list;            // running index of the cell
     uint voxel;           // running index of the voxel that the fragment lies in

@@ -78,7 +78,7 @@ void voxel_hold_nearer(VoxelRef s, float depth, uint place, float z, inout uint 
     }
 }
 
-// The same for sorted lists, of which only the last fragment before the point and the first that is not are read.
+// The nearest fragment of sorted lists, of which only the last before the point and the first that is not are read.
 uint voxel_nearest_sorted(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
     uint held = VOXEL_NO_PLACE;
     float held_z = 0.0;

@@ -18,7 +18,7 @@ uint octree_first(uint level) {
     return ((1u << (3u * level)) - 1u) / 7u;
 }
 
-// How many nodes of the upper levels there could be.
+// Largest number of nodes of the upper levels.
 uint octree_upper_count(VoxelRef s) {
     return octree_first(VOXEL_HEADER(s).levels - 1u);
 }

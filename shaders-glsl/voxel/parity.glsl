@@ -77,7 +77,7 @@ VoxelPoint voxel_stage_point(VoxelRef s, VoxelTraversal traversal, vec2 interval
     return voxel_point(s, traversal, span.t_after, span.cell_after);
 }
 
-// Whether a ray passes a fragment because it meets the back of its triangle.
+// True if a ray passes a fragment because it meets the back of its triangle.
 bool voxel_is_passed(VoxelRef s, Ray ray, uint primitive, uint place) {
     if (!ray_culls_back_faces(ray)) {
         return false;

@@ -23,7 +23,7 @@
 VoxelRef sorted_structure;
 uint sorted_from;
 
-// Whether of two fragments the left one comes first, by depth.
+// True if of two fragments the left one comes first, by depth.
 bool sort_places_before(VoxelRef s, uint left, uint right) {
     float left_z = voxel_z(s, left);
     float right_z = voxel_z(s, right);

@@ -50,7 +50,7 @@ pub enum CompileError {
     Read {
         /// The entry file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// The file name does not end in a known stage.
@@ -67,8 +67,8 @@ pub enum CompileError {
     Glsl(String),
 }
 
-/// What is done to every module in addition to what its text says: words that were kept from before are of the same
-/// module only where this is the same as well.
+/// Options of every module in addition to its text: words kept from before are of the same module only where these are
+/// equal as well.
 const OPTIONS: &str = "// Vulkan 1.2, not optimised, what the entry point reaches\n";
 
 /// One module to compile.
@@ -195,7 +195,7 @@ pub struct Permutation {
 }
 
 impl Permutation {
-    /// The same with pools reached by address.
+    /// This module with pools reached by address.
     fn by_address(&self) -> Self {
         let mut twin = self.clone();
         twin.name += ".address";
@@ -310,7 +310,7 @@ pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
     Ok(permutations)
 }
 
-/// What the readme shows compiles.
+/// Examples of the readme, compiled.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,4 +1,4 @@
-//! What a module can do without: functions that nothing calls, variables that nothing uses, debug text.
+//! Removal of unused parts of a module: functions that nothing calls, variables that nothing uses, debug text.
 //!
 //! GLSL that is included whole leaves most of itself unused, and a compiler that does not optimise hands all of it on.
 //! Drivers would drop it again, but a variable that is there counts as used where a device limits the buffers of a
@@ -148,7 +148,7 @@ impl<'a> Functions<'a> {
     }
 }
 
-/// What an instruction of a function, or a global variable, defines.
+/// Id that an instruction of a function, or a global variable, defines.
 fn result(instruction: &[u32]) -> Option<u32> {
     match operation(instruction) {
         operation if WITHOUT_RESULT.contains(&operation) => None,
