@@ -1,7 +1,7 @@
 //! The driver's tree: what the host and the driver hold, rays that the driver cannot be asked about, and hits. Whatever loops
 //! over the registry holds it to the demands of all structures.
 
-use rasray_ads::{BruteForce, Geometry, Hit, Ray, Structure};
+use rasray_ads::{BruteForce, Geometry, Hit, Inspect, Ray, Structure};
 use rasray_driver::{Config, Demand, Driver, Goal, plan};
 use rasray_gpu::Timing;
 use rasray_systems::Spec;

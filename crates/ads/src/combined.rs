@@ -3,9 +3,9 @@
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
 use crate::{
-    AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, GeometryParts, ListCounts,
-    RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceMode, TracedPart,
-    Viewpoint,
+    AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, GeometryParts, Inspect,
+    ListCounts, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceMode,
+    TracedPart, Viewpoint,
 };
 
 /// Structures of a kind over the parts of a geometry. A ray is traced through the static part and then through those that
@@ -289,22 +289,8 @@ impl Structure for Combined {
         Ok(())
     }
 
-    fn fault(&self, device: &Device) -> Result<Option<String>, GpuError> {
-        let faults = self.parts.iter().map(|part| part.fault(device)).collect::<Result<Vec<_>, _>>()?;
-        Ok(faults.into_iter().flatten().next())
-    }
-
-    fn list_counts(&self, device: &Device) -> Result<Vec<ListCounts>, AdsError> {
-        let mut sums: Vec<ListCounts> = Vec::new();
-        for counts in self.parts.iter().map(|part| part.list_counts(device)) {
-            for count in counts? {
-                match sums.iter_mut().find(|sum| sum.cells_of == count.cells_of) {
-                    Some(sum) => sum.add(&count),
-                    None => sums.push(count),
-                }
-            }
-        }
-        Ok(sums)
+    fn inspect(&self) -> Option<&dyn Inspect> {
+        self.parts[0].inspect().map(|_| self as &dyn Inspect)
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {
@@ -323,6 +309,49 @@ impl Structure for Combined {
             sum.lost = sum.lost.zip(moving.lost).map(|(one, other)| one + other);
         }
         Ok(sum)
+    }
+}
+
+impl Combined {
+    fn inspected(&self) -> impl Iterator<Item = &dyn Inspect> {
+        self.parts.iter().filter_map(|part| part.inspect())
+    }
+
+    fn pools_are_of_parts(&self) -> GpuError {
+        let reason = "is in parts, each of which has pools of its own".to_owned();
+        GpuError::InvalidUse { name: self.name().to_owned(), reason }
+    }
+}
+
+impl Inspect for Combined {
+    fn download_pools(&self, _device: &Device) -> Result<Vec<(&'static str, Vec<u32>)>, GpuError> {
+        Err(self.pools_are_of_parts())
+    }
+
+    unsafe fn upload_pools(
+        &self,
+        _device: &Device,
+        _pools: &[(&'static str, Vec<u32>)],
+    ) -> Result<(), GpuError> {
+        Err(self.pools_are_of_parts())
+    }
+
+    fn fault(&self, device: &Device) -> Result<Option<String>, GpuError> {
+        let faults = self.inspected().map(|part| part.fault(device)).collect::<Result<Vec<_>, _>>()?;
+        Ok(faults.into_iter().flatten().next())
+    }
+
+    fn list_counts(&self, device: &Device) -> Result<Vec<ListCounts>, AdsError> {
+        let mut sums: Vec<ListCounts> = Vec::new();
+        for counts in self.inspected().map(|part| part.list_counts(device)) {
+            for count in counts? {
+                match sums.iter_mut().find(|sum| sum.cells_of == count.cells_of) {
+                    Some(sum) => sum.add(&count),
+                    None => sums.push(count),
+                }
+            }
+        }
+        Ok(sums)
     }
 }
 

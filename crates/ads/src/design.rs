@@ -272,7 +272,7 @@ pub trait Design: fmt::Debug + Sized {
     /// Fault of the pools, if any, after a build over that number of triangles.
     fn fault(contents: &Self::Contents, triangles: u32) -> Option<String>;
 
-    /// [`Structure::list_counts`](crate::Structure::list_counts) of a complete build.
+    /// [`Inspect::list_counts`](crate::Inspect::list_counts) of a complete build.
     ///
     /// # Errors
     /// Fault of the lists.

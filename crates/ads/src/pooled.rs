@@ -8,10 +8,10 @@ use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Counters, Demand, Dependencies, Design,
-    Domain, Geometry, GeometryRigid, InlineTrace, ListCounts, Modules, PartRays, Parts, PoolContents,
-    PoolName, PoolSize, PoolStatus, Pools, RayQueue, RecordLayout, SceneBinding, Sizes, Structure,
-    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, TracedPart, Viewpoint,
-    default_work_budget,
+    Domain, Geometry, GeometryRigid, InlineTrace, Inspect, ListCounts, Modules, PartRays, Parts,
+    PoolContents, PoolName, PoolSize, PoolStatus, Pools, RayQueue, RecordLayout, SceneBinding, Sizes,
+    Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, TracedPart,
+    Viewpoint, default_work_budget,
 };
 
 /// A demand that [varies](Design::varies) is met with capacity for one in so many more. Pages of a small scene differ by up to
@@ -441,6 +441,24 @@ impl<D: Design> Structure for Pooled<D> {
         (!self.follows).then(|| self.parts.pools.inline_trace(D::constants(&self.parts.config)))
     }
 
+    fn inspect(&self) -> Option<&dyn Inspect> {
+        Some(self)
+    }
+
+    fn report(&self) -> Result<StructureReport, GpuError> {
+        let header = self.known();
+        let asked = self.design.asked(&self.parts, &header);
+        let used = |size: &PoolSize| {
+            let pool = D::Pool::ALL.iter().find(|pool| pool.name() == size.name);
+            pool.and_then(|pool| D::used(&self.parts, &asked, *pool)).unwrap_or(size.elements)
+        };
+        let mut bytes_by_part = self.parts.pools.bytes_by_part(used);
+        bytes_by_part.extend(self.design.bytes_outside_of_pools());
+        Ok(StructureReport { bytes_by_part, ..D::report(&self.parts, &header, &asked) })
+    }
+}
+
+impl<D: Design> Inspect for Pooled<D> {
     fn download_pools(&self, device: &Device) -> Result<Vec<(&'static str, Vec<u32>)>, GpuError> {
         let words = |pool: &D::Pool| Ok((pool.name(), self.parts.pools.download_words(device, *pool)?));
         D::Pool::ALL.iter().map(words).collect()
@@ -469,17 +487,5 @@ impl<D: Design> Structure for Pooled<D> {
     fn list_counts(&self, device: &Device) -> Result<Vec<ListCounts>, AdsError> {
         D::list_counts(&self.download(device)?)
             .map_err(|fault| AdsError::Damaged { structure: D::NAME, fault })
-    }
-
-    fn report(&self) -> Result<StructureReport, GpuError> {
-        let header = self.known();
-        let asked = self.design.asked(&self.parts, &header);
-        let used = |size: &PoolSize| {
-            let pool = D::Pool::ALL.iter().find(|pool| pool.name() == size.name);
-            pool.and_then(|pool| D::used(&self.parts, &asked, *pool)).unwrap_or(size.elements)
-        };
-        let mut bytes_by_part = self.parts.pools.bytes_by_part(used);
-        bytes_by_part.extend(self.design.bytes_outside_of_pools());
-        Ok(StructureReport { bytes_by_part, ..D::report(&self.parts, &header, &asked) })
     }
 }

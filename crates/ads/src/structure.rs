@@ -3,7 +3,7 @@
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout, TraceMode};
 
 use crate::{
-    AdsError, BuildStatus, Check, Counters, Domain, Geometry, ListCounts, PartRays, RayQueue, SceneBinding,
+    AdsError, BuildStatus, Check, Counters, Domain, Geometry, Inspect, PartRays, RayQueue, SceneBinding,
     Sizes, TracedPart, Viewpoint,
 };
 
@@ -307,47 +307,9 @@ pub trait Structure {
         None
     }
 
-    /// Header and pools as words, by name, the header first; empty where a structure has none. Submits and waits: for
-    /// tests and tools.
-    ///
-    /// # Errors
-    /// The device failed.
-    fn download_pools(&self, _device: &Device) -> Result<Vec<(&'static str, Vec<u32>)>, GpuError> {
-        Ok(Vec::new())
-    }
-
-    /// Writes back what [`Structure::download_pools`] returned, or what was made of it. Submits and waits: for tests and
-    /// tools. Traces end within their bounds whatever the other pools say.
-    ///
-    /// # Safety
-    /// Capacities and addresses in the header are those that were downloaded from this structure since its last resize.
-    ///
-    /// # Errors
-    /// There is no such pool, one is larger than what was allocated, or the device failed.
-    unsafe fn upload_pools(
-        &self,
-        _device: &Device,
-        _pools: &[(&'static str, Vec<u32>)],
-    ) -> Result<(), GpuError> {
-        Ok(())
-    }
-
-    /// What is wrong with the lists or nodes on the device, where they can be checked. Submits and waits: for tests and
-    /// tools.
-    ///
-    /// # Errors
-    /// The device failed.
-    fn fault(&self, _device: &Device) -> Result<Option<String>, GpuError> {
-        Ok(None)
-    }
-
-    /// What the lists of its cells hold, view by view; empty where its cells have none. Reads all pools back, submits and
-    /// waits: for reports and tools.
-    ///
-    /// # Errors
-    /// The device failed, or the lists are damaged: the last build is not complete.
-    fn list_counts(&self, _device: &Device) -> Result<Vec<ListCounts>, AdsError> {
-        Ok(Vec::new())
+    /// Its pools, for tests and tools; absent where a structure has none.
+    fn inspect(&self) -> Option<&dyn Inspect> {
+        None
     }
 
     /// Options, paths and bytes, of the build whose status was last read.

@@ -296,7 +296,8 @@ impl Built {
     /// # Errors
     /// The device fails, or lists are damaged.
     pub fn lists(&self, device: &Device) -> Result<Vec<ListRecord>, ExperimentError> {
-        let counts = self.structure().list_counts(device)?;
+        let pools = self.structure().inspect();
+        let counts = pools.map_or(Ok(Vec::new()), |pools| pools.list_counts(device))?;
         let all = ListCounts::all(&counts).filter(|_| counts.len() > 1);
         Ok(all.into_iter().chain(counts).map(list_record).collect())
     }

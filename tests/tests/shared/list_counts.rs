@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use rasray_abuffer::{ABuffer, Config as ABufferConfig, Coverage, Storage, Views};
-use rasray_ads::{CameraView, ListCounts, Structure, Viewpoint};
+use rasray_ads::{CameraView, Inspect, ListCounts, Structure, Viewpoint};
 use rasray_gpu::Timing;
 use rasray_ldc::{Config as LdcConfig, Depth, LayeredDepthCube, Making};
 use rasray_primitive::{Centre, Config as PrimitiveConfig, PrimitiveLists};
@@ -58,7 +58,7 @@ fn covered(at: impl Fn(u32) -> f64) -> u64 {
     cells.filter(|cell| is_covered(cell.map(&at))).count() as u64
 }
 
-fn counted<S: Structure>(
+fn counted<S: Structure + Inspect>(
     bench: &Bench,
     structure: &mut S,
     viewpoint: impl Into<Viewpoint>,
@@ -258,7 +258,8 @@ fn counts_of_every_structure_agree_with_what_it_reports() {
             subject.spec.create(bench.device(), &geometry, None).expect("the options are valid");
         build_until_complete(bench.device(), structure.as_mut(), [0.0; 3], Timing::None)
             .expect("the build completes");
-        let counts = structure.list_counts(bench.device()).expect("the lists are whole");
+        let Some(pools) = structure.inspect() else { continue };
+        let counts = pools.list_counts(bench.device()).expect("the lists are whole");
         let Some(all) = ListCounts::all(&counts) else { continue };
         with_lists += 1;
         let stored = structure.report().expect("readable").stored.expect("it stores what it lists");

@@ -34,12 +34,13 @@ fn check(system: &str, addressing: &str) {
         |mode| tracer.trace(structure.as_ref(), &rays, mode, Timing::None).map(|outcome| outcome.hits);
     let expected = trace(TraceMode::Closest).expect("hits");
     assert!(expected.iter().filter(|hit| hit.is_hit()).count() > 8, "{system}: rays hit something");
-    assert_eq!(structure.fault(&device).expect("contents"), None, "{system}: an undamaged build");
-    let whole = structure.download_pools(&device).expect("contents");
+    let inspected = structure.inspect().expect("it has pools");
+    assert_eq!(inspected.fault(&device).expect("contents"), None, "{system}: an undamaged build");
+    let whole = inspected.download_pools(&device).expect("contents");
     let (mut told, mut found) = (0, 0);
     let upload = |pools: &[(&'static str, Vec<u32>)]| {
         // SAFETY: the header is the one that was downloaded, and nothing was resized since.
-        unsafe { structure.upload_pools(&device, pools) }.expect("contents");
+        unsafe { inspected.upload_pools(&device, pools) }.expect("contents");
     };
     // The header is trusted.
     for place in 1..whole.len() {
@@ -61,7 +62,7 @@ fn check(system: &str, addressing: &str) {
                     Err(error) => panic!("{system}: {error}"),
                 }
             }
-            found += usize::from(structure.fault(&device).expect("contents").is_some());
+            found += usize::from(inspected.fault(&device).expect("contents").is_some());
         }
     }
     assert!(told > 0, "{system}: no trace says that anything is wrong");
