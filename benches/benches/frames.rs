@@ -257,7 +257,7 @@ impl Setting<'_> {
             ControlFlow::Continue(())
         })?;
         if self.image.unfinished() > 0 {
-            return Err(format!("{} left rays without an answer", structure.name()).into());
+            return Err(format!("{} left rays without an answer", structure.description().name).into());
         }
         Ok(all)
     }

@@ -4,8 +4,8 @@ use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
 use crate::slots::{check_read, check_recorded};
 use crate::{
-    Addressing, AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, Modules, RayQueue,
-    SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc,
+    Addressing, AdsError, BuildStatus, Check, Counters, Dependencies, Description, Domain, Geometry, Modules,
+    RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc,
     TraceMode, TracedPart, Viewpoint, default_work_budget,
 };
 
@@ -15,6 +15,7 @@ use crate::{
 /// number only the device knows; until then traces answer *not ready*.
 #[derive(Debug)]
 pub struct BruteForce {
+    description: Description,
     geometry: Geometry,
     kernels: TraceKernels,
     sizes: Sizes,
@@ -43,7 +44,7 @@ impl BruteForce {
         counters: impl Into<Counters>,
     ) -> Result<Self, AdsError> {
         let empty = device.create_set_layout("brute force", 0)?;
-        let work_budget = default_work_budget(device);
+        let (counters, work_budget) = (counters.into(), default_work_budget(device));
         let kernels = TraceKernels::new(
             device,
             geometry,
@@ -51,12 +52,24 @@ impl BruteForce {
                 modules: MODULES.trace(scene)?,
                 structure_layout: &empty,
                 constants: &[],
-                counters: counters.into(),
+                counters,
                 work_budget,
                 scene,
             },
         )?;
+        let description = Description {
+            name: MODULES.structure,
+            kind: StructureKind::Primitive,
+            requirements: Self::requirements_of(),
+            counters,
+            depends_on: Dependencies::default(),
+            surfaces_of_triangles: kernels.surfaces(TracedPart::Whole).is_some(),
+            builds_on_host: false,
+            follows: false,
+            first_hits: false,
+        };
         Ok(Self {
+            description,
             geometry: geometry.clone(),
             kernels,
             sizes: Sizes::default(),
@@ -88,24 +101,8 @@ impl BruteForce {
 }
 
 impl Structure for BruteForce {
-    fn name(&self) -> &'static str {
-        "brute-force"
-    }
-
-    fn kind(&self) -> StructureKind {
-        StructureKind::Primitive
-    }
-
-    fn has_surfaces_of_triangles(&self) -> bool {
-        self.kernels.surfaces(TracedPart::Whole).is_some()
-    }
-
-    fn requirements(&self) -> Requirements {
-        Self::requirements_of()
-    }
-
-    fn counters(&self) -> Counters {
-        self.kernels.counters()
+    fn description(&self) -> &Description {
+        &self.description
     }
 
     fn sizes(&self) -> &Sizes {
@@ -123,7 +120,7 @@ impl Structure for BruteForce {
     }
 
     fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError> {
-        self.kernels.set_scene(self.name(), scene)
+        self.kernels.set_scene(self.description.name, scene)
     }
 
     fn slots(&self) -> u32 {
@@ -135,24 +132,20 @@ impl Structure for BruteForce {
         Ok(())
     }
 
-    fn depends_on(&self) -> Dependencies {
-        Dependencies::default()
-    }
-
     fn record_build(
         &mut self,
         recorder: &mut Recorder<'_>,
         slot: u32,
         _viewpoint: Viewpoint,
     ) -> Result<(), AdsError> {
-        check_recorded(self.name(), slot, self.slots)?;
+        check_recorded(self.description.name, slot, self.slots)?;
         self.geometry.record_gather(recorder);
         self.is_readable = true;
         Ok(())
     }
 
     fn status(&self, slot: u32) -> Result<BuildStatus, GpuError> {
-        check_read(self.name(), slot, self.slots)?;
+        check_read(self.description.name, slot, self.slots)?;
         let complete = self.is_readable;
         Ok(BuildStatus { complete, was_complete: complete, ..BuildStatus::default() })
     }
@@ -194,8 +187,10 @@ impl Structure for BruteForce {
         queue: &RayQueue,
         domain: Domain,
     ) -> Result<(), AdsError> {
-        let lookup =
-            self.kernels.surfaces(TracedPart::Whole).ok_or(AdsError::NoScene { structure: self.name() })?;
+        let lookup = self
+            .kernels
+            .surfaces(TracedPart::Whole)
+            .ok_or(AdsError::NoScene { structure: self.description.name })?;
         lookup.record(recorder, self.geometry.whole(), None, 0, queue, domain);
         Ok(())
     }

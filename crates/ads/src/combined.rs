@@ -1,11 +1,10 @@
 //! A structure in parts, combined when rays are traced.
 
-use rasray_gpu::{Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{Device, GpuError, Recorder};
 
 use crate::{
-    AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, GeometryParts, Inspect,
-    ListCounts, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceMode,
-    TracedPart, Viewpoint,
+    AdsError, BuildStatus, Check, Description, Domain, Geometry, GeometryParts, Inspect, ListCounts,
+    RayQueue, SceneBinding, Sizes, Structure, StructureReport, TraceMode, TracedPart, Viewpoint,
 };
 
 /// Structures of a kind over the parts of a geometry. A ray is traced through the static part and then through those that
@@ -17,6 +16,7 @@ use crate::{
 /// As a [`Structure`] it builds all parts. What builds only the parts that moved is a loop over frames that keeps each
 /// part by itself (`rasray_tracer::FrameStructure`), through [`Combined::change_part`].
 pub struct Combined {
+    description: Description,
     geometry: GeometryParts,
     /// The static part first.
     parts: Vec<Box<dyn Structure>>,
@@ -34,13 +34,17 @@ impl Combined {
         make: impl FnMut(&Geometry) -> Result<Box<dyn Structure>, E>,
     ) -> Result<Self, E> {
         let parts = geometry.parts().iter().map(make).collect::<Result<Vec<_>, E>>()?;
-        let structure = parts[0].name();
-        if parts.iter().any(|part| part.name() != structure || part.counters() != parts[0].counters()) {
+        // No part alone knows first hits of all, and all triangles together are in no space of their own.
+        let description = Description { follows: false, first_hits: false, ..parts[0].description().clone() };
+        let is_other =
+            |part: &Description| part.name != description.name || part.counters != description.counters;
+        if parts.iter().any(|part| is_other(part.description())) {
+            let structure = description.name;
             let reason = "all are the same structure, with the same counters";
             return Err(AdsError::InParts { structure, reason }.into());
         }
         let sizes = joined(&parts);
-        Ok(Self { geometry: geometry.clone(), parts, sizes })
+        Ok(Self { description, geometry: geometry.clone(), parts, sizes })
     }
 
     /// The parts of the geometry.
@@ -85,7 +89,7 @@ impl Combined {
     pub fn set_parts(&mut self, device: &Device, geometry: &GeometryParts) -> Result<(), AdsError> {
         if geometry.parts().len() != self.parts.len() {
             let reason = "other triangles are in as many parts as there are structures";
-            return Err(AdsError::InParts { structure: self.name(), reason });
+            return Err(AdsError::InParts { structure: self.description.name, reason });
         }
         for (part, geometry) in self.parts.iter_mut().zip(geometry.parts()) {
             part.set_geometry(device, geometry)?;
@@ -125,24 +129,8 @@ impl Combined {
 }
 
 impl Structure for Combined {
-    fn name(&self) -> &'static str {
-        self.parts[0].name()
-    }
-
-    fn kind(&self) -> StructureKind {
-        self.parts[0].kind()
-    }
-
-    fn has_surfaces_of_triangles(&self) -> bool {
-        self.parts[0].has_surfaces_of_triangles()
-    }
-
-    fn requirements(&self) -> Requirements {
-        self.parts[0].requirements()
-    }
-
-    fn counters(&self) -> Counters {
-        self.parts[0].counters()
+    fn description(&self) -> &Description {
+        &self.description
     }
 
     fn sizes(&self) -> &Sizes {
@@ -165,7 +153,7 @@ impl Structure for Combined {
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
         if geometry.triangle_count() != self.geometry.whole().triangle_count() {
             let reason = "for another number of triangles `set_parts` says which of them move";
-            return Err(AdsError::InParts { structure: self.name(), reason });
+            return Err(AdsError::InParts { structure: self.description.name, reason });
         }
         let parts = self.geometry.of(device, geometry)?;
         self.set_parts(device, &parts)
@@ -179,20 +167,12 @@ impl Structure for Combined {
         self.parts.iter_mut().try_for_each(|part| part.prepare_build(device))
     }
 
-    fn builds_on_host(&self) -> bool {
-        self.parts[0].builds_on_host()
-    }
-
     fn slots(&self) -> u32 {
         self.parts[0].slots()
     }
 
     fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError> {
         self.parts.iter_mut().try_for_each(|part| part.set_slots(device, slots))
-    }
-
-    fn depends_on(&self) -> Dependencies {
-        self.parts[0].depends_on()
     }
 
     fn is_stale(&self, built: Viewpoint, wanted: Viewpoint) -> bool {
@@ -274,7 +254,7 @@ impl Structure for Combined {
         queue: &RayQueue,
         domain: Domain,
     ) -> Result<(), AdsError> {
-        if self.kind().finds_triangles() {
+        if self.description.kind.finds_triangles() {
             // The queue has noted faults of the others.
             return self.parts[self.parts.len() - 1].record_surfaces(recorder, queue, domain);
         }
@@ -319,7 +299,7 @@ impl Combined {
 
     fn pools_are_of_parts(&self) -> GpuError {
         let reason = "is in parts, each of which has pools of its own".to_owned();
-        GpuError::InvalidUse { name: self.name().to_owned(), reason }
+        GpuError::InvalidUse { name: self.description.name.to_owned(), reason }
     }
 }
 
@@ -359,7 +339,7 @@ impl std::fmt::Debug for Combined {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter
             .debug_struct("Combined")
-            .field("structure", &self.name())
+            .field("structure", &self.description.name)
             .field("parts", &self.count())
             .finish_non_exhaustive()
     }

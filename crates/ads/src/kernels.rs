@@ -70,7 +70,6 @@ pub struct TraceKernels {
     first_hits: Option<Kernel>,
     next_round: ComputePipeline,
     scene: Option<SceneBinding>,
-    counters: Counters,
     work_budget: u32,
 }
 
@@ -122,14 +121,8 @@ impl TraceKernels {
             first_hits: first_hits.map(kernel).transpose()?,
             next_round,
             scene: desc.scene.cloned(),
-            counters: desc.counters,
             work_budget: desc.work_budget,
         })
-    }
-
-    /// Counters that rays record of their work.
-    pub fn counters(&self) -> Counters {
-        self.counters
     }
 
     /// Reads another scene from the next recording on. Nothing changes after an error.

@@ -7,11 +7,11 @@ use rasray_gpu::{Access, BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::{
-    AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Counters, Demand, Dependencies, Design,
-    Domain, Geometry, GeometryRigid, InlineTrace, Inspect, ListCounts, Modules, PartRays, Parts,
-    PoolContents, PoolName, PoolSize, PoolStatus, Pools, RayQueue, RecordLayout, SceneBinding, Sizes,
-    Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, TracedPart,
-    Viewpoint, default_work_budget,
+    AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Demand, Description, Design, Domain,
+    Geometry, GeometryRigid, InlineTrace, Inspect, ListCounts, Modules, PartRays, Parts, PoolContents,
+    PoolName, PoolSize, PoolStatus, Pools, RayQueue, RecordLayout, SceneBinding, Sizes, Structure,
+    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, TracedPart, Viewpoint,
+    default_work_budget,
 };
 
 /// A demand that [varies](Design::varies) is met with capacity for one in so many more. Pages of a small scene differ by up to
@@ -24,12 +24,11 @@ const LINEAR_BYTES: u64 = std::mem::offset_of!(GeometryRigid, centre) as u64;
 /// A structure of a header, pools and the passes of its design.
 #[derive(Debug)]
 pub struct Pooled<D: Design> {
+    description: Description,
     design: D,
     parts: Parts<D::Config>,
     /// Triangles traced: those that builds read, or where these are in a space of their own, the same as posed.
     traced: Geometry,
-    /// True if builds read triangles in a space of their own.
-    follows: bool,
     kernels: TraceKernels,
     /// The scene's set, where passes of the build read it.
     scene: Option<BindingSet>,
@@ -68,7 +67,8 @@ impl<D: Design> Pooled<D> {
         let Common { addressing, counters, .. } = common;
         let work_budget = common.work_budget.unwrap_or_else(|| default_work_budget(device));
         addressing.check(device)?;
-        device.require(D::TITLE, &Self::requirements_of(&config))?;
+        let requirements = Self::requirements_of(&config);
+        device.require(D::TITLE, &requirements)?;
         let pools = Pools::new(device, D::NAME, addressing, &sizes)?;
         let modules = modules::<D>(&config);
         let mut constants = D::constants(&config);
@@ -95,11 +95,24 @@ impl<D: Design> Pooled<D> {
             },
         )?;
         let scene = build_scene.map(|scene| scene.set.clone());
+        let surfaces_of_triangles =
+            D::HAS_SURFACES_OF_TRIANGLES && kernels.surfaces(TracedPart::Whole).is_some();
+        let description = Description {
+            name: D::NAME,
+            kind: D::kind(&config),
+            requirements,
+            counters,
+            depends_on: D::depends_on(&config),
+            surfaces_of_triangles,
+            builds_on_host: D::builds_on_host(&config),
+            follows: rest.is_some(),
+            first_hits: kernels.first_hits().is_some(),
+        };
         Ok(Self {
+            description,
             design,
             parts: Parts { config, geometry: geometry.clone(), pools, work_budget, header_pass },
             traced: traced.clone(),
-            follows: rest.is_some(),
             kernels,
             scene,
             is_scene_new: false,
@@ -185,24 +198,8 @@ impl<D: Design> Pooled<D> {
 }
 
 impl<D: Design> Structure for Pooled<D> {
-    fn name(&self) -> &'static str {
-        D::NAME
-    }
-
-    fn kind(&self) -> StructureKind {
-        D::kind(&self.parts.config)
-    }
-
-    fn has_surfaces_of_triangles(&self) -> bool {
-        D::HAS_SURFACES_OF_TRIANGLES && self.kernels.surfaces(TracedPart::Whole).is_some()
-    }
-
-    fn requirements(&self) -> Requirements {
-        Self::requirements_of(&self.parts.config)
-    }
-
-    fn counters(&self) -> Counters {
-        self.kernels.counters()
+    fn description(&self) -> &Description {
+        &self.description
     }
 
     fn sizes(&self) -> &Sizes {
@@ -220,7 +217,7 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
-        let built = match (self.follows, geometry.rest()) {
+        let built = match (self.description.follows, geometry.rest()) {
             (false, _) => geometry,
             (true, Some(rest)) => rest,
             (true, None) => {
@@ -250,24 +247,12 @@ impl<D: Design> Structure for Pooled<D> {
         self.design.prepare(&mut self.parts, device)
     }
 
-    fn builds_on_host(&self) -> bool {
-        D::builds_on_host(&self.parts.config)
-    }
-
     fn slots(&self) -> u32 {
         self.parts.pools.slots()
     }
 
     fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError> {
         self.parts.pools.set_slots(device, slots)
-    }
-
-    fn depends_on(&self) -> Dependencies {
-        D::depends_on(&self.parts.config)
-    }
-
-    fn follows(&self) -> bool {
-        self.follows
     }
 
     fn is_stale(&self, built: Viewpoint, wanted: Viewpoint) -> bool {
@@ -283,7 +268,7 @@ impl<D: Design> Structure for Pooled<D> {
         let header = self.design.first_header(&self.parts, viewpoint)?;
         self.parts.pools.begin::<D::Pool>(slot, header)?;
         self.is_scene_new = false;
-        if self.follows {
+        if self.description.follows {
             self.traced.record_gather(recorder);
         }
         self.design.record_passes(recorder, &self.parts, self.scene.as_ref());
@@ -377,7 +362,7 @@ impl<D: Design> Structure for Pooled<D> {
         rounds: u32,
         rays: PartRays<'_>,
     ) {
-        if self.kind() != StructureKind::Primitive {
+        if self.description.kind != StructureKind::Primitive {
             return self.record_continued_trace(recorder, queue, domain, mode, rounds);
         }
         let pools = &self.parts.pools;
@@ -405,8 +390,8 @@ impl<D: Design> Structure for Pooled<D> {
         part: TracedPart,
     ) -> Result<(), AdsError> {
         let (Parts { pools, .. }, geometry) = (&self.parts, &self.traced);
-        let lookup = self.kernels.surfaces(part).ok_or(AdsError::NoScene { structure: self.name() })?;
-        if let Some((header, place)) = geometry.map_place().filter(|_| self.follows)
+        let lookup = self.kernels.surfaces(part).ok_or(AdsError::NoScene { structure: D::NAME })?;
+        if let Some((header, place)) = geometry.map_place().filter(|_| self.description.follows)
             && let Some(at) = D::RIGID
         {
             recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::TRANSFER);
@@ -417,17 +402,13 @@ impl<D: Design> Structure for Pooled<D> {
         Ok(())
     }
 
-    fn has_first_hits(&self) -> bool {
-        self.kernels.first_hits().is_some()
-    }
-
     fn record_first_hits(
         &self,
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,
         domain: Domain,
     ) -> Result<(), AdsError> {
-        let lookup = self.kernels.first_hits().ok_or(AdsError::NoFirstHits { structure: self.name() })?;
+        let lookup = self.kernels.first_hits().ok_or(AdsError::NoFirstHits { structure: D::NAME })?;
         let (Parts { pools, .. }, geometry) = (&self.parts, &self.traced);
         if self.is_scene_new {
             pools.record_forget(recorder);
@@ -438,7 +419,7 @@ impl<D: Design> Structure for Pooled<D> {
 
     fn inline_trace(&self) -> Option<InlineTrace<'_>> {
         // Where it was built in a space of its own rays have to be mapped.
-        (!self.follows).then(|| self.parts.pools.inline_trace(D::constants(&self.parts.config)))
+        (!self.description.follows).then(|| self.parts.pools.inline_trace(D::constants(&self.parts.config)))
     }
 
     fn inspect(&self) -> Option<&dyn Inspect> {

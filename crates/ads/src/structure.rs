@@ -1,30 +1,11 @@
 //! The contract between structures and everything that traces through them.
 
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout, TraceMode};
+use rasray_gpu::{BindingSet, Device, GpuError, Recorder, SetLayout, TraceMode};
 
 use crate::{
-    AdsError, BuildStatus, Check, Counters, Domain, Geometry, Inspect, PartRays, RayQueue, SceneBinding,
+    AdsError, BuildStatus, Check, Description, Domain, Geometry, Inspect, PartRays, RayQueue, SceneBinding,
     Sizes, TracedPart, Viewpoint,
 };
-
-/// What a structure's hits are, and hence what may be demanded of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StructureKind {
-    /// Triangles: no missed, false or wrong hit on unambiguous rays.
-    Primitive,
-    /// Triangles, by the rules of a paper that lose some of them: a share of the hits that does not fall with
-    /// the resolution.
-    LossyPrimitive,
-    /// Stored fragments: errors follow a law in the resolution.
-    Fragment,
-}
-
-impl StructureKind {
-    /// Whether a hit is one on a triangle, with barycentrics, and not on a stored fragment.
-    pub fn finds_triangles(self) -> bool {
-        self != Self::Fragment
-    }
-}
 
 /// What a structure reports once built.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -72,46 +53,14 @@ pub struct InlineTrace<'a> {
     pub constants: Vec<(u32, u32)>,
 }
 
-/// What makes a build stale, in addition to the triangles, which always do. Where none of it changed, a new build would
-/// be the same as the last.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Dependencies {
-    /// Where the eye is.
-    pub eye: bool,
-    /// What the camera sees.
-    pub camera: bool,
-}
-
-impl Dependencies {
-    /// Whether a build for `built` differs from one for `wanted`.
-    pub fn are_stale(self, built: Viewpoint, wanted: Viewpoint) -> bool {
-        (self.eye && built.eye != wanted.eye) || (self.camera && built.camera != wanted.camera)
-    }
-}
-
 /// A structure that rays are traced through.
 ///
 /// One value is one set of pools, whose builds and traces follow each other on the device's queue. What the host reads
 /// of a build is kept per slot ([`Structure::set_slots`]): a host that has n frames in flight records the build of
 /// frame k for slot k mod n, and reads the status of a slot after that frame's fence.
 pub trait Structure {
-    /// Name, the same as in shaders, pages and reports.
-    fn name(&self) -> &'static str;
-
-    /// What its hits are.
-    fn kind(&self) -> StructureKind;
-
-    /// Whether the surface of every hit is that of its triangle at its barycentrics (`scene_surface`), which needs nothing of
-    /// the structure: kernels that shade may look it up in place of [`Structure::record_surfaces`]. False without a scene.
-    fn has_surfaces_of_triangles(&self) -> bool {
-        false
-    }
-
-    /// Device features that it uses.
-    fn requirements(&self) -> Requirements;
-
-    /// How much of their work its rays record.
-    fn counters(&self) -> Counters;
+    /// Facts that do not change while it lives.
+    fn description(&self) -> &Description;
 
     /// What is allocated now.
     fn sizes(&self) -> &Sizes;
@@ -150,12 +99,6 @@ pub trait Structure {
         Ok(())
     }
 
-    /// Whether [`Structure::prepare_build`] works on the triangles, so that these must be where they are to be built before
-    /// it is called.
-    fn builds_on_host(&self) -> bool {
-        false
-    }
-
     /// Builds whose outcome is kept apart; 1 unless [`Structure::set_slots`] was called.
     fn slots(&self) -> u32;
 
@@ -166,19 +109,10 @@ pub trait Structure {
     /// Out of memory; then all is as it was.
     fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError>;
 
-    /// What makes a build stale, in addition to the triangles.
-    fn depends_on(&self) -> Dependencies;
-
-    /// Whether a build stays while its triangles are moved by a map ([`Geometry::record_map`]), because it is in a space of its
-    /// own.
-    fn follows(&self) -> bool {
-        false
-    }
-
     /// Whether a build for `built` is to be made anew for `wanted`, where the triangles are the same: the dependencies
     /// differ, unless the structure knows that the difference does not matter.
     fn is_stale(&self, built: Viewpoint, wanted: Viewpoint) -> bool {
-        self.depends_on().are_stale(built, wanted)
+        self.description().depends_on.are_stale(built, wanted)
     }
 
     /// Records a build for a viewpoint, whose status is that of `slot` once the device is done. Structures without
@@ -282,11 +216,6 @@ pub trait Structure {
         self.record_surfaces(recorder, queue, domain)
     }
 
-    /// Whether it has first hits of camera rays ([`Structure::record_first_hits`]).
-    fn has_first_hits(&self) -> bool {
-        false
-    }
-
     /// Records hits of the slots of `domain` of `queue` in place of a trace: of rays from the eye that it was built for, what its
     /// view of the camera holds nearest to the eye at the ray. They are as fine as that view, also where traces are exact.
     ///
@@ -298,7 +227,7 @@ pub trait Structure {
         _queue: &RayQueue,
         _domain: Domain,
     ) -> Result<(), AdsError> {
-        Err(AdsError::NoFirstHits { structure: self.name() })
+        Err(AdsError::NoFirstHits { structure: self.description().name })
     }
 
     /// How a shader of one's own traces through it, as it is until the next resize; absent where a structure has

@@ -103,7 +103,7 @@ impl Rendering {
         if *needs == Needs::all() {
             desc.features = rasray_gpu_scene::ShadingFeatures::ALL;
         }
-        desc.surfaces_of_hits = built.structure().has_surfaces_of_triangles();
+        desc.surfaces_of_hits = built.structure().description().surfaces_of_triangles;
         let passes = ImagePasses::from(frame.integrator.make(&desc)?);
         let passes = passes.with_visibility(visibility(device, stage, frame)?);
         let passes = if frame.primary == Primary::Fragments { passes.with_stored_hits() } else { passes };
@@ -119,7 +119,7 @@ impl Rendering {
 
     /// Whether it renders what `built` holds, without kernels of its own.
     pub fn serves(&self, built: &Built) -> bool {
-        !self.of_hits || built.structure().has_surfaces_of_triangles()
+        !self.of_hits || built.structure().description().surfaces_of_triangles
     }
 
     /// The same with the variance of each pixel measured.
@@ -133,10 +133,11 @@ impl Rendering {
     /// # Errors
     /// The structure has none.
     pub(super) fn check(frame: &Frame, built: &Built) -> Result<(), ExperimentError> {
-        if frame.primary != Primary::Fragments || built.structure().has_first_hits() {
+        let structure = built.structure().description();
+        if frame.primary != Primary::Fragments || structure.first_hits {
             return Ok(());
         }
-        Err(ExperimentError::NoFirstHits { structure: built.structure().name() })
+        Err(ExperimentError::NoFirstHits { structure: structure.name })
     }
 
     /// What is on the film.

@@ -114,7 +114,7 @@ pub(super) fn compare_set(
     for ((place, contestant), mut traced) in taking.systems.iter().zip(traces) {
         traced.hits = name_hits(traced.hits);
         let mut run = run_of(device, contestant, set, &traced, wanted.seed)?;
-        let kind = contestant.built.structure().kind();
+        let kind = contestant.built.structure().description().kind;
         evaluate(&mut run, kind, &set.verdicts, &traced.hits, wanted.figures, comparison)?;
         let variant = run.variant.as_ref().map(|variant| format!(".{}", variant.replace(' ', ",")));
         let name = format!("{}-{}{}", run.system, run.preset, variant.unwrap_or_default());

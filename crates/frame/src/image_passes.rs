@@ -49,8 +49,8 @@ impl ImagePasses {
         Self { visibility, ..self }
     }
 
-    /// Answers camera rays by the structure's view of the camera, which must have one ([`Structure::has_first_hits`]);
-    /// not together with drawing.
+    /// Answers camera rays by the structure's view of the camera, which must have one
+    /// ([`Description::first_hits`](rasray_ads::Description::first_hits)); not together with drawing.
     #[must_use]
     pub fn with_stored_hits(self) -> Self {
         Self { has_stored_hits: true, visibility: None, ..self }
@@ -213,7 +213,7 @@ pub(crate) fn unanswered<'a>(
         rays += u64::from(queue.unfinished) + u64::from(queue.not_ready);
     }
     if entries > 0 {
-        return Err(TracerError::Corrupted { structure: structure.name(), entries }.into());
+        return Err(TracerError::Corrupted { structure: structure.description().name, entries }.into());
     }
     Ok(rays)
 }

@@ -98,7 +98,7 @@ fn in_order(
             }
             Taken::Nothing => {
                 if repeats >= REPEATS {
-                    let structure = renderer.structure().structure().name();
+                    let structure = renderer.structure().structure().description().name;
                     return Err(FrameError::Unstable { structure, repeats });
                 }
                 // Poses follow each other, so those that came after it are repeated after it.

@@ -186,7 +186,7 @@ impl FrameRenderer {
         }
         let Some(parts) = scene.pose().and_then(PosePass::divided) else {
             let (structure, reason) =
-                (self.structure().structure().name(), "the scene of a frame is not in parts");
+                (self.structure().structure().description().name, "the scene of a frame is not in parts");
             return Err(AdsError::InParts { structure, reason }.into());
         };
         Ok(self.frames.set_parts(parts)?)

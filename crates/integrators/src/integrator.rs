@@ -22,8 +22,8 @@ pub struct IntegratorDesc<'a> {
     /// Shading code that is compiled in: [`GpuScene::features`], or [`ShadingFeatures::ALL`].
     pub features: ShadingFeatures,
     /// Kernels that shade look up the surfaces of hits themselves, which saves storing and reading them, where an integrator
-    /// can ([`Path`](crate::Path)). What is traced must then be
-    /// [`Structure::has_surfaces_of_triangles`](rasray_ads::Structure::has_surfaces_of_triangles). No picture changes.
+    /// can ([`Path`](crate::Path)). Structures that are traced must then have
+    /// [surfaces of triangles](rasray_ads::Description::surfaces_of_triangles). No picture changes.
     pub surfaces_of_hits: bool,
 }
 

@@ -75,8 +75,9 @@ impl<'a> Traced<'a> {
     /// # Errors
     /// Surfaces of the structure are not those of the triangles that its hits name.
     pub(crate) fn with_surfaces_of_hits(self) -> Result<Self, IntegratorError> {
-        if !self.closest.has_surfaces_of_triangles() {
-            return Err(IntegratorError::SurfacesOfHits { structure: self.closest.name() });
+        let structure = self.closest.description();
+        if !structure.surfaces_of_triangles {
+            return Err(IntegratorError::SurfacesOfHits { structure: structure.name });
         }
         Ok(Self { of_hits: true, ..self })
     }
@@ -118,7 +119,7 @@ impl<'a> Traced<'a> {
     ) -> Result<(), AdsError> {
         self.closest.record_trace(recorder, queue, domain, TraceMode::Closest, self.closest.rounds());
         match self.fetch {
-            Some(fetch) => fetch.record(recorder, queue, domain, self.closest.kind()),
+            Some(fetch) => fetch.record(recorder, queue, domain, self.closest.description().kind),
             None if self.of_hits => Ok(()),
             None => self.closest.record_surfaces(recorder, queue, domain),
         }

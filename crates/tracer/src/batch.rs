@@ -100,7 +100,7 @@ impl BatchTracer {
             self.shares.learn(structure.into(), count, started.elapsed().as_secs_f64());
             outcome.passes.extend(submitted.passes);
             outcome.hits.extend(self.device.download_as::<Hit>(self.queue.hits(), 0, chunk.len())?);
-            if structure.counters() >= Counters::PerRay {
+            if structure.description().counters >= Counters::PerRay {
                 outcome.work.extend(self.device.download_as::<RayWork>(self.queue.work(), 0, chunk.len())?);
             }
         }
@@ -110,7 +110,10 @@ impl BatchTracer {
         }
         let entries = outcome.counters.corrupted;
         if entries > 0 {
-            return Err(TracerError::Corrupted { structure: structure.name(), entries: entries.into() });
+            return Err(TracerError::Corrupted {
+                structure: structure.description().name,
+                entries: entries.into(),
+            });
         }
         Ok(outcome)
     }

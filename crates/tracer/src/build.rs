@@ -96,7 +96,7 @@ impl Builds for Whole<'_> {
             Check::Complete if status.complete => Ok(Step::Complete),
             Check::Grow(sizes) if may_grow => {
                 tracing::debug!(
-                    structure = self.structure.name(),
+                    structure = self.structure.description().name,
                     bytes = sizes.bytes(),
                     "grows to the demand of the build"
                 );
@@ -162,7 +162,7 @@ fn until_complete(
             }
             Step::Grown => outcome.regrows += 1,
             Step::Stuck => {
-                let structure = built.structure().name();
+                let structure = built.structure().description().name;
                 return Err(TracerError::Unstable { structure, rebuilds: outcome.regrows });
             }
         }

@@ -138,7 +138,9 @@ impl FrameStructure {
             return;
         }
         for part in 1..self.parts.len() {
-            if moved.get(part - 1).copied().unwrap_or(true) && !self.structure.part(part).follows() {
+            if moved.get(part - 1).copied().unwrap_or(true)
+                && !self.structure.part(part).description().follows
+            {
                 self.parts[part].built = None;
             }
         }
@@ -203,8 +205,8 @@ impl FrameStructure {
     }
 
     /// Does what only the host can do for the build of the next frame, if that builds: for structures that are built on the
-    /// device alone, nothing. Where [`Structure::builds_on_host`] says so, this waits for the device, and vertices must be
-    /// where they are to be built.
+    /// device alone, nothing. Where [`Description::builds_on_host`](rasray_ads::Description::builds_on_host) says so, this
+    /// waits for the device, and vertices must be where they are to be built.
     ///
     /// # Errors
     /// The device failed, or memory does not suffice.
@@ -310,7 +312,7 @@ impl FrameStructure {
     }
 
     fn wrong_slot(&self, slot: u32) -> AdsError {
-        AdsError::Slot { structure: self.structure().name(), slot, slots: self.slots }
+        AdsError::Slot { structure: self.structure().description().name, slot, slots: self.slots }
     }
 
     /// The frame that was recorded last, for this slot, was not submitted: what it built does not exist. Nothing where no frame
@@ -337,7 +339,11 @@ impl FrameStructure {
             Check::Complete => Ok(status.complete),
             Check::Grow(sizes) => {
                 let grows = sizes != *structure.sizes();
-                tracing::debug!(structure = structure.name(), bytes = sizes.bytes(), "grows between frames");
+                tracing::debug!(
+                    structure = structure.description().name,
+                    bytes = sizes.bytes(),
+                    "grows between frames"
+                );
                 self.structure.change_part(index, |structure| structure.resize(device, &sizes))?;
                 self.counts.growths += u64::from(grows);
                 self.parts[index].built = None;
@@ -351,7 +357,7 @@ impl std::fmt::Debug for FrameStructure {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter
             .debug_struct("FrameStructure")
-            .field("structure", &self.structure().name())
+            .field("structure", &self.structure().description().name)
             .field("counts", &self.counts)
             .finish_non_exhaustive()
     }

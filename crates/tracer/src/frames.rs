@@ -109,7 +109,8 @@ impl Frames {
 
     /// Records a frame and submits it; returns its number. `before` records what moves vertices and comes first, `after`
     /// what traces through the structure; both are given the slot, which is [`Frames::free_slot`]. Where the host has a part
-    /// in the build ([`Structure::builds_on_host`]), `before` is submitted by itself and waited for.
+    /// in the build ([`Description::builds_on_host`](rasray_ads::Description::builds_on_host)), `before` is submitted by
+    /// itself and waited for.
     ///
     /// # Errors
     /// [`TracerError::Busy`]; what `after` returns, or what the device, the recording or the structure reports: nothing
@@ -122,7 +123,7 @@ impl Frames {
     ) -> Result<u64, E> {
         let slot = self.free_slot().ok_or(TracerError::Busy { slots: self.slots() })?;
         let mut before = Some(before);
-        if self.structure.structure().builds_on_host() && self.structure.is_stale(viewpoint) {
+        if self.structure.structure().description().builds_on_host && self.structure.is_stale(viewpoint) {
             let before = before.take();
             let moved =
                 self.device.submit(|recorder| before.into_iter().for_each(|before| before(recorder, slot)));

@@ -44,8 +44,8 @@ impl Replay {
         ray: &Ray,
         mode: TraceMode,
     ) -> Result<Self, TracerError> {
-        if structure.counters() != Counters::Steps {
-            return Err(TracerError::NoSteps { structure: structure.name() });
+        if structure.description().counters != Counters::Steps {
+            return Err(TracerError::NoSteps { structure: structure.description().name });
         }
         let mut capacity = FIRST_STEPS;
         loop {
@@ -80,7 +80,7 @@ impl Replay {
         let work = device.download_as::<RayWork>(queue.work(), 0, 1)?.first().copied().unwrap_or_default();
         let hit = device.download_as::<Hit>(queue.hits(), 0, 1)?.first().copied();
         Ok(Self {
-            structure: structure.name(),
+            structure: structure.description().name,
             ray: *ray,
             mode,
             omitted: taken - steps.len() as u32,

@@ -113,7 +113,7 @@ fn conservative_coverage_finds_what_brute_force_finds() {
     for resolution in [1, 16, 32, 128] {
         let conservative = Config { coverage: Coverage::Conservative, ..Config::at_centres(resolution) };
         let kept = built(&bench, conservative, &triangles);
-        assert_eq!(kept.kind(), StructureKind::Primitive);
+        assert_eq!(kept.description().kind, StructureKind::Primitive);
         assert_eq!(kept.report().expect("the header is readable").lost, Some(0));
         let hits = bench.trace(&kept, &rays).hits;
         let wrong = hits.iter().zip(&expected).filter(|(hit, expected)| bits(hit) != bits(expected)).count();
@@ -123,7 +123,7 @@ fn conservative_coverage_finds_what_brute_force_finds() {
             continue;
         }
         let exact = built(&bench, Config::at_centres(resolution), &triangles);
-        assert_eq!(exact.kind(), StructureKind::Fragment);
+        assert_eq!(exact.description().kind, StructureKind::Fragment);
         let contents = exact.download(bench.device()).expect("the device works");
         let named: HashSet<u32> = contents.data[..contents.header.demand as usize].iter().copied().collect();
         let shares = right_shares(&named, &bench.trace(&exact, &rays).hits, &expected);
@@ -147,7 +147,7 @@ fn edge_on_triangles_are_found() {
         let exact = Config::at_centres(resolution);
         let made = |coverage| built(&bench, Config { coverage, ..exact }, &triangles);
         let [without, with, all] = [Coverage::Exact, Coverage::EdgeOn, Coverage::Conservative].map(made);
-        assert_eq!(with.kind(), StructureKind::Fragment);
+        assert_eq!(with.description().kind, StructureKind::Fragment);
         let reports = [&without, &with, &all].map(|structure| {
             let report = structure.report().expect("the header is readable");
             assert_eq!(report.formula_bytes, report.bytes() - report.slack(), "{resolution} cells");

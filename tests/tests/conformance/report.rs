@@ -17,7 +17,7 @@ pub fn run(
     faults: &[String],
 ) -> Run {
     let case = &prepared.case;
-    let target = match structure.kind() {
+    let target = match structure.description().kind {
         StructureKind::Primitive | StructureKind::LossyPrimitive => case.target.primitives,
         StructureKind::Fragment => case.target.fragments,
     };

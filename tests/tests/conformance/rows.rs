@@ -98,7 +98,7 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
     assert!(!rows.is_empty() || is_every_pair);
     for (row, structure) in &rows {
         assert_eq!(
-            structure.kind(),
+            structure.description().kind,
             row.demand.kind(),
             "{} demands what its structure does not promise",
             row.name

@@ -224,7 +224,7 @@ fn views_of_odd_sizes_keep_their_outermost_pixels() {
                 let name = format!("{} {}, {size} pixels along a side", system.name, preset.name());
                 let mut structure = spec.create(bench.device(), &geometry, None).expect("pipelines are made");
                 let hits = bench.build_and_trace(structure.as_mut(), [0.0; 3], &rays);
-                if structure.kind() == StructureKind::Primitive && preset == Preset::Robust {
+                if structure.description().kind == StructureKind::Primitive && preset == Preset::Robust {
                     exact += 1;
                     let same = hits.iter().zip(&expected).all(|(hit, expected)| bits(hit) == bits(expected));
                     assert!(same, "{name}: other hits than brute force's");

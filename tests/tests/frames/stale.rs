@@ -32,7 +32,7 @@ fn only_what_a_structure_depends_on_makes_it_build() {
         let crowd = Crowd::new(device, keeping.slots, 120, RAYS);
         let geometry = crowd.geometry(&shown);
         let structure = subject.structure(&bench, &geometry);
-        let depends_on = structure.depends_on();
+        let depends_on = structure.description().depends_on;
         // Cells along the axes are the same for every eye that is not far away.
         let eye_matters = structure.is_stale(turned, away);
         assert!(!eye_matters || depends_on.are_stale(turned, away), "{name}");

@@ -95,7 +95,7 @@ fn every_system_reaches_large_pools_by_address() {
         let mut structure = spec.create(bench.device(), &geometry, None).expect("addresses reach it");
         build_until_complete(bench.device(), structure.as_mut(), eye, Timing::None).expect("it is built");
         let hits = bench.trace(structure.as_ref(), &rays).hits;
-        if structure.kind() == StructureKind::Primitive {
+        if structure.description().kind == StructureKind::Primitive {
             assert_eq!(all_bits(&hits), all_bits(&truth), "{system}");
         }
         let is_other = |(hit, truth): &(&Hit, &Hit)| hit.primitive != truth.primitive;
@@ -199,7 +199,7 @@ fn a_million_triangles_are_found_alike() {
             continue;
         }
         let name = format!("{system} {}", option.map_or("", |(_, value)| value));
-        if structure.kind() == StructureKind::Primitive {
+        if structure.description().kind == StructureKind::Primitive {
             assert_eq!(all_bits(&hits), all_bits(&expected), "{name}");
             println!("{name}: the same hits");
             continue;

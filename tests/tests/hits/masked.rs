@@ -104,7 +104,7 @@ fn built_hits(bench: &Bench, spec: &Spec, scene: &GpuScene, rays: &[Ray]) -> (St
     let mut structure =
         spec.create(bench.device(), scene.geometry(), Some(scene.binding())).expect("it is made");
     build_until_complete(bench.device(), &mut *structure, scene.eye(), Timing::None).expect("it is built");
-    (structure.kind(), hits(bench, &*structure, rays))
+    (structure.description().kind, hits(bench, &*structure, rays))
 }
 
 /// Above 1, the cutoff hides a surface whole, textured as it is: what is behind is hit, bit for bit.

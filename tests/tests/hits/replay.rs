@@ -91,7 +91,7 @@ fn the_steps_are_the_work_and_end_in_the_hit() {
             let (mut paused, mut missed, mut noticed) = (false, 0, 0);
             for (index, ray) in rays.iter().enumerate() {
                 let replay = tracer.replay(logged.as_ref(), ray, mode).expect("the structure logs steps");
-                let context = format!("{} {mode:?} ray {index}\n{replay}", logged.name());
+                let context = format!("{} {mode:?} ray {index}\n{replay}", logged.description().name);
                 assert_eq!(replay.omitted, 0);
                 assert_eq!(replay.logged_work(), replay.work, "{context}");
                 let hit = replay.hit.expect("the ray finishes");
@@ -122,7 +122,7 @@ fn the_steps_are_the_work_and_end_in_the_hit() {
                     noticed += 1;
                 }
             }
-            let name = logged.name();
+            let name = logged.description().name;
             assert!(
                 (rays.len() / 8..3 * rays.len() / 4).contains(&missed),
                 "{name} {mode:?}: {missed} of {} rays miss",
@@ -131,8 +131,8 @@ fn the_steps_are_the_work_and_end_in_the_hit() {
             let hitting = rays.len() - missed;
             assert!(noticed >= hitting, "{name} {mode:?}: work for {noticed} rays, {hitting} hit something");
             // Ray queries cannot pause.
-            let is_bounded = !["brute-force", "driver"].contains(&logged.name());
-            assert_eq!(paused, is_bounded, "{}: a small budget makes rays pause", logged.name());
+            let is_bounded = !["brute-force", "driver"].contains(&logged.description().name);
+            assert_eq!(paused, is_bounded, "{}: a small budget makes rays pause", logged.description().name);
         }
     }
 }

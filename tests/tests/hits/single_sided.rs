@@ -216,7 +216,7 @@ fn structures_that_lose_no_hit_pass_the_same_backs() {
             let mut structure = spec
                 .create(bench.device(), stage.geometry(), Some(stage.binding()))
                 .expect("the structure can be made");
-            assert_eq!(structure.kind(), StructureKind::Primitive, "{name}");
+            assert_eq!(structure.description().kind, StructureKind::Primitive, "{name}");
             build_until_complete(bench.device(), &mut *structure, stage.eye(), Timing::None)
                 .expect("it is built");
             let found = hits(&bench, &*structure, &rays, TraceMode::Closest);

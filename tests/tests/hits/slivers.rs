@@ -46,7 +46,7 @@ fn needles_are_hit_as_by_brute_force() {
         let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
         let spec = Spec::new(system, "robust", given).expect("the options are valid");
         let mut structure = spec.create(bench.device(), &geometry, None).expect("it is made");
-        assert_eq!(structure.kind(), StructureKind::Primitive, "{system} {options:?}");
+        assert_eq!(structure.description().kind, StructureKind::Primitive, "{system} {options:?}");
         build_until_complete(bench.device(), &mut *structure, [0.0; 3], Timing::None)
             .expect("the build completes");
         let found = bench.trace(&*structure, &rays).hits;

@@ -76,7 +76,7 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
         }
         let demands = |status: &BuildStatus| status.pools.iter().map(|pool| pool.demand).collect::<Vec<_>>();
         statuses_differ += usize::from(demands(&found[0]) != demands(&found[1]));
-        let depends = structure.depends_on();
+        let depends = structure.description().depends_on;
         let same = expected[0].iter().map(bits).eq(expected[1].iter().map(bits));
         assert!(depends.eye || same, "{}: hits depend on the eye", subject.name());
         let beyond = device.submit(|recorder| structure.record_build(recorder, 3, eyes[0].into()));

@@ -41,7 +41,7 @@ fn images(bench: &Bench, scene: &GpuScene, spec: &Spec) -> (StructureKind, [Vec<
         rendered(bench, &path, &film, SAMPLES, structure.as_mut()),
         rendered(bench, &photons, &film, SAMPLES, structure.as_mut()),
     ];
-    (structure.kind(), found)
+    (structure.description().kind, found)
 }
 
 fn mean(image: &[[f32; 3]]) -> f32 {

@@ -30,7 +30,7 @@ fn image(bench: &Bench, scene: &GpuScene, system: &str) -> (StructureKind, Vec<[
     let desc = IntegratorDesc::new(device, scene, &film);
     let options = WhittedOptions { ray_depth: 6, ..WhittedOptions::default() };
     let whitted = Whitted::new(&desc, options).expect("the options are valid");
-    (structure.kind(), rendered(bench, &whitted, &film, SAMPLES, structure.as_mut()))
+    (structure.description().kind, rendered(bench, &whitted, &film, SAMPLES, structure.as_mut()))
 }
 
 #[test]

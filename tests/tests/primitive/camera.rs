@@ -95,7 +95,7 @@ fn what_the_camera_sees_is_found_and_all_else_is_missed() {
             [own, Config { storage: Storage::Linked, addressing: Addressing::Address, ..own }, other]
         {
             let lists = lists(&bench, config, &triangles, from).expect("the build completes");
-            assert_eq!(lists.kind(), StructureKind::LossyPrimitive);
+            assert_eq!(lists.description().kind, StructureKind::LossyPrimitive);
             let hits = bench.trace(&lists, &rays).hits;
             let (mut seen, mut missed) = (0, 0);
             for (index, (hit, expected)) in hits.iter().zip(&expected).enumerate() {

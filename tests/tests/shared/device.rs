@@ -111,7 +111,7 @@ fn runs(device: &Device, structure: &mut dyn Structure) {
     for mode in [TraceMode::Closest, TraceMode::Occluded] {
         let hits = tracer.trace(structure, &rays, mode, Timing::None).expect("all rays finish").hits;
         let missed = hits.iter().filter(|hit| !hit.is_hit()).count();
-        assert!(missed <= 2, "{}: {missed} rays leave a closed sphere", structure.name());
+        assert!(missed <= 2, "{}: {missed} rays leave a closed sphere", structure.description().name);
     }
 }
 
@@ -132,7 +132,7 @@ fn exact_device(requirements: &Requirements) -> Device {
 fn brute_force_runs_on_what_it_requires() {
     let device = exact_device(&BruteForce::requirements_of());
     let mut structure = BruteForce::new(&device, &geometry(&device), None, false).expect("that is enough");
-    assert_eq!(structure.requirements(), BruteForce::requirements_of());
+    assert_eq!(structure.description().requirements, BruteForce::requirements_of());
     runs(&device, &mut structure);
     drop(structure);
     assert_eq!(device.validation_messages(), Vec::<String>::new());
@@ -146,7 +146,7 @@ fn the_abuffer_runs_with_exactly_what_it_requires() {
         let device = exact_device(&requirements);
         let mut structure =
             ABuffer::new(&device, config, &geometry(&device), None).expect("its requirements are enough");
-        assert_eq!(structure.requirements(), requirements);
+        assert_eq!(structure.description().requirements, requirements);
         runs(&device, &mut structure);
         drop(structure);
         assert_eq!(device.validation_messages(), Vec::<String>::new(), "{addressing:?}");

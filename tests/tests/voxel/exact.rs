@@ -46,7 +46,7 @@ fn cells_that_keep_all_that_reaches_into_them_lose_no_hit() {
         let hits = bench.trace(&structure, &rays).hits;
         let wrong = hits.iter().zip(&expected).filter(|(hit, expected)| bits(hit) != bits(expected)).count();
         let found = bench.occluded(&structure, &rays);
-        (structure.kind(), wrong + found.iter().zip(&occluded).filter(|(a, b)| a != b).count())
+        (structure.description().kind, wrong + found.iter().zip(&occluded).filter(|(a, b)| a != b).count())
     };
     let kept = |resolution| Config { coverage: Coverage::Conservative, ..Config::at_centres(resolution) };
     for config in [
