@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use rasray_ads::{
     BuildStatus, Domain, Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_UNKNOWN, Ray, RayQueue, Structure,
-    Surface, TraceMode, Viewpoint,
+    Surface, Trace, TraceMode, Viewpoint,
 };
 pub use rasray_experiment::oracle_ray;
 use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Requirements, Timing};
@@ -180,13 +180,7 @@ impl Bench {
         device.submit(|recorder| queue.record_reset(recorder)).expect("the device works");
         device.upload_slice(queue.rays(), 0, rays).expect("the device works");
         let submitted = device.submit(|recorder| {
-            structure.record_trace(
-                recorder,
-                &queue,
-                Domain::First(count),
-                TraceMode::Closest,
-                structure.rounds(),
-            );
+            structure.record_trace(recorder, &queue, Trace::closest(Domain::First(count)));
             structure.record_surfaces(recorder, &queue, Domain::First(count))
         });
         submitted.expect("the device works").value.expect("the scene has surfaces");

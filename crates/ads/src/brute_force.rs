@@ -5,8 +5,8 @@ use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 use crate::slots::{check_read, check_recorded};
 use crate::{
     Addressing, AdsError, BuildStatus, Check, Counters, Dependencies, Description, Domain, Geometry, Modules,
-    RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc,
-    TraceMode, TracedPart, Viewpoint, default_work_budget,
+    RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, Trace, TraceKernels,
+    TraceKernelsDesc, TracedPart, Viewpoint, default_work_budget,
 };
 
 /// Tests every triangle: O(rays x triangles), no memory of its own.
@@ -84,22 +84,6 @@ impl BruteForce {
 const MODULES: Modules =
     Modules { structure: "brute-force", prefix: "brute", addressing: Addressing::Descriptor };
 
-impl BruteForce {
-    /// Records a trace of all triangles, or of those of a part.
-    fn trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-        part: TracedPart,
-    ) {
-        let Self { kernels, geometry, .. } = self;
-        kernels.record_trace(recorder, geometry, None, 0, queue, domain, mode, rounds, part);
-    }
-}
-
 impl Structure for BruteForce {
     fn description(&self) -> &Description {
         &self.description
@@ -159,26 +143,10 @@ impl Structure for BruteForce {
         self.geometry.triangle_count().div_ceil(self.work_budget) + 1
     }
 
-    fn record_trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-    ) {
-        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Whole);
-    }
-
-    fn record_continued_trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-    ) {
-        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Next { after: 0 });
+    fn record_trace(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, mut trace: Trace<'_>) {
+        trace.start = trace.start.of_all_rays();
+        let rounds = trace.rounds.unwrap_or_else(|| self.rounds());
+        self.kernels.record_trace(recorder, &self.geometry, None, 0, queue, trace, rounds);
     }
 
     fn record_surfaces(

@@ -4,7 +4,7 @@ use rasray_gpu::{Device, GpuError, Recorder};
 
 use crate::{
     AdsError, BuildStatus, Check, Description, Domain, Geometry, GeometryParts, Inspect, ListCounts,
-    RayQueue, SceneBinding, Sizes, Structure, StructureReport, TraceMode, TracedPart, Viewpoint,
+    RayQueue, SceneBinding, Sizes, Start, Structure, StructureReport, Trace, TracedPart, Viewpoint,
 };
 
 /// Structures of a kind over the parts of a geometry. A ray is traced through the static part and then through those that
@@ -97,34 +97,6 @@ impl Combined {
         self.geometry = geometry.clone();
         self.sizes = joined(&self.parts);
         Ok(())
-    }
-
-    /// Records the trace of each part: all rounds that it asks for where the caller asks for all.
-    fn trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-        continues: bool,
-    ) {
-        let all = rounds == self.rounds();
-        for (number, part) in self.parts.iter().enumerate() {
-            let rounds = if all { part.rounds() } else { rounds };
-            if number > 0 {
-                self.geometry.record_note(recorder, queue, number);
-            }
-            // The part of all that moves is met by many rays.
-            if number > 0 && self.parts.len() > 2 {
-                let rays = self.geometry.rays_of(number);
-                part.record_part_trace(recorder, queue, domain, mode, rounds, rays);
-            } else if continues || number > 0 {
-                part.record_continued_trace(recorder, queue, domain, mode, rounds);
-            } else {
-                part.record_trace(recorder, queue, domain, mode, rounds);
-            }
-        }
     }
 }
 
@@ -226,26 +198,19 @@ impl Structure for Combined {
         self.parts.iter().filter(|part| part.allow_more_rounds()).count() > 0
     }
 
-    fn record_trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-    ) {
-        self.trace(recorder, queue, domain, mode, rounds, false);
-    }
-
-    fn record_continued_trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-    ) {
-        self.trace(recorder, queue, domain, mode, rounds, true);
+    fn record_trace(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, trace: Trace<'_>) {
+        for (number, part) in self.parts.iter().enumerate() {
+            if number > 0 {
+                self.geometry.record_note(recorder, queue, number);
+            }
+            let start = match number {
+                0 => trace.start.of_all_rays(),
+                // The part of all that moves is met by many rays.
+                _ if self.parts.len() == 2 => Start::Continue,
+                _ => Start::Part(self.geometry.rays_of(number)),
+            };
+            part.record_trace(recorder, queue, Trace { start, ..trace });
+        }
     }
 
     fn record_surfaces(

@@ -10,26 +10,25 @@ use rasray_shaders_glsl::{Shader, constant_ids::contract::COUNTERS};
 
 use crate::addressing::halves;
 use crate::{
-    AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, SceneBinding, TraceMode, TraceModules,
+    AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, SceneBinding, Start, Trace, TraceMode,
+    TraceModules,
 };
 
-/// Triangles that a structure is traced for.
+/// Triangles among those of a geometry whose hits a structure looks up surfaces for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TracedPart {
-    /// All triangles.
+    /// All of them.
     Whole,
-    /// The part of a geometry that is traced first.
+    /// The part that was traced first.
     First {
-        /// Parts traced after it: surfaces alone ask.
+        /// Number of parts that were traced after it.
         after: u32,
     },
-    /// A part that is traced next, which goes on from the hits that a queue has of those before.
+    /// A part that was traced next, which went on from the hits that the queue had of those before.
     Next {
-        /// Parts traced after it: surfaces alone ask.
+        /// Number of parts that were traced after it.
         after: u32,
     },
-    /// As `Next`, for rays that the queue lists as paused, with states ([`PartRays`](crate::PartRays)).
-    Listed,
 }
 
 impl TracedPart {
@@ -38,7 +37,6 @@ impl TracedPart {
             Self::Whole => PART_WHOLE,
             Self::First { after } => PART_FIRST + after * PART_AFTER,
             Self::Next { after } => PART_NEXT + after * PART_AFTER,
-            Self::Listed => PART_NEXT,
         }
     }
 }
@@ -138,12 +136,12 @@ impl TraceKernels {
         Ok(())
     }
 
-    fn constants(&self, address: u64, domain: Domain, part: TracedPart) -> TraceConstants {
+    fn constants(&self, address: u64, domain: Domain, part: u32) -> TraceConstants {
         TraceConstants {
             structure: halves(address),
             domain: domain.word(),
             work_budget: self.work_budget,
-            part: part.constant(),
+            part,
             any_hit: 0,
         }
     }
@@ -170,8 +168,8 @@ impl TraceKernels {
     }
 
     /// Records a trace of the slots of `domain`: one dispatch for all, then up to `rounds - 1` for
-    /// the rays that paused. Rays still paused after that are counted as unfinished. Through the next part rays keep the
-    /// hits that the queue has, unless a better one is found.
+    /// the rays that paused. Rays still paused after that are counted as unfinished. `rounds` stands for [`Trace::rounds`].
+    /// With [`Start::Part`] the queue lists the rays as paused, with states.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -180,15 +178,18 @@ impl TraceKernels {
         structure: Option<&BindingSet>,
         address: u64,
         queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
+        trace: Trace<'_>,
         rounds: u32,
-        part: TracedPart,
     ) {
+        let Trace { domain, mode, start, .. } = trace;
+        let (part, listed) = match start {
+            Start::New => (PART_WHOLE, false),
+            Start::Continue => (PART_NEXT, false),
+            Start::Part(_) => (PART_NEXT, true),
+        };
         let any_hit = mode == TraceMode::Occluded;
         let constants = TraceConstants { any_hit: any_hit.into(), ..self.constants(address, domain, part) };
         recorder.begin_pass(Stage::Trace(mode), &self.trace_labels[usize::from(any_hit)]);
-        let listed = part == TracedPart::Listed;
         if !listed {
             record_first_round(recorder, queue);
             self.bind(recorder, &self.trace, geometry, structure, queue, constants);
@@ -255,7 +256,7 @@ impl Lookup<'_> {
         queue: &RayQueue,
         domain: Domain,
     ) {
-        let constants = self.kernels.constants(address, domain, self.part);
+        let constants = self.kernels.constants(address, domain, self.part.constant());
         recorder.begin_pass(self.stage, self.kernel.label);
         self.kernels.bind(recorder, &self.kernel.pipeline, geometry, structure, queue, constants);
         queue.record_dispatch(recorder, domain);

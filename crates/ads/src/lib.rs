@@ -56,6 +56,7 @@ mod slots;
 mod status;
 mod steps;
 mod structure;
+mod trace;
 mod viewpoint;
 mod visit;
 mod words;
@@ -98,6 +99,7 @@ pub use sizes::{PoolSize, Sizes};
 pub use status::{BuildStatus, Check, Growth, PoolStatus};
 pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
 pub use structure::{InlineTrace, Structure, StructureReport};
+pub use trace::{Start, Trace};
 pub use viewpoint::{CameraView, Viewpoint, box_is_same};
 pub use visit::{Builder, LargePass, Visit, Visits, bin_groups};
 

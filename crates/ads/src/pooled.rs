@@ -8,9 +8,9 @@ use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Demand, Description, Design, Domain,
-    Geometry, GeometryRigid, InlineTrace, Inspect, ListCounts, Modules, PartRays, Parts, PoolContents,
-    PoolName, PoolSize, PoolStatus, Pools, RayQueue, RecordLayout, SceneBinding, Sizes, Structure,
-    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, TracedPart, Viewpoint,
+    Geometry, GeometryRigid, InlineTrace, Inspect, ListCounts, Modules, Parts, PoolContents, PoolName,
+    PoolSize, PoolStatus, Pools, RayQueue, RecordLayout, SceneBinding, Sizes, Start, Structure,
+    StructureKind, StructureReport, Trace, TraceKernels, TraceKernelsDesc, TracedPart, Viewpoint,
     default_work_budget,
 };
 
@@ -177,24 +177,6 @@ impl<D: Design> Pooled<D> {
     fn first_rounds(&self) -> u32 {
         D::first_rounds(&self.parts, &self.known())
     }
-
-    fn trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-        part: TracedPart,
-    ) {
-        let (Parts { pools, .. }, geometry, kernels) = (&self.parts, &self.traced, &self.kernels);
-        let corrupted = D::CORRUPTED;
-        if self.is_scene_new {
-            pools.record_forget(recorder);
-        }
-        self.design.keep(recorder);
-        pools.record_trace(recorder, kernels, geometry, queue, domain, mode, rounds, part, corrupted);
-    }
 }
 
 impl<D: Design> Structure for Pooled<D> {
@@ -331,46 +313,20 @@ impl<D: Design> Structure for Pooled<D> {
         }
     }
 
-    fn record_trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-    ) {
-        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Whole);
-    }
-
-    fn record_continued_trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-    ) {
-        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Next { after: 0 });
-    }
-
-    fn record_part_trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-        rays: PartRays<'_>,
-    ) {
-        if self.description.kind != StructureKind::Primitive {
-            return self.record_continued_trace(recorder, queue, domain, mode, rounds);
-        }
-        let pools = &self.parts.pools;
+    fn record_trace(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, mut trace: Trace<'_>) {
+        let (Parts { pools, .. }, geometry, kernels) = (&self.parts, &self.traced, &self.kernels);
         if self.is_scene_new {
             pools.record_forget(recorder);
         }
-        rays.record(recorder, pools.header_buffer(), queue, domain, mode);
-        self.trace(recorder, queue, domain, mode, rounds, TracedPart::Listed);
+        if self.description.kind != StructureKind::Primitive {
+            trace.start = trace.start.of_all_rays();
+        }
+        if let Start::Part(rays) = trace.start {
+            rays.record(recorder, pools.header_buffer(), queue, trace.domain, trace.mode);
+        }
+        self.design.keep(recorder);
+        let rounds = trace.rounds.unwrap_or_else(|| self.rounds());
+        pools.record_trace(recorder, kernels, geometry, queue, trace, rounds, D::CORRUPTED);
     }
 
     fn record_surfaces(

@@ -13,7 +13,7 @@ use crate::addressing::halves;
 use crate::slots::Slots;
 use crate::{
     Addressing, AdsError, Domain, Geometry, HEADER_POOL, InlineTrace, Lookup, PoolName, PoolSize,
-    QueueHeader, RayQueue, Sizes, TraceKernels, TraceMode, TracedPart,
+    QueueHeader, RayQueue, Sizes, Trace, TraceKernels,
 };
 
 /// Where the header of a queue notes how many list entries with an invalid index a structure met.
@@ -295,9 +295,8 @@ impl Pools {
         self.allow_more_rounds(first, most.min(u32::MAX.into()) as u32)
     }
 
-    /// Records a trace of the slots of `domain`. Traces count list entries with an invalid index in the word of the
-    /// header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]). For a next part
-    /// the queue has hits of those before.
+    /// Records a trace, as [`TraceKernels::record_trace`]. Traces count list entries with an invalid index in the word of the
+    /// header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]).
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -305,15 +304,13 @@ impl Pools {
         kernels: &TraceKernels,
         geometry: &Geometry,
         queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
+        trace: Trace<'_>,
         rounds: u32,
-        part: TracedPart,
         corrupted: usize,
     ) {
         self.keep(recorder);
         let (set, address) = (self.set(), self.address());
-        kernels.record_trace(recorder, geometry, set, address, queue, domain, mode, rounds, part);
+        kernels.record_trace(recorder, geometry, set, address, queue, trace, rounds);
         self.record_corrupted(recorder, queue, corrupted);
     }
 

@@ -1,10 +1,10 @@
 //! The contract between structures and everything that traces through them.
 
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, SetLayout, TraceMode};
+use rasray_gpu::{BindingSet, Device, GpuError, Recorder, SetLayout};
 
 use crate::{
-    AdsError, BuildStatus, Check, Description, Domain, Geometry, Inspect, PartRays, RayQueue, SceneBinding,
-    Sizes, TracedPart, Viewpoint,
+    AdsError, BuildStatus, Check, Description, Domain, Geometry, Inspect, RayQueue, SceneBinding, Sizes,
+    Trace, TracedPart, Viewpoint,
 };
 
 /// What a structure reports once built.
@@ -154,40 +154,8 @@ pub trait Structure {
         false
     }
 
-    /// Records a trace of the slots of `domain` of `queue`, in at most `rounds` rounds.
-    fn record_trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-    );
-
-    /// Records a trace that goes on from the hits that the slots of `domain` have: those of another structure over other
-    /// triangles of the same geometry, traced before in the same mode. A slot keeps its hit unless a better one is found.
-    /// Slots without an answer because that structure was not ready get none.
-    fn record_continued_trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-    );
-
-    /// The same for one part of several. Where all triangles are found, rays that pass by its bounds need not be traced.
-    fn record_part_trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-        mode: TraceMode,
-        rounds: u32,
-        _rays: PartRays<'_>,
-    ) {
-        self.record_continued_trace(recorder, queue, domain, mode, rounds);
-    }
+    /// Records a trace of rays of `queue`, whose hits are in their slots afterwards.
+    fn record_trace(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, trace: Trace<'_>);
 
     /// Records the lookup of the surfaces of the slots of `domain` of `queue`.
     ///

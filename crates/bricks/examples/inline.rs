@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use rasray_ads::{BruteForce, Domain, Geometry, Hit, InlineTrace, Ray, RayQueue, Structure, TraceMode};
+use rasray_ads::{BruteForce, Domain, Geometry, Hit, InlineTrace, Ray, RayQueue, Structure, Trace};
 use rasray_bricks::{Bricks, Config, Views};
 use rasray_gpu::{Access, Device, Recorded, Recorder, vk};
 use rasray_shader_compiler::{Module, compile};
@@ -159,14 +159,8 @@ impl Slot {
         }
         self.rays.record_reset(&mut recorder);
         self.reference.record_build(&mut recorder, 0, [0.5; 3].into())?;
-        let (count, rounds) = (self.rays.capacity(), self.reference.rounds());
-        self.reference.record_trace(
-            &mut recorder,
-            &self.rays,
-            Domain::First(count),
-            TraceMode::Closest,
-            rounds,
-        );
+        let count = self.rays.capacity();
+        self.reference.record_trace(&mut recorder, &self.rays, Trace::closest(Domain::First(count)));
         let expected = host.adopted(device, "expected", self.expected);
         recorder.copy(self.rays.hits(), 0, &expected, 0, expected.size());
         recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::HOST_READ);

@@ -1,6 +1,6 @@
 //! The passes of a structure on a scene: what a build, a trace and a surface lookup record.
 
-use rasray_ads::{Domain, RayQueue, TraceMode};
+use rasray_ads::{Domain, RayQueue, Trace};
 use rasray_gpu::{Device, PassCommands};
 
 use crate::built::Built;
@@ -26,9 +26,8 @@ pub(super) fn pass_list(device: &Device, job: &RenderJob<'_>) -> Result<Vec<Pass
         queue.record_reset(recorder);
         frames.record(recorder, 0, viewpoint)?;
         let (structure, all) = (frames.structure(), Domain::First(RAYS));
-        let rounds = structure.rounds();
-        structure.record_trace(recorder, &queue, all, TraceMode::Closest, rounds);
-        structure.record_trace(recorder, &queue, all, TraceMode::Occluded, rounds);
+        structure.record_trace(recorder, &queue, Trace::closest(all));
+        structure.record_trace(recorder, &queue, Trace::occluded(all));
         structure.record_surfaces(recorder, &queue, all)?;
         Ok::<_, rasray_ads::AdsError>(recorder.passes().to_vec())
     })?;

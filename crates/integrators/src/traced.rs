@@ -1,6 +1,6 @@
 //! The structure that the rays of an integrator are traced through.
 
-use rasray_ads::{AdsError, Domain, Occluder, RayQueue, Structure, TraceMode};
+use rasray_ads::{AdsError, Domain, Occluder, RayQueue, Structure, Trace};
 use rasray_gpu::Recorder;
 
 use crate::{Fetch, IntegratorError, Visibility, Wave};
@@ -117,7 +117,7 @@ impl<'a> Traced<'a> {
         queue: &RayQueue,
         domain: Domain,
     ) -> Result<(), AdsError> {
-        self.closest.record_trace(recorder, queue, domain, TraceMode::Closest, self.closest.rounds());
+        self.closest.record_trace(recorder, queue, Trace::closest(domain));
         match self.fetch {
             Some(fetch) => fetch.record(recorder, queue, domain, self.closest.description().kind),
             None if self.of_hits => Ok(()),
@@ -129,10 +129,7 @@ impl<'a> Traced<'a> {
     pub(crate) fn record_occluded(self, recorder: &mut Recorder<'_>, queue: &RayQueue, domain: Domain) {
         match self.occluder {
             Some(occluder) => occluder.record_occluded(recorder, queue, domain, self.closest),
-            None => {
-                let rounds = self.closest.rounds();
-                self.closest.record_trace(recorder, queue, domain, TraceMode::Occluded, rounds);
-            }
+            None => self.closest.record_trace(recorder, queue, Trace::occluded(domain)),
         }
     }
 }

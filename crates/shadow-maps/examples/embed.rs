@@ -1,7 +1,7 @@
 //! Shadow maps in a plain ash program with its own device: a lamp and a sun above a staircase, whose shadow rays are
 //! answered by maps and compared with those of brute force.
 
-use rasray_ads::{BruteForce, Domain, Hit, Occluder, Ray, RayQueue, Structure, TraceMode};
+use rasray_ads::{BruteForce, Domain, Hit, Occluder, Ray, RayQueue, Structure, Trace};
 use rasray_gpu::{Device, Recorder};
 use rasray_shaders_glsl::constants::scene::{LIGHT_DIRECTIONAL, LIGHT_POINT};
 use rasray_shadow_maps::{Config, Light, Lights, ShadowMaps};
@@ -59,8 +59,7 @@ pub fn main() -> Result<()> {
                 maps.record_build(&mut recorder);
                 maps.record_occluded(&mut recorder, &queue, all, &structure);
             } else {
-                let rounds = structure.rounds();
-                structure.record_trace(&mut recorder, &queue, all, TraceMode::Occluded, rounds);
+                structure.record_trace(&mut recorder, &queue, Trace::occluded(all));
             }
             Ok(recorder.finish()?)
         })?;

@@ -2,7 +2,7 @@
 
 use bytemuck::{bytes_of, cast_slice};
 use rasray_ads::{
-    Addressing, AdsError, Domain, Geometry, Modules, Occluder, RayQueue, SceneBinding, Structure,
+    Addressing, AdsError, Domain, Geometry, Modules, Occluder, RayQueue, SceneBinding, Structure, Trace,
 };
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
@@ -257,9 +257,8 @@ impl Occluder for ShadowMaps {
         domain: Domain,
         structure: &dyn Structure,
     ) {
-        let rounds = structure.rounds();
         if self.of_lights.view_count == 0 {
-            return structure.record_trace(recorder, queue, domain, TraceMode::Occluded, rounds);
+            return structure.record_trace(recorder, queue, Trace::occluded(domain));
         }
         recorder.begin_pass(Stage::Trace(TraceMode::Occluded), "shadow_maps/occluded");
         recorder.bind_compute(&self.occluded);
@@ -269,7 +268,7 @@ impl Occluder for ShadowMaps {
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
         recorder.end_pass();
         queue.record_take(recorder);
-        structure.record_trace(recorder, queue, Domain::Selected, TraceMode::Occluded, rounds);
+        structure.record_trace(recorder, queue, Trace::occluded(Domain::Selected));
         queue.record_take_back(recorder);
     }
 }

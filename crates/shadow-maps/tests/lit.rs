@@ -3,7 +3,7 @@
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use glam::{DAffine3, DVec3};
-use rasray_ads::{BruteForce, Domain, Hit, Occluder, Ray, RayQueue, Structure, TraceMode};
+use rasray_ads::{BruteForce, Domain, Hit, Occluder, Ray, RayQueue, Structure, Trace};
 use rasray_gpu::{Device, DeviceDesc};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_scene::{Camera, Instance, Light, Material, Mesh, Projection, Scene};
@@ -176,12 +176,11 @@ impl Lit {
     }
 
     pub fn ask(&self, queue: &RayQueue, by_maps: bool, domain: Domain) {
-        let rounds = self.structure.rounds();
         let submitted = self.device.submit(|recorder| {
             if by_maps {
                 self.maps.record_occluded(recorder, queue, domain, &self.structure);
             } else {
-                self.structure.record_trace(recorder, queue, domain, TraceMode::Occluded, rounds);
+                self.structure.record_trace(recorder, queue, Trace::occluded(domain));
             }
         });
         submitted.expect("the rays are answered");

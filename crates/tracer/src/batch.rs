@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use rasray_ads::{
-    Counters, Domain, Hit, QueueCounters, QueueParts, Ray, RayQueue, RayWork, Structure, TraceMode,
+    Counters, Domain, Hit, QueueCounters, QueueParts, Ray, RayQueue, RayWork, Structure, Trace, TraceMode,
 };
 use rasray_gpu::{Device, PassTiming, Timing};
 
@@ -65,7 +65,7 @@ impl BatchTracer {
     ) -> Result<TraceOutcome, TracerError> {
         loop {
             let rounds = structure.rounds();
-            let outcome = self.trace_in(rounds, structure, rays, mode, timing)?;
+            let outcome = self.trace_once(structure, rays, mode, timing)?;
             let unfinished = outcome.counters.unfinished;
             if unfinished == 0 {
                 return Ok(outcome);
@@ -76,9 +76,8 @@ impl BatchTracer {
         }
     }
 
-    fn trace_in(
+    fn trace_once(
         &self,
-        rounds: u32,
         structure: &dyn Structure,
         rays: &[Ray],
         mode: TraceMode,
@@ -95,7 +94,7 @@ impl BatchTracer {
             self.device.upload_slice(self.queue.rays(), 0, chunk)?;
             let started = Instant::now();
             let submitted = self.device.submit_passes(timing, |recorder| {
-                structure.record_trace(recorder, &self.queue, Domain::First(count), mode, rounds);
+                structure.record_trace(recorder, &self.queue, Trace::new(Domain::First(count), mode));
             })?;
             self.shares.learn(structure.into(), count, started.elapsed().as_secs_f64());
             outcome.passes.extend(submitted.passes);

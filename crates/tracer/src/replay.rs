@@ -3,7 +3,8 @@
 use std::fmt;
 
 use rasray_ads::{
-    Counters, Domain, Hit, QueueParts, Ray, RayQueue, RayWork, StepKind, Structure, TraceMode, TraceStep,
+    Counters, Domain, Hit, QueueParts, Ray, RayQueue, RayWork, StepKind, Structure, Trace, TraceMode,
+    TraceStep,
 };
 use rasray_gpu::Device;
 
@@ -72,7 +73,7 @@ impl Replay {
         device.submit(|recorder| queue.record_reset(recorder))?;
         device.upload_slice(queue.rays(), 0, &[*ray])?;
         device.submit(|recorder| {
-            structure.record_trace(recorder, &queue, Domain::First(1), mode, structure.rounds())
+            structure.record_trace(recorder, &queue, Trace::new(Domain::First(1), mode))
         })?;
         let counters = queue.download_counters(device)?;
         let answered = counters.unfinished == 0 && counters.not_ready == 0;

@@ -1,4 +1,4 @@
-use rasray_ads::{Domain, Hit, QueueCounters, Ray, RayQueue, Structure, TraceMode};
+use rasray_ads::{Domain, Hit, QueueCounters, Ray, RayQueue, Structure, Trace, TraceMode};
 
 use crate::harness::Bench;
 
@@ -20,7 +20,13 @@ pub fn trace_in_rounds(
     device.submit(|recorder| queue.record_reset(recorder)).expect("the device works");
     device.upload_slice(queue.rays(), 0, rays).expect("the device works");
     device
-        .submit(|recorder| structure.record_trace(recorder, &queue, Domain::First(count), mode, rounds))
+        .submit(|recorder| {
+            structure.record_trace(
+                recorder,
+                &queue,
+                Trace { rounds: Some(rounds), ..Trace::new(Domain::First(count), mode) },
+            )
+        })
         .expect("the device works");
     let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
     (hits, queue.download_counters(device).expect("the device works"))

@@ -3,7 +3,7 @@
 
 use rasray_ads::{
     BoundsPass, Domain, Draw, Geometry, GeometryDesc, GeometryParts, Hit, QueueCounters, QueueHeader, Ray,
-    RayQueue, Structure, TraceMode,
+    RayQueue, Structure, Trace,
 };
 use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder};
 use rasray_tests::random::Random;
@@ -135,7 +135,7 @@ impl Crowd {
         recorder.copy(&slot.rays, 0, self.queue.rays(), 0, slot.rays.size());
         self.queue.record_reset(recorder);
         let all = Domain::First(self.queue.capacity());
-        structure.record_trace(recorder, &self.queue, all, TraceMode::Closest, structure.rounds());
+        structure.record_trace(recorder, &self.queue, Trace::closest(all));
         recorder.barrier(Access::COMPUTE, Access::TRANSFER);
         recorder.copy(self.queue.hits(), 0, &slot.hits, 0, slot.hits.size());
         recorder.copy(self.queue.header(), 0, &slot.header, 0, slot.header.size());

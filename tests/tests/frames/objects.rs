@@ -2,7 +2,7 @@
 //! fragments are where their objects are.
 
 use glam::{DVec3, Vec3};
-use rasray_ads::{Combined, Counters, Domain, GeometryRigid, PRIMITIVE_UNKNOWN, Ray, RayQueue, TraceMode};
+use rasray_ads::{Combined, Counters, Domain, GeometryRigid, PRIMITIVE_UNKNOWN, Ray, RayQueue, Trace};
 use rasray_gpu_scene::{GpuScene, Parts, PosePass, SceneTables};
 use rasray_scene::animation::ChannelValues;
 use rasray_scene::{Moment, Scene};
@@ -147,8 +147,7 @@ fn walk(
     let queue = RayQueue::new(device, "rays", 1, false).expect("a queue fits");
     let structure = kept.frames.structure();
     let recorded = device.submit(|recorder| {
-        let (all, rounds) = (Domain::First(1), structure.rounds());
-        structure.record_trace(recorder, &queue, all, TraceMode::Closest, rounds);
+        structure.record_trace(recorder, &queue, Trace::closest(Domain::First(1)));
         Recorded::of(recorder.passes())
     });
     walked.dispatches = recorded.expect("the device works").value.dispatches;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rasray_ads::{
     AdsError, Combined, Domain, Geometry, GeometryParts, Hit, MovingPart, Ray, RayQueue, Structure,
-    StructureKind, TraceMode,
+    StructureKind, Trace, TraceMode,
 };
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::invariance::{Subject, first_difference};
@@ -228,7 +228,7 @@ fn one_part_alone_gives_no_answer() {
             device.upload_slice(queue.rays(), 0, &rays).expect("the device works");
             let all = Domain::First(rays.len() as u32);
             device
-                .submit(|recorder| structure.record_trace(recorder, &queue, all, mode, structure.rounds()))
+                .submit(|recorder| structure.record_trace(recorder, &queue, Trace::new(all, mode)))
                 .expect("the device works");
             let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
             let counters = queue.download_counters(device).expect("the device works");

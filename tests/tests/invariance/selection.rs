@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{Domain, Hit, QueueHeader, Ray, RayQueue, Structure, TraceMode};
+use rasray_ads::{Domain, Hit, QueueHeader, Ray, RayQueue, Structure, Trace, TraceMode};
 use rasray_gpu::Device;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::invariance::Subject;
@@ -34,7 +34,7 @@ fn traced(device: &Device, queue: &RayQueue, structure: &dyn Structure, mode: Tr
     device
         .submit(|recorder| {
             queue.record_take(recorder);
-            structure.record_trace(recorder, queue, Domain::Selected, mode, structure.rounds());
+            structure.record_trace(recorder, queue, Trace::new(Domain::Selected, mode));
         })
         .expect("the device works");
     let header = device.download_as::<QueueHeader>(queue.header(), 0, 1).expect("the device works")[0];

@@ -2,7 +2,7 @@
 //! are in use, demand that increases.
 
 use ash::vk;
-use rasray_ads::{AdsError, BuildStatus, Check, Domain, Hit, Ray, RayQueue, TraceMode};
+use rasray_ads::{AdsError, BuildStatus, Check, Domain, Hit, Ray, RayQueue, Trace};
 use rasray_gpu::{Recorder, Timing};
 use rasray_systems::Spec;
 use rasray_tests::harness::{Bench, bits};
@@ -54,13 +54,7 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
         let submitted = device.submit(|recorder| {
             for ((eye, queue), slot) in eyes.iter().zip(&queues).zip(1..) {
                 structure.record_build(recorder, slot, (*eye).into())?;
-                structure.record_trace(
-                    recorder,
-                    queue,
-                    Domain::First(count),
-                    TraceMode::Closest,
-                    structure.rounds(),
-                );
+                structure.record_trace(recorder, queue, Trace::closest(Domain::First(count)));
             }
             Ok::<_, AdsError>(())
         });
@@ -121,13 +115,7 @@ fn a_structure_may_be_dropped_or_resized_while_the_device_has_yet_to_use_it() {
             let mut recorder = Recorder::from_raw(device, commands[0]);
             rays_of.record_reset(&mut recorder);
             structure.record_build(&mut recorder, 0, [0.0; 3].into()).expect("it is recorded");
-            structure.record_trace(
-                &mut recorder,
-                &rays_of,
-                Domain::First(8),
-                TraceMode::Closest,
-                structure.rounds(),
-            );
+            structure.record_trace(&mut recorder, &rays_of, Trace::closest(Domain::First(8)));
             let recorded = recorder.finish().expect("no mistake");
             raw.end_command_buffer(commands[0]).expect("ended");
             let sizes = larger(structure.sizes().clone());

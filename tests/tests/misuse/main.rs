@@ -6,7 +6,7 @@ mod geometry;
 mod queues;
 mod unbuilt;
 
-use rasray_ads::{Addressing, Check, Domain, Hit, Pools, Ray, RayQueue, Sizes, TraceMode};
+use rasray_ads::{Addressing, Check, Domain, Hit, Pools, Ray, RayQueue, Sizes, Trace, TraceMode};
 use rasray_bvh::{Header, Pool};
 use rasray_gpu::{BufferDesc, BufferUsage, GpuError, MemoryLocation, Timing};
 use rasray_tests::harness::Bench;
@@ -121,7 +121,11 @@ fn slots_beyond_the_queue_are_refused() {
         let structure = subject.spec.create(device, &geometry, None).expect("it can be made");
         let submitted = device
             .submit(|recorder| {
-                structure.record_trace(recorder, &queue, Domain::First(9), TraceMode::Closest, 1)
+                structure.record_trace(
+                    recorder,
+                    &queue,
+                    Trace { rounds: Some(1), ..Trace::closest(Domain::First(9)) },
+                )
             })
             .map(drop);
         let error = submitted.expect_err("there are 8 slots").to_string();

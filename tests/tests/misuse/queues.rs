@@ -1,7 +1,7 @@
 //! Queues that nobody wrote to, and queues of buffers of a host.
 
 use rasray_ads::{
-    AdsError, BruteForce, Domain, Hit, QueueBuffers, QueueParts, Ray, RayQueue, Structure, TraceMode,
+    AdsError, BruteForce, Domain, Hit, QueueBuffers, QueueParts, Ray, RayQueue, Structure, Trace,
 };
 use rasray_gpu::{Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, RawDevice, vk};
 use rasray_integrators::Film;
@@ -36,7 +36,7 @@ fn a_fresh_queue_selects_nothing_and_its_rays_miss() {
         }
         let trace = |domain| {
             let submitted = device.submit(|recorder| {
-                brute.record_trace(recorder, &queue, domain, TraceMode::Closest, brute.rounds());
+                brute.record_trace(recorder, &queue, Trace::closest(domain));
             });
             submitted.expect("the device works");
             device.download_as::<Hit>(queue.hits(), 0, slots as usize).expect("the device works")
@@ -96,7 +96,7 @@ fn a_queue_of_buffers_of_the_host_traces_what_is_in_them() {
                 if resets {
                     queue.record_reset(recorder);
                 }
-                brute.record_trace(recorder, &queue, Domain::First(64), TraceMode::Closest, brute.rounds());
+                brute.record_trace(recorder, &queue, Trace::closest(Domain::First(64)));
             });
             submitted.expect("the device works");
         };

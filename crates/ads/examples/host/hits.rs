@@ -1,7 +1,7 @@
 //! A structure in the command buffers of the host, the same for every one: built, traced, and resized where a build
 //! needs more capacity.
 
-use rasray_ads::{Check, Domain, Hit, RayQueue, Structure, TraceMode};
+use rasray_ads::{Check, Domain, Hit, RayQueue, Structure, Trace};
 use rasray_gpu::{Device, Recorder};
 
 use super::{Host, Result, rays};
@@ -18,13 +18,7 @@ pub fn hits(host: &Host, device: &Device, structure: &mut dyn Structure) -> Resu
             let mut recorder = unsafe { Recorder::from_raw(device, commands) };
             queue.record_reset(&mut recorder);
             structure.record_build(&mut recorder, 0, [0.5, 0.5, -0.5].into())?;
-            structure.record_trace(
-                &mut recorder,
-                &queue,
-                Domain::First(1000),
-                TraceMode::Closest,
-                structure.rounds(),
-            );
+            structure.record_trace(&mut recorder, &queue, Trace::closest(Domain::First(1000)));
             Ok(recorder.finish()?)
         })?;
         host.wait(0)?;
