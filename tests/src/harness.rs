@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use rasray_ads::{
     BuildStatus, Domain, Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_UNKNOWN, Ray, RayQueue, Structure,
-    Surface, Trace, TraceMode, Viewpoint,
+    Surface, Trace, TraceMode, TracedPart, Viewpoint,
 };
 pub use rasray_experiment::oracle_ray;
 use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Requirements, Timing};
@@ -181,7 +181,7 @@ impl Bench {
         device.upload_slice(queue.rays(), 0, rays).expect("the device works");
         let submitted = device.submit(|recorder| {
             structure.record_trace(recorder, &queue, Trace::closest(Domain::First(count)));
-            structure.record_surfaces(recorder, &queue, Domain::First(count))
+            structure.record_surfaces(recorder, &queue, Domain::First(count), TracedPart::Whole)
         });
         submitted.expect("the device works").value.expect("the scene has surfaces");
         let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");

@@ -107,10 +107,6 @@ impl Structure for BruteForce {
         self.kernels.set_scene(self.description.name, scene)
     }
 
-    fn slots(&self) -> u32 {
-        self.slots
-    }
-
     fn set_slots(&mut self, _device: &Device, slots: u32) -> Result<(), AdsError> {
         self.slots = slots.max(1);
         Ok(())
@@ -154,6 +150,7 @@ impl Structure for BruteForce {
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,
         domain: Domain,
+        _part: TracedPart,
     ) -> Result<(), AdsError> {
         let lookup = self
             .kernels

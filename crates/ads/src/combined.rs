@@ -7,10 +7,11 @@ use crate::{
     RayQueue, SceneBinding, Sizes, Start, Structure, StructureReport, Trace, TracedPart, Viewpoint,
 };
 
-/// Structures of a kind over the parts of a geometry. A ray is traced through the static part and then through those that
-/// move, one after the other: the nearest of the hits that each alone gives wins, and at the same t the lower id, as within
-/// one structure; of stored fragments that of the part before. So hits are those of one structure over all triangles, bit
-/// for bit, where it finds every triangle ([`StructureKind::Primitive`]). Others have the errors of several structures, each
+/// Structures of a kind over the parts of a geometry. A ray is traced through the static part and then through those
+/// that move, one after the other: the nearest of the hits that each alone gives wins, and at the same t the lower id,
+/// as within one structure; of stored fragments that of the part before. So hits are those of one structure over all
+/// triangles, bit for bit, where it finds every triangle
+/// ([`StructureKind::Primitive`](crate::StructureKind::Primitive)). Others have the errors of several structures, each
 /// with views and cells around its own part.
 ///
 /// As a [`Structure`] it builds all parts. What builds only the parts that moved is a loop over frames that keeps each
@@ -139,10 +140,6 @@ impl Structure for Combined {
         self.parts.iter_mut().try_for_each(|part| part.prepare_build(device))
     }
 
-    fn slots(&self) -> u32 {
-        self.parts[0].slots()
-    }
-
     fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError> {
         self.parts.iter_mut().try_for_each(|part| part.set_slots(device, slots))
     }
@@ -218,18 +215,20 @@ impl Structure for Combined {
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,
         domain: Domain,
+        _part: TracedPart,
     ) -> Result<(), AdsError> {
+        let last = self.parts.len() - 1;
         if self.description.kind.finds_triangles() {
             // The queue has noted faults of the others.
-            return self.parts[self.parts.len() - 1].record_surfaces(recorder, queue, domain);
+            return self.parts[last].record_surfaces(recorder, queue, domain, TracedPart::Whole);
         }
         for (number, part) in self.parts.iter().enumerate() {
-            let after = (self.parts.len() - 1 - number) as u32;
+            let after = (last - number) as u32;
             if number > 0 {
                 self.geometry.record_note(recorder, queue, number);
             }
             let which = if number == 0 { TracedPart::First { after } } else { TracedPart::Next { after } };
-            part.record_surfaces_of_part(recorder, queue, domain, which)?;
+            part.record_surfaces(recorder, queue, domain, which)?;
         }
         Ok(())
     }

@@ -23,8 +23,8 @@ impl StructureKind {
     }
 }
 
-/// Changes that make a build stale, in addition to those of the triangles, which always do. Where none of them happened, a
-/// new build would be the same as the last.
+/// Changes that make a build stale, in addition to those of the triangles, which always do. Where none of them
+/// happened, a new build would be the same as the last.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dependencies {
     /// The eye moved.
@@ -40,7 +40,8 @@ impl Dependencies {
     }
 }
 
-/// Facts about a structure that do not change while it lives ([`Structure::description`](crate::Structure::description)).
+/// Facts about a structure that do not change while it lives
+/// ([`Structure::description`](crate::Structure::description)).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Description {
     /// Name in shaders, pages and reports.

@@ -95,7 +95,7 @@ pub trait Design: fmt::Debug + Sized {
     /// Pools on the host, for checks.
     type Contents: PoolContents<Self::Config, Self::Pool>;
 
-    /// [`Structure::name`](crate::Structure::name); the folder of its shaders, and the prefix of what they declare.
+    /// [`Description::name`](crate::Description::name); the folder of its shaders, and the prefix of what they declare.
     const NAME: &'static str;
     /// Name in errors: "the A-buffer".
     const TITLE: &'static str;

@@ -229,10 +229,6 @@ impl<D: Design> Structure for Pooled<D> {
         self.design.prepare(&mut self.parts, device)
     }
 
-    fn slots(&self) -> u32 {
-        self.parts.pools.slots()
-    }
-
     fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError> {
         self.parts.pools.set_slots(device, slots)
     }
@@ -330,15 +326,6 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn record_surfaces(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        domain: Domain,
-    ) -> Result<(), AdsError> {
-        self.record_surfaces_of_part(recorder, queue, domain, TracedPart::Whole)
-    }
-
-    fn record_surfaces_of_part(
         &self,
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,

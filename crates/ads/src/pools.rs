@@ -102,11 +102,6 @@ impl Pools {
         self.slots.set_count(device, slots)
     }
 
-    /// Builds whose outcome is kept apart.
-    pub fn slots(&self) -> u32 {
-        self.slots.count()
-    }
-
     /// Layout of the set; empty by address.
     pub fn layout(&self) -> &SetLayout {
         &self.layout

@@ -51,10 +51,6 @@ impl Slots {
         })
     }
 
-    pub fn count(&self) -> u32 {
-        self.count
-    }
-
     /// That many slots from now on, at least 1, of zeros. After an error all is as it was.
     pub fn set_count(&mut self, device: &Device, count: u32) -> Result<(), AdsError> {
         let count = count.max(1);

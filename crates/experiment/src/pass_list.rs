@@ -1,6 +1,6 @@
 //! The passes of a structure on a scene: what a build, a trace and a surface lookup record.
 
-use rasray_ads::{Domain, RayQueue, Trace};
+use rasray_ads::{Domain, RayQueue, Trace, TracedPart};
 use rasray_gpu::{Device, PassCommands};
 
 use crate::built::Built;
@@ -28,7 +28,7 @@ pub(super) fn pass_list(device: &Device, job: &RenderJob<'_>) -> Result<Vec<Pass
         let (structure, all) = (frames.structure(), Domain::First(RAYS));
         structure.record_trace(recorder, &queue, Trace::closest(all));
         structure.record_trace(recorder, &queue, Trace::occluded(all));
-        structure.record_surfaces(recorder, &queue, all)?;
+        structure.record_surfaces(recorder, &queue, all, TracedPart::Whole)?;
         Ok::<_, rasray_ads::AdsError>(recorder.passes().to_vec())
     })?;
     Ok(submitted.value?)

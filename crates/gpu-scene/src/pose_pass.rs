@@ -323,7 +323,7 @@ impl PosePass {
     /// object is all that hangs on the same node that a clip changes, and no other below it: without joints, morph
     /// targets and deformer. Objects of `scene`, the one that this was made from, also have positions in a space of
     /// their own, 12 bytes for each vertex of the scene, in which a structure may be built once
-    /// ([`Structure::follows`](rasray_ads::Structure::follows)). Poses of frames are made after this.
+    /// ([`Description::follows`](rasray_ads::Description::follows)). Poses of frames are made after this.
     ///
     /// # Errors
     /// Out of memory, or a lost device.

@@ -1,6 +1,6 @@
 //! The structure that the rays of an integrator are traced through.
 
-use rasray_ads::{AdsError, Domain, Occluder, RayQueue, Structure, Trace};
+use rasray_ads::{AdsError, Domain, Occluder, RayQueue, Structure, Trace, TracedPart};
 use rasray_gpu::Recorder;
 
 use crate::{Fetch, IntegratorError, Visibility, Wave};
@@ -102,7 +102,7 @@ impl<'a> Traced<'a> {
             }
             FirstHits::Stored => {
                 self.closest.record_first_hits(recorder, queue, all)?;
-                self.closest.record_surfaces(recorder, queue, all)
+                self.closest.record_surfaces(recorder, queue, all, TracedPart::Whole)
             }
         }
     }
@@ -121,7 +121,7 @@ impl<'a> Traced<'a> {
         match self.fetch {
             Some(fetch) => fetch.record(recorder, queue, domain, self.closest.description().kind),
             None if self.of_hits => Ok(()),
-            None => self.closest.record_surfaces(recorder, queue, domain),
+            None => self.closest.record_surfaces(recorder, queue, domain, TracedPart::Whole),
         }
     }
 

@@ -128,7 +128,7 @@ impl FrameStructure {
     }
 
     /// Takes for each of the parts that move whether its vertices moved; one that is not stated did. What is built for
-    /// a part in a space of its own stays ([`Structure::follows`]). Without parts, all of the vertices have moved where
+    /// a part in a space of its own stays ([`Description::follows`](rasray_ads::Description::follows)). Without parts, all of the vertices have moved where
     /// any have.
     pub fn parts_moved(&mut self, moved: &[bool]) {
         if !self.is_in_parts() {

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use rasray_ads::{
-    AdsError, Combined, Domain, Geometry, GeometryParts, Hit, MovingPart, Ray, RayQueue, Structure,
-    StructureKind, Trace, TraceMode,
+    AdsError, Combined, Domain, Geometry, GeometryParts, HEADER_POOL, Hit, MovingPart, Ray, RayQueue,
+    Structure, StructureKind, Trace, TraceMode,
 };
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::invariance::{Subject, first_difference};
@@ -272,4 +272,13 @@ fn what_cannot_be_in_parts_is_refused() {
     let found = bench.build_and_trace(&mut structure, [0.5; 3], &rays);
     let expected = bench.build_and_trace(subject.structure(&bench, &geometry).as_mut(), [0.5; 3], &rays);
     assert_eq!(found.iter().map(bits).collect::<Vec<_>>(), expected.iter().map(bits).collect::<Vec<_>>());
+    // Each part has pools of its own, which are looked at together.
+    let inspected = structure.inspect().expect("bricks have pools");
+    let error = inspected.download_pools(device).expect_err("there is no header of all").to_string();
+    assert!(error.contains("is in parts"), "{error}");
+    assert_eq!(inspected.fault(device).expect("the device works"), None);
+    for part in 0..structure.count() {
+        let pools = structure.part(part).inspect().expect("bricks have pools").download_pools(device);
+        assert_eq!(pools.expect("the device works")[0].0, HEADER_POOL);
+    }
 }

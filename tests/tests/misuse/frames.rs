@@ -34,7 +34,6 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
             build_until_complete(device, structure.as_mut(), eye, Timing::None).expect("it is built");
         }
         structure.set_slots(device, 3).expect("it fits");
-        assert_eq!(structure.slots(), 3);
         let alone = eyes.map(|eye| {
             let hits = bench.build_and_trace(structure.as_mut(), eye, &rays);
             (hits, structure.status(0).expect("the header is readable"))
