@@ -10,13 +10,13 @@ STRUCTURE_HEADER(Bvh, bvh)
 #define BVH_HEADER(s) STRUCTURE_HEADER_OF(Bvh, bvh, s)
 
 POOL_RECORDS(bvh, nodes, 1, BvhNode)
-POOL_RECORDS(bvh, wide_nodes, 1, BvhWideNode)
+POOL_RECORDS(bvh, nodes_of_four, 1, BvhNodeOfFour)
 POOL_VECTORS(bvh, node_vectors, 1, uvec4, 16)
 POOL_RECORDS(bvh, records, 2, BvhRecord)
 POOL_VECTORS(bvh, record_vectors, 2, uvec2, 8)
 POOL_WORDS(bvh, scratch, 3)
 #define BVH_NODES(s) POOL_VIEW_OF(bvh, nodes, BVH_HEADER(s).nodes_address)
-#define BVH_WIDE_NODES(s) POOL_VIEW_OF(bvh, wide_nodes, BVH_HEADER(s).nodes_address)
+#define BVH_NODES_OF_FOUR(s) POOL_VIEW_OF(bvh, nodes_of_four, BVH_HEADER(s).nodes_address)
 #define BVH_NODE_VECTORS(s) POOL_VIEW_OF(bvh, node_vectors, BVH_HEADER(s).nodes_address)
 #define BVH_RECORDS(s) POOL_VIEW_OF(bvh, records, BVH_HEADER(s).records_address)
 #define BVH_RECORD_VECTORS(s) POOL_VIEW_OF(bvh, record_vectors, BVH_HEADER(s).records_address)
@@ -48,7 +48,7 @@ BvhChildren bvh_children(BvhRef s, uint node, bvec3 descends, inout uint corrupt
         const vec4 far = vec4(3.0e38);
         return BvhChildren(far, far, far, far, far, far, uvec4(BVH_NONE));
     }
-    if (BVH_WIDTH == BVH_WIDE) {
+    if (BVH_CHILDREN == BVH_FOUR) {
         // Lower sides stand before upper ones, so choosing the place is cheaper than choosing between both.
         uvec3 first = 8u * node + uvec3(0u, 2u, 4u) + uvec3(descends);
         uvec3 last = first ^ 1u;
@@ -77,18 +77,18 @@ uint bvh_parent(BvhRef s, uint node) {
     if (node >= BVH_HEADER(s).node_capacity) {
         return BVH_NONE;
     }
-    return BVH_WIDTH == BVH_WIDE ? BVH_WIDE_NODES(s)[node].parent : BVH_NODES(s)[node].parent;
+    return BVH_CHILDREN == BVH_FOUR ? BVH_NODES_OF_FOUR(s)[node].parent : BVH_NODES(s)[node].parent;
 }
 
 // The child that a link refers to.
 uint bvh_child(BvhRef s, uint link) {
-    uint node = link / BVH_WIDTH;
+    uint node = link / BVH_CHILDREN;
     if (node >= BVH_HEADER(s).node_capacity) {
         return BVH_NONE;
     }
-    uint slot = link % BVH_WIDTH;
-    if (BVH_WIDTH == BVH_WIDE) {
-        return BVH_WIDE_NODES(s)[node].children[slot];
+    uint slot = link % BVH_CHILDREN;
+    if (BVH_CHILDREN == BVH_FOUR) {
+        return BVH_NODES_OF_FOUR(s)[node].children[slot];
     }
     return slot == 0u ? BVH_NODES(s)[node].child_0 : BVH_NODES(s)[node].child_1;
 }
@@ -115,7 +115,7 @@ void bvh_set_record(BvhRef s, uint record, BvhRecord value) {
 
 // Place in the pool of a node of two children, in such nodes: behind the nodes of four that are made of them, where there are.
 uint bvh_pair_place(BvhRef s, uint node) {
-    return BVH_WIDTH == BVH_WIDE ? 2u * BVH_HEADER(s).node_capacity + node : node;
+    return BVH_CHILDREN == BVH_FOUR ? 2u * BVH_HEADER(s).node_capacity + node : node;
 }
 
 // A node of two children, read member by member, as an invocation reads what it wrote itself. An index past the end gives one
@@ -174,23 +174,23 @@ void bvh_set_box(BvhRef s, uint link, vec3 lower, vec3 upper) {
 }
 
 // Sets the children of a node of four and their boxes, side by side. The link by which it is reached is left as it is.
-void bvh_set_wide_children(BvhRef s, uint node, uvec4 children, mat3x4 lower, mat3x4 upper) {
+void bvh_set_children_of_four(BvhRef s, uint node, uvec4 children, mat3x4 lower, mat3x4 upper) {
     if (node >= BVH_HEADER(s).node_capacity) {
         return;
     }
-    BVH_WIDE_NODES(s)[node].lower_x = lower[0];
-    BVH_WIDE_NODES(s)[node].upper_x = upper[0];
-    BVH_WIDE_NODES(s)[node].lower_y = lower[1];
-    BVH_WIDE_NODES(s)[node].upper_y = upper[1];
-    BVH_WIDE_NODES(s)[node].lower_z = lower[2];
-    BVH_WIDE_NODES(s)[node].upper_z = upper[2];
-    BVH_WIDE_NODES(s)[node].children = children;
+    BVH_NODES_OF_FOUR(s)[node].lower_x = lower[0];
+    BVH_NODES_OF_FOUR(s)[node].upper_x = upper[0];
+    BVH_NODES_OF_FOUR(s)[node].lower_y = lower[1];
+    BVH_NODES_OF_FOUR(s)[node].upper_y = upper[1];
+    BVH_NODES_OF_FOUR(s)[node].lower_z = lower[2];
+    BVH_NODES_OF_FOUR(s)[node].upper_z = upper[2];
+    BVH_NODES_OF_FOUR(s)[node].children = children;
 }
 
 // Sets the link by which a node of four is reached.
-void bvh_set_wide_parent(BvhRef s, uint node, uint link) {
+void bvh_set_parent_of_four(BvhRef s, uint node, uint link) {
     if (node < BVH_HEADER(s).node_capacity) {
-        BVH_WIDE_NODES(s)[node].parent = link;
+        BVH_NODES_OF_FOUR(s)[node].parent = link;
     }
 }
 

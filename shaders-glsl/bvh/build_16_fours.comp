@@ -27,10 +27,10 @@ void put(uint place, uint reference, vec3 lower, vec3 upper) {
 void add(uint reference, vec3 lower, vec3 upper) {
     if ((reference & BVH_LEAF) == 0u) {
         reference = bvh_scratch(build.structure, number_word(reference));
-        bvh_set_wide_parent(build.structure, reference, BVH_WIDE * number + count);
+        bvh_set_parent_of_four(build.structure, reference, BVH_FOUR * number + count);
     }
     // Constant places stay in registers. The box of an absent child is that of the first, which changes no union.
-    [[unroll]] for (uint place = 0u; place < BVH_WIDE; place++) {
+    [[unroll]] for (uint place = 0u; place < BVH_FOUR; place++) {
         if (place == count || (count == 0u && place > 0u)) {
             put(place, place == count ? reference : BVH_NONE, lower, upper);
         }
@@ -53,7 +53,7 @@ void main() {
     BvhNode top = bvh_node(build.structure, node);
     if (top.parent == BVH_NONE) {
         BVH_HEADER(build.structure).root = number;
-        bvh_set_wide_parent(build.structure, number, BVH_NONE);
+        bvh_set_parent_of_four(build.structure, number, BVH_NONE);
     }
     for (uint slot = 0u; slot < 2u; slot++) {
         uint child = slot == 0u ? top.child_0 : top.child_1;
@@ -74,5 +74,5 @@ void main() {
             add(lowest.child_1, lowest.lower_1, lowest.upper_1);
         }
     }
-    bvh_set_wide_children(build.structure, number, children, lower_sides, upper_sides);
+    bvh_set_children_of_four(build.structure, number, children, lower_sides, upper_sides);
 }

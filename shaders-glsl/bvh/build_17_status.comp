@@ -10,7 +10,7 @@ layout(local_size_x = 1) in;
 void main() {
     uint triangles = BVH_HEADER(build.structure).triangle_count;
     // One more than the nodes that so many triangles need at most: docs/systems/bvh.md, "Memory".
-    uint nodes = BVH_WIDTH == BVH_WIDE ? (2u * triangles + 2u) / 3u : triangles;
+    uint nodes = BVH_CHILDREN == BVH_FOUR ? (2u * triangles + 2u) / 3u : triangles;
     bool fits = triangles <= BVH_HEADER(build.structure).record_capacity
         && nodes <= BVH_HEADER(build.structure).node_capacity + 1u
         && triangles == geometry_triangle_count();

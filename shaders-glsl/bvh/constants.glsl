@@ -13,8 +13,8 @@
 // Maximum number of triangles per leaf.
 #define BVH_LEAF_LIMIT 16u
 
-// Children of a node of the wider trees.
-#define BVH_WIDE 4u
+// Children of a node of four.
+#define BVH_FOUR 4u
 
 // Subtrees a ray remembers; where there are more, all are forgotten, and found again through the links to parents.
 #define BVH_STACK 32u

@@ -51,11 +51,11 @@
         stack_size -= 1u; \
         child = stack_entries[stack_size] <= best.t ? stack_children[stack_size] : BVH_NONE; \
     } \
-    left = BVH_WIDTH; \
+    left = BVH_CHILDREN; \
     if (child == BVH_NONE) { \
         done = within == BVH_NONE; \
-        child = within / BVH_WIDTH; \
-        left = within % BVH_WIDTH; \
+        child = within / BVH_CHILDREN; \
+        left = within % BVH_CHILDREN; \
     }
 
 uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
@@ -67,14 +67,14 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     Hit best = state.best;
     // The subtree to enter, or where `left` is one of its children, the node to visit for those after that.
     uint child = root;
-    uint left = BVH_WIDTH;
+    uint left = BVH_CHILDREN;
     // Link of the subtree that `child` and all that waits on the stack are in.
     uint within = BVH_NONE;
     if (state.cursor[0] != BVH_AT_START) {
         within = state.cursor[1];
         if (state.cursor[0] == BVH_AT_EXIT) {
-            child = within / BVH_WIDTH;
-            left = within % BVH_WIDTH;
+            child = within / BVH_CHILDREN;
+            left = within % BVH_CHILDREN;
         } else if (within != BVH_NONE) {
             child = bvh_child(s, within);
         }
@@ -93,14 +93,14 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
             nodes += 1u;
             bvec4 entered;
             uvec4 keys = bvh_keys(slabs, node, best.t, entered);
-            if (left < BVH_WIDTH) {
+            if (left < BVH_CHILDREN) {
                 within = bvh_parent(s, child);
                 entered = mix(bvec4(false), entered, greaterThan(keys, uvec4(keys[left])));
             }
             keys = mix(uvec4(BVH_NO_KEY), keys, entered);
             uvec4 children = node.references;
             BVH_ORDER(x, y)
-            if (BVH_WIDTH == BVH_WIDE) {
+            if (BVH_CHILDREN == BVH_FOUR) {
                 BVH_ORDER(z, w)
                 BVH_ORDER(x, z)
                 BVH_ORDER(y, w)
@@ -110,19 +110,19 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
             if (keys.x == BVH_NO_KEY) {
                 BVH_NEXT
             } else {
-                if (stack_size + BVH_WIDTH > BVH_STACK + 1u) {
+                if (stack_size + BVH_CHILDREN > BVH_STACK + 1u) {
                     // Those that wait are found again once the child that is entered is done.
-                    within = BVH_WIDTH * child + (keys.x & 3u);
+                    within = BVH_CHILDREN * child + (keys.x & 3u);
                     stack_size = 0u;
                 } else {
-                    if (BVH_WIDTH == BVH_WIDE) {
+                    if (BVH_CHILDREN == BVH_FOUR) {
                         BVH_PUSH(w)
                         BVH_PUSH(z)
                     }
                     BVH_PUSH(y)
                 }
                 child = children.x;
-                left = BVH_WIDTH;
+                left = BVH_CHILDREN;
             }
         }
         if (done) {
@@ -151,8 +151,8 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     state.tests += tests;
     if (paused) {
         // Nodes know their own links.
-        state.cursor[0] = left < BVH_WIDTH ? BVH_AT_EXIT : BVH_AT_ENTRY;
-        state.cursor[1] = left < BVH_WIDTH ? BVH_WIDTH * child + left : bvh_parent(s, child);
+        state.cursor[0] = left < BVH_CHILDREN ? BVH_AT_EXIT : BVH_AT_ENTRY;
+        state.cursor[1] = left < BVH_CHILDREN ? BVH_CHILDREN * child + left : bvh_parent(s, child);
         return TRACE_PAUSED;
     }
     return best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;

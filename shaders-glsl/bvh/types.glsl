@@ -7,7 +7,7 @@
 #include "bvh/constants.glsl"
 
 // Constant ids 80 and 85 belong to hierarchies. Children of a node: 2 or 4.
-layout(constant_id = 80) const uint BVH_WIDTH = 2u;
+layout(constant_id = 80) const uint BVH_CHILDREN = 2u;
 
 // Constant id 85: maximum triangles of a leaf that clusters become; 1 where each is a leaf of its own.
 layout(constant_id = 85) const uint BVH_CLUSTER_LEAF = 1u;
@@ -53,7 +53,7 @@ struct BvhNode {
 
 // An inner node of a tree with four children per node, side by side, so that they are tested together. 128 bytes.
 // A link refers to one child of one node: four times the node's number, plus that of the child.
-struct BvhWideNode {
+struct BvhNodeOfFour {
     vec4 lower_x;           // lower corners of the children, metres relative to the frame origin
     vec4 upper_x;           // upper corners
     vec4 lower_y;           // lower corners

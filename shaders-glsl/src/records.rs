@@ -52,7 +52,7 @@ impl BvhNode {
     }
 }
 
-impl BvhWideNode {
+impl BvhNodeOfFour {
     /// A node with these children, one to four, that is reached by a link: reference and box of each.
     pub fn new(parent: u32, children: &[(u32, [[f32; 3]; 2])]) -> Self {
         let mut node = Self { children: [BVH_NONE; 4], parent, ..Self::zeroed() };

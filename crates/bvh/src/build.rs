@@ -8,7 +8,7 @@ use rasray_shaders_glsl::constants::bvh::{
 };
 
 use crate::layout::{cluster_levels, most_nodes, union_levels};
-use crate::{Builder, Chunks, Config, Pool, Width};
+use crate::{Builder, Children, Chunks, Config, Pool};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -119,7 +119,7 @@ impl DevicePipelines {
         let restructures = matches!(config.builder, Builder::Trbvh | Builder::Refit);
         let treelets = restructures.then(|| TreeletPipelines::new(pipelines));
         let refit = (config.builder == Builder::Refit).then(|| RefitPipelines::new(pipelines));
-        let fours = (config.made_width() == Width::Four).then(|| FourPipelines::new(pipelines));
+        let fours = (config.made_children() == Children::Four).then(|| FourPipelines::new(pipelines));
         Ok(Self {
             codes: compute("build_2_codes")?,
             chunks,
@@ -283,7 +283,7 @@ impl FourPipelines {
         pass(recorder, target, "bvh/build_14_tops", &self.tops, 0, nodes);
         scan.record(recorder, target, "bvh/build_4_scan", nodes.into(), BVH_DIGITS, Access::COMPUTE);
         pass(recorder, target, "bvh/build_15_list", &self.list, 0, nodes);
-        let most = most_nodes(Width::Four, target.geometry.triangle_count().into()) as u32;
+        let most = most_nodes(Children::Four, target.geometry.triangle_count().into()) as u32;
         pass(recorder, target, "bvh/build_16_fours", &self.fours, 0, most);
     }
 }

@@ -2,9 +2,9 @@
 
 use rasray_ads::words;
 use rasray_ads::{Addressing, AdsError, Counters, check_range, check_work_budget};
-use rasray_shaders_glsl::constants::bvh::{BVH_LEAF_LIMIT, BVH_WIDE};
+use rasray_shaders_glsl::constants::bvh::{BVH_FOUR, BVH_LEAF_LIMIT};
 
-use crate::{Node, WideNode};
+use crate::{Node, NodeOfFour};
 
 /// Builder of the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,21 +27,21 @@ words! { Builder { Sah "sah", Lbvh "lbvh", Ploc "ploc", Trbvh "trbvh", Refit "re
 
 /// Children of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Width {
+pub enum Children {
     /// Two.
     Two,
     /// Four, tested together: fewer nodes to read, and the fastest to trace.
     Four,
 }
 
-words! { Width { Two "2", Four "4" } }
+words! { Children { Two "2", Four "4" } }
 
-impl Width {
-    /// The number.
-    pub fn children(self) -> u32 {
+impl Children {
+    /// Their number: 2 or 4.
+    pub fn number(self) -> u32 {
         match self {
             Self::Two => 2,
-            Self::Four => BVH_WIDE,
+            Self::Four => BVH_FOUR,
         }
     }
 
@@ -49,7 +49,7 @@ impl Width {
     pub(crate) fn node_bytes(self) -> usize {
         match self {
             Self::Two => size_of::<Node>(),
-            Self::Four => size_of::<WideNode>(),
+            Self::Four => size_of::<NodeOfFour>(),
         }
     }
 }
@@ -70,7 +70,7 @@ pub struct Config {
     pub builder: Builder,
     /// Children per node; by default two by [`Builder::Lbvh`] and [`Builder::Refit`], whose builds are to be quick, and four by
     /// the others.
-    pub width: Option<Width>,
+    pub children: Option<Children>,
     /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`] and, with four children per node, by
     /// [`Builder::Ploc`], whose heuristic may use fewer, and 1 by the others, whose leaves hold one.
     pub leaf: Option<u32>,
@@ -93,7 +93,7 @@ impl Config {
     pub fn new(builder: Builder) -> Self {
         Self {
             builder,
-            width: None,
+            children: None,
             leaf: None,
             chunks: None,
             addressing: Addressing::Descriptor,
@@ -103,10 +103,10 @@ impl Config {
     }
 
     /// Children of a node of the trees that are made.
-    pub fn made_width(&self) -> Width {
-        self.width.unwrap_or(match self.builder {
-            Builder::Sah | Builder::Ploc | Builder::Trbvh => Width::Four,
-            Builder::Lbvh | Builder::Refit => Width::Two,
+    pub fn made_children(&self) -> Children {
+        self.children.unwrap_or(match self.builder {
+            Builder::Sah | Builder::Ploc | Builder::Trbvh => Children::Four,
+            Builder::Lbvh | Builder::Refit => Children::Two,
         })
     }
 
@@ -119,7 +119,7 @@ impl Config {
     fn chooses_leaves(&self) -> bool {
         match self.builder {
             Builder::Sah => true,
-            Builder::Ploc => self.made_width() == Width::Four,
+            Builder::Ploc => self.made_children() == Children::Four,
             Builder::Lbvh | Builder::Trbvh | Builder::Refit => false,
         }
     }
@@ -147,7 +147,7 @@ impl Config {
     pub fn options(&self) -> Vec<(&'static str, String)> {
         vec![
             ("builder", self.builder.name().to_owned()),
-            ("children", self.made_width().children().to_string()),
+            ("children", self.made_children().number().to_string()),
             ("leaf", self.made_leaf().to_string()),
         ]
     }

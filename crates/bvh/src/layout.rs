@@ -6,7 +6,7 @@ use rasray_shaders_glsl::constants::bvh::{
     BVH_SORT_CHUNK, BVH_TREELET, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS, BVH_UNION,
 };
 
-use crate::{Builder, Config, Pool, Record, Width};
+use crate::{Builder, Children, Config, Pool, Record};
 
 /// Name of the structure in errors.
 pub(crate) const NAME: &str = "bvh";
@@ -58,25 +58,25 @@ pub(crate) fn cluster_levels(triangles: u64) -> impl Iterator<Item = u64> {
 /// Inner nodes of a tree over so many triangles at most. With two children per node there is one fewer than there are
 /// leaves. A node of four that has fewer children has leaves only: with w nodes of four children and v others, of two
 /// leaves at least, 4 w + 2 v children and w + v - 1 of them nodes leave at most (2 n - 1) / 3 nodes.
-pub(crate) fn most_nodes(width: Width, triangles: u64) -> u64 {
-    match width {
-        Width::Two => triangles.saturating_sub(1),
-        Width::Four => (2 * triangles).saturating_sub(1) / 3,
+pub(crate) fn most_nodes(children: Children, triangles: u64) -> u64 {
+    match children {
+        Children::Two => triangles.saturating_sub(1),
+        Children::Four => (2 * triangles).saturating_sub(1) / 3,
     }
 }
 
 /// Elements of the pool of nodes behind those of the tree: nodes of two children, of which the device makes nodes of four.
 pub(crate) fn pair_elements(config: &Config, triangles: u64) -> u64 {
-    let bytes = Width::Two.node_bytes() as u64 * pairs(config, triangles);
-    bytes.div_ceil(Width::Four.node_bytes() as u64)
+    let bytes = Children::Two.node_bytes() as u64 * pairs(config, triangles);
+    bytes.div_ceil(Children::Four.node_bytes() as u64)
 }
 
 /// Nodes of two children, of which the device makes nodes of four.
 fn pairs(config: &Config, triangles: u64) -> u64 {
-    match (config.made_width(), config.builder) {
-        (Width::Two, _) | (_, Builder::Sah) => 0,
-        (Width::Four, Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit) => {
-            most_nodes(Width::Two, triangles)
+    match (config.made_children(), config.builder) {
+        (Children::Two, _) | (_, Builder::Sah) => 0,
+        (Children::Four, Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit) => {
+            most_nodes(Children::Two, triangles)
         }
     }
 }
@@ -90,12 +90,12 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
     if triangles >= 1 << BVH_LEAF_SHIFT {
         return Err(AdsError::PoolTooLarge { structure: NAME, pool: "records", elements: triangles });
     }
-    let nodes = most_nodes(config.made_width(), triangles) + pair_elements(config, triangles);
+    let nodes = most_nodes(config.made_children(), triangles) + pair_elements(config, triangles);
     let pool = |pool, elements, bytes: usize| (pool, elements, bytes as u64);
     Sizes::of(
         NAME,
         [
-            pool(Pool::Nodes, nodes, config.made_width().node_bytes()),
+            pool(Pool::Nodes, nodes, config.made_children().node_bytes()),
             pool(Pool::Records, triangles, size_of::<Record>()),
             pool(Pool::Scratch, scratch_words(config.builder, triangles), size_of::<u32>()),
         ],
@@ -123,9 +123,9 @@ impl FormulaBytes {
 
 /// The page's formula. It shares nothing with [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, nodes: u64, triangles: u64) -> FormulaBytes {
-    let node = match config.made_width() {
-        Width::Four => 128,
-        Width::Two => 64,
+    let node = match config.made_children() {
+        Children::Four => 128,
+        Children::Two => 64,
     };
     let scratch = match config.builder {
         Builder::Sah => 28 * triangles,
@@ -152,11 +152,13 @@ mod tests {
     fn plan_equals_formula() {
         let kinds =
             [Builder::Sah, Builder::Lbvh, Builder::Ploc, Builder::Trbvh, Builder::Refit].map(Config::new);
-        let widths = |config| [Width::Two, Width::Four].map(|width| Config { width: Some(width), ..config });
-        for config in kinds.into_iter().flat_map(widths) {
+        let numbers = |config| {
+            [Children::Two, Children::Four].map(|children| Config { children: Some(children), ..config })
+        };
+        for config in kinds.into_iter().flat_map(numbers) {
             for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
                 let sizes = plan(&config, triangles).expect("options are in range");
-                let nodes = most_nodes(config.made_width(), triangles);
+                let nodes = most_nodes(config.made_children(), triangles);
                 assert_eq!(
                     sizes.bytes(),
                     formula_bytes(&config, nodes, triangles).total(),
@@ -179,8 +181,8 @@ mod tests {
         for builder in [Builder::Lbvh, Builder::Ploc, Builder::Trbvh, Builder::Refit] {
             let config = Config::new(builder);
             // Options that such a tree has may be given.
-            assert!(plan(&Config { width: Some(Width::Two), leaf: Some(1), ..config }, 1).is_ok());
-            let two = Config { width: Some(Width::Two), ..config };
+            assert!(plan(&Config { children: Some(Children::Two), leaf: Some(1), ..config }, 1).is_ok());
+            let two = Config { children: Some(Children::Two), ..config };
             let leaf = refused(Config { leaf: Some(4), ..two });
             assert!(leaf.contains("leaf is 4") && leaf.contains("builder `sah`"), "{leaf}");
         }

@@ -14,22 +14,22 @@
 
 mod build;
 mod config;
+mod four;
 mod host;
 mod layout;
 mod order;
 mod pool;
 mod structure;
 mod validate;
-mod wide;
 
-pub use config::{Builder, Chunks, Config, Width};
+pub use config::{Builder, Children, Chunks, Config};
 pub use layout::{FormulaBytes, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::Addressing;
 pub use rasray_shaders_glsl::records::{
-    BvhHeader as Header, BvhNode as Node, BvhRecord as Record, BvhWideNode as WideNode,
+    BvhHeader as Header, BvhNode as Node, BvhNodeOfFour as NodeOfFour, BvhRecord as Record,
 };
-pub use structure::{Bvh, Demand, Tree};
+pub use structure::{Bvh, Demand, Passes};
 pub use validate::{Contents, Fault, Shape, well_formed};
 
 /// Compiles the examples of the readme.

@@ -7,26 +7,26 @@ use rasray_ads::{
     Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Recorder, Requirements};
-use rasray_shaders_glsl::constant_ids::bvh::{BVH_CLUSTER_LEAF, BVH_WIDTH};
+use rasray_shaders_glsl::constant_ids::bvh::{BVH_CHILDREN, BVH_CLUSTER_LEAF};
 use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
 
 use crate::build::Build;
+use crate::four::with_four_children;
 use crate::host::{self, Box3};
 use crate::layout::{BOX_WORDS, NAME, formula_bytes, pair_elements, plan};
 use crate::order::Order;
-use crate::wide::widened;
-use crate::{Builder, Config, Contents, Header, Node, Pool, Record, WideNode, Width, well_formed};
+use crate::{Builder, Children, Config, Contents, Header, Node, NodeOfFour, Pool, Record, well_formed};
 
 /// Rounds that a trace records at first. Each costs two dispatches, also where no ray is left, and only a ray that
 /// hits hundreds of thousands of boxes needs more.
 const FIRST_ROUNDS: u32 = 64;
 
 /// A bounding volume hierarchy with two or four children per node, made from a [`Config`].
-pub type Bvh = Pooled<Tree>;
+pub type Bvh = Pooled<Passes>;
 
 /// Pipelines of the build: the design of [`Bvh`].
 #[derive(Debug)]
-pub struct Tree {
+pub struct Passes {
     build: Build,
     /// Tree that the host made for the next build.
     prepared: Option<Prepared>,
@@ -88,9 +88,9 @@ fn first_header(parts: &Parts<Config>, Prepared { root, nodes, triangles }: Prep
     let capacity = |pool| if has_capacity { parts.elements(pool) as u32 } else { 0 };
     let pair_elements = if has_capacity { pair_elements(config, triangles.into()) as u32 } else { 0 };
     let node_capacity = capacity(Pool::Nodes) - pair_elements;
-    let pair_capacity = match config.made_width() {
-        Width::Two => node_capacity,
-        Width::Four => 2 * pair_elements,
+    let pair_capacity = match config.made_children() {
+        Children::Two => node_capacity,
+        Children::Four => 2 * pair_elements,
     };
     // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
     let (order_offset, order_stride) = match config.builder {
@@ -130,7 +130,7 @@ fn most_rounds(parts: &Parts<Config>) -> u32 {
     (units / budget + 2).min(u32::MAX.into()) as u32
 }
 
-impl Design for Tree {
+impl Design for Passes {
     type Config = Config;
     type Header = Header;
     type Demand = Demand;
@@ -142,7 +142,7 @@ impl Design for Tree {
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] =
-        &[Header::LAYOUT, Node::LAYOUT, WideNode::LAYOUT, Record::LAYOUT];
+        &[Header::LAYOUT, Node::LAYOUT, NodeOfFour::LAYOUT, Record::LAYOUT];
     const HAS_SURFACES_OF_TRIANGLES: bool = true;
 
     fn kind(_config: &Config) -> StructureKind {
@@ -159,7 +159,7 @@ impl Design for Tree {
 
     fn constants(config: &Config) -> Vec<(u32, u32)> {
         let cluster_leaf = if config.builder == Builder::Ploc { config.made_leaf() } else { 1 };
-        vec![(BVH_WIDTH, config.made_width().children()), (BVH_CLUSTER_LEAF, cluster_leaf)]
+        vec![(BVH_CHILDREN, config.made_children().number()), (BVH_CLUSTER_LEAF, cluster_leaf)]
     }
 
     fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
@@ -209,15 +209,15 @@ impl Design for Tree {
         let triangles = parts.geometry.download_count(device)?;
         let boxes = device.download_as::<Box3>(parts.pools.pool(Pool::Scratch), 0, triangles as usize)?;
         let tree = host::build(&boxes, parts.config.made_leaf());
-        let nodes = match parts.config.made_width() {
-            Width::Two => {
+        let nodes = match parts.config.made_children() {
+            Children::Two => {
                 device.upload_slice(parts.pools.pool(Pool::Nodes), 0, &tree.nodes)?;
                 tree.nodes.len()
             }
-            Width::Four => {
-                let wide = widened(&tree);
-                device.upload_slice(parts.pools.pool(Pool::Nodes), 0, &wide)?;
-                wide.len()
+            Children::Four => {
+                let nodes = with_four_children(&tree);
+                device.upload_slice(parts.pools.pool(Pool::Nodes), 0, &nodes)?;
+                nodes.len()
             }
         };
         let order_at = size_of::<Box3>() as u64 * u64::from(triangles);

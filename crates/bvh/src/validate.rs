@@ -3,11 +3,11 @@
 use bytemuck::cast_slice;
 use rasray_ads::{Parts, PoolBytes, PoolContents};
 use rasray_gpu::{Device, GpuError};
-use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_LEAF_SHIFT, BVH_NONE, BVH_WIDE};
+use rasray_shaders_glsl::constants::bvh::{BVH_FOUR, BVH_LEAF, BVH_LEAF_SHIFT, BVH_NONE};
 
 use crate::host::{Box3, triangles_of, union};
 use crate::layout::most_nodes;
-use crate::{Config, Header, Node, Pool, Record, WideNode, Width};
+use crate::{Children, Config, Header, Node, NodeOfFour, Pool, Record};
 
 /// A tree as downloaded.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub struct Contents {
     /// Inner nodes of two children; empty in a tree of four.
     pub nodes: Vec<Node>,
     /// Inner nodes of four children; empty in a tree of two.
-    pub wide_nodes: Vec<WideNode>,
+    pub nodes_of_four: Vec<NodeOfFour>,
     /// Triangles in the order of the leaves.
     pub records: Vec<Record>,
 }
@@ -25,23 +25,23 @@ pub struct Contents {
 impl PoolContents<Config, Pool> for Contents {
     fn download(parts: &Parts<Config>, device: &Device, header: Header) -> Result<Self, GpuError> {
         let triangles = header.triangle_count as usize;
-        let width = parts.config.made_width();
-        let nodes = most_nodes(width, triangles as u64).min(header.node_count.into()) as usize;
-        let [two, four] = match width {
-            Width::Two => [nodes, 0],
-            Width::Four => [0, nodes],
+        let children = parts.config.made_children();
+        let nodes = most_nodes(children, triangles as u64).min(header.node_count.into()) as usize;
+        let [two, four] = match children {
+            Children::Two => [nodes, 0],
+            Children::Four => [0, nodes],
         };
         Ok(Self {
             header,
             nodes: device.download_as::<Node>(parts.pools.pool(Pool::Nodes), 0, two)?,
-            wide_nodes: device.download_as::<WideNode>(parts.pools.pool(Pool::Nodes), 0, four)?,
+            nodes_of_four: device.download_as::<NodeOfFour>(parts.pools.pool(Pool::Nodes), 0, four)?,
             records: device.download_as::<Record>(parts.pools.pool(Pool::Records), 0, triangles)?,
         })
     }
 
     fn pools(&self) -> (Header, PoolBytes<'_, Pool>) {
         let nodes = match self.nodes[..] {
-            [] => cast_slice(&self.wide_nodes),
+            [] => cast_slice(&self.nodes_of_four),
             _ => cast_slice(&self.nodes),
         };
         (self.header, vec![(Pool::Nodes, nodes), (Pool::Records, cast_slice(&self.records))])
@@ -50,20 +50,20 @@ impl PoolContents<Config, Pool> for Contents {
 
 impl Contents {
     /// Slots of children in a node: what a link is divided by.
-    fn width(&self) -> u32 {
-        if self.wide_nodes.is_empty() { 2 } else { BVH_WIDE }
+    fn slots(&self) -> u32 {
+        if self.nodes_of_four.is_empty() { 2 } else { BVH_FOUR }
     }
 
     /// Inner nodes.
     fn node_count(&self) -> usize {
-        self.nodes.len().max(self.wide_nodes.len())
+        self.nodes.len().max(self.nodes_of_four.len())
     }
 
     /// Link, reference and box of the children of a node that there is.
     fn children(&self, node: u32) -> Vec<(u32, u32, Box3)> {
-        match self.wide_nodes.get(node as usize) {
-            Some(wide) => {
-                wide.children().map(|(slot, child, bounds)| (BVH_WIDE * node + slot, child, bounds)).collect()
+        match self.nodes_of_four.get(node as usize) {
+            Some(four) => {
+                four.children().map(|(slot, child, bounds)| (BVH_FOUR * node + slot, child, bounds)).collect()
             }
             None => (0..)
                 .zip(self.nodes[node as usize].children())
@@ -75,7 +75,7 @@ impl Contents {
     /// The link that a node stores.
     fn parent(&self, node: u32) -> Option<u32> {
         let two = self.nodes.get(node as usize).map(|node| node.parent);
-        two.or_else(|| self.wide_nodes.get(node as usize).map(|node| node.parent))
+        two.or_else(|| self.nodes_of_four.get(node as usize).map(|node| node.parent))
     }
 }
 
@@ -148,20 +148,20 @@ pub enum Fault {
 /// The first fault found.
 pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
     let mut shape = Shape::default();
-    let width = contents.width();
+    let slots = contents.slots();
     let mut in_leaves = vec![0_usize; contents.records.len()];
     let mut reached = vec![false; contents.node_count()];
     // Nodes in an order in which each comes after its parent.
     let mut order = Vec::new();
     // Boxes below each link.
-    let mut below: Vec<Box3> = vec![EMPTY; contents.node_count() * width as usize];
+    let mut below: Vec<Box3> = vec![EMPTY; contents.node_count() * slots as usize];
     let mut pending = Vec::new();
     if contents.header.root != BVH_NONE {
         pending.push((contents.header.root, BVH_NONE, 0));
     }
     while let Some((reference, link, levels)) = pending.pop() {
         shape.levels = shape.levels.max(levels);
-        let node = link / width;
+        let node = link / slots;
         if reference & BVH_LEAF != 0 {
             let first = (reference & ((1 << BVH_LEAF_SHIFT) - 1)) as usize;
             let count = triangles_of(reference) as usize;

@@ -1,6 +1,6 @@
 //! Bounding volume hierarchies: the baseline.
 
-use rasray_bvh::{Addressing, Builder, Bvh, Config, Width};
+use rasray_bvh::{Addressing, Builder, Bvh, Children, Config};
 
 use crate::given::{Given, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
@@ -26,7 +26,7 @@ pub(crate) const SYSTEM: System = System {
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
     ("builder", |config, given| given.choice(Builder::WORDS).map(|value| config.builder = value)),
-    ("children", |config, given| given.choice(Width::WORDS).map(|value| config.width = Some(value))),
+    ("children", |config, given| given.choice(Children::WORDS).map(|value| config.children = Some(value))),
     ("leaf", |config, given| given.whole().map(|value| config.leaf = Some(value))),
     ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
 ];

@@ -1,7 +1,7 @@
 //! Hits of the BVH are those of brute force, bit for bit, whatever its options and however often rays pause.
 
 use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, Structure, TraceMode};
-use rasray_bvh::{Addressing, Builder, Bvh, Config, Width};
+use rasray_bvh::{Addressing, Builder, Bvh, Children, Config};
 use rasray_gpu::Timing;
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
@@ -13,15 +13,15 @@ use rasray_tracer::{BatchTracer, build_until_complete};
 const RAYS: usize = 3000;
 
 /// Every builder of trees of its own, with every number of children.
-const KINDS: [(Builder, Width); 8] = [
-    (Builder::Sah, Width::Two),
-    (Builder::Sah, Width::Four),
-    (Builder::Lbvh, Width::Two),
-    (Builder::Lbvh, Width::Four),
-    (Builder::Ploc, Width::Two),
-    (Builder::Ploc, Width::Four),
-    (Builder::Trbvh, Width::Two),
-    (Builder::Trbvh, Width::Four),
+const KINDS: [(Builder, Children); 8] = [
+    (Builder::Sah, Children::Two),
+    (Builder::Sah, Children::Four),
+    (Builder::Lbvh, Children::Two),
+    (Builder::Lbvh, Children::Four),
+    (Builder::Ploc, Children::Two),
+    (Builder::Ploc, Children::Four),
+    (Builder::Trbvh, Children::Two),
+    (Builder::Trbvh, Children::Four),
 ];
 
 /// Rays of all kinds: along axes and face diagonals, from corners of triangles, at corners and edges, with
@@ -122,12 +122,12 @@ fn configurations(builder: Builder) -> Vec<(String, Config, Option<u32>)> {
             ));
         }
     }
-    for width in [Width::Two, Width::Four] {
-        let of_width = Config { width: Some(width), ..base };
-        configurations.push((format!("{width:?} children per node"), of_width, None));
-        let paused = Config { work_budget: Some(3), addressing: Addressing::Address, ..of_width };
+    for children in [Children::Two, Children::Four] {
+        let of_number = Config { children: Some(children), ..base };
+        configurations.push((format!("{children:?} children per node"), of_number, None));
+        let paused = Config { work_budget: Some(3), addressing: Addressing::Address, ..of_number };
         configurations.push((
-            format!("{width:?} children per node, 3 units per dispatch"),
+            format!("{children:?} children per node, 3 units per dispatch"),
             paused,
             Some(500),
         ));
@@ -177,19 +177,19 @@ fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
     let geometry = bench.geometry(&triangles);
     let expected = reference_answers(&bench, &geometry, &rays);
     let tracer = BatchTracer::new(bench.device(), rays.len() as u32).expect("a queue fits");
-    for (builder, width) in KINDS {
-        let config = Config { work_budget: Some(16), width: Some(width), ..Config::new(builder) };
+    for (builder, children) in KINDS {
+        let config = Config { work_budget: Some(16), children: Some(children), ..Config::new(builder) };
         let mut bvh = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
         build_until_complete(bench.device(), &mut bvh, [0.0; 3], Timing::None).expect("the build completes");
         let first = bvh.rounds();
         let (_, counters) = trace_in_rounds(&bench, &bvh, &rays, TraceMode::Closest, first);
-        assert!(counters.unfinished > 0, "{builder:?}, {width:?}: {first} rounds were enough");
+        assert!(counters.unfinished > 0, "{builder:?}, {children:?}: {first} rounds were enough");
         let of = |mode| tracer.trace(&bvh, &rays, mode, Timing::None).expect("every ray is answered").hits;
         let found = Answers {
             closest: of(TraceMode::Closest).iter().map(bits).collect(),
             occluded: of(TraceMode::Occluded).iter().map(Hit::is_hit).collect(),
         };
-        same(&expected, &found, &rays, &format!("{builder:?}, {width:?}"));
+        same(&expected, &found, &rays, &format!("{builder:?}, {children:?}"));
         assert!(bvh.rounds() > first);
         // It ends: no ray can need more rounds than a ray that hits every box.
         while bvh.allow_more_rounds() {}
@@ -256,11 +256,11 @@ fn rays_that_remember_more_than_their_stack_lose_nothing() {
         let geometry = bench.geometry(&triangles);
         let expected = reference_answers(&bench, &geometry, &rays);
         assert!(expected.occluded.iter().any(|occluded| *occluded));
-        for (builder, width) in KINDS {
+        for (builder, children) in KINDS {
             for budget in [None, Some(50)] {
-                let config = Config { work_budget: budget, width: Some(width), ..Config::new(builder) };
+                let config = Config { work_budget: budget, children: Some(children), ..Config::new(builder) };
                 let found = of_bvh(&bench, config, &geometry, &rays, budget.map(|_| 400));
-                same(&expected, &found, &rays, &format!("{builder:?}, {width:?}, {budget:?}"));
+                same(&expected, &found, &rays, &format!("{builder:?}, {children:?}, {budget:?}"));
             }
         }
     }

@@ -3,7 +3,7 @@
 use rasray_ads::{
     BoundsPass, BufferOffset, Counters, Geometry, GeometryDesc, Ray, Structure, TraceMode, Viewpoint,
 };
-use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Width, well_formed};
+use rasray_bvh::{Addressing, Builder, Bvh, Children, Config, Contents, well_formed};
 use rasray_gpu::{BufferUsage, Timing};
 use rasray_shaders_glsl::constants::bvh::BVH_LEAF;
 use rasray_tests::conformance::trace_in_rounds;
@@ -123,7 +123,7 @@ impl Setup {
 /// Children and parent of every node.
 fn links(contents: &Contents) -> Vec<[u32; 5]> {
     let two = contents.nodes.iter().map(|node| [node.child_0, node.child_1, node.parent, 0, 0]);
-    let four = contents.wide_nodes.iter().map(|node| {
+    let four = contents.nodes_of_four.iter().map(|node| {
         let [a, b, c, d] = node.children;
         [a, b, c, d, node.parent]
     });
@@ -140,7 +140,7 @@ fn keeps_order(labels: &[String]) -> bool {
 fn later_builds_find_only_the_boxes_anew() {
     let triangles = scene();
     let base = Config::new(Builder::Refit);
-    let four = Config { width: Some(Width::Four), ..base };
+    let four = Config { children: Some(Children::Four), ..base };
     let address = |config| Config { addressing: Addressing::Address, ..config };
     for config in [base, four, address(base), address(four), Config { work_budget: Some(3), ..four }] {
         let stage = Setup::new(&triangles);
@@ -157,8 +157,8 @@ fn later_builds_find_only_the_boxes_anew() {
                 assert_eq!(record.primitive, before.primitive);
                 assert_eq!(record.corners(), now[record.primitive as usize]);
             }
-            assert!(contents.nodes != first.nodes || contents.wide_nodes != first.wide_nodes);
-            if config.made_width() == Width::Two {
+            assert!(contents.nodes != first.nodes || contents.nodes_of_four != first.nodes_of_four);
+            if config.made_children() == Children::Two {
                 assert_eq!(links(&contents), links(&first), "build {step}");
             }
             stage.same_hits(&tree, &now, &format!("{config:?}, build {step}"));
@@ -169,10 +169,12 @@ fn later_builds_find_only_the_boxes_anew() {
 #[test]
 fn small_trees_are_refitted() {
     let counts = [0_usize, 1, 2, 3, 4, 5, 17];
-    for (count, width) in counts.into_iter().flat_map(|count| [(count, Width::Two), (count, Width::Four)]) {
+    for (count, children) in
+        counts.into_iter().flat_map(|count| [(count, Children::Two), (count, Children::Four)])
+    {
         let triangles: Vec<Triangle> = scene().into_iter().take(count).collect();
         let stage = Setup::new(&triangles);
-        let mut tree = stage.tree(Config { width: Some(width), ..Config::new(Builder::Refit) });
+        let mut tree = stage.tree(Config { children: Some(children), ..Config::new(Builder::Refit) });
         stage.record(&mut tree, 0, true);
         assert!(tree.status(0).expect("readable").complete);
         let now = moved(&triangles, 2);
@@ -291,8 +293,11 @@ fn a_tree_that_is_refitted_stays_better_than_those_by_codes() {
     for (name, frames) in first(&clips, 2) {
         let scene = built_in(name);
         let stage = Setup::new(&frame_of(&scene, 0));
-        let of =
-            |builder| Config { width: Some(Width::Two), counters: Counters::Sums, ..Config::new(builder) };
+        let of = |builder| Config {
+            children: Some(Children::Two),
+            counters: Counters::Sums,
+            ..Config::new(builder)
+        };
         let [mut refit, mut lbvh, mut trbvh] =
             [Builder::Refit, Builder::Lbvh, Builder::Trbvh].map(|builder| stage.tree(of(builder)));
         let mut firsts = Vec::new();

@@ -61,6 +61,6 @@ fn an_invocation_and_a_workgroup_merge_the_same_clusters() {
             contents
         });
         assert_eq!(serial.header.root, shared.header.root, "{count} triangles");
-        assert!(serial.wide_nodes == shared.wide_nodes, "{count} triangles");
+        assert!(serial.nodes_of_four == shared.nodes_of_four, "{count} triangles");
     }
 }

@@ -1,7 +1,7 @@
 //! Every tree that is built is downloaded and checked node by node.
 
 use rasray_ads::{Check, Structure, TraceMode};
-use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Fault, Shape, Width, plan, well_formed};
+use rasray_bvh::{Addressing, Builder, Bvh, Children, Config, Contents, Fault, Shape, plan, well_formed};
 use rasray_experiment::Placed;
 use rasray_gpu::Timing;
 use rasray_hard_cases as hard_cases;
@@ -78,17 +78,17 @@ fn kinds() -> impl Iterator<Item = Config> {
 
 /// `config` with two children per node.
 pub(crate) fn of_two(config: Config) -> Config {
-    Config { width: Some(Width::Two), ..config }
+    Config { children: Some(Children::Two), ..config }
 }
 
 /// `config` with four children per node.
 fn of_four(config: Config) -> Config {
-    Config { width: Some(Width::Four), ..config }
+    Config { children: Some(Children::Four), ..config }
 }
 
 /// Only a node over leaves has fewer children than four.
 fn are_full(contents: &Contents) -> bool {
-    contents.wide_nodes.iter().all(|node| {
+    contents.nodes_of_four.iter().all(|node| {
         let children: Vec<_> = node.children().collect();
         children.len() == 4 || children.iter().all(|(_, child, _)| child & BVH_LEAF != 0)
     })
@@ -127,10 +127,10 @@ fn all_trees_of(config: Config) {
     let mut by_descriptor = tree(&bench, config);
     let mut by_address = tree(&bench, Config { addressing: Addressing::Address, ..config });
     // The tree that it is made of: that of two children per node, or that by codes, whose treelets are restructured.
-    let made_of = match (config.made_width(), config.builder) {
-        (Width::Four, _) => Some(of_two(config)),
-        (Width::Two, Builder::Trbvh) => Some(of_two(Config::new(Builder::Lbvh))),
-        (Width::Two, _) => None,
+    let made_of = match (config.made_children(), config.builder) {
+        (Children::Four, _) => Some(of_two(config)),
+        (Children::Two, Builder::Trbvh) => Some(of_two(Config::new(Builder::Lbvh))),
+        (Children::Two, _) => None,
     };
     let mut made_of = made_of.map(|config| tree(&bench, config));
     for (index, (name, triangles)) in scenes.iter().enumerate() {
@@ -212,7 +212,7 @@ fn a_tree_is_the_same_every_time() {
         let known =
             |contents: &Contents| contents.nodes.iter().map(|n| (n.children(), n.parent)).collect::<Vec<_>>();
         assert!(known(&first) == known(&second), "{config:?}");
-        assert!(first.wide_nodes == second.wide_nodes, "{config:?}");
+        assert!(first.nodes_of_four == second.nodes_of_four, "{config:?}");
     }
 }
 
@@ -237,7 +237,7 @@ fn surface_area_gives_cheaper_trees_and_leaves_of_the_size_asked_for() {
 fn damaged_trees_are_noticed() {
     let bench = Bench::new();
     let triangles = scattered(300, 10, 0.2);
-    for config in kinds().filter(|config| config.made_width() == Width::Two) {
+    for config in kinds().filter(|config| config.made_children() == Children::Two) {
         let sound = build(&bench, config, &triangles);
         let damaged = |damage: fn(&mut Contents)| {
             let mut contents = sound.clone();
@@ -275,15 +275,15 @@ fn damaged_trees_of_four_children_per_node_are_noticed() {
         damage(&mut contents);
         well_formed(&contents).expect_err("the damage is noticed")
     };
-    let fault = damaged(|c| c.wide_nodes[1].lower_z[2] = c.wide_nodes[1].lower_z[2].next_up());
+    let fault = damaged(|c| c.nodes_of_four[1].lower_z[2] = c.nodes_of_four[1].lower_z[2].next_up());
     assert!(matches!(fault, Fault::Bounds { link: 6, .. }), "{fault}");
-    let fault = damaged(|c| c.wide_nodes[0].upper_x[3] += 1.0);
+    let fault = damaged(|c| c.nodes_of_four[0].upper_x[3] += 1.0);
     assert!(matches!(fault, Fault::Bounds { link: 3, .. }), "{fault}");
-    let fault = damaged(|c| c.wide_nodes[2].parent ^= 1);
+    let fault = damaged(|c| c.nodes_of_four[2].parent ^= 1);
     assert!(matches!(fault, Fault::Parent { node: 2, .. }), "{fault}");
-    let fault = damaged(|c| c.wide_nodes[0].children[2] = c.wide_nodes.len() as u32);
+    let fault = damaged(|c| c.nodes_of_four[0].children[2] = c.nodes_of_four.len() as u32);
     assert!(matches!(fault, Fault::Dangling { .. }), "{fault}");
-    let fault = damaged(|c| c.wide_nodes[0].children[1] = BVH_NONE);
+    let fault = damaged(|c| c.nodes_of_four[0].children[1] = BVH_NONE);
     assert!(matches!(fault, Fault::Bounds { .. } | Fault::Leaves { .. }), "{fault}");
     let fault = damaged(|c| c.records[5].primitive = 7);
     assert!(matches!(fault, Fault::Triangles { .. }), "{fault}");

@@ -1,6 +1,6 @@
 //! Damaged trees.
 
-use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Width};
+use rasray_bvh::{Addressing, Builder, Bvh, Children, Config, Contents};
 use rasray_faults::{in_child, scrambled};
 
 use crate::damage::survive::{self, Flag, survive};
@@ -22,7 +22,7 @@ fn each_node(contents: &mut Contents, mut change: impl FnMut(Own) -> [u32; 3]) {
         let own = Own { number, link: 2 * number, parent: node.parent };
         [node.child_0, node.child_1, node.parent] = change(own);
     }
-    for (number, node) in (0..).zip(&mut contents.wide_nodes) {
+    for (number, node) in (0..).zip(&mut contents.nodes_of_four) {
         let own = Own { number, link: 4 * number, parent: node.parent };
         let [first, others, parent] = change(own);
         (node.children, node.parent) = ([first, others, others, others], parent);
@@ -75,8 +75,10 @@ fn check(config: Config) {
 fn damaged_trees_are_survived_and_told() {
     if in_child("damage::bvh::damaged_trees_are_survived_and_told") {
         let builders = [Builder::Sah, Builder::Ploc, Builder::Trbvh, Builder::Refit];
-        for (builder, width) in builders.into_iter().flat_map(|b| [(b, Width::Two), (b, Width::Four)]) {
-            let config = Config { width: Some(width), ..Config::new(builder) };
+        for (builder, children) in
+            builders.into_iter().flat_map(|b| [(b, Children::Two), (b, Children::Four)])
+        {
+            let config = Config { children: Some(children), ..Config::new(builder) };
             for addressing in [Addressing::Descriptor, Addressing::Address] {
                 check(Config { addressing, ..config });
             }

@@ -4,36 +4,36 @@
 //! the leaves up: Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", HPG
 //! 2017, section 3.1. Leaves and boxes stay as they are.
 
-use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE, BVH_WIDE};
+use rasray_shaders_glsl::constants::bvh::{BVH_FOUR, BVH_LEAF, BVH_NONE};
 
-use crate::WideNode;
+use crate::NodeOfFour;
 use crate::host::{Box3, Tree, triangles_of};
 use crate::validate::area;
 
 /// Children of a node.
-const WIDE: usize = BVH_WIDE as usize;
+const FOUR: usize = BVH_FOUR as usize;
 
 /// Least costs of a subtree as exactly 1, 2, 3 and 4 children of a node, infinity where it has fewer leaves, and how
 /// many of them its first half then takes.
 #[derive(Clone, Copy, Debug)]
 struct Choice {
-    costs: [f64; WIDE],
-    first: [u8; WIDE],
+    costs: [f64; FOUR],
+    first: [u8; FOUR],
 }
 
 impl Choice {
     /// A leaf is one child and costs its triangles, by area.
     fn leaf(reference: u32, bounds: Box3) -> Self {
-        let mut costs = [f64::INFINITY; WIDE];
+        let mut costs = [f64::INFINITY; FOUR];
         costs[0] = area(bounds) * f64::from(triangles_of(reference));
-        Self { costs, first: [0; WIDE] }
+        Self { costs, first: [0; FOUR] }
     }
 
     /// An inner node is divided between several children, or is one: a node of its own, with as many children as it can
     /// have. So a node with fewer than four has leaves only, which bounds their number.
     fn inner(bounds: Box3, halves: [Self; 2]) -> Self {
-        let mut choice = Self { costs: [f64::INFINITY; WIDE], first: [0; WIDE] };
-        for children in 2..=WIDE {
+        let mut choice = Self { costs: [f64::INFINITY; FOUR], first: [0; FOUR] };
+        for children in 2..=FOUR {
             for of_first in 1..children {
                 let cost = halves[0].costs[of_first - 1] + halves[1].costs[children - of_first - 1];
                 if cost < choice.costs[children - 1] {
@@ -47,13 +47,13 @@ impl Choice {
 
     /// As how many children it can be.
     fn most(&self) -> usize {
-        (2..=WIDE).rev().find(|children| self.costs[children - 1] < f64::INFINITY).unwrap_or(1)
+        (2..=FOUR).rev().find(|children| self.costs[children - 1] < f64::INFINITY).unwrap_or(1)
     }
 }
 
 /// Widens a tree to up to four children per node, in the same order of leaves; empty where the root is a leaf. The
 /// root's number is 0 in both.
-pub(crate) fn widened(tree: &Tree) -> Vec<WideNode> {
+pub(crate) fn with_four_children(tree: &Tree) -> Vec<NodeOfFour> {
     if tree.root == BVH_NONE || tree.root & BVH_LEAF != 0 {
         return Vec::new();
     }
@@ -74,24 +74,24 @@ pub(crate) fn widened(tree: &Tree) -> Vec<WideNode> {
         });
         choices[number] = Choice::inner(bounds[number], halves);
     }
-    let mut wide = Vec::new();
+    let mut nodes = Vec::new();
     let mut pending = vec![(0_usize, BVH_NONE)];
     while let Some((source, link)) = pending.pop() {
-        let number = wide.len() as u32;
+        let number = nodes.len() as u32;
         if link != BVH_NONE {
-            let parent: &mut WideNode = &mut wide[(link / BVH_WIDE) as usize];
-            parent.children[(link % BVH_WIDE) as usize] = number;
+            let parent: &mut NodeOfFour = &mut nodes[(link / BVH_FOUR) as usize];
+            parent.children[(link % BVH_FOUR) as usize] = number;
         }
-        let mut children = Vec::with_capacity(WIDE);
+        let mut children = Vec::with_capacity(FOUR);
         gather(tree, &choices, source, choices[source].most(), &mut children);
-        wide.push(WideNode::new(link, &children));
+        nodes.push(NodeOfFour::new(link, &children));
         for (slot, (reference, _)) in children.iter().enumerate().rev() {
             if reference & BVH_LEAF == 0 {
-                pending.push((*reference as usize, BVH_WIDE * number + slot as u32));
+                pending.push((*reference as usize, BVH_FOUR * number + slot as u32));
             }
         }
     }
-    wide
+    nodes
 }
 
 /// Collects what a node of the tree of two is as so many children: references into that tree.
@@ -111,7 +111,7 @@ fn gather(tree: &Tree, choices: &[Choice], source: usize, children: usize, into:
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Width;
+    use crate::Children;
     use crate::host::build;
     use crate::layout::most_nodes;
 
@@ -127,16 +127,19 @@ mod tests {
                 // A line, and all in one place, whose areas are zero.
                 for boxes in [line(count), vec![[[0.5; 3]; 2]; count]] {
                     let tree = build(&boxes, leaf);
-                    let wide = widened(&tree);
+                    let nodes = with_four_children(&tree);
                     let mut leaves = 0;
-                    for node in &wide {
+                    for node in &nodes {
                         let below =
                             node.children().filter(|(_, reference, _)| reference & BVH_LEAF != 0).count();
                         let children = node.children().count();
-                        assert!(children == WIDE || (children >= 2 && below == children), "{count}, {leaf}");
+                        assert!(children == FOUR || (children >= 2 && below == children), "{count}, {leaf}");
                         leaves += below;
                     }
-                    assert!(wide.len() as u64 <= most_nodes(Width::Four, count as u64), "{count}, {leaf}");
+                    assert!(
+                        nodes.len() as u64 <= most_nodes(Children::Four, count as u64),
+                        "{count}, {leaf}"
+                    );
                     let leaves_of_two = tree.nodes.len() + 1;
                     assert!(leaves == leaves_of_two || tree.nodes.is_empty(), "{count}, {leaf}");
                 }
@@ -147,7 +150,7 @@ mod tests {
     #[test]
     fn eight_leaves_of_equal_size_take_three_nodes() {
         let boxes: Vec<Box3> = (0..8).map(|i| [[i as f32, 0.0, 0.0], [i as f32 + 1.0, 1.0, 1.0]]).collect();
-        let wide = widened(&build(&boxes, 1));
-        assert_eq!(wide.len(), 3);
+        let nodes = with_four_children(&build(&boxes, 1));
+        assert_eq!(nodes.len(), 3);
     }
 }
