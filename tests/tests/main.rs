@@ -16,6 +16,7 @@ mod hits;
 #[path = "images/main.rs"]
 mod images;
 mod invariance;
+mod kept_pictures;
 #[path = "layout/main.rs"]
 mod layout;
 #[path = "ldc/main.rs"]

@@ -3,6 +3,8 @@
 
 #[path = "fetch/main.rs"]
 mod fetch;
+#[path = "../../../tests/tests/kept_pictures.rs"]
+mod kept_pictures;
 #[path = "pages/main.rs"]
 mod pages;
 #[path = "pictures/main.rs"]

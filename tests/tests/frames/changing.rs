@@ -14,7 +14,7 @@ use rasray_systems::Spec;
 use rasray_tests::harness::Bench;
 use rasray_tracer::{Keeping, Refresh};
 
-use crate::frames::pictures::{SIZE, input, pictures, spec, still, swinging, tables, view};
+use crate::frames::pictures::{SIZE, assert_shown, input, pictures, spec, still, swinging, tables, view};
 
 /// Cells along a side of a sheet in each frame, two triangles each: one that grows, shrinks, and goes.
 const SIDES: [usize; 9] = [1, 2, 24, 3, 0, 0, 17, 18, 2];
@@ -121,7 +121,7 @@ fn pictures_are_those_of_renderers_made_for_each_scene() {
             let scene = room(cornell(), SIDES[scenes[number]]);
             let expected =
                 still(device, &scene, &tables(&scene), &spec, &FrameInput { scene: None, ..input.clone() });
-            assert!(picture.film.means() == expected, "{name}, frame {number}");
+            assert_shown(&picture.film.means(), &expected, format_args!("{name}, frame {number}"));
         }
         let distinct = found.windows(2).filter(|pair| pair[0].film.means() != pair[1].film.means()).count();
         assert_eq!(distinct, SIDES.len() - 1, "{name}: frames differ, or nothing could go wrong");
@@ -148,7 +148,7 @@ fn nothing_of_earlier_scenes_is_left() {
     });
     let (mut shown, mut most) = (0, [0; 2]);
     let done = render_in_order(&mut renderer, inputs, |picture| {
-        assert!(picture.film.means() == expected[shown % sides.len()], "frame {shown}");
+        assert_shown(&picture.film.means(), &expected[shown % sides.len()], format_args!("frame {shown}"));
         let most = &mut most[usize::from(shown >= frames / 2)];
         *most = device.allocated_bytes().max(*most);
         shown += 1;
@@ -250,7 +250,8 @@ fn what_moves_in_a_scene_moves_in_the_next() {
             let (found, _) = pictures(&mut renderer, inputs);
             for (number, (picture, (scene, single))) in found.iter().zip(&singles).enumerate() {
                 let expected = still(device, scene, &tables(scene), spec, single);
-                assert!(picture.film.means() == expected, "{name}, frame {number}, in parts: {in_parts}");
+                let why = format!("{name}, frame {number}, in parts: {in_parts}");
+                assert_shown(&picture.film.means(), &expected, why);
             }
             if in_parts {
                 // A scene that is not in parts is refused, and frames go on with the one before.
@@ -259,7 +260,7 @@ fn what_moves_in_a_scene_moves_in_the_next() {
                 let refused = refused.expect_err("it is not in parts");
                 assert!(matches!(refused, FrameError::Ads(AdsError::InParts { .. })), "{refused}");
                 let (again, _) = pictures(&mut renderer, vec![singles[5].1.clone()]);
-                assert!(again[0].film.means() == found[5].film.means(), "{name}");
+                assert_shown(&again[0].film.means(), &found[5].film.means(), name);
             }
         }
     }
@@ -289,7 +290,7 @@ fn a_scene_that_needs_other_kernels_is_refused() {
             other => panic!("{other}"),
         }
         let still_there = pictures(&mut refusing, vec![with_scene(&plain, 0.0, None)]).0.remove(0);
-        assert!(still_there.film.means() == expected.film.means());
+        assert_shown(&still_there.film.means(), &expected.film.means(), "the scene before");
     }
     // A view of another size is no picture of this film.
     let mut wide = with_scene(&plain, 0.0, None);
@@ -308,7 +309,7 @@ fn a_scene_that_needs_other_kernels_is_refused() {
         for (number, (picture, scene)) in found.iter().zip(scenes).enumerate() {
             let single = with_scene(scene, 0.0, None);
             let expected = still(device, scene, &tables(scene), &spec, &single);
-            assert!(picture.film.means() == expected, "frame {number}");
+            assert_shown(&picture.film.means(), &expected, format_args!("frame {number}"));
         }
         assert_ne!(found[0].film.means(), found[1].film.means());
     }
@@ -363,7 +364,7 @@ fn numbered_files_are_frames() {
     for (number, picture) in (0..).zip(&found) {
         let scene = shown(number);
         let (expected, _) = pictures(&mut renderer(&scene), vec![with_scene(&scene, 0.0, None)]);
-        assert!(picture.film.means() == expected[0].film.means(), "file {number}");
+        assert_shown(&picture.film.means(), &expected[0].film.means(), format_args!("file {number}"));
         seen.push(expected[0].film.means());
     }
     seen.sort_by(|one, other| one.partial_cmp(other).expect("numbers"));
@@ -388,6 +389,7 @@ fn frames_in_flight_that_need_more_rounds_are_repeated() {
     let (found, repeated) = pictures(&mut renderer, inputs.to_vec());
     assert_eq!(repeated, 2, "both frames in flight have too few rounds");
     for (picture, input) in found.iter().zip(&inputs) {
-        assert!(picture.film.means() == still(device, &scene, &tables(&scene), &whole, input));
+        let expected = still(device, &scene, &tables(&scene), &whole, input);
+        assert_shown(&picture.film.means(), &expected, format_args!("frame {}", picture.number));
     }
 }

@@ -1,5 +1,6 @@
 //! Pictures of a scene that moves, with frames in flight: those that one frame after the other gives.
 
+use std::fmt::Display;
 use std::ops::{ControlFlow, Range};
 
 use glam::{DAffine3, DQuat, DVec3};
@@ -17,7 +18,15 @@ use rasray_systems::Spec;
 use rasray_tests::harness::Bench;
 use rasray_tracer::{Keeping, build_until_complete};
 
+use crate::kept_pictures::Compared;
+
 pub const SIZE: [u32; 2] = [24, 16];
+
+/// Fails the running test unless a frame's picture is the expected one, bit for bit; both are kept.
+#[track_caller]
+pub fn assert_shown(picture: &[[f32; 3]], expected: &[[f32; 3]], why: impl Display) {
+    Compared { picture, reference: expected, width: SIZE[0] }.assert_bits(why);
+}
 
 /// Every instance on a node of its own, of which the last one swings: right in one second, back in the next.
 pub fn swinging() -> Scene {
@@ -224,7 +233,7 @@ fn first_hits_that_are_drawn_are_those_that_are_traced() {
     let all = inputs(&traced, &scene, 3);
     let (expected, found) = (pictures(&mut traced, all.clone()).0, pictures(&mut drawn, all).0);
     for (expected, found) in expected.iter().zip(&found) {
-        assert_eq!(expected.film.means(), found.film.means(), "frame {}", expected.number);
+        assert_shown(&found.film.means(), &expected.film.means(), format_args!("frame {}", expected.number));
     }
 }
 
@@ -246,7 +255,7 @@ fn a_camera_that_moves_alone_builds_nothing_that_does_not_depend_on_it() {
         assert_eq!(built, [false; 5], "{system}");
         for (picture, input) in found.iter().zip(&all) {
             let expected = still(device, &scene, &tables(&scene), &spec, input);
-            assert_eq!(picture.film.means(), expected, "{system}");
+            assert_shown(&picture.film.means(), &expected, system);
         }
     }
 }
@@ -326,7 +335,8 @@ fn a_repeated_frame_without_a_pose_stays_where_it_was() {
             shown = pose.clone().or(shown);
             let single = FrameInput { pose: shown.clone(), ..inputs[number].clone() };
             let expected = still(device, &scene, &tables(&scene), &spec, &single);
-            assert!(picture.film.means() == expected, "frame {number}, first is posed: {first_is_posed}");
+            let why = format!("frame {number}, first is posed: {first_is_posed}");
+            assert_shown(&picture.film.means(), &expected, why);
         }
         assert_ne!(found[1].film.means(), found[2].film.means(), "nothing could go wrong");
     }
@@ -360,6 +370,6 @@ fn frames_show_what_is_behind_many_clear_layers() {
     assert!(shown.len() == 3 && repeated > 0, "{repeated}");
     for picture in &shown {
         assert_eq!((picture.film.faults.unended, picture.film.faults.cut), (0, 0));
-        assert_eq!(picture.film.means(), expected);
+        assert_shown(&picture.film.means(), &expected, format_args!("frame {}", picture.number));
     }
 }

@@ -24,6 +24,7 @@ use crate::frames::crowd::{Crowd, Shown};
 use crate::frames::kept::{Kept, Recorded};
 use crate::frames::parts::that_find_all;
 use crate::frames::scenes::{among, hall_of_objects, made, swinging_hall, third, view};
+use crate::kept_pictures::Compared;
 
 const RAYS: usize = 600;
 
@@ -276,7 +277,8 @@ fn pictures_are_the_same() {
         let (found, repeated, counts) = pictures(spec, true);
         println!("{name}: all {all:?}, in parts {counts:?}, {repeated} repeated");
         for (frame, (found, expected)) in found.iter().zip(&expected).enumerate() {
-            assert_eq!(found.0, expected.0, "{name}, frame {frame}");
+            let compared = Compared { picture: &found.0, reference: &expected.0, width: size[0] };
+            compared.assert_bits(format_args!("{name}, frame {frame}"));
         }
         let distinct = found.windows(2).filter(|pair| pair[0].0 != pair[1].0).count();
         assert_eq!(distinct, 6, "{name}: frames differ, or nothing could go wrong");

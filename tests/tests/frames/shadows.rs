@@ -14,7 +14,7 @@ use rasray_shadow_maps::Config;
 use rasray_tests::harness::Bench;
 use rasray_tracer::Keeping;
 
-use crate::frames::pictures::{SIZE, input, pictures, spec, still, still_with, tables, view};
+use crate::frames::pictures::{SIZE, assert_shown, input, pictures, spec, still, still_with, tables, view};
 
 const MAPS: Config = Config { resolution: 128, bias: 1.0, points: 2 };
 
@@ -137,6 +137,6 @@ fn a_scene_with_more_lights_has_more_maps() {
     for (picture, (scene, input)) in found.iter().zip([(&scene, &first), (&more, &second), (&scene, &first)])
     {
         let alone = still_with(device, scene, &tables(scene), &spec, input, Some(MAPS));
-        assert!(picture.film.means() == alone, "frame {}", picture.number);
+        assert_shown(&picture.film.means(), &alone, format_args!("frame {}", picture.number));
     }
 }

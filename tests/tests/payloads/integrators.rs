@@ -10,6 +10,8 @@ use rasray_tests::harness::{Bench, is_offered};
 use rasray_tests::pictures::{rendered, stage};
 use rasray_tracer::build_until_complete;
 
+use crate::kept_pictures::Compared;
+
 const SIZE: u32 = 32;
 const SAMPLES: u32 = 4;
 const BOUNCES: u32 = 2;
@@ -79,7 +81,8 @@ fn every_system_renders_what_brute_force_renders() {
             if kind == StructureKind::Primitive {
                 exact += 1;
                 for (found, expected) in found.iter().zip(&expected) {
-                    assert!(bits(found) == bits(expected), "{name}: another image than brute force's");
+                    let compared = Compared { picture: found, reference: expected, width: SIZE };
+                    compared.assert_bits(format_args!("{name}: another image than brute force's"));
                 }
                 continue;
             }

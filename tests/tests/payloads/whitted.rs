@@ -12,6 +12,8 @@ use rasray_tests::harness::{Bench, is_offered};
 use rasray_tests::pictures::{rendered, rendered_through, stage, staged};
 use rasray_tracer::build_until_complete;
 
+use crate::kept_pictures::Compared;
+
 const SIZE: u32 = 32;
 const SAMPLES: u32 = 2;
 
@@ -47,14 +49,15 @@ fn every_system_shows_what_mirrors_show_of_each_other() {
             continue;
         }
         let (kind, found) = image(&bench, &scene, system.name);
+        let compared = Compared { picture: &found, reference: &expected, width: SIZE };
         let off = (mean(&found) / mean(&expected) - 1.0).abs();
         let differing = bits(&found).iter().zip(bits(&expected)).filter(|(a, b)| *a != b).count();
         println!("{}: {off:.4} off, {differing} pixels differ", system.name);
         if kind == StructureKind::Primitive {
             exact += 1;
-            assert!(differing == 0, "{}: another image than brute force's", system.name);
+            compared.assert_bits(format_args!("{}: another image than brute force's", system.name));
         }
-        assert!(off < ALLOWED, "{}: {off} off", system.name);
+        compared.assert(off < ALLOWED, format_args!("{}: {off} off", system.name));
     }
     assert!(exact >= 4, "{exact} systems find triangles without loss");
 }
@@ -112,7 +115,8 @@ fn rays_that_miss_a_layered_depth_cube_show_the_environment() {
     };
     let expected = picture("brute-force", "robust", 1);
     for preset in ["published", "robust"] {
-        assert!(picture("ldc", preset, 1) == expected, "{preset}");
+        let found = picture("ldc", preset, 1);
+        Compared { picture: &found, reference: &expected, width: SIZE }.assert_bits(preset);
     }
     let black = picture("ldc", "published", 0);
     let mirrored = expected.iter().zip(&black).filter(|(shown, black)| shown != black).count();

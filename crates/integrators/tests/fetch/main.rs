@@ -1,8 +1,9 @@
 //! Surfaces fetched by drawing, against those of the structure: they must be the same in every bit, in every round of a
 //! path.
 
+use crate::kept_pictures::Compared;
 use crate::pictures::common::{
-    are_same, assert_silent, box_inside, device, forward_camera, lambert, scene,
+    assert_same, assert_silent, box_inside, device, forward_camera, lambert, scene,
     scenes::{glass_room, textured_room, veiled_room},
 };
 use crate::visibility::{Random, bits, drawing_device, perspective, soup, turned};
@@ -83,8 +84,9 @@ impl Stage {
             assert!(
                 of_hits.waves.iter().all(|(_, surfaces)| surfaces.iter().all(|surface| surface.valid == 0))
             );
-            let is_same = are_same(&self.device, &of_hits.image, &direct.image);
-            assert!(is_same, "{name}, {bounces} bounces: surfaces of hits");
+            let [width, _] = self.scene.image_size();
+            let why = format!("{name}, {bounces} bounces: surfaces of hits");
+            assert_same(&self.device, &of_hits.image, &direct.image, width, why);
             assert_eq!((direct.counts, direct.bytes), (None, 0));
             assert_eq!(drawn.bytes, formula_bytes(capacity, triangles), "{name}");
             for ((hits, surfaces), (other_hits, others)) in drawn.waves.iter().zip(&direct.waves) {
@@ -99,7 +101,8 @@ impl Stage {
                     );
                 }
             }
-            assert_eq!(drawn.image, direct.image, "{name}, {bounces} bounces");
+            let compared = Compared { picture: &drawn.image, reference: &direct.image, width };
+            compared.assert_bits(format_args!("{name}, {bounces} bounces"));
             all = drawn.counts.expect("it was drawn");
             let FetchCounts { hits, triangles: fetched, pixels, longest } = all;
             println!(

@@ -49,19 +49,19 @@ fn brushed_surfaces_are_those_of_the_naive_integrator() {
         let found = difference(scene, scene, &eye, 4, &path(3));
         let apart = difference(scene, &without(scene), &eye, 4, &path(3));
         println!("{name}: {found:?}, without {apart:?}");
-        assert!(found.share <= 0.02 && found.mean <= 5e-3, "{name}: {found:?}");
-        assert!(apart.share > 0.2, "{name}: anisotropy shows, {apart:?}");
+        found.assert_within(0.02, 5e-3, name);
+        apart.assert(apart.share > 0.2, format_args!("{name}: anisotropy shows"));
     }
     let ward = path(2).with("specular", "ward").expect("valid");
     let found = difference(&scene, &scene, &eye, 4, &ward);
     let apart = difference(&scene, &without(&scene), &eye, 4, &ward);
     println!("Ward: {found:?}, without {apart:?}");
-    assert!(found.share <= 0.02 && found.mean <= 5e-3, "{found:?}");
-    assert!(apart.share > 0.2, "anisotropy shows, {apart:?}");
+    found.assert_within(0.02, 5e-3, "anisotropy");
+    apart.assert(apart.share > 0.2, "anisotropy shows");
     // Light samples of smooth shapes see the same facets.
     let smooth = path(2).with("shadow-terminator", "offset").expect("valid");
     let found = difference(&tangents, &tangents, &eye, 4, &smooth);
-    assert!(found.share <= 0.02 && found.mean <= 5e-3, "{found:?}");
+    found.assert_within(0.02, 5e-3, "anisotropy");
 }
 
 /// Glass that light is refracted by, a smooth pane that is one no more, and meshes that nothing says the tangents of.
@@ -79,8 +79,8 @@ fn brushed_glass_is_that_of_the_naive_integrator() {
     let found = difference(&scene, &scene, &eye, 4, &path(6));
     let apart = difference(&scene, &without(&scene), &eye, 4, &path(6));
     println!("{found:?}, without {apart:?}");
-    assert!(found.share <= 0.03 && found.mean <= 0.01, "{found:?}");
-    assert!(apart.share > 0.05, "anisotropy shows, {apart:?}");
+    found.assert_within(0.03, 0.01, "anisotropy");
+    apart.assert(apart.share > 0.05, "anisotropy shows");
 }
 
 /// Where no material is anisotropic, kernels have no code for it, and pictures are the same with it.
@@ -93,6 +93,6 @@ fn code_for_it_changes_nothing_where_there_is_none() {
     let lean = stage.render(&Path::new(&stage.desc(), 3).expect("valid"), 2);
     let all = ShadingFeatures { anisotropy: true, ..features };
     let full = stage.render(&Path::new(&stage.desc_with(108, all), 3).expect("valid"), 2);
-    assert!(are_same(&device, &lean, &full));
+    assert_same(&device, &lean, &full, 12, "code for anisotropy");
     assert_silent(&device);
 }

@@ -130,7 +130,7 @@ fn the_map_is_that_of_the_naive_integrator() {
         let found = difference(&scene, &scene, &eye, 4, &spec);
         println!("{:?}: {found:?}", spec.options());
         // Where the ball's facets end, a ray may be reflected by one or by the next.
-        assert!(found.share <= 0.02 && found.mean <= 0.01, "{:?}: {found:?}", spec.options());
+        found.assert_within(0.02, 0.01, format_args!("{:?}", spec.options()));
     }
 }
 
@@ -180,7 +180,7 @@ fn what_lies_behind_many_veils_is_in_the_map() {
     let spec = cube_map().with("cube-resolution", 24).expect("valid");
     let found = difference(&scene, &scene, &eye, 1, &spec);
     println!("{found:?}");
-    assert!(found.share <= 0.02 && found.mean <= 0.01, "{found:?}");
+    found.assert_within(0.02, 0.01, format_args!("{:?}", spec.options()));
 }
 
 #[test]

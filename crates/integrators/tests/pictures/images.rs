@@ -278,11 +278,17 @@ fn facets_that_no_material_has_change_nothing() {
     let with = ShadingFeatures { facets: true, ..features };
     let path = |features| Path::new(&stage.desc_with(108, features), 4).expect("valid");
     let (lean, full) = (path(features), path(with));
-    assert!(are_same(&device, &stage.render(&lean, 4), &stage.render(&full, 4)));
+    assert_same(&device, &stage.render(&lean, 4), &stage.render(&full, 4), 24, "paths");
     assert!(mean(&stage.render(&lean, 4)) > 0.05);
     let whitted =
         |features| Whitted::new(&stage.desc_with(108, features), WhittedOptions::default()).expect("valid");
-    assert!(are_same(&device, &stage.render(&whitted(features), 2), &stage.render(&whitted(with), 2)));
+    assert_same(
+        &device,
+        &stage.render(&whitted(features), 2),
+        &stage.render(&whitted(with), 2),
+        24,
+        "whitted",
+    );
     assert_silent(&device);
 }
 

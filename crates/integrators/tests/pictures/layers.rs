@@ -90,7 +90,7 @@ fn one_opaque_layer_is_ray_casting() {
     let raycast = stage.render(&Raycast::new(&stage.desc()).expect("valid"), 2);
     for limit in [Some(1), None] {
         let layers = stage.render(&Layers::new(&stage.desc(), limit, 1.0).expect("valid"), 2);
-        assert!(are_same(&device, &layers, &raycast), "{limit:?}");
+        assert_same(&device, &layers, &raycast, SIZE, format_args!("{limit:?}"));
     }
     let through = stage.render(&Layers::new(&stage.desc(), None, 0.5).expect("valid"), 2);
     assert!(!are_same(&device, &through, &raycast), "something lies behind");

@@ -97,11 +97,11 @@ fn lenses_of_the_device_are_those_of_the_naive_integrators() {
     for (aperture, focus) in [(0.1, 2.5), (0.4, 1.2), (0.05, 1.0e18)] {
         let camera = Camera { lens: Some(Lens { aperture, focus }), ..forward_camera(eye) };
         let found = difference(&scene, &scene, &camera, 4, &raycast());
-        assert!(found.share <= 0.01 && found.mean <= 1e-3, "{found:?}");
+        found.assert_within(0.01, 1e-3, "camera rays");
     }
     let camera = Camera { lens: Some(Lens { aperture: 0.2, focus: 1.5 }), ..forward_camera(DVec3::Z * 0.9) };
     let found = difference(&veiled_room(), &veiled_room(), &camera, 4, &path(2));
-    assert!(found.share <= 0.02 && found.mean <= 0.01, "{found:?}");
+    found.assert_within(0.02, 0.01, "a room with a veil");
 }
 
 /// Further images are of what is seen through the centre of the lens.

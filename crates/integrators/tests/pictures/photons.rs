@@ -10,6 +10,7 @@ use rasray_integrators::{
 use rasray_reference::shading::{Sampler, View, camera_ray, pixel_position};
 use rasray_scene::{Camera, Environment, Instance, Light, Material, Mesh, Projection, Scene};
 
+use crate::kept_pictures::Compared;
 use crate::pictures::common::{scenes::cornell, *};
 use crate::pictures::whitted::{ball, glass, mirror, reflected};
 
@@ -394,7 +395,7 @@ fn photons_of_all_lights_are_those_of_the_naive_integrator() {
         let found = difference::difference(&scene, &scene, &eye, 4, &spec);
         println!("{:?}: {found:?}", spec.options());
         // Where the ball's facets end, a photon may be refracted by one or by the next.
-        assert!(found.share <= 0.05 && found.mean <= 0.005, "{:?}: {found:?}", spec.options());
+        found.assert_within(0.05, 0.005, format_args!("{:?}", spec.options()));
     }
 }
 
@@ -414,7 +415,9 @@ fn waves_and_ways_to_record_them_change_no_picture() {
         let options = options(kind, 4, 2000, 0.2);
         let expected = render(&stage, options, 2);
         let cut = Photons::new(&stage.desc_with(37, stage.desc().features), options).expect("valid");
-        assert!(stage.render(&cut, 2) == expected, "nine waves a sample gather one map");
+        let by_waves = stage.render(&cut, 2);
+        let compared = |picture| Compared { picture, reference: &expected, width: 20 };
+        compared(&by_waves).assert_bits("nine waves a sample gather one map");
 
         // As frames record it: more rounds until no ray is left.
         let whole = photons(&stage, options);
@@ -431,7 +434,8 @@ fn waves_and_ways_to_record_them_change_no_picture() {
             }
             assert!(whole.allow_more_rounds());
         }
-        assert!(stage.film.read(&device).expect("readable") == expected, "{kind:?}");
+        let recorded = stage.film.read(&device).expect("readable");
+        compared(&recorded).assert_bits(format_args!("{kind:?}, as frames record it"));
     }
     assert_silent(&device);
 }

@@ -18,7 +18,7 @@ use rasray_scene::{
 fn compare(scene: &Scene, camera: &Camera, samples: u32, integrator: &IntegratorSpec, deviating: f64) {
     let found = difference(scene, scene, camera, samples, integrator);
     eprintln!("{}: {found:?}", scene.name);
-    assert!(found.share <= deviating && found.mean <= 0.01, "{}: {found:?}", scene.name);
+    found.assert_within(deviating, 0.01, &scene.name);
 }
 
 #[test]
@@ -32,7 +32,7 @@ fn cornell_box() {
 fn independent_numbers_are_the_same_ones_too() {
     let (scene, camera) = cornell();
     let found = sampled_difference(&scene, &scene, &camera, 4, &path(4), Sampler::Pcg);
-    assert!(found.share <= 0.01 && found.mean <= 0.01, "{found:?}");
+    found.assert_within(0.01, 0.01, "independent numbers");
 }
 
 #[test]
@@ -43,13 +43,13 @@ fn a_wrong_scene_is_noticed() {
         material.base_color[0] *= 1.01;
     }
     let found = difference(&brighter, &scene, &camera, 4, &path(4));
-    assert!(found.share > 0.5, "{found:?}");
+    found.assert(found.share > 0.5, "more light is noticed");
     let mut lower = scene.clone();
     for instance in &mut lower.instances {
         instance.world_from_mesh.translation.y -= 0.01;
     }
     let found = difference(&lower, &scene, &camera, 8, &occlusion(0.2));
-    assert!(found.share > 0.1, "{found:?}");
+    found.assert(found.share > 0.1, "another shape is noticed");
 }
 
 #[test]
@@ -95,14 +95,17 @@ fn backs_are_passed_by_the_rays_that_are_asked_to() {
             for kind in [path(4), occlusion(1.0)] {
                 let found = passing_difference([back_faces; 2], &scene, &eye, 4, &kind);
                 eprintln!("{back_faces:?}: {found:?}");
-                assert!(found.share <= 0.01 && found.mean <= 0.01, "{back_faces:?}: {found:?}");
+                found.assert_within(0.01, 0.01, format_args!("{back_faces:?}"));
             }
             // The second room has no outer walls.
             let differs = |other: &&BackFaces| **other != back_faces && scene.name.contains("veil");
             let others = BackFaces::ALL.iter().filter(differs);
             for other in others {
                 let found = passing_difference([*other, back_faces], &scene, &eye, 4, &path(4));
-                assert!(found.share > 0.1, "{other:?} in place of {back_faces:?} is noticed: {found:?}");
+                found.assert(
+                    found.share > 0.1,
+                    format_args!("{other:?} in place of {back_faces:?} is noticed"),
+                );
             }
         }
     }

@@ -44,6 +44,6 @@ fn every_option_does_on_the_device_what_it_does_in_the_naive_integrator() {
     for spec in specs() {
         let found = difference(&scene, &scene, &eye, 4, &spec);
         eprintln!("{} {:?}: {found:?}", spec.name(), spec.options());
-        assert!(found.share <= 0.01 && found.mean <= 0.01, "{spec:?}: {found:?}");
+        found.assert_within(0.01, 0.01, format_args!("{spec:?}"));
     }
 }

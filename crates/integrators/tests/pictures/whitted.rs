@@ -210,7 +210,7 @@ fn a_ball_of_glass_is_that_of_the_naive_integrator() {
         let found = difference(&scene, &scene, &camera, 4, &spec);
         eprintln!("{ray_depth}: {found:?}");
         // Where the ball's facets end, a ray may be refracted by one or by the next.
-        assert!(found.share <= 0.02 && found.mean <= 0.01, "{ray_depth}: {found:?}");
+        found.assert_within(0.02, 0.01, ray_depth);
     }
 }
 
@@ -400,7 +400,7 @@ fn mirrors_of_any_direction_under_a_sky_of_texels() {
     scene.environment = Environment::LatLong { width: 16, height: 8, radiance: radiance.collect() };
     let found = difference(&scene, &scene, &camera, 4, &whitted());
     eprintln!("{found:?}");
-    assert!(found.share <= 0.02 && found.mean <= 0.01, "{found:?}");
+    found.assert_within(0.02, 0.01, "a scene with a sky");
 }
 
 #[test]
@@ -414,7 +414,8 @@ fn point_lights_light_rough_surfaces_as_they_do_in_paths() {
     let stage = Setup::new(&device, &scene, forward_camera(DVec3::new(0.1, 0.0, 0.8)), 16, 12, 9);
     let image = render(&stage, WhittedOptions::default());
     let expected = stage.render(&rasray_integrators::Path::new(&stage.desc(), 1).expect("valid"), 1);
-    assert!(mean(&image) > 0.01 && are_same(&device, &image, &expected));
+    assert!(mean(&image) > 0.01);
+    assert_same(&device, &image, &expected, 16, "direct light");
     assert_silent(&device);
 }
 

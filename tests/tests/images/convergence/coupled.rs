@@ -5,6 +5,7 @@ use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{Studio, System};
 
 use super::{SIZE, cornell, reference, rendered};
+use crate::kept_pictures::Compared;
 
 /// Difference between two images.
 #[derive(Clone, Copy, Debug)]
@@ -44,15 +45,18 @@ fn exact_hits_leave_rounding_and_fragments_leave_their_law() {
         let origin = stage.scene().frame_origin();
         stage.reseed(5);
         let image = rendered(&stage);
-        let coupled = difference(&image, &reference(&scene, &camera, origin, 5));
+        let truth = reference(&scene, &camera, origin, 5);
+        let compared = Compared { picture: &image, reference: &truth, width: SIZE };
+        let coupled = difference(&image, &truth);
         let noise = difference(&image, &reference(&scene, &camera, origin, 6));
         eprintln!("{system:?}: coupled {coupled:?}, other random numbers {noise:?}");
         // With other random numbers next to nothing agrees, so the comparison can fail.
         assert!(noise.share > 0.5 && noise.rms > 0.05, "{noise:?}");
         if system == System::BruteForce {
             // Rounding, but for the odd path that falls the other way at an edge or a threshold.
-            assert!(coupled.share <= 0.01, "{coupled:?}");
-            assert!(coupled.rms_of_others <= 1e-4 * noise.rms, "{coupled:?} {noise:?}");
+            compared.assert(coupled.share <= 0.01, format_args!("{coupled:?}"));
+            let is_rounding = coupled.rms_of_others <= 1e-4 * noise.rms;
+            compared.assert(is_rounding, format_args!("{coupled:?} {noise:?}"));
         }
         shares.push(coupled.share);
     }

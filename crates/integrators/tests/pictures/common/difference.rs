@@ -1,5 +1,7 @@
 //! A device image held against the one of the CPU.
 
+use std::fmt::{self, Debug, Display, Formatter};
+
 use rasray_gpu_scene::Sampling;
 use rasray_integrators::{IntegratorRow, IntegratorSpec};
 use rasray_reference::integrators::NaiveIntegrator;
@@ -7,6 +9,7 @@ use rasray_reference::shading::{PosedScene, Sampler, View};
 use rasray_scene::{BackFaces, Camera, Scene};
 
 use super::{Setup, assert_silent, drawing_device, mean};
+use crate::kept_pictures::Compared;
 
 pub const WIDTH: u32 = 16;
 pub const HEIGHT: u32 = 12;
@@ -37,12 +40,35 @@ pub fn raycast() -> IntegratorSpec {
 }
 
 /// Measures of an image against its reference.
-#[derive(Debug)]
 pub struct Difference {
     /// Share of the pixels that differ by more than 1e-3 of their value.
     pub share: f64,
     /// Difference of the means over the reference's.
     pub mean: f64,
+    /// The image and its reference, [`WIDTH`] pixels a row.
+    pictures: [Vec<[f32; 3]>; 2],
+}
+
+impl Difference {
+    /// Fails the running test where more is off than that; both pictures are kept.
+    #[track_caller]
+    pub fn assert_within(&self, share: f64, mean: f64, why: impl Display) {
+        self.assert(self.share <= share && self.mean <= mean, why);
+    }
+
+    /// Fails the running test unless `holds`; both pictures are kept.
+    #[track_caller]
+    pub fn assert(&self, holds: bool, why: impl Display) {
+        let [picture, reference] = &self.pictures;
+        Compared { picture, reference, width: WIDTH }.assert(holds, format_args!("{why}: {self:?}"));
+    }
+}
+
+impl Debug for Difference {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { share, mean, .. } = self;
+        f.debug_struct("Difference").field("share", share).field("mean", mean).finish_non_exhaustive()
+    }
 }
 
 /// Renders `shown` on the device and `scene` on the CPU.
@@ -115,5 +141,6 @@ fn made_difference(
     Difference {
         share: count as f64 / image.len() as f64,
         mean: (mean_image - mean_reference).abs() / mean_reference,
+        pictures: [image, reference],
     }
 }

@@ -4,12 +4,16 @@
 pub mod difference;
 pub mod scenes;
 
+use std::fmt::Display;
+
 use glam::{DAffine3, DMat3, DVec3};
 use rasray_ads::BruteForce;
 use rasray_gpu::{Device, DeviceDesc, Timing};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, ShadingFeatures, View};
 use rasray_integrators::{Fetch, Film, Integrator, IntegratorDesc};
 use rasray_scene::{Camera, Environment, Instance, Material, Mesh, Projection, Scene};
+
+use crate::kept_pictures::Compared;
 
 /// A device with validation on.
 pub fn device() -> Device {
@@ -156,6 +160,19 @@ pub fn are_same(device: &Device, picture: &[[f32; 3]], expected: &[[f32; 3]]) ->
     }
     picture.len() == expected.len()
         && picture.as_flattened().iter().zip(expected.as_flattened()).all(is_close)
+}
+
+/// Fails the running test unless pictures with `width` pixels a row are the same ([`are_same`]); both are kept.
+#[track_caller]
+pub fn assert_same(
+    device: &Device,
+    picture: &[[f32; 3]],
+    reference: &[[f32; 3]],
+    width: u32,
+    why: impl Display,
+) {
+    let is_same = are_same(device, picture, reference);
+    Compared { picture, reference, width }.assert(is_same, why);
 }
 
 pub fn assert_silent(device: &Device) {
