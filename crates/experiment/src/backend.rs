@@ -2,7 +2,7 @@
 
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
-use crate::render::KeptScene;
+use crate::render_job::KeptScene;
 use rasray_gpu::PassCommands;
 use rasray_gpu_scene::TexelRuns;
 use rasray_report::{Device, ListRecord, Run};

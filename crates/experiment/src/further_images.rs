@@ -13,15 +13,15 @@ use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::jobs::{Aov, AovImage, Frame, RenderJob};
 use crate::motion::{TrianglesBefore, motion};
-use crate::render::Pixels;
-use crate::rendering::Rendering;
+use crate::progressive_image::ProgressiveImage;
+use crate::render_job::Pixels;
 
 /// The images in addition to the colours of `pixels`; `before` are the triangles of the frame before. Each is made band by band,
 /// so that nothing is kept of a pixel but what is wanted.
 pub(super) fn further_images(
     device: &Device,
     job: &RenderJob<'_>,
-    (stage, built, rendering): (&DeviceScene, &Built, &Rendering),
+    (stage, built, rendering): (&DeviceScene, &Built, &ProgressiveImage),
     pixels: &mut Pixels,
     before: Option<&TrianglesBefore>,
 ) -> Result<BTreeMap<Aov, AovImage>, ExperimentError> {
@@ -79,7 +79,7 @@ pub(super) fn further_images(
     Ok(images)
 }
 
-impl Rendering {
+impl ProgressiveImage {
     /// Makes the images [`Aov::FOR_DENOISING`], which a denoiser is fed with beside the colours, of the scene and the
     /// structure that it renders, as a render has them: one entry per pixel, rows from the top. The scene was uploaded
     /// with what these need ([`AovSelection::needs`](crate::AovSelection::needs)).
@@ -133,11 +133,11 @@ fn direct_light(
     stage: &DeviceScene,
     built: &Built,
     samples: u32,
-) -> Result<Rendering, ExperimentError> {
+) -> Result<ProgressiveImage, ExperimentError> {
     let bounces = job.frame.integrator.values().get("bounces").and_then(Value::whole).unwrap_or(1);
     let integrator = job.frame.integrator.clone().with("bounces", Value::Whole(bounces.min(1)))?;
     let frame = Frame { integrator, spp: samples, ..job.frame.clone() };
-    let mut rendering = Rendering::new(device, (stage, built), &frame, job.shard, &job.needs)?;
+    let mut rendering = ProgressiveImage::new(device, (stage, built), &frame, job.shard, &job.needs)?;
     rendering.render(device, built, "direct light", &mut |_| ControlFlow::Continue(()))?;
     Ok(rendering)
 }

@@ -10,8 +10,8 @@ use crate::compare::Setting;
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
 use crate::jobs::{Comparison, Frame, OccluderKind, Primary};
-use crate::render::{Kept, render_pixels};
-use crate::rendering::Rendering;
+use crate::progressive_image::ProgressiveImage;
+use crate::render_job::{Kept, render_pixels};
 use rasray_report::figures::{Images, SystemImage};
 use rasray_report::{ImageError, PassOf, Run};
 
@@ -102,7 +102,7 @@ pub(super) fn compare_images(
             built.build_again(device)?;
         }
         let task = format!("image {}", config.system.name);
-        let mut rendering = Rendering::new(device, (stage, &built), frame, None, &job.needs)?;
+        let mut rendering = ProgressiveImage::new(device, (stage, &built), frame, None, &job.needs)?;
         let mut pixels =
             render_pixels(device, &mut rendering, &built, (true, &task, Kept::default()), progress)?;
         if pixels.samples_done < frame.spp {

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use rasray_denoise::{DenoiseError, Denoiser, NoisyPicture};
-use rasray_experiment::{Built, DeviceScene, ExperimentError, Rendering};
+use rasray_experiment::{Built, DeviceScene, ExperimentError, ProgressiveImage};
 
 /// From the end of one to the begin of the next, in times of what the last one took: a fifth of the time is spent on it.
 const PAUSE: u32 = 4;
@@ -46,7 +46,7 @@ impl Denoising {
     /// Feeds it with those of what is rendered.
     pub(crate) fn feed(
         &mut self,
-        rendering: &Rendering,
+        rendering: &ProgressiveImage,
         stage: &DeviceScene,
         built: &Built,
     ) -> Result<(), ExperimentError> {

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use rasray_experiment::{
-    Built, DeviceScene, ExperimentError, Frame, Rendering, SystemConfig, TexelCapacity, texels,
+    Built, DeviceScene, ExperimentError, Frame, ProgressiveImage, SystemConfig, TexelCapacity, texels,
     work_per_pixel,
 };
 use rasray_gpu::{Device, Timing};
@@ -62,8 +62,8 @@ pub struct Engine {
     traced: Option<Traced>,
     exact: Option<Traced>,
     /// Of the whole picture.
-    film: Option<Rendering>,
-    exact_film: Option<Rendering>,
+    film: Option<ProgressiveImage>,
+    exact_film: Option<ProgressiveImage>,
     /// Denoiser of the whole picture, once that was asked for.
     denoising: Option<Denoising>,
     /// Of the whole picture, once it is complete: [`Picture::cut_rays`].
@@ -196,7 +196,7 @@ impl Engine {
     }
 
     /// All that there are.
-    fn films(&mut self) -> impl Iterator<Item = &mut Rendering> {
+    fn films(&mut self) -> impl Iterator<Item = &mut ProgressiveImage> {
         let preview = self.preview.iter_mut().flat_map(Preview::films);
         self.film.iter_mut().chain(&mut self.exact_film).chain(preview)
     }
@@ -276,7 +276,7 @@ impl Engine {
         let Self { device, stage, traced, film, settings, denoising, .. } = self;
         let (Some((stage, needs)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
         let film = opened(device, stage, film, &settings.frame, needs, &traced.built, say)?;
-        let is_complete = |film: &Rendering| film.image().samples_done() >= settings.frame.spp;
+        let is_complete = |film: &ProgressiveImage| film.image().samples_done() >= settings.frame.spp;
         if !is_complete(film) {
             if !advance(device, film, traced, &mut self.sample_ms)? {
                 return Ok(Step::Working);
@@ -444,15 +444,15 @@ impl Engine {
 fn opened<'a>(
     device: &Device,
     stage: &DeviceScene,
-    film: &'a mut Option<Rendering>,
+    film: &'a mut Option<ProgressiveImage>,
     frame: &Frame,
     needs: &Needs,
     built: &Built,
     say: &mut dyn FnMut(&str),
-) -> Result<&'a mut Rendering, ExperimentError> {
+) -> Result<&'a mut ProgressiveImage, ExperimentError> {
     if film.as_ref().is_none_or(|film| !film.serves(built)) {
         say("first use of the shaders");
-        let mut made = Rendering::new(device, (stage, built), frame, None, needs)?;
+        let mut made = ProgressiveImage::new(device, (stage, built), frame, None, needs)?;
         made.warm_up(built)?;
         *film = Some(made);
     }
@@ -462,7 +462,7 @@ fn opened<'a>(
 /// One wave; whether a sample is whole after it. Rays without an answer are an error.
 fn advance(
     device: &Device,
-    film: &mut Rendering,
+    film: &mut ProgressiveImage,
     traced: &Traced,
     sample_ms: &mut f64,
 ) -> Result<bool, ExperimentError> {

@@ -1,7 +1,7 @@
 //! The picture while something moves: direct light on what is seen, from few rays, made readable.
 
 use rasray_experiment::{
-    Built, DeviceScene, ExperimentError, Frame, IntegratorRow, IntegratorSpec, OccluderKind, Rendering,
+    Built, DeviceScene, ExperimentError, Frame, IntegratorRow, IntegratorSpec, OccluderKind, ProgressiveImage,
 };
 use rasray_gpu::Device;
 use rasray_scene::needs::Needs;
@@ -42,8 +42,8 @@ fn surface_frame(light: &Frame) -> Option<Frame> {
 pub(crate) struct Preview {
     /// Pixels a row and rows.
     pub(crate) size: [u32; 2],
-    light: Rendering,
-    surfaces: Option<Rendering>,
+    light: ProgressiveImage,
+    surfaces: Option<ProgressiveImage>,
 }
 
 impl Preview {
@@ -56,8 +56,8 @@ impl Preview {
         needs: &Needs,
         built: &Built,
     ) -> Result<Self, ExperimentError> {
-        let open = |frame: &Frame| -> Result<Rendering, ExperimentError> {
-            let mut made = Rendering::new(device, (stage, built), frame, None, needs)?;
+        let open = |frame: &Frame| -> Result<ProgressiveImage, ExperimentError> {
+            let mut made = ProgressiveImage::new(device, (stage, built), frame, None, needs)?;
             made.warm_up(built)?;
             Ok(made)
         };
@@ -67,12 +67,12 @@ impl Preview {
     }
 
     /// All of them.
-    pub(crate) fn films(&mut self) -> impl Iterator<Item = &mut Rendering> {
+    pub(crate) fn films(&mut self) -> impl Iterator<Item = &mut ProgressiveImage> {
         std::iter::once(&mut self.light).chain(&mut self.surfaces)
     }
 
     /// The one with fewer samples, whose wave is next.
-    pub(crate) fn next(&mut self) -> &mut Rendering {
+    pub(crate) fn next(&mut self) -> &mut ProgressiveImage {
         let done = self.light.image().samples_done();
         match &mut self.surfaces {
             Some(surfaces) if surfaces.image().samples_done() <= done => surfaces,
@@ -86,7 +86,7 @@ impl Preview {
     }
 
     /// That of the light, which is the last to have a sample.
-    pub(crate) fn light(&self) -> &Rendering {
+    pub(crate) fn light(&self) -> &ProgressiveImage {
         &self.light
     }
 

@@ -70,7 +70,7 @@ fn with_occluder(
 }
 
 /// The image of a job in the making, with the times of its passes. Every call submits and waits.
-pub struct Rendering {
+pub struct ProgressiveImage {
     /// What is on the film.
     pub(super) image: ImageRenderer,
     pub(super) passes: Passes,
@@ -78,10 +78,10 @@ pub struct Rendering {
     of_hits: bool,
 }
 
-impl Rendering {
+impl ProgressiveImage {
     /// Allocates the film of a frame and makes its integrator; nothing is rendered. The scene's view has the size of the
     /// frame. With a shard only its samples are made. `built` is what will be traced, or what has hits like it
-    /// ([`Rendering::serves`]).
+    /// ([`ProgressiveImage::serves`]).
     ///
     /// # Errors
     /// The device fails, the frame asks for more than the integrator does, or for first hits that `built` does not have.
@@ -198,7 +198,7 @@ impl Rendering {
     /// Renders the samples, or those up to an early end that `progress` asks for.
     ///
     /// # Errors
-    /// As [`Rendering::advance`].
+    /// As [`ProgressiveImage::advance`].
     pub(super) fn render(
         &mut self,
         device: &Device,

@@ -1,4 +1,4 @@
-//! An image: scene to device, structure, waves of samples, readback.
+//! A job of an image: scene to device, structure, waves of samples, readback.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -18,7 +18,7 @@ use crate::image_memory;
 use crate::jobs::{Aov, FilmSums, Frame, Refresh, RenderJob, RenderOutput};
 use crate::motion::TrianglesBefore;
 use crate::passes::Passes;
-use crate::rendering::Rendering;
+use crate::progressive_image::ProgressiveImage;
 use crate::shard::Shard;
 use crate::system_config::SystemConfig;
 use rasray_report::{AdaptiveRecord, Counters, PassOf, Times};
@@ -92,7 +92,7 @@ pub(super) struct Kept {
 /// Renders the samples of an image through a built structure; kernels that are `new` are used once before.
 pub(super) fn render_pixels(
     device: &Device,
-    rendering: &mut Rendering,
+    rendering: &mut ProgressiveImage,
     built: &Built,
     (new, task, kept): (bool, &str, Kept),
     progress: &mut OnProgress<'_>,
@@ -128,7 +128,7 @@ pub struct KeptScene(Option<OnDevice>);
 struct OnDevice {
     stage: DeviceScene,
     built: Built,
-    rendering: Rendering,
+    rendering: ProgressiveImage,
     made_for: MadeFor,
     /// Whether every kernel was used.
     is_warm: bool,
@@ -227,13 +227,14 @@ fn on_device(
     };
     let rendering = match rendering.filter(|rendering| rendering.serves(&built)) {
         Some(mut rendering) => {
-            Rendering::check(&job.frame, &built)?;
+            ProgressiveImage::check(&job.frame, &built)?;
             rendering.clear()?;
             rendering.scene_moved();
             rendering
         }
         None => {
-            let rendering = Rendering::new(device, (&stage, &built), &job.frame, job.shard, &job.needs)?;
+            let rendering =
+                ProgressiveImage::new(device, (&stage, &built), &job.frame, job.shard, &job.needs)?;
             if made_for.measures { rendering.measuring() } else { rendering }
         }
     };

@@ -1,4 +1,4 @@
-//! Jobs on a Vulkan device.
+//! The backend that carries jobs out on a Vulkan device.
 
 use rasray_gpu::{Device as GpuDevice, DeviceDesc};
 
@@ -8,19 +8,19 @@ use crate::describe::requirements;
 use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
-use crate::render::KeptScene;
+use crate::render_job::KeptScene;
 use rasray_report::{Device, ListRecord};
 
 /// Pipelines kept for structures that are made again: those of hard cases, of variants, and of frames with other triangles.
 const KEPT_PIPELINES: usize = 256;
 
 /// A device; everything made for a job goes with the job, but for what its caller keeps.
-struct Renderer {
+struct DeviceBackend {
     device: GpuDevice,
     validation: bool,
 }
 
-impl Renderer {
+impl DeviceBackend {
     /// Opens the wanted device.
     fn open(choice: &DeviceChoice) -> Result<Self, ExperimentError> {
         let device = open_device(choice)?;
@@ -36,7 +36,7 @@ impl Renderer {
     }
 }
 
-impl Backend for Renderer {
+impl Backend for DeviceBackend {
     fn device(&self) -> Device {
         Device {
             name: self.device.name().to_owned(),
@@ -55,7 +55,7 @@ impl Backend for Renderer {
         kept: &mut KeptScene,
         progress: &mut OnProgress<'_>,
     ) -> Result<RenderOutput, ExperimentError> {
-        let output = crate::render::render(&self.device, job, kept, progress)?;
+        let output = crate::render_job::render(&self.device, job, kept, progress)?;
         self.check_validation()?;
         Ok(output)
     }
@@ -123,5 +123,5 @@ pub fn open_device(choice: &DeviceChoice) -> Result<GpuDevice, ExperimentError> 
 /// # Errors
 /// As [`open_device`].
 pub fn open(choice: &DeviceChoice) -> Result<Box<dyn Backend>, ExperimentError> {
-    Ok(Box::new(Renderer::open(choice)?))
+    Ok(Box::new(DeviceBackend::open(choice)?))
 }
