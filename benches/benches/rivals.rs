@@ -5,6 +5,7 @@
 //! system has it; else its rows say how to get it. Both trace on as many threads as llvmpipe has: those of `LP_NUM_THREADS`, or
 //! one a processor. Alpha masks and backs are hit as all else is. Times of software devices are for ratios on that device.
 
+use rasray_scene::Sampler;
 use std::error::Error;
 use std::rc::Rc;
 
@@ -16,8 +17,8 @@ use rasray_experiment::{DeviceScene, RaySet, RaySource, device_hits, oracle_ray}
 use rasray_gpu::Device;
 use rasray_metrics::{DeviceHit, HitConfusion, Truth, median};
 use rasray_reference::oracle::{Oracle, Verdict};
+use rasray_reference::shading::View;
 use rasray_reference::shading::random::RandomStream;
-use rasray_reference::shading::{Sampler, View};
 use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, build_until_complete};
 

@@ -12,7 +12,7 @@ use crate::contestant::Contestant;
 use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::images::compare_images;
-use crate::jobs::{CompareJob, Comparison, FILE_SET, Sampler};
+use crate::jobs::{CompareJob, Comparison, FILE_SET};
 use crate::rays::{RayFlags, RaySource, oracle_ray, triangles};
 use crate::replay::{ReplaySetting, replay_sets};
 use crate::traced_set::{RaysWithTruth, Taking, Wanted, compare_set};
@@ -92,10 +92,7 @@ pub(super) fn compare(
         height: frame.height,
         samples: frame.spp,
         seed: frame.seed,
-        sampler: match frame.sampler {
-            Sampler::Sobol => rasray_reference::shading::Sampler::Sobol,
-            Sampler::Pcg => rasray_reference::shading::Sampler::Pcg,
-        },
+        sampler: frame.sampler,
     };
     let setting = Setting { device, job, stage: &stage, posed: &posed, view: &view };
     let mut comparison = Comparison::default();

@@ -7,7 +7,7 @@ use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
 
 use crate::error::ExperimentError;
-use crate::jobs::{Frame, Sampler};
+use crate::jobs::Frame;
 
 /// A scene on the device.
 #[derive(Debug)]
@@ -110,11 +110,8 @@ impl DeviceScene {
     /// # Errors
     /// The device fails.
     pub fn sample_as(&mut self, frame: &Frame) -> Result<(), ExperimentError> {
-        let sampler = match frame.sampler {
-            Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
-            Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
-        };
-        let sampling = Sampling { sampler, samples: frame.spp, back_faces: frame.back_faces };
+        let Frame { sampler, spp: samples, back_faces, .. } = *frame;
+        let sampling = Sampling { sampler, samples, back_faces };
         Ok(self.scene.set_sampling(sampling)?)
     }
 }

@@ -4,8 +4,8 @@ use rasray_frame::Adaptive;
 use rasray_integrators::IntegratorSpec;
 use rasray_options::Value;
 use rasray_report::Run;
-use rasray_scene::BackFaces;
 use rasray_scene::needs::Workload;
+use rasray_scene::{BackFaces, Sampler};
 
 /// An image to make.
 #[derive(Clone, Debug, PartialEq)]
@@ -184,39 +184,6 @@ impl Refresh {
                 "The same with a part for each object that its node alone moves, for at most 32, the largest: each is built in \
                  frames in which it moves"
             }
-        }
-    }
-}
-
-/// Where random numbers come from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sampler {
-    /// Points spread evenly over the samples of a pixel: least noise where their number is a power of two.
-    #[default]
-    Sobol,
-    /// Independent numbers.
-    Pcg,
-}
-
-impl Sampler {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Sobol, Self::Pcg];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sobol => "sobol",
-            Self::Pcg => "pcg",
-        }
-    }
-
-    /// What it is, in one line of help.
-    pub fn doc(self) -> &'static str {
-        match self {
-            Self::Sobol => {
-                "Points spread evenly over the samples of a pixel: least noise where `spp` is a power of two"
-            }
-            Self::Pcg => "Independent numbers",
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Jobs and results as plain data.
 
 pub use crate::aov::{Aov, AovImage, AovSelection};
-pub use crate::frame::{Frame, OccluderKind, Primary, Refresh, Sampler};
+pub use crate::frame::{Frame, OccluderKind, Primary, Refresh};
 pub use crate::motion::FrameBefore;
 use crate::shard::Shard;
 use crate::system_config::SystemConfig;

@@ -70,11 +70,11 @@ pub(crate) fn texts(values: &OptionValues) -> BTreeMap<String, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::jobs::{Aov, AovSelection, FrameBefore, OccluderKind, Primary, Refresh, Sampler};
+    use crate::jobs::{Aov, AovSelection, FrameBefore, OccluderKind, Primary, Refresh};
     use crate::{Adaptive, IntegratorRow, IntegratorSpec, Shard, one_system};
     use rasray_options::Value;
     use rasray_scene::needs::Needs;
-    use rasray_scene::{BackFaces, Lens, Moment};
+    use rasray_scene::{BackFaces, Lens, Moment, Sampler};
     use rasray_scene_source::{default_view, load};
     use rasray_systems::{Preset, SYSTEMS};
     use std::collections::BTreeSet;

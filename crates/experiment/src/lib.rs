@@ -74,7 +74,7 @@ pub use evaluate::device_hits;
 pub use hard_file::compare_file;
 pub use jobs::{
     Answers, Aov, AovImage, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, FrameBefore,
-    HardJob, Kept, KeptSet, OccluderKind, Primary, RaySet, Refresh, RenderJob, RenderOutput, Sampler,
+    HardJob, Kept, KeptSet, OccluderKind, Primary, RaySet, Refresh, RenderJob, RenderOutput,
 };
 pub use kept_files::NamedBytes;
 pub use key::picture_key;
@@ -93,6 +93,7 @@ pub use rasray_integrators::{
 pub use rasray_metrics::MetricsError;
 pub use rasray_options::OptionValues;
 pub use rasray_reference::{oracle::OracleError, shading::ReferenceError};
+pub use rasray_scene::Sampler;
 pub use rasray_systems::SystemsError;
 pub use rasray_tracer::TracerError;
 pub use rays::{RaySource, incoherent_rays, oracle_ray};

@@ -355,7 +355,7 @@ mod tests {
             lens: None,
         };
         let view =
-            View { camera, width: 40, height: 30, samples: 1, seed: 3, sampler: shading::Sampler::Pcg };
+            View { camera, width: 40, height: 30, samples: 1, seed: 3, sampler: rasray_scene::Sampler::Pcg };
         let positions = [[-1.0, -1.0, -5.0], [1.0, -1.0, -5.0], [0.0, 1.0, -5.0]];
         let oracle = Oracle::new(&positions, &[0, 1, 2], None).expect("a triangle");
         let center = [0.1, 0.2, 0.3];

@@ -4,8 +4,8 @@ use glam::Vec2;
 use rasray_ads::{Counters, Ray, RayWork, TraceMode};
 use rasray_gpu::{Device, Timing};
 use rasray_metrics::DeviceHit;
-use rasray_reference::shading::{Sampler, View, camera_ray};
-use rasray_scene::Camera;
+use rasray_reference::shading::{View, camera_ray};
+use rasray_scene::{Camera, Sampler};
 use rasray_systems::Spec;
 use rasray_tracer::BatchTracer;
 

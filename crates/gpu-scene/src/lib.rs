@@ -57,7 +57,7 @@ pub use table_bytes::left_out_bytes;
 pub use tables::SceneTables;
 pub use texel_runs::{TEXEL_BYTES, TexelRuns};
 pub use upload::{GpuScene, PosedBuffers};
-pub use view::{Sampler, Sampling, View};
+pub use view::{Sampling, View};
 
 /// Compiles the examples of the readme.
 #[cfg(doctest)]

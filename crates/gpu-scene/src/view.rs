@@ -1,7 +1,7 @@
 //! The camera as shaders read it.
 
 use glam::DVec3;
-use rasray_scene::{BackFaces, Camera, Projection};
+use rasray_scene::{BackFaces, Camera, Projection, Sampler};
 use rasray_shaders_glsl::constants::contract::RAY_CULL_BACK_FACES;
 use rasray_shaders_glsl::constants::scene::{
     PROJECTION_ORTHOGRAPHIC, PROJECTION_PERSPECTIVE, SAMPLER_PCG, SAMPLER_SOBOL,
@@ -20,17 +20,6 @@ pub struct View {
     pub height: u32,
     /// Seed of all random numbers.
     pub seed: u32,
-}
-
-/// Where random numbers come from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sampler {
-    /// Sobol points in groups of four dimensions, shuffled and scrambled for every pixel: least noise, above all
-    /// where the samples per pixel are a power of two.
-    #[default]
-    Sobol,
-    /// Independent numbers.
-    Pcg,
 }
 
 /// Sampling of pixels, except for the seed of the view, and which surfaces their rays pass.

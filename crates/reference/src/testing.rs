@@ -1,12 +1,9 @@
 //! Small scenes and statistics for the tests of this crate.
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
-use rasray_scene::{Camera, Instance, Material, Mesh, Projection, Scene};
+use rasray_scene::{Camera, Instance, Material, Mesh, Projection, Sampler, Scene};
 
-use crate::{
-    integrators::Image,
-    shading::{Sampler, View},
-};
+use crate::{integrators::Image, shading::View};
 
 /// A diffuse material without any specular reflection.
 pub fn diffuse(albedo: f32) -> Material {

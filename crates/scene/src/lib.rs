@@ -19,6 +19,7 @@ pub mod nearest;
 pub mod needs;
 pub mod pose;
 pub mod remarks;
+mod sampler;
 mod shadow_terminator;
 pub mod text;
 pub mod time;
@@ -29,6 +30,7 @@ pub use deforming::Motion;
 pub use error::SceneError;
 pub use model::*;
 pub use pose::Moment;
+pub use sampler::Sampler;
 pub use shadow_terminator::ShadowTerminator;
 
 /// Examples of the readme, compiled.

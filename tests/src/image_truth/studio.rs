@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use rasray_experiment::{Built, DeviceScene};
 use rasray_gpu::Timing;
-use rasray_gpu_scene::{GpuScene, Sampler, Sampling, View};
+use rasray_gpu_scene::{GpuScene, Sampling, View};
 use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, Path, PathOptions, Wave};
 use rasray_scene::needs::Needs;
-use rasray_scene::{Camera, Scene};
+use rasray_scene::{Camera, Sampler, Scene};
 use rasray_systems::Spec;
 
 use super::Estimate;

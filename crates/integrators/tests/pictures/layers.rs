@@ -5,8 +5,8 @@ use rasray_gpu::Timing;
 use rasray_gpu_scene::Sampling;
 use rasray_integrators::{Integrator, Layers, PATH_LAYER_LIMIT, Raycast, Wave};
 use rasray_reference::oracle::{Oracle, Outcome, Verdict};
-use rasray_reference::shading::{Sampler, View, camera_ray, pixel_position};
-use rasray_scene::{AlphaMode, Camera, Environment, Material, Mesh, Projection, Scene};
+use rasray_reference::shading::{View, camera_ray, pixel_position};
+use rasray_scene::{AlphaMode, Camera, Environment, Material, Mesh, Projection, Sampler, Scene};
 
 use crate::pictures::common::{scenes::veiled_room, *};
 

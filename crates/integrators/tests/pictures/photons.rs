@@ -7,8 +7,8 @@ use rasray_gpu::Timing;
 use rasray_integrators::{
     Integrator, IntegratorError, Path, PathOptions, Photon, PhotonKind, PhotonOptions, Photons, Wave,
 };
-use rasray_reference::shading::{Sampler, View, camera_ray, pixel_position};
-use rasray_scene::{Camera, Environment, Instance, Light, Material, Mesh, Projection, Scene};
+use rasray_reference::shading::{View, camera_ray, pixel_position};
+use rasray_scene::{Camera, Environment, Instance, Light, Material, Mesh, Projection, Sampler, Scene};
 
 use crate::kept_pictures::Compared;
 use crate::pictures::common::{scenes::cornell, *};

@@ -9,9 +9,8 @@ use glam::DVec3;
 use rasray_gpu_scene::Sampling;
 use rasray_integrators::{IntegratorSpec, Path, PathOptions};
 use rasray_reference::shading::PosedScene;
-use rasray_reference::shading::Sampler;
 use rasray_scene::{
-    BackFaces, Camera, Environment, Instance, Light, Mesh, Projection, Scene, ShadowTerminator,
+    BackFaces, Camera, Environment, Instance, Light, Mesh, Projection, Sampler, Scene, ShadowTerminator,
 };
 
 /// At most `deviating` of the pixels may differ.

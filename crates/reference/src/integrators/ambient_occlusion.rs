@@ -1,11 +1,11 @@
 use glam::{Vec2, Vec3};
 
 use rasray_options::Value;
-use rasray_scene::{Camera, Scene};
+use rasray_scene::{Camera, Sampler, Scene};
 
 use super::{Image, NaiveIntegrator, Tracer, eye};
 use crate::shading::{
-    PosedScene, ReferenceError, Sampler, View, basis_around, cosine_hemisphere,
+    PosedScene, ReferenceError, View, basis_around, cosine_hemisphere,
     random::{Numbers, RANDOM_BSDF_U, RANDOM_BSDF_V, random_dimension},
     spawn_ray,
 };

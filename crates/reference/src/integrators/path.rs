@@ -2,11 +2,11 @@
 
 use glam::Vec3;
 use rasray_options::{OptionValues, Value};
-use rasray_scene::{Camera, Scene, ShadowTerminator};
+use rasray_scene::{Camera, Sampler, Scene, ShadowTerminator};
 
 use super::{Image, NaiveIntegrator, Tracer, eye, photons::Map};
 use crate::shading::{
-    BsdfSample, LightSample, PosedScene, Ray, ReferenceError, Sampler, Surface, View, bsdf_pdf, bsdf_sample,
+    BsdfSample, LightSample, PosedScene, Ray, ReferenceError, Surface, View, bsdf_pdf, bsdf_sample,
     bsdf_straight, bsdf_times_cosine,
     random::{
         Numbers, RANDOM_BSDF_LOBE, RANDOM_LIGHT_KIND, RANDOM_OPACITY_FIRST, RANDOM_ROULETTE, random_dimension,

@@ -1,13 +1,11 @@
 //! Rays of a pixel.
 
 use glam::{DVec3, Vec2, Vec3};
-use rasray_scene::{Camera, Projection};
+use rasray_scene::{Camera, Projection, Sampler};
 
 use super::{
     Ray, ReferenceError, cosine_hemisphere,
-    random::{
-        Numbers, RANDOM_CAMERA_X, RANDOM_CAMERA_Y, RANDOM_LENS_U, RANDOM_LENS_V, RandomStream, Sampler,
-    },
+    random::{Numbers, RANDOM_CAMERA_X, RANDOM_CAMERA_Y, RANDOM_LENS_U, RANDOM_LENS_V, RandomStream},
 };
 
 /// Camera, size, samples and seed of an image.

@@ -52,7 +52,6 @@ pub use light::{LightSample, window};
 pub use light_table::LightTable;
 pub use microfacet::{basis_around, cosine_hemisphere, luminance};
 pub use posed::PosedScene;
-pub use random::Sampler;
 pub use ray::Ray;
 pub use spawn::{spawn_ray, spawn_segment};
 pub use surface::Surface;

@@ -1,5 +1,7 @@
 //! Random numbers: integer-exact functions of pixel, sample, dimension and seed.
 
+use rasray_scene::Sampler;
+
 /// Place on the lens, first number.
 pub const RANDOM_LENS_U: u32 = 0;
 /// Place on the lens, second number.
@@ -59,16 +61,6 @@ impl RandomStream {
     pub fn bits(self, dimension: u32) -> u32 {
         words([self.pixel, self.sample, dimension, self.seed])[0]
     }
-}
-
-/// Where the numbers of an image come from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sampler {
-    /// Sobol points in groups of four dimensions, shuffled and scrambled for every pixel.
-    #[default]
-    Sobol,
-    /// Independent numbers: those of [`RandomStream`].
-    Pcg,
 }
 
 /// The numbers of one sample of one pixel.

@@ -7,9 +7,9 @@ use rasray_gpu::{Access, BufferUsage, ComputePipelineDesc, Device, DeviceDesc};
 use rasray_gpu_scene::{Parts, SceneTables};
 use rasray_reference::shading::{
     BsdfSample, Surface, bsdf_evaluate, bsdf_pdf, bsdf_sample,
-    random::{Numbers, RandomStream, Sampler, random_dimension},
+    random::{Numbers, RandomStream, random_dimension},
 };
-use rasray_scene::{Material, Scene};
+use rasray_scene::{Material, Sampler, Scene};
 use rasray_shaders_glsl::constants::scene::{
     ATTRIBUTE_NONE, SAMPLE_DELTA, SAMPLE_TRANSMITTED, SAMPLE_VALID, SAMPLER_PCG, SAMPLER_SOBOL,
 };

@@ -2,7 +2,8 @@
 
 use glam::{DVec3, Vec2};
 use rasray_reference::oracle::Oracle;
-use rasray_reference::shading::{PosedScene, Sampler, View, camera_ray};
+use rasray_reference::shading::{PosedScene, View, camera_ray};
+use rasray_scene::Sampler;
 use rasray_scene::builtin::builtin;
 
 /// Percent of the pixels of a picture of the scene's camera whose middle shows a perfect mirror first.

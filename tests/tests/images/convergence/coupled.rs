@@ -1,6 +1,7 @@
 //! Device and reference with the same random numbers: what remains is no noise.
 
-use rasray_reference::shading::{PosedScene, Sampler, View};
+use rasray_reference::shading::{PosedScene, View};
+use rasray_scene::Sampler;
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{Studio, System};
 

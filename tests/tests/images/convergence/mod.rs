@@ -6,8 +6,8 @@ mod metrics;
 mod slope;
 
 use glam::DVec3;
-use rasray_reference::shading::{PosedScene, Sampler, View};
-use rasray_scene::{Camera, Scene};
+use rasray_reference::shading::{PosedScene, View};
+use rasray_scene::{Camera, Sampler, Scene};
 use rasray_tests::image_truth::Studio;
 
 /// Pixels along a side.

@@ -5,8 +5,8 @@ use std::fmt::{self, Debug, Display, Formatter};
 use rasray_gpu_scene::Sampling;
 use rasray_integrators::{IntegratorRow, IntegratorSpec};
 use rasray_reference::integrators::NaiveIntegrator;
-use rasray_reference::shading::{PosedScene, Sampler, View};
-use rasray_scene::{BackFaces, Camera, Scene};
+use rasray_reference::shading::{PosedScene, View};
+use rasray_scene::{BackFaces, Camera, Sampler, Scene};
 
 use super::{Setup, assert_silent, drawing_device, mean};
 use crate::kept_pictures::Compared;
@@ -114,14 +114,10 @@ fn made_difference(
     [passed, back_faces]: [BackFaces; 2],
 ) -> Difference {
     let device = drawing_device();
-    let of_device = match sampler {
-        Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
-        Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
-    };
     let mut stage = Setup::new(&device, shown, camera.clone(), WIDTH, HEIGHT, SEED);
     stage
         .scene
-        .set_sampling(Sampling { sampler: of_device, samples, back_faces: passed })
+        .set_sampling(Sampling { sampler, samples, back_faces: passed })
         .expect("the frame can be written");
     let view = View { camera: camera.clone(), width: WIDTH, height: HEIGHT, samples, seed: SEED, sampler };
     let posed = PosedScene::new(scene, stage.scene.frame_origin()).expect("the scene is well formed");
