@@ -118,7 +118,8 @@ Emission emission_sample(vec4 place, vec4 towards) {
     return emission;
 }
 
-PhotonHeader header_of_map() {
+// The radius and the side of a cell.
+vec2 sizes_of_map() {
     vec3 lower = geometry_header.lower;
     vec3 upper = geometry_header.upper;
     float radius = wave.number;
@@ -126,7 +127,7 @@ PhotonHeader header_of_map() {
     vec3 farthest = max(abs(lower), abs(upper));
     // Positive also where nothing has any extent, and then nothing is lit.
     radius = max(radius, 1.0e-15);
-    return PhotonHeader(radius, max(2.0 * radius, largest_component(farthest) / PHOTON_GRID_MOST));
+    return vec2(radius, max(2.0 * radius, largest_component(farthest) / PHOTON_GRID_MOST));
 }
 
 void main() {
@@ -135,7 +136,9 @@ void main() {
         return;
     }
     if (slot == 0u) {
-        photon_header = header_of_map();
+        vec2 sizes = sizes_of_map();
+        photon_header.radius = sizes.x;
+        photon_header.cell = sizes.y;
     }
     // Numbers of no pixel; those of one map are the samples of it.
     uint pixel = PHOTON_PIXEL | wave.sample_index;

@@ -1,6 +1,6 @@
 // What: the photon map of a sample: photons in lists of the cells of a uniform grid, cells hashed into a table, and the
 // radiance that a surface scatters of the photons around it.
-// Reads: header, lists and photons of INTEGRATOR_SET. Writes: the same with PHOTONS_WRITTEN, else film faults.
+// Reads: the map of INTEGRATOR_SET. Writes: the same with PHOTONS_WRITTEN, else film faults.
 // Source: docs/photons.md; Jensen 1996, Teschner et al. 2003 for the hash, Silverman 1986 for the kernel.
 #ifndef INTEGRATORS_PHOTONS_GLSL
 #define INTEGRATORS_PHOTONS_GLSL
@@ -26,10 +26,14 @@ struct Photon {
     vec3 flux;                // W
 };
 
-// The map of a sample. 8 bytes.
+// The words of a photon in the map.
+#define PHOTON_WORDS 11u
+
+// The head of the map of a sample. 12 bytes.
 struct PhotonHeader {
     float radius;             // metres around a surface within which photons count
     float cell;               // side of a cell, metres
+    uint lists;               // number of lists, a power of two
 };
 
 #ifdef PHOTONS_WRITTEN
@@ -37,11 +41,13 @@ struct PhotonHeader {
 #else
 #define PHOTON_ACCESS readonly
 #endif
-layout(set = INTEGRATOR_SET, binding = 9, scalar) PHOTON_ACCESS buffer PhotonHeaderBuffer { PhotonHeader photon_header; };
-// For each list the number of its first photon plus 1; 0: it is empty. A power of two of them.
-layout(set = INTEGRATOR_SET, binding = 10, scalar) PHOTON_ACCESS buffer PhotonListBuffer { uint photon_lists[]; };
-// Of path p the photon after k scatterings is entry (k - 1) * paths + p, so that each has a place of its own.
-layout(set = INTEGRATOR_SET, binding = 11, scalar) PHOTON_ACCESS buffer PhotonBuffer { Photon photons[]; };
+// One buffer, because drivers bind 30 at most and paths have the others. First a word for each list, the number of its first
+// photon plus 1 (0: it is empty), then PHOTON_WORDS for each photon in the order of its members. Of path p the photon after
+// k scatterings is entry (k - 1) * paths + p, so that each has a place of its own.
+layout(set = INTEGRATOR_SET, binding = 9, scalar) PHOTON_ACCESS buffer PhotonMapBuffer {
+    PhotonHeader photon_header;
+    uint photon_words[];
+};
 
 // Whether a surface scatters otherwise than in one direction: photons are stored there.
 bool photon_is_stored_at(BsdfTerms terms) {
@@ -61,13 +67,24 @@ uint photon_list(ivec3 cell) {
     uvec3 place = uvec3(cell);
     uint hash = (place.x * 73856093u) ^ (place.y * 19349663u) ^ (place.z * 83492791u);
     hash ^= hash >> 16;
-    return hash & (uint(photon_lists.length()) - 1u);
+    return hash & (photon_header.lists - 1u);
 }
 
 #ifdef PHOTONS_WRITTEN
+void photon_write(uint at, vec3 numbers) {
+    uvec3 bits = floatBitsToUint(numbers);
+    photon_words[at] = bits.x;
+    photon_words[at + 1u] = bits.y;
+    photon_words[at + 2u] = bits.z;
+}
+
 void photon_store(uint entry, Photon photon) {
-    photon.next = atomicExchange(photon_lists[photon_list(photon_cell(photon.position))], entry + 1u);
-    photons[entry] = photon;
+    uint at = photon_header.lists + PHOTON_WORDS * entry;
+    photon_write(at, photon.position);
+    photon_words[at + 3u] = atomicExchange(photon_words[photon_list(photon_cell(photon.position))], entry + 1u);
+    photon_write(at + 4u, photon.direction);
+    photon_words[at + 7u] = photon.bounce;
+    photon_write(at + 8u, photon.flux);
 }
 #else
 // A sum of numbers from 0 to PHOTON_SUM_MOST in fixed point, in units of 2^-64: it is exact down to there, so that it does
@@ -109,6 +126,15 @@ float photon_sum_value(PhotonSum sum) {
     return words.w * 4294967296.0 + (words.z + (words.y + words.x / 4294967296.0) / 4294967296.0);
 }
 
+vec3 photon_read(uint at) {
+    return uintBitsToFloat(uvec3(photon_words[at], photon_words[at + 1u], photon_words[at + 2u]));
+}
+
+Photon photon_of(uint entry) {
+    uint at = photon_header.lists + PHOTON_WORDS * entry;
+    return Photon(photon_read(at), photon_words[at + 3u], photon_read(at + 4u), photon_words[at + 7u], photon_read(at + 8u));
+}
+
 // W/(sr m^2) that a surface sends along its `terms` of the photons around it that were scattered at most so often.
 // Its perfectly smooth lobes are left out.
 vec3 photon_gather(BsdfTerms terms, Surface s, uint scatterings) {
@@ -126,9 +152,9 @@ vec3 photon_gather(BsdfTerms terms, Surface s, uint scatterings) {
     for (cell.z = lower.z; cell.z <= upper.z; cell.z++)
     for (cell.y = lower.y; cell.y <= upper.y; cell.y++)
     for (cell.x = lower.x; cell.x <= upper.x; cell.x++) {
-        uint link = photon_lists[photon_list(cell)];
+        uint link = photon_words[photon_list(cell)];
         for (; link != 0u && left > 0u; left--) {
-            Photon photon = photons[link - 1u];
+            Photon photon = photon_of(link - 1u);
             link = photon.next;
             vec3 apart = (photon.position - s.position) / radius;
             float share = 1.0 - dot(apart, apart);

@@ -440,6 +440,42 @@ fn waves_and_ways_to_record_them_change_no_picture() {
     assert_silent(&device);
 }
 
+/// The page's formula, and its value.
+const FORMULA: &str = "44 N (B - 1) + 4 max(1024, 2 ceil2(N)) + 56 N + 12 bytes";
+
+fn formula_bytes(photon_paths: u64, bounces: u64) -> u64 {
+    44 * photon_paths * (bounces - 1)
+        + 4 * 1024.max(2 * photon_paths.next_power_of_two())
+        + 56 * photon_paths
+        + 12
+}
+
+/// Buffers of a map and its queue, each of which the device makes a little larger for alignment.
+const ALIGNMENT: u64 = 10 * 256;
+
+#[test]
+fn a_map_takes_the_bytes_that_the_page_says() {
+    let page = include_str!("../../../../docs/photons.md");
+    assert!(page.contains(FORMULA), "docs/photons.md: {FORMULA}");
+    let (scene, eye) = cornell();
+    let device = device();
+    let stage = Setup::new(&device, &scene, eye, 8, 8, 0);
+    for (paths, bounces) in [(1, 1), (100, 2), (3000, 3), (4096, 8), (4097, 5)] {
+        let before = device.allocated_bytes();
+        let path = Path::new(&stage.desc(), bounces).expect("valid");
+        let of_path = device.allocated_bytes() - before;
+        let map = photons(&stage, options(PhotonKind::All, bounces, paths, 1.0));
+        let of_map = device.allocated_bytes() - before - 2 * of_path;
+        let queue: u64 =
+            map.queues().last().expect("it has one").bytes_by_part().map(|(_, bytes)| bytes).sum();
+        let expected = formula_bytes(paths.into(), bounces.into());
+        println!("{paths} paths, {bounces} bounces: {of_map} bytes, of which {queue} are the queue's");
+        let measured = expected + queue..=expected + queue + ALIGNMENT;
+        assert!(measured.contains(&of_map), "{paths} paths, {bounces} bounces: {of_map}, not {measured:?}");
+        assert_eq!(map.state_bytes() - path.state_bytes(), expected, "as reports say it");
+    }
+}
+
 /// More photons around a surface than one invocation looks at are an error, and not a darker picture.
 #[test]
 fn crowds_and_options_out_of_their_ranges_are_refused() {
@@ -465,13 +501,6 @@ fn crowds_and_options_out_of_their_ranges_are_refused() {
     let sky = Setup::new(&device, &empty, forward_camera(DVec3::ZERO), 2, 2, 0);
     let of_sky = PhotonOptions { photon_paths: 100, radius: None, ..valid };
     assert_eq!(render(&sky, of_sky, 1), [[0.5; 3]; 4]);
-    // As the page has it.
-    for (paths, bounces, lists) in [(100_u64, 1, 1024), (3000, 3, 8192)] {
-        let of_map = photons(&stage, options(PhotonKind::All, bounces, paths as u32, 1.0)).state_bytes();
-        let of_paths = Path::new(&stage.desc(), bounces).expect("valid").state_bytes();
-        let stored = (44 * paths * (u64::from(bounces) - 1)).max(4);
-        assert_eq!(of_map - of_paths, stored + 4 * lists + 56 * paths + 8);
-    }
     let crowded = photons(&stage, valid);
     device.submit(|recorder| crowded.record_reset(recorder)).expect("the reset runs");
     let wave = Wave { first_pixel: 0, pixel_count: 4, sample: 0 };

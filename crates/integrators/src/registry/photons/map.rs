@@ -1,5 +1,7 @@
 //! The photon map of a sample.
 
+use std::mem::offset_of;
+
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Access, Buffer, Device, Recorder};
 use rasray_gpu_scene::GpuScene;
@@ -18,10 +20,11 @@ use crate::{
     rounds::Rounds,
 };
 
-/// Bindings of the map, as `integrators/photons.glsl` declares them.
-const HEADER: u32 = 9;
-const LISTS: u32 = 10;
-const PHOTONS: u32 = 11;
+/// The binding of the map, as `integrators/photons.glsl` declares it.
+const MAP: u32 = 9;
+/// Where its number of lists is, and where the lists begin.
+const COUNT_AT: u64 = offset_of!(PhotonHeader, lists) as u64;
+const LISTS_AT: u64 = size_of::<PhotonHeader>() as u64;
 
 /// The radius of the first sample over the diagonal of the bounds of all triangles, where none is given.
 const RADIUS_SHARE: f64 = 0.01;
@@ -48,9 +51,8 @@ pub(super) struct MapPasses {
     rounds: Rounds,
     queue: RayQueue,
     states: Buffer,
-    header: Buffer,
-    lists: Buffer,
-    photons: Buffer,
+    /// Header, lists and photons.
+    map: Buffer,
     bindings: Bindings,
     emit: Kernel,
     shade: Kernel,
@@ -61,18 +63,17 @@ impl MapPasses {
         let PhotonOptions { paths, kind, photon_paths, .. } = options;
         let device = desc.device;
         // Each photon of a path has a place of its own: none is ever left out.
-        let bytes = u64::from(photon_paths) * u64::from(stored(paths.bounces)) * size_of::<Photon>() as u64;
+        let photons = u64::from(photon_paths) * u64::from(stored(paths.bounces)) * size_of::<Photon>() as u64;
+        let bytes = photons_at(photon_paths) + photons;
         let limit = device.limits().max_storage_buffer_range;
         if bytes > limit {
             return Err(IntegratorError::PhotonBytes { bytes, limit });
         }
         let queue = RayQueue::new(device, "photon rays", photon_paths, true)?;
-        let buffer = |name, bytes: u64| device_buffer(device, name, bytes.max(4));
-        let states = buffer("photon states", u64::from(photon_paths) * size_of::<PathState>() as u64)?;
-        let header = buffer("photon map", size_of::<PhotonHeader>() as u64)?;
-        let lists = buffer("photon lists", 4 * u64::from(lists(photon_paths)))?;
-        let photons = buffer("photons", bytes)?;
-        let own = [(binding::PATH_STATES, &states), (HEADER, &header), (LISTS, &lists), (PHOTONS, &photons)];
+        let of_states = u64::from(photon_paths) * size_of::<PathState>() as u64;
+        let states = device_buffer(device, "photon states", of_states)?;
+        let map = device_buffer(device, "photon map", bytes)?;
+        let own = [(binding::PATH_STATES, &states), (MAP, &map)];
         let bindings = Bindings::new(device, desc.scene, &film(desc.film), &own)?;
         let mut constants = Vec::from(desc.features.constants());
         constants.push((SPECULAR_IS_WARD, (paths.specular == SpecularLobe::Ward).into()));
@@ -85,16 +86,14 @@ impl MapPasses {
             options,
             queue,
             states,
-            header,
-            lists,
-            photons,
+            map,
             bindings,
         })
     }
 
     /// What kernels that gather bind.
-    pub fn bound(&self) -> [Bound<'_>; 3] {
-        [(HEADER, &self.header), (LISTS, &self.lists), (PHOTONS, &self.photons)]
+    pub fn bound(&self) -> [Bound<'_>; 1] {
+        [(MAP, &self.map)]
     }
 
     pub fn queue(&self) -> &RayQueue {
@@ -106,7 +105,7 @@ impl MapPasses {
     }
 
     pub fn bytes(&self) -> u64 {
-        [&self.states, &self.header, &self.lists, &self.photons].iter().map(|buffer| buffer.size()).sum()
+        self.states.size() + self.map.size()
     }
 
     pub fn set_scene(&mut self, scene: &GpuScene) {
@@ -151,7 +150,9 @@ impl MapPasses {
     fn record_emission(&self, recorder: &mut Recorder<'_>, wave: Wave) {
         // Kernels of the sample before read the lists.
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
-        recorder.fill(&self.lists, 0, self.lists.size(), 0);
+        let count = lists(self.options.photon_paths);
+        recorder.fill(&self.map, COUNT_AT, 4, count);
+        recorder.fill(&self.map, LISTS_AT, 4 * u64::from(count), 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
         let (radius, marks) = match self.options.radius {
             Some(radius) => (f64::from(radius), 0),
@@ -168,10 +169,11 @@ impl MapPasses {
         if !self.stores_any() {
             return Ok(PhotonMap::default());
         }
-        let header: Vec<PhotonHeader> = device.download_as(&self.header, 0, 1)?;
-        let lists: Vec<u32> = device.download_as(&self.lists, 0, self.lists.size() as usize / 4)?;
-        let count = self.photons.size() as usize / size_of::<Photon>();
-        let all: Vec<Photon> = device.download_as(&self.photons, 0, count)?;
+        let PhotonOptions { paths, photon_paths, .. } = self.options;
+        let header: Vec<PhotonHeader> = device.download_as(&self.map, 0, 1)?;
+        let lists: Vec<u32> = device.download_as(&self.map, LISTS_AT, lists(photon_paths) as usize)?;
+        let count = photon_paths as usize * stored(paths.bounces) as usize;
+        let all: Vec<Photon> = device.download_as(&self.map, photons_at(photon_paths), count)?;
         let mut photons = Vec::new();
         for mut link in lists {
             while let Some(photon) = (link as usize).checked_sub(1).and_then(|number| all.get(number)) {
@@ -192,6 +194,11 @@ fn stored(bounces: u32) -> u32 {
 /// Lists that cells are hashed to: a power of two, two to four per path.
 fn lists(photon_paths: u32) -> u32 {
     (2 * photon_paths.next_power_of_two()).max(LEAST_LISTS)
+}
+
+/// Where photons begin in the map, bytes.
+fn photons_at(photon_paths: u32) -> u64 {
+    LISTS_AT + 4 * u64::from(lists(photon_paths))
 }
 
 /// Rounds of a map at first, and at most: a photon may pass any number of blended surfaces.
