@@ -40,6 +40,8 @@ Scene = namedtuple(
 
 # Trees of perfect reflections and refractions.
 TREES = ("--integrator", "whitted", "--ray-depth", 8)
+# Caustics by photons, all else by paths.
+PHOTONS = ("--integrator", "photons", "--bounces", 4, "--photon-paths", 65536, "--radius", 0.03)
 
 
 @dataclass(frozen=True)
@@ -344,6 +346,27 @@ def brushed(folder):
     return write_scene("brushed", folder, meshes, options=("--bounces", 4), **view)
 
 
+def caustic(folder, focus):
+    """The floor before half a cylinder of mirror, or below a ball of clear glass, which gather the light of a lamp there."""
+    lamp = Material((0.0, 0.0, 0.0), emission=(30.0, 24.0, 18.0))
+    meshes = [quads([(-2, 0, 2), (2, 0, 2), (2, 0, -2), (-2, 0, -2)], Material((0.7, 0.7, 0.7)))]
+    if focus == "mirror":
+        angles = np.linspace(0.5 * math.pi, 1.5 * math.pi, 193)
+        normals = np.repeat(np.stack([-np.cos(angles), 0 * angles, -np.sin(angles)], -1), 2, axis=0).astype(np.float32)
+        points = np.float32((0, 0.25, 0)) - normals + np.tile(np.float32([(0, -0.25, 0), (0, 0.25, 0)]), (193, 1))
+        low = np.arange(0, 2 * 192, 2)[:, None]
+        faces = np.concatenate([low + [0, 1, 3], low + [0, 3, 2]])
+        mirror = Material((0.9, 0.9, 0.9), metallic=1.0, roughness=0.0, specular=1.0)
+        meshes += [Mesh(points, faces, mirror, normals)]
+        meshes += [quads([(2, 1.2, -0.3), (2, 1.2, 0.3), (1.7, 1.6, 0.3), (1.7, 1.6, -0.3)], lamp)]
+        view = {"eye": (1.2, 3, 0), "target": (-0.25, 0, 0), "fov": 15}
+    else:
+        meshes.append(ball((0, 0.9, 0), 0.5, Material(roughness=0.0, specular=1.0, glass=True), 128))
+        meshes.append(quads([(-0.3, 3, -0.3), (0.3, 3, -0.3), (0.3, 3, 0.3), (-0.3, 3, 0.3)], lamp))
+        view = {"eye": (2.6, 0.8, 0), "target": (0, 0, 0), "fov": 12}
+    return write_scene(f"caustic-{focus}", folder, meshes, options=PHOTONS, bounces=4, **view)
+
+
 def adapting(scene):
     """The same with samples by noise."""
     options = ("--bounces", scene.bounces, "--adaptive", 0.2)
@@ -488,6 +511,7 @@ def main():
     print(f"Mitsuba {mi.__version__}", f"Blender {bpy.app.version_string}" if bpy else "no Blender", sep=", ")
     scenes = [cornell(folder), glass(folder), lamps(folder), lens(folder), tree(folder), brushed(folder)]
     scenes += [adapting(scene) for scene in scenes[:2]]
+    scenes += [caustic(folder, focus) for focus in ("mirror", "glass")]
     colors = {"white": (0.8, 0.8, 0.8), "red": (0.8, 0.1, 0.1)}
     scenes += [sheets(folder, count, name, color) for name, color in colors.items() for count in (1, 5, 20)]
     for name, path, eye, target, fov, sky in (
