@@ -3,5 +3,6 @@
 mod capacity;
 mod ids;
 mod integrators;
+mod lamps;
 mod published;
 mod whitted;
