@@ -1,4 +1,4 @@
-// What: the A-buffer's pools, reached as ads/pools.glsl says.
+// The A-buffer's pools, reached as ads/pools.glsl says.
 // Reads, writes: header, bounds, lists, nodes, data, near-region list, scratch, conservative lists; with STRUCTURE_READ_ONLY
 // bounds are read only. Every access checks the capacity.
 // Source: MMRT table 2: what a cell and a node hold under each storage.

@@ -1,4 +1,4 @@
-// What: the published payload of a fragment: 16 bytes of quantised attributes.
+// The published payload of a fragment: 16 bytes of quantised attributes.
 // Reads: the scene when packing. Writes: nothing.
 // Source: MMRT section 3.3: albedo 8:8:8:8, normal 16:16, specular 8:8:8:8, refraction and opacity.
 // Words 0 and 1: those of every stored surface. Word 2: how the material reflects and transmits, as

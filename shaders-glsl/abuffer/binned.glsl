@@ -1,4 +1,4 @@
-// What: work of a binning pass of an A-buffer on a triangle in a view; BIN_VISIT says which pass it is, and
+// Work of a binning pass of an A-buffer on a triangle in a view; BIN_VISIT says which pass it is, and
 // CONSERVATIVE that the pass that stores fragments stores conservative lists, too.
 // Reads: geometry, header, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: see abuffer/visit.glsl.
 // Source: MMRT section 3.3, by computing instead of drawing. The same functions decide as in the raster builder.

@@ -1,4 +1,4 @@
-// What: places of the blocks of cells of an A-buffer's pyramids, the cube's and the camera's: behind the bounds of all
+// Places of the blocks of cells of an A-buffer's pyramids, the cube's and the camera's: behind the bounds of all
 // cells and the marks.
 // Reads: header. Writes: nothing.
 // Source: not in the paper; DIRT section 4.1.1 has the same over lists of triangles.

@@ -1,4 +1,4 @@
-// What: boxes around objects, from which cells take their depth bounds in place of fragments: where they are, behind the
+// Boxes around objects, from which cells take their depth bounds in place of fragments: where they are, behind the
 // bounds of cells, marks and blocks; what a view sees of one. An object is a draw: an instance of a mesh.
 // Reads: header, geometry, bounds. Writes: bounds, unless STRUCTURE_READ_ONLY.
 // Source: MMRT section 3.3, which names bounding boxes as a replacement for the geometry.

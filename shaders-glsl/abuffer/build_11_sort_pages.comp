@@ -1,4 +1,4 @@
-// What: sorts the nodes of each page in place, by depth, ties by payload.
+// Sorts the nodes of each page in place, by depth, ties by payload.
 // Reads: header. Writes: nodes, data.
 // Source: not in the paper. Unused slots have depth 0 and stay in front, so a page need not know how many are used.
 #version 460

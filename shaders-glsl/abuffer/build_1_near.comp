@@ -1,4 +1,4 @@
-// What: lists the triangles that intersect the near region, where the faces cannot be told apart.
+// Lists the triangles that intersect the near region, where the faces cannot be told apart.
 // Reads: geometry, header. Writes: near-region list, header.near_demand.
 // Source: not in the paper, whose faces start at a near plane; see docs/core.md.
 #version 460

@@ -1,4 +1,4 @@
-// What: depth bounds of each cell, of storages with buckets; of a single layer its smallest depth alone,
+// Depth bounds of each cell, of storages with buckets; of a single layer its smallest depth alone,
 // whatever the storage.
 // Reads: geometry, header. Writes: bounds.
 // Source: MMRT section 3.3, first geometry pass.

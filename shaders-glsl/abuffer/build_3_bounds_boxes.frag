@@ -1,4 +1,4 @@
-// What: depth bounds of each cell from the boxes around objects, of storages with buckets.
+// Depth bounds of each cell from the boxes around objects, of storages with buckets.
 // Reads: header. Writes: bounds.
 // Source: MMRT section 3.3, bounding boxes in place of the geometry.
 // The depth of a fragment is clamped to those of its triangle's corners along the largest axis of the cell's direction

@@ -1,4 +1,4 @@
-// What: the box around each object, from the posed corners of its triangles.
+// The box around each object, from the posed corners of its triangles.
 // Reads: geometry, header. Writes: bounds, of boxes.
 // Source: MMRT section 3.3, bounding boxes in place of the geometry.
 #version 460

@@ -1,4 +1,4 @@
-// What: the scale of each cell's buckets, stored once so that build and trace use the same number.
+// The scale of each cell's buckets, stored once so that build and trace use the same number.
 // Reads: bounds. Writes: bounds. Runs only where a cell has a word for it (buckets with plane acceptance).
 // Source: MMRT section 3.3, equation of the bucket index.
 #version 460

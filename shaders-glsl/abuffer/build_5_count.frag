@@ -1,4 +1,4 @@
-// What: the length of each list, contiguous storage only.
+// The length of each list, contiguous storage only.
 // Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists.
 // Source: MMRT section 4, S-buffer: fragments are counted first, so that lists can be stored contiguously.
 #version 460

@@ -1,4 +1,4 @@
-// What: stores each fragment: a node in the list of its cell and bucket, its payload next to it. With CONSERVATIVE also
+// Stores each fragment: a node in the list of its cell and bucket, its payload next to it. With CONSERVATIVE also
 // the triangle, in the conservative lists of cells that it reaches into without a fragment there.
 // Reads: geometry, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: lists, nodes, data, header.demand, marks; without
 // buckets and with a single layer the bounds; with CONSERVATIVE conservative lists, header.conservative_demand.

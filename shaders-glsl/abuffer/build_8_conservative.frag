@@ -1,4 +1,4 @@
-// What: keeps triangles without a fragment, and those seen edge-on, in cells that they reach into without covering
+// Keeps triangles without a fragment, and those seen edge-on, in cells that they reach into without covering
 // their centre.
 // Reads: geometry, header, marks. Writes: bounds, marks, conservative lists, header.conservative_demand. Edge-on coverage
 // only.

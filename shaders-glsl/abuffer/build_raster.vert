@@ -1,4 +1,4 @@
-// What: proposes, for each triangle and view, the cells whose centres the triangle may cover, with CONSERVATIVE
+// Proposes, for each triangle and view, the cells whose centres the triangle may cover, with CONSERVATIVE
 // those that it may reach into.
 // Reads: geometry, header. Writes: nothing.
 // Source: MMRT section 3.3; instances replace the paper's geometry-shader amplification.

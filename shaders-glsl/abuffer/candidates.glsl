@@ -1,4 +1,4 @@
-// What: tests one candidate that a cell lists: a triangle, or the stored plane of a fragment.
+// Tests one candidate that a cell lists: a triangle, or the stored plane of a fragment.
 // Reads: nodes, data, geometry (of triangles). Writes: nothing.
 #ifndef ABUFFER_CANDIDATES_GLSL
 #define ABUFFER_CANDIDATES_GLSL

@@ -1,4 +1,4 @@
-// What: the conservative lists of an A-buffer's cells: where they are.
+// The conservative lists of an A-buffer's cells: where they are.
 // Reads, writes: bounds (heads), conservative lists, header.conservative_demand, header.corrupted.
 // Source: not in the paper; see ads/conservative.glsl.
 #ifndef ABUFFER_CONSERVATIVE_GLSL

@@ -1,4 +1,4 @@
-// What: cells that a triangle covers in a view, and its depths there, the same for every builder.
+// Cells that a triangle covers in a view, and its depths there, the same for every builder.
 // Reads: geometry, header, with ALPHA_SCENE the scene. Writes: nothing.
 #ifndef ABUFFER_COVERED_GLSL
 #define ABUFFER_COVERED_GLSL

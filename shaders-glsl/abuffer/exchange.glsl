@@ -1,4 +1,4 @@
-// What: exchanges two nodes where they are, for storages in which the places give the order.
+// Exchanges two nodes where they are, for storages in which the places give the order.
 // Reads, writes: nodes, of pages also data.
 #ifndef ABUFFER_EXCHANGE_GLSL
 #define ABUFFER_EXCHANGE_GLSL

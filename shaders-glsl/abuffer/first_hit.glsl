@@ -1,4 +1,4 @@
-// What: the nearest fragment in the cell of the camera's view that a camera ray passes, in place of a trace.
+// The nearest fragment in the cell of the camera's view that a camera ray passes, in place of a trace.
 // Reads: bounds, lists, nodes, data, geometry (of triangles). Writes: header.corrupted.
 // Source: MMRT section 3.4, whose paths begin at the first fragment of the camera's view.
 #ifndef ABUFFER_FIRST_HIT_GLSL

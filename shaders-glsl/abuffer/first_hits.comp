@@ -1,4 +1,4 @@
-// What: the first hits of the camera rays of a queue, in place of a trace.
+// The first hits of the camera rays of a queue, in place of a trace.
 // Reads: rays, the structure, geometry. Writes: hits; counts rays whose cell holds more than one dispatch reads as unfinished.
 // Source: MMRT section 3.4.
 #version 460

@@ -1,4 +1,4 @@
-// What: works out depths and margins of an A-buffer from the bounds of the geometry as seen from the eye.
+// Works out depths and margins of an A-buffer from the bounds of the geometry as seen from the eye.
 // Reads, writes: header.
 // Source: none; docs/core.md, docs/systems/mmrt.md.
 #ifndef ABUFFER_FROM_BOUNDS_GLSL

@@ -1,4 +1,4 @@
-// What: the header of an A-buffer.
+// The header of an A-buffer.
 // Reads, writes: header; stages with STRUCTURE_READ_ONLY only read it.
 #ifndef ABUFFER_HEADER_GLSL
 #define ABUFFER_HEADER_GLSL

@@ -1,4 +1,4 @@
-// What: the pages of an A-buffer: where they are, and taking a slot for a fragment.
+// The pages of an A-buffer: where they are, and taking a slot for a fragment.
 // Reads, writes: lists, nodes, header.demand, header.fragments.
 // Source: not in the paper; see ads/pages.glsl.
 #ifndef ABUFFER_LIST_PAGES_GLSL

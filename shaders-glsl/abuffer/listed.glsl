@@ -1,4 +1,4 @@
-// What: tests listed triangles one by one: those of the near region, those of a cell's
+// Tests listed triangles one by one: those of the near region, those of a cell's
 // conservative list, or all.
 // Reads: near-region list, conservative lists, geometry. Writes: header.corrupted.
 // Source: not in the paper, which keeps only fragments.

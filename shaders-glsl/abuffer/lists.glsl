@@ -1,4 +1,4 @@
-// What: the lists of a cell, in one of several storages: how a fragment is put into one, and how one is
+// The lists of a cell, in one of several storages: how a fragment is put into one, and how one is
 // read from either end.
 // Reads, writes: lists, nodes, header.demand, header.corrupted.
 // Source: MMRT section 3.3 and table 2. Linked: a head, doubly linked also a tail, of each bucket. Contiguous: a

@@ -1,4 +1,4 @@
-// What: one fragment: the words of its node and of its payload. A link is a node's number + 1; 0 is none. Nodes in
+// One fragment: the words of its node and of its payload. A link is a node's number + 1; 0 is none. Nodes in
 // pages are numbered over all slots.
 // Reads, writes: nodes, data, header.demand.
 // Source: MMRT section 3.3 and table 2. Decoupled payload lies in a pool of its own, inline payload between a

@@ -1,4 +1,4 @@
-// What: the pyramids of an A-buffer, the cube's and the camera's, and the depths of a cell in them.
+// The pyramids of an A-buffer, the cube's and the camera's, and the depths of a cell in them.
 // Reads: header, bounds, conservative lists. Writes: bounds, of blocks.
 // Source: not in the paper; DIRT section 4.1.1 has the same over lists of triangles.
 #ifndef ABUFFER_PYRAMID_GLSL

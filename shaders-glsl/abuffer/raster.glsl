@@ -1,4 +1,4 @@
-// What: the fragment's side of the raster builder: one instance per view, triangles pulled from the geometry.
+// The fragment's side of the raster builder: one instance per view, triangles pulled from the geometry.
 // Reads: geometry, header. Writes: nothing.
 // Without attachments no layers are needed: the view travels as a varying.
 #ifndef ABUFFER_RASTER_GLSL

@@ -1,4 +1,4 @@
-// What: searches the lists of one cell for the nearest fragment that a ray hits within it.
+// Searches the lists of one cell for the nearest fragment that a ray hits within it.
 // Reads: bounds, lists, nodes, data, geometry (plane acceptance of ids). Writes: nothing.
 // Source: MMRT section 3.4. The bucket range, the order and the early ends only skip fragments that
 // the acceptance would refuse, so hits do not depend on them.

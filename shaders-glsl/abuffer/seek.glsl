@@ -1,4 +1,4 @@
-// What: moves the begin of a sorted list towards the depths that are searched, where the storage allows it.
+// Moves the begin of a sorted list towards the depths that are searched, where the storage allows it.
 // Reads: lists, nodes. Writes: nothing.
 // Source: MMRT section 4, comparison of storages: long contiguous lists are bisected, and all
 // storages but singly linked lists are skipped where they end before the ray's depths begin.

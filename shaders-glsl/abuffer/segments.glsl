@@ -1,4 +1,4 @@
-// What: the segments of a ray, in order: those in the camera's view, then those in the faces of the cube.
+// The segments of a ray, in order: those in the camera's view, then those in the faces of the cube.
 // Reads: header. Writes: nothing.
 // Source: MMRT section 3.4. Every view that sees a segment is marched and the nearest hit counts. The camera
 // comes first: a hit there ends the traversal of the faces early. With ABUFFER_SNAPS views are switched as published.

@@ -1,4 +1,4 @@
-// What: skips blocks of cells that hold nothing at a ray's depths, in the exact march.
+// Skips blocks of cells that hold nothing at a ray's depths, in the exact march.
 // Reads: header, bounds. Writes: nothing.
 // Source: not in the paper; DIRT section 4.2.1 skips tiles.
 // A fragment's plane represents the surface only within the ray's interval in its cell, so the searched cells and the

@@ -1,4 +1,4 @@
-// What: the depths that a fragment's triangle takes within its cell, to first order in the size of the cell.
+// The depths that a fragment's triangle takes within its cell, to first order in the size of the cell.
 // Reads: geometry, header. Writes: nothing.
 // Source: not in the paper, whose fragments have one depth or a fixed thickness. With the slopes z_x and z_y
 // of the triangle's plane, in depth per cell, a fragment of depth z represents the depths

@@ -1,4 +1,4 @@
-// What: the nodes of a contiguous list, and the links of a linked one, for the shared sorts: by depth, ties by payload. The
+// The nodes of a contiguous list, and the links of a linked one, for the shared sorts: by depth, ties by payload. The
 // backward links are renewed.
 // Reads, writes: lists, nodes, data, scratch, header.long_demand, header.unsorted.
 // Source: MMRT section 3.3, reorder pass, whose private array cuts longer lists short.

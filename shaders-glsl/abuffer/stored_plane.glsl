@@ -1,4 +1,4 @@
-// What: the plane of a fragment's triangle in full as its payload: hits lie on it, and nothing else of the
+// The plane of a fragment's triangle in full as its payload: hits lie on it, and nothing else of the
 // triangle is read.
 // Reads: geometry, when packing. Writes: nothing.
 // Source: not in the paper; what plane acceptance needs of a triangle, stored next to the fragment.

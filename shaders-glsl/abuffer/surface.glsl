@@ -1,4 +1,4 @@
-// What: the surface at a hit of the A-buffer.
+// The surface at a hit of the A-buffer.
 // Reads: the scene (payload index, and fragments that emit) or the fragment's own words (the others). Writes: nothing.
 // With payload index the hit names a triangle and the barycentrics of the point on its plane.
 #ifndef ABUFFER_SURFACE_GLSL

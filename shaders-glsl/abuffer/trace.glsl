@@ -1,4 +1,4 @@
-// What: follows a ray through the views' cells and searches each cell's lists.
+// Follows a ray through the views' cells and searches each cell's lists.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: MMRT section 3.4; the exact march replaces its fixed steps unless asked for.
 #ifndef ABUFFER_TRACE_GLSL

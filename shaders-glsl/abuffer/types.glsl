@@ -1,4 +1,4 @@
-// What: the A-buffer's records and options.
+// The A-buffer's records and options.
 // Reads, writes: nothing.
 // Source: Vardis, Vasilakis, Papaioannou 2016 (MMRT), sections 3.2 and 3.3, table 2.
 #ifndef ABUFFER_TYPES_GLSL

@@ -1,4 +1,4 @@
-// What: the corners of a triangle as a view sees them.
+// The corners of a triangle as a view sees them.
 // Reads: geometry, header. Writes: nothing.
 #ifndef ABUFFER_VERTICES_GLSL
 #define ABUFFER_VERTICES_GLSL

@@ -1,4 +1,4 @@
-// What: the views of an A-buffer: the faces of a cube around the eye, what the camera at the eye sees, or both.
+// The views of an A-buffer: the faces of a cube around the eye, what the camera at the eye sees, or both.
 // Reads: header. Writes: nothing.
 // Source: MMRT section 3.1. Every face is a pyramid |x| <= z, |y| <= z with a border of one cell; the
 // camera's view is the middle of one, as wide or as high. Turning a point into it rounds, turning one into a face does not.

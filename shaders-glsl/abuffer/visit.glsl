@@ -1,4 +1,4 @@
-// What: work of the build on a triangle in a cell whose centre it covers, the same for every builder: it widens the
+// Work of the build on a triangle in a cell whose centre it covers, the same for every builder: it widens the
 // cell's bounds, counts, or stores.
 // Reads: bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: bounds, or lists, nodes, data, header.demand, marks.
 // Source: MMRT section 3.3, the two geometry passes.

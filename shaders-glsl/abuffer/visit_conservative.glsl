@@ -1,4 +1,4 @@
-// What: work of the build on a triangle in a cell that it reaches into, the same for every builder: with conservative
+// Work of the build on a triangle in a cell that it reaches into, the same for every builder: with conservative
 // coverage it stores a fragment where the triangle covers the centre, and else the triangle in the conservative list;
 // with edge-on coverage, once all fragments are stored, triangles that have none or are seen edge-on.
 // Reads: geometry, header, marks. Writes: see abuffer/visit.glsl; conservative lists, header.conservative_demand.

@@ -1,4 +1,4 @@
-// What: appends to a list whose length the device counts. Values beyond the capacity are only counted, so that the host
+// Appends to a list whose length the device counts. Values beyond the capacity are only counted, so that the host
 // learns the demand.
 // Reads, writes: the length and the list.
 #ifndef ADS_APPEND_GLSL

@@ -1,4 +1,4 @@
-// What: the three orthographic views along the axes of a cube of space, and tests of a triangle against their cells:
+// The three orthographic views along the axes of a cube of space, and tests of a triangle against their cells:
 // which view it faces most, which cells' centres it covers, which cells it reaches into, and the screen triangle that
 // makes the rasterizer visit at least those.
 // Reads, writes: nothing.

@@ -1,4 +1,4 @@
-// What: tests whether a ray passes a triangle because it meets its back.
+// Tests whether a ray passes a triangle because it meets its back.
 // Reads: draws; geometry where the side is not known. Writes: nothing.
 // Source: glTF 2.0, doubleSided. Which rays pass backs is the ray's (RAY_CULL_BACK_FACES), which triangles have one the
 // draw's (DRAW_SINGLE_SIDED).

@@ -1,4 +1,4 @@
-// What: the structure's side of binning, and a visit to a rectangle of cells.
+// The structure's side of binning, and a visit to a rectangle of cells.
 // Reads, writes: see the structure's binned.glsl.
 #ifndef ADS_BIN_CELLS_GLSL
 #define ADS_BIN_CELLS_GLSL

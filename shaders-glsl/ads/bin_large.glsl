@@ -1,4 +1,4 @@
-// What: the large-triangle queue of binning builders: triangles that may reach into more cells of a view than one
+// The large-triangle queue of binning builders: triangles that may reach into more cells of a view than one
 // invocation visits. A second pass gives each of them workgroups of its own. The including file defines where the queue
 // is stored: LargeRef, LARGE_HEADER(s) with large_demand and groups, LARGE_WORD(s, place), LARGE_CAPACITY(s).
 // Reads, writes: the queue, header.large_demand, header.groups.

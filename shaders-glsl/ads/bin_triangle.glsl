@@ -1,4 +1,4 @@
-// What: a triangle as passes that bin triangles into cells read it: corners, bounds, the columns and rows it may reach.
+// A triangle as passes that bin triangles into cells read it: corners, bounds, the columns and rows it may reach.
 // Reads: geometry. Writes: nothing.
 #ifndef ADS_BIN_TRIANGLE_GLSL
 #define ADS_BIN_TRIANGLE_GLSL

@@ -1,4 +1,4 @@
-// What: the passes that bin triangles, by number. They include structure/binned.glsl, in which a structure that can be built
+// The passes that bin triangles, by number. They include structure/binned.glsl, in which a structure that can be built
 // by compute passes defines what they do with a triangle in a view. It includes ads/bin_large.glsl and defines bin_built, a
 // LargeRef, and
 //   uint bin_view_count()                                     views that are built

@@ -1,4 +1,4 @@
-// What: the t interval of a ray within the bounds of the geometry, and a bound of the rounding of t of a hit there.
+// The t interval of a ray within the bounds of the geometry, and a bound of the rounding of t of a hit there.
 // Reads, writes: nothing.
 #ifndef ADS_BOUNDS_INTERVAL_GLSL
 #define ADS_BOUNDS_INTERVAL_GLSL

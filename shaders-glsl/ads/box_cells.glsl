@@ -1,4 +1,4 @@
-// What: the planes between cells of one box of columns, rows and slices along the axes of the world: a view along z
+// The planes between cells of one box of columns, rows and slices along the axes of the world: a view along z
 // in which all cells have one size.
 // Reads, writes: nothing.
 // A cell is one unit wide, so planes are whole numbers. Nothing else is exact: with R half the longest side

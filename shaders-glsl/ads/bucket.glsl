@@ -1,4 +1,4 @@
-// What: the one function that turns depth into a bucket, for build and trace alike.
+// The one function that turns depth into a bucket, for build and trace alike.
 // Reads, writes: nothing.
 // Subtraction of one number, multiplication by a non-negative one, clamping and truncation are each
 // monotone in f32, hence da <= d <= db implies bucket(da) <= bucket(d) <= bucket(db) without an

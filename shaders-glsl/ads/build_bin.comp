@@ -1,4 +1,4 @@
-// What: visits the cells of each triangle in each view and does there what BIN_VISIT says; one invocation per triangle.
+// Visits the cells of each triangle in each view and does there what BIN_VISIT says; one invocation per triangle.
 // Large triangles are in the large-triangle queue and left to the pass for those.
 // Reads, writes: see the structure's binned.glsl; the pass that enqueues writes the large-triangle queue,
 // header.large_demand, header.groups.

@@ -1,4 +1,4 @@
-// What: visits the cells of the triangles in the large-triangle queue. Each gets groups[2] workgroups (in the header), which
+// Visits the cells of the triangles in the large-triangle queue. Each gets groups[2] workgroups (in the header), which
 // take its cells, or blocks of them, in turn. The host chooses groups[2] so that no invocation visits more than BIN_TURNS
 // cells.
 // Reads, writes: see the structure's binned.glsl; reads the large-triangle queue.

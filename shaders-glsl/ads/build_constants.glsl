@@ -1,4 +1,4 @@
-// What: the push constants of every build pass.
+// The push constants of every build pass.
 // Reads: push constants. Writes: nothing.
 // Included after a structure's accessors and names, which say what StructureRef is.
 #ifndef ADS_BUILD_CONSTANTS_GLSL

@@ -1,4 +1,4 @@
-// What: works out what of a structure's header follows from the bounds of the geometry, which only the device knows, and from
+// Works out what of a structure's header follows from the bounds of the geometry, which only the device knows, and from
 // the eye. One invocation; the first pass of every build.
 // Reads: the geometry's header; of the structure's what the host wrote: options, capacities, eye. Writes: the structure's.
 #version 460

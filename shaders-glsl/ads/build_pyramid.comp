@@ -1,4 +1,4 @@
-// What: depth bounds of the blocks of one level, from those of the level below; one invocation per block.
+// Depth bounds of the blocks of one level, from those of the level below; one invocation per block.
 // Reads: bounds. Writes: bounds, of blocks.
 // Source: DIRT section 4.1.1, mipmap depth. A block of 2x2 cells takes those around it as well, so every block does.
 #version 460

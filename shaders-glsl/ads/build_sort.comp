@@ -1,4 +1,4 @@
-// What: sorts each list in place, one thread per list, or per several linked ones; lists that are too long for one dispatch
+// Sorts each list in place, one thread per list, or per several linked ones; lists that are too long for one dispatch
 // are stored in a table for ads/build_sort_long.comp.
 // Reads, writes: see the structure's sorted.glsl.
 // Source: MMRT section 3.3, reorder pass; Hu et al. section 3.1, sort pass.

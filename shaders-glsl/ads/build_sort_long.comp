@@ -1,4 +1,4 @@
-// What: sorts a share of each long list, dispatch by dispatch, and counts those that the last one leaves unsorted.
+// Sorts a share of each long list, dispatch by dispatch, and counts those that the last one leaves unsorted.
 // Reads, writes: see the structure's sorted.glsl.
 // Source: MMRT section 3.3, reorder pass; Hu et al. section 3.1, sort pass. Both cut lists that are longer than a private array.
 #version 460

@@ -1,4 +1,4 @@
-// What: the status word of a build that has ended, with the stamp of the triangles that it was made of.
+// The status word of a build that has ended, with the stamp of the triangles that it was made of.
 // Reads: the geometry's header. Writes: nothing.
 #ifndef ADS_BUILD_STATUS_GLSL
 #define ADS_BUILD_STATUS_GLSL

@@ -1,4 +1,4 @@
-// What: the conservative list of a cell: triangles that reach into it without a fragment there, as a separate linked
+// The conservative list of a cell: triangles that reach into it without a fragment there, as a separate linked
 // list per cell. Links are node number + 1; 0 ends a list. Included once per structure that has one: the functions are
 // overloads by its reference type.
 // Reads, writes: through what the including file defines before, all of it undefined again at the end:

@@ -1,4 +1,4 @@
-// What: tests a triangle against a cell of a face: whether it covers the centre, and at which depth;
+// Tests a triangle against a cell of a face: whether it covers the centre, and at which depth;
 // and the screen triangle that makes the rasterizer visit at least those cells.
 // Reads, writes: nothing.
 // The rasterizer only proposes. Whether a cell is covered is decided here from the three vertices,

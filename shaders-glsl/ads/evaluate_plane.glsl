@@ -1,4 +1,4 @@
-// What: tests whether the plane of a fragment's triangle, which represents the surface in the fragment's cell, becomes
+// Tests whether the plane of a fragment's triangle, which represents the surface in the fragment's cell, becomes
 // a ray's best hit, and says why not.
 // Reads: geometry; the scene where alpha is tested. Writes: nothing.
 // Source: not in the papers, which compare depths; see docs/systems/mmrt.md.

@@ -1,4 +1,4 @@
-// What: integers in the order of floats, so that integer atomics find the least and the largest. -0 comes just before 0.
+// Integers in the order of floats, so that integer atomics find the least and the largest. -0 comes just before 0.
 // Reads, writes: nothing. Source: the usual flip of the bits of negative floats.
 #ifndef ADS_FLOAT_KEYS_GLSL
 #define ADS_FLOAT_KEYS_GLSL

@@ -1,4 +1,4 @@
-// What: triangles whose indices are those of an engine (u16 or u32, per draw a first index and a base vertex), as absolute
+// Triangles whose indices are those of an engine (u16 or u32, per draw a first index and a base vertex), as absolute
 // u32 indices.
 // Reads: draws of GEOMETRY_SET, indices in a buffer of the embedder's. Writes: nothing.
 #ifndef ADS_GATHERED_GLSL

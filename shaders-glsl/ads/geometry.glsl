@@ -1,4 +1,4 @@
-// What: posed triangles, the one input all structures are built from.
+// Posed triangles, the one input all structures are built from.
 // Reads: positions, indices and draws of GEOMETRY_SET. Writes: nothing, but the header with GEOMETRY_WRITTEN, and the
 // indices with GEOMETRY_GATHERED.
 // Positions are metres relative to the frame origin. They are read in place, at any offset and stride in words; indices

@@ -1,4 +1,4 @@
-// What: computes the bounds of all triangles: one invocation per triangle, one atomic operation per workgroup and side.
+// Computes the bounds of all triangles: one invocation per triangle, one atomic operation per workgroup and side.
 // Reads: positions and indices of GEOMETRY_SET, or with BOUNDS_OF_GATHERED what indices are gathered from. Writes: keys of its header, which were filled before: all bits for the lower
 // ones, none for the upper ones.
 #version 460

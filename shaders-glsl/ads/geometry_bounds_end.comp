@@ -1,4 +1,4 @@
-// What: bounds from their keys; one invocation.
+// Bounds from their keys; one invocation.
 // Reads: keys of the header of GEOMETRY_SET. Writes: its bounds; zeros where there is no triangle.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: the bounds of a geometry from those of its parts; one invocation.
+// The bounds of a geometry from those of its parts; one invocation.
 // Reads: copies of the headers of all parts; what moves was measured just before (ads/geometry_bounds.comp), the bounds of
 // any other part are what its header states. Writes: bounds of the header of GEOMETRY_SET, unchanged where no part has any.
 #version 460

@@ -1,4 +1,4 @@
-// What: counts the triangles that reach out of the bounds their geometry states, or have a vertex number that does not
+// Counts the triangles that reach out of the bounds their geometry states, or have a vertex number that does not
 // exist: one invocation per triangle. Structures place cells by the bounds, so such triangles would be lost without
 // notice.
 // Reads: positions and indices of GEOMETRY_SET. Writes: adds to its header's count.

@@ -1,4 +1,4 @@
-// What: the number of triangles, where only the device knows it: one invocation. Those beyond the maximum do not exist,
+// The number of triangles, where only the device knows it: one invocation. Those beyond the maximum do not exist,
 // and are counted as outside.
 // Reads: the count, in a buffer of the embedder's. Writes: triangle_count, outside and stamp of GEOMETRY_SET's header, and
 // the arguments of the draws of all triangles onto 1 to GEOMETRY_DRAW_VIEWS views.

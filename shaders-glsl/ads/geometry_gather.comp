@@ -1,4 +1,4 @@
-// What: turns indices of an engine (u16 or u32, per draw a first index and a base vertex) into absolute u32 indices in
+// Turns indices of an engine (u16 or u32, per draw a first index and a base vertex) into absolute u32 indices in
 // the order of the triangles, or picks those of a part: one invocation per triangle.
 // Reads: draws of GEOMETRY_SET, indices in a buffer of the embedder's. Writes: indices of GEOMETRY_SET,
 // and GEOMETRY_NOT_GATHERED of its stamp.

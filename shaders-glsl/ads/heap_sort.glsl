@@ -1,4 +1,4 @@
-// What: sorts a list in place, by one thread, in at most about 2 n log2(n) steps whatever its order.
+// Sorts a list in place, by one thread, in at most about 2 n log2(n) steps whatever its order.
 // Reads, writes: through the functions that the including file defines before:
 //   bool sort_before(uint i, uint j)    whether element i belongs before element j; a total order
 //   void sort_swap(uint i, uint j)

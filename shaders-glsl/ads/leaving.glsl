@@ -1,4 +1,4 @@
-// What: rays that start beyond the fragments of the triangle that they leave, which need not lie on the triangle.
+// Rays that start beyond the fragments of the triangle that they leave, which need not lie on the triangle.
 // Reads: geometry. Writes: nothing.
 // Source: as rays that leave a fragment start (scene/spawn.glsl), here for origins on triangles.
 #ifndef ADS_LEAVING_GLSL

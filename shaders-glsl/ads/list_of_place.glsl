@@ -1,4 +1,4 @@
-// What: the list that contains an element of a pool, where lists are contiguous and each has a word with
+// The list that contains an element of a pool, where lists are contiguous and each has a word with
 // its end.
 // Reads: what `list_end(list)` reads, which the including file defines. Writes: nothing.
 #ifndef ADS_LIST_OF_PLACE_GLSL

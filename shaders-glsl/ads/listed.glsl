@@ -1,4 +1,4 @@
-// What: tests triangles one by one: those of the near-region list, or all. Included once per structure that does: the
+// Tests triangles one by one: those of the near-region list, or all. Included once per structure that does: the
 // functions are overloads by its reference type.
 // Reads, writes: through what the including file defines before, all of it undefined again at the end:
 //   ListedRef             reference type of the structure

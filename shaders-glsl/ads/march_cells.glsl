@@ -1,4 +1,4 @@
-// What: traverses the cells of one face that a ray crosses, by t, in closed form per boundary plane.
+// Traverses the cells of one face that a ray crosses, by t, in closed form per boundary plane.
 // Reads, writes: nothing.
 // The ray intersects the boundary x/z = c at t = (c*Oz - Ox) / (Dx - c*Dz); the direction of steps is fixed by the
 // sign of Dx*Oz - Ox*Dz. Nothing is accumulated and no point is projected again, so steps are integers

@@ -1,4 +1,4 @@
-// What: cuts a ray into its segments within the six faces' pyramids and the near region.
+// Cuts a ray into its segments within the six faces' pyramids and the near region.
 // Reads, writes: nothing.
 // The pyramids of the dominant axis partition space exactly; a ray enters another pyramid only where two coordinates
 // are equal in magnitude, so there are at most seven segments. Around the eye, where rounding no longer tells pyramids

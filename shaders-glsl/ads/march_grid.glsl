@@ -1,4 +1,4 @@
-// What: traverses the cells of a regular grid that a ray crosses (3D-DDA), by t, in closed form.
+// Traverses the cells of a regular grid that a ray crosses (3D-DDA), by t, in closed form.
 // Reads, writes: nothing.
 // Source: Amanatides and Woo 1987, with t of each boundary plane computed anew instead of accumulated
 // and with the neighbours that a ray touches within rounding visited as well, so that the visited

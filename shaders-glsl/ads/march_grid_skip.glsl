@@ -1,4 +1,4 @@
-// What: skips a block of cells of a regular grid in one step, from the current cell of a traversal to the cell behind the
+// Skips a block of cells of a regular grid in one step, from the current cell of a traversal to the cell behind the
 // block.
 // Reads, writes: nothing.
 // Source: as ads/march_skip.glsl, for the march of ads/march_grid.glsl, whose state is the same bit for bit with skips and

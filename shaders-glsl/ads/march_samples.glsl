@@ -1,4 +1,4 @@
-// What: marches a segment in steps of equal length on the screen, as the MMRT paper does.
+// Marches a segment in steps of equal length on the screen, as the MMRT paper does.
 // Reads, writes: nothing.
 // Source: MMRT section 3.4, with its jitter "using a fixed offset per ray"; McGuire and Mara 2014. Each sample tests one cell against the depths of
 // its step; cells between samples are not visited, which is the published approximation.

@@ -1,4 +1,4 @@
-// What: skips a block of cells in one step, from the current cell of a traversal to the cell behind the block.
+// Skips a block of cells in one step, from the current cell of a traversal to the cell behind the block.
 // Reads, writes: nothing.
 // As in ads/march_cells.glsl the exit is found in closed form, and the axis of the exit gets its index
 // exactly. The other index is found from the point there, as at the start of a traversal, with all cells that the

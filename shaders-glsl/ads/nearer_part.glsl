@@ -1,4 +1,4 @@
-// What: the nearer of the hits that a ray has in parts of a geometry, of structures that store fragments.
+// The nearer of the hits that a ray has in parts of a geometry, of structures that store fragments.
 // Reads, writes: nothing.
 // The hit of a part may depend on the cells that the ray is followed through, so each part is searched as if there were
 // no other. Where both hits are as near, that of a triangle comes first, on the triangle before beyond it on its plane,

@@ -1,4 +1,4 @@
-// What: tests whether a triangle reaches into a cell of a face, with its depths there. May accept more than
+// Tests whether a triangle reaches into a cell of a face, with its depths there. May accept more than
 // is exact, never less.
 // Reads, writes: nothing.
 // Source: DIRT section 3.2 clips each primitive to the tile. Here the depth follows from the plane over

@@ -1,4 +1,4 @@
-// What: lists of pages: how an entry gets a slot in the page at the head of its list, or in a new one,
+// Lists of pages: how an entry gets a slot in the page at the head of its list, or in a new one,
 // without locks; and how a list is read. Included once per structure that has pages: its reference type
 // tells the functions apart.
 // Reads, writes: through what the including file defines before, all of it undefined again at the end:

@@ -1,4 +1,4 @@
-// What: places views and cells for the bounds of a geometry and an eye: functions of values, for the header pass of
+// Places views and cells for the bounds of a geometry and an eye: functions of values, for the header pass of
 // each structure (`from_bounds.glsl`).
 // Reads, writes: nothing. Metres relative to the frame origin.
 // Source: none; docs/core.md.

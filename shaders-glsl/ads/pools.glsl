@@ -1,4 +1,4 @@
-// What: declarations of the header and the pools of a structure, and access to them: through the descriptors of
+// Declarations of the header and the pools of a structure, and access to them: through the descriptors of
 // STRUCTURE_SET, or (ADDRESSING_ADDRESS) through device addresses, that of the header and those that it holds. Each has
 // one line in the structure's header.glsl or accessors.glsl.
 // Reads, writes: nothing. Stages that only read say so (STRUCTURE_READ_ONLY), because writing from a vertex shader is a device

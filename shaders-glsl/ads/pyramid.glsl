@@ -1,4 +1,4 @@
-// What: a pyramid of depth bounds over the cells of views: blocks of 2x2, 4x4 ... cells, level behind level
+// A pyramid of depth bounds over the cells of views: blocks of 2x2, 4x4 ... cells, level behind level
 // in the words of a pool, up to one block per view. The pass that builds it includes structure/pyramid.glsl, which
 // defines, with the structure's prefix,
 //   PyramidLevel x_pyramid_first(XRef s, uint view)            level 1 of the views that are drawn with `view`, the first of them

@@ -1,4 +1,4 @@
-// What: a queue of rays with their hits and traversal states, one per slot.
+// A queue of rays with their hits and traversal states, one per slot.
 // Reads, writes: the buffers of QUEUE_SET.
 // A slot whose ray has t_max < 0 is inactive and answers a miss at once. Rays that pause are listed
 // and traced again in the next round. A shader selects the slots that later passes work on (queue_select); they

@@ -1,4 +1,4 @@
-// What: lists the rays of a queue that meet the bounds of a part, as if they had paused before it was traced: the trace of the
+// Lists the rays of a queue that meet the bounds of a part, as if they had paused before it was traced: the trace of the
 // part goes on from there, and is no work where no ray meets it.
 // Reads: the header of GEOMETRY_SET, the status of the structure over it, rays and hits. Writes: states, the list of paused
 // rays.

@@ -1,4 +1,4 @@
-// What: turns the rays that paused into the next round, or counts them as unfinished after the last.
+// Turns the rays that paused into the next round, or counts them as unfinished after the last.
 // Reads, writes: the queue's header.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: adds the faults that the part traced last found to those of the parts before it, once a third part follows.
+// Adds the faults that the part traced last found to those of the parts before it, once a third part follows.
 // Reads, writes: the queue's header.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: makes the slots selected so far those that passes over the selection work on, or those of the take before, and
+// Makes the slots selected so far those that passes over the selection work on, or those of the take before, and
 // begins a new selection.
 // Reads, writes: the queue's header.
 // Source: the work queues of pbrt-v4, section 15.2.

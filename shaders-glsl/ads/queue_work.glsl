@@ -1,4 +1,4 @@
-// What: counts the work of rays where counters are enabled.
+// Counts the work of rays where counters are enabled.
 // Reads, writes: the queue's header.
 #ifndef ADS_QUEUE_WORK_GLSL
 #define ADS_QUEUE_WORK_GLSL

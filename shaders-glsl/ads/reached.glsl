@@ -1,4 +1,4 @@
-// What: the depths of a triangle in a cell that it reaches into, of the view that it faces most, as one word by which lists
+// The depths of a triangle in a cell that it reaches into, of the view that it faces most, as one word by which lists
 // are sorted: their middle, and in its last two bits how far they reach from it.
 // Reads, writes: nothing.
 // Source: not in the papers, whose cells keep depths at their centres.

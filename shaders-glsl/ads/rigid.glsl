@@ -1,4 +1,4 @@
-// What: place of a part whose structure was built in a space of its own, and rays in that space.
+// Place of a part whose structure was built in a space of its own, and rays in that space.
 // Reads: what follows the runs in the header of GEOMETRY_SET. Writes: nothing.
 // Source: Bürger et al. section 1.2, cubes of rigid objects. An affine map keeps t along a ray whose direction keeps its
 // length.

@@ -1,4 +1,4 @@
-// What: the running sum across a workgroup of SCAN_THREADS threads. Passes that scan include structure/scanned.glsl, in
+// The running sum across a workgroup of SCAN_THREADS threads. Passes that scan include structure/scanned.glsl, in
 // which a structure says which of its numbers they run over. It defines
 //   uint scan_count(StructureRef s, uint step)                    how many numbers
 //   uint scan_number(StructureRef s, uint step, uint i)           one of them

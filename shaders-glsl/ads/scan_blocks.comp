@@ -1,4 +1,4 @@
-// What: replaces each number by the sum of those before it in its block of SCAN_BLOCK, and adds blocks up.
+// Replaces each number by the sum of those before it in its block of SCAN_BLOCK, and adds blocks up.
 // Reads: numbers. Writes: numbers, sums. One workgroup per block.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: adds to each number the sum of all blocks before its own.
+// Adds to each number the sum of all blocks before its own.
 // Reads: sums. Writes: numbers. One workgroup per block.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: replaces the sum of each block by the sum of all blocks before it, and writes the total.
+// Replaces the sum of each block by the sum of all blocks before it, and writes the total.
 // Reads: sums. Writes: sums, the structure's total. One workgroup.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: sorts a linked list in place by merging the ascending runs it consists of, two at a time, until one is left.
+// Sorts a linked list in place by merging the ascending runs it consists of, two at a time, until one is left.
 // Reads, writes: through what the including file defines before; links are numbers of nodes, 0 ends a list:
 //   LINKED_DOUBLY                                                   whether nodes link to the one before
 //   uint linked_next(StructureRef s, uint link)

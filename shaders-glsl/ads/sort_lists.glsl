@@ -1,4 +1,4 @@
-// What: sorts lists of any length, one thread each: short ones in one dispatch, which stores the others in a table;
+// Sorts lists of any length, one thread each: short ones in one dispatch, which stores the others in a table;
 // LONG_LIST_ROUNDS further dispatches each sort a part of those. The passes include structure/sorted.glsl, in which a
 // structure defines its lists.
 // Reads, writes: through what that file defines, with StructureRef and `build`, before it includes this one, in addition to the functions of

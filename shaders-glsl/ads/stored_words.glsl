@@ -1,4 +1,4 @@
-// What: parts that traces and surfaces read of the words that fragments store in place of their triangle: the normal of
+// Parts that traces and surfaces read of the words that fragments store in place of their triangle: the normal of
 // the front, whether there is a back that rays may pass, and whether the fragment emits.
 // Reads: of fragments that emit the triangle's geometry and draw. Writes: nothing.
 // Source: MMRT section 3.3, normal 16:16, of which one bit is taken. A normal is octahedral: 16 bits of its first

@@ -1,4 +1,4 @@
-// What: finds the surface at each hit of a queue.
+// Finds the surface at each hit of a queue.
 // Reads: rays, hits, the structure, the scene. Writes: surfaces; a miss has no valid bits.
 // In parts, the surface of a stored fragment is found by the part that it is in. Both find that of any other hit, which is
 // known as well as the coarser one says.

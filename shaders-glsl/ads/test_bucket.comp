@@ -1,4 +1,4 @@
-// What: evaluates the bucket function, for tests.
+// Evaluates the bucket function, for tests.
 // Reads: depths with their bounds. Writes: bucket of z.
 #version 460
 #include "contract/extensions.glsl"

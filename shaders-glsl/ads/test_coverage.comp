@@ -1,4 +1,4 @@
-// What: evaluates the coverage of cell centres, for tests.
+// Evaluates the coverage of cell centres, for tests.
 // Reads: triangles with a face and a cell. Writes: whether the centre is covered, at which depth, and whether the cell is
 // proposed.
 #version 460

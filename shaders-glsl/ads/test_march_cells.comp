@@ -1,4 +1,4 @@
-// What: lists the cells that the cube march visits, for tests.
+// Lists the cells that the cube march visits, for tests.
 // Reads: rays. Writes: visits (segment face, cell, t interval), counts.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: lists the cells that the grid march visits, for tests.
+// Lists the cells that the grid march visits, for tests.
 // Reads: rays in grid units. Writes: visits (cell), counts.
 #version 460
 #include "contract/extensions.glsl"

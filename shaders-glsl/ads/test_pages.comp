@@ -1,4 +1,4 @@
-// What: puts many entries into few lists of pages at once, for tests.
+// Puts many entries into few lists of pages at once, for tests.
 // Reads: the list of each thread. Writes: the slot of each thread; words of lists, and pages.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: traces every ray through two structures in one shader and stores both answers, for tests. FIRST and SECOND are
+// Traces every ray through two structures in one shader and stores both answers, for tests. FIRST and SECOND are
 // their folders.
 // Reads: geometry, both structures, rays. Writes: hits (two per ray).
 #version 460

@@ -1,4 +1,4 @@
-// What: evaluates where views and cells are placed, for tests.
+// Evaluates where views and cells are placed, for tests.
 // Reads: bounds with an eye and numbers of cells. Writes: the placements.
 #version 460
 #include "contract/extensions.glsl"

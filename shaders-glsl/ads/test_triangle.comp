@@ -1,4 +1,4 @@
-// What: tests rays against triangles one by one, for tests.
+// Tests rays against triangles one by one, for tests.
 // Reads: triangles with a ray each. Writes: whether it is hit, t and the bound of its error.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: counts the iterations of a loop by the invocations of one workgroup, each with its own number of iterations;
+// Counts the iterations of a loop by the invocations of one workgroup, each with its own number of iterations;
 // with BARRIER a memory barrier ends each iteration. For tests.
 // Reads: iterations wanted. Writes: iterations made.
 #version 460

@@ -1,4 +1,4 @@
-// What: the nearest hit of every ray of a queue, or whether anything lies on it, as the push constants say. One kernel is
+// The nearest hit of every ray of a queue, or whether anything lies on it, as the push constants say. One kernel is
 // both: a trace is most of what a driver compiles for a first picture.
 // Reads: rays (and states of paused ones), the structure. Writes: hits; of rays that are only tested for occlusion, those
 // that are occluded have some primitive, others PRIMITIVE_NONE.

@@ -1,4 +1,4 @@
-// What: the push constants of the kernels that trace a queue or find surfaces at its hits.
+// The push constants of the kernels that trace a queue or find surfaces at its hits.
 // Reads: push constants. Writes: nothing.
 // Included after contract/select.glsl, which says what StructureRef is.
 #ifndef ADS_TRACE_CONSTANTS_GLSL

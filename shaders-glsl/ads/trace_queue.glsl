@@ -1,4 +1,4 @@
-// What: traces the ray of one queue slot and stores the answer, in the kernel of every structure.
+// Traces the ray of one queue slot and stores the answer, in the kernel of every structure.
 // Reads: rays, states, the list of paused rays. Writes: hits, states, list, header, work, steps.
 #ifndef ADS_TRACE_QUEUE_GLSL
 #define ADS_TRACE_QUEUE_GLSL

@@ -1,4 +1,4 @@
-// What: the watertight ray-triangle test and the depth of a triangle's plane.
+// The watertight ray-triangle test and the depth of a triangle's plane.
 // Reads, writes: nothing.
 // Source: Woop, Benthin, Wald 2013. Edges are decided by comparing two rounded products, which no contraction
 // can change and which two triangles sharing an edge evaluate with the roles swapped, so that one of them

@@ -1,4 +1,4 @@
-// What: the six views of a cube around the eye and the exact partition of space between them.
+// The six views of a cube around the eye and the exact partition of space between them.
 // Reads, writes: nothing.
 // Face f looks along axis f / 2, positive for even f. Turning a point into face space is a
 // permutation and a change of sign, hence exact; depth is z.

@@ -1,4 +1,4 @@
-// What: the pools of bricks, reached as ads/pools.glsl says.
+// The pools of bricks, reached as ads/pools.glsl says.
 // Reads, writes: header, bricks, lists, entries, sums or distances, near-region list, records, triangles; lists hold where the
 // list of each cell that has one ends.
 #ifndef BRICKS_ACCESSORS_GLSL
@@ -68,6 +68,16 @@ uvec3 brick_cells(BrickRef s) {
 
 uint brick_total(BrickRef s) {
     return brick_view_count() * brick_count(brick_cells(s));
+}
+
+// The triangle of an entry of the lists, of a place that a list of stored ones has.
+uint brick_entry(BrickRef s, uint entry) {
+    return BRICK_POOL(s, entries)[entry];
+}
+
+// The triangle at a place of the near-region list.
+uint brick_near(BrickRef s, uint place) {
+    return BRICK_POOL(s, near)[place];
 }
 
 // Cells that list something and whose list fits into the pool.

@@ -1,4 +1,4 @@
-// What: columns of cells that a triangle reaches into, and their slices, for both builders.
+// Columns of cells that a triangle reaches into, and their slices, for both builders.
 // Reads: header, geometry. Writes: records, bricks (masks), header.record_demand, header.demand.
 // Source: DIRT section 3.2 lists a primitive by tile and depth; here by slices that all tiles share.
 #ifndef BRICKS_BIN_GLSL

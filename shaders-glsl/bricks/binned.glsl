@@ -1,4 +1,4 @@
-// What: work of the binning pass of bricks on a triangle in a view: it stores it in the columns it reaches into.
+// Work of the binning pass of bricks on a triangle in a view: it stores it in the columns it reaches into.
 // Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand, triangles
 // (large-triangle queue), header.large_demand, header.groups.
 // Source: DIRT section 3.2, by computing instead of drawing. The same functions decide as in the raster builder.

@@ -1,4 +1,4 @@
-// What: reaches of empty bricks towards lower and higher slices; one invocation per line of bricks along slices.
+// Reaches of empty bricks towards lower and higher slices; one invocation per line of bricks along slices.
 // Reads: bricks (masks). Writes: bricks, of empty ones.
 // Source: not in the paper; bricks/distance.glsl.
 #version 460

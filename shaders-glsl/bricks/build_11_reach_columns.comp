@@ -1,4 +1,4 @@
-// What: reaches of empty bricks towards lower and higher columns as well; one invocation per line of bricks
+// Reaches of empty bricks towards lower and higher columns as well; one invocation per line of bricks
 // along columns.
 // Reads: bricks. Writes: distances.
 // Source: not in the paper; bricks/distance.glsl.

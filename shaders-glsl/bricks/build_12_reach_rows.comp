@@ -1,4 +1,4 @@
-// What: reaches of empty bricks towards all octants; one invocation per line of bricks along rows.
+// Reaches of empty bricks towards all octants; one invocation per line of bricks along rows.
 // Reads: distances. Writes: bricks, of empty ones.
 // Source: not in the paper; bricks/distance.glsl.
 #version 460

@@ -1,4 +1,4 @@
-// What: copies the corners of each triangle, so that a test reads one run of memory; one invocation per triangle.
+// Copies the corners of each triangle, so that a test reads one run of memory; one invocation per triangle.
 // Reads: geometry. Writes: triangles.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: lists the triangles that intersect the near region, where the faces cannot be told apart, and counts triangles by the
+// Lists the triangles that intersect the near region, where the faces cannot be told apart, and counts triangles by the
 // octave of depth in which they begin. Views of a cube only.
 // Reads: geometry, header. Writes: near-region list, header.near_demand, header.octaves.
 // Source: none; see docs/core.md for the near region.

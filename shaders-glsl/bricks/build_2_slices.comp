@@ -1,4 +1,4 @@
-// What: begin and thickness of slices, from the number of triangles that begin in each octave of depth.
+// Begin and thickness of slices, from the number of triangles that begin in each octave of depth.
 // Reads: header.octaves. Writes: header.slice_first, header.slice_shift.
 // Source: not in the paper, whose buckets are those of a tile.
 #version 460

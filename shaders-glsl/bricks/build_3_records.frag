@@ -1,4 +1,4 @@
-// What: stores each triangle in the columns of each face that it reaches into, by drawing; the rasterizer proposes.
+// Stores each triangle in the columns of each face that it reaches into, by drawing; the rasterizer proposes.
 // Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand.
 // Source: DIRT section 4.1; the same function decides as in the binning builder.
 #version 460

@@ -1,4 +1,4 @@
-// What: numbers the cells of a level that list something: each brick takes as many numbers as it has such cells. One invocation
+// Numbers the cells of a level that list something: each brick takes as many numbers as it has such cells. One invocation
 // also notes where bricks and records of the level end.
 // Reads: bricks (masks), header. Writes: bricks, header.cell_demand, header.brick_first, header.record_first.
 // Source: not in the paper.

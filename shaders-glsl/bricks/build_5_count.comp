@@ -1,4 +1,4 @@
-// What: the lengths of the lists of a level, and where cells may be divided how many of their triangles are small. One invocation
+// The lengths of the lists of a level, and where cells may be divided how many of their triangles are small. One invocation
 // per record of the level.
 // Reads: records, bricks, header. Writes: lists.
 // Source: not in the paper, whose lists are linked; count, scan, fill.

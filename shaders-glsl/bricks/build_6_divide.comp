@@ -1,4 +1,4 @@
-// What: divides the cells of a level that list more than BRICK_CROWDED small triangles: each gets a brick of the next level.
+// Divides the cells of a level that list more than BRICK_CROWDED small triangles: each gets a brick of the next level.
 // One invocation per brick of the level.
 // Reads: lists, header. Writes: bricks, header.brick_demand, header.brick_groups, lists (zeros).
 // Source: not in the paper.

@@ -1,4 +1,4 @@
-// What: stores each triangle of a divided cell in the smaller cells that it reaches into. One invocation per record of the level.
+// Stores each triangle of a divided cell in the smaller cells that it reaches into. One invocation per record of the level.
 // Reads: records, bricks, geometry, header. Writes: records (less the divided cells), records and masks of the next level,
 // header.record_demand, header.demand.
 // Source: not in the paper; the same function decides as for the cells of a view.

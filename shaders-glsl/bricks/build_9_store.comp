@@ -1,4 +1,4 @@
-// What: puts each triangle into the lists of its cells; one invocation per record.
+// Puts each triangle into the lists of its cells; one invocation per record.
 // Reads: records, bricks. Writes: lists, entries.
 // Source: DIRT section 3.2, fill primitives.
 #version 460

@@ -1,4 +1,4 @@
-// What: the contents of a cell of the bricks for a ray: the empty cells around it, or the list to test.
+// The contents of a cell of the bricks for a ray: the empty cells around it, or the list to test.
 // Reads: bricks, lists, triangles, geometry. Writes: nothing.
 // Source: DIRT section 3.3, by cells of (column, row, slice) in bricks.
 #ifndef BRICKS_CELL_GLSL

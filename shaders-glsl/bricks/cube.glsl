@@ -1,4 +1,4 @@
-// What: the planes between cells of a cube's face, as bricks are marched: columns and rows are pyramids that
+// The planes between cells of a cube's face, as bricks are marched: columns and rows are pyramids that
 // touch at the centre, slices are parallel. ads/box_cells.glsl has those of a view along an axis.
 // Reads, writes: nothing.
 // Nothing here is exact. With R the largest distance of the geometry and u = 2^-24, every position below is

@@ -1,4 +1,4 @@
-// What: reaches of empty bricks towards each octant, found one axis after the other.
+// Reaches of empty bricks towards each octant, found one axis after the other.
 // Reads, writes: nothing; build passes read and write words.
 // A word of the first pass holds two reaches of 4 bits, towards lower and higher slices; of the second four,
 // of the third eight. A reach counts bricks from the own one on, BRICK_REACH at most; 0 is a brick that lists

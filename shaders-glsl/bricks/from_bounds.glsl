@@ -1,4 +1,4 @@
-// What: places the cells of bricks for the bounds of the geometry and the eye.
+// Places the cells of bricks for the bounds of the geometry and the eye.
 // Reads: header of the geometry. Reads, writes: header.
 // Source: none; docs/systems/bricks.md.
 #ifndef BRICKS_FROM_BOUNDS_GLSL

@@ -1,4 +1,4 @@
-// What: the header of bricks.
+// The header of bricks.
 // Reads, writes: header; stages with STRUCTURE_READ_ONLY only read it.
 #ifndef BRICKS_HEADER_GLSL
 #define BRICKS_HEADER_GLSL

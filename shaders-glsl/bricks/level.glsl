@@ -1,4 +1,4 @@
-// What: shared parts of passes that build one level of bricks: their constants, and the bricks or records that they
+// Shared parts of passes that build one level of bricks: their constants, and the bricks or records that they
 // visit. Workgroups are counted on the device, so an invocation goes on with every BRICK_LEVEL_STRIDE-th.
 // Reads: header. Writes: nothing.
 #ifndef BRICKS_LEVEL_GLSL

@@ -1,4 +1,4 @@
-// What: margins of columns of a cube's faces beyond their sides.
+// Margins of columns of a cube's faces beyond their sides.
 // Reads: header. Writes: nothing.
 #ifndef BRICKS_MARGIN_GLSL
 #define BRICKS_MARGIN_GLSL

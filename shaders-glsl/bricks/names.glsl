@@ -1,4 +1,4 @@
-// What: this structure's names for the contract's plain ones, for shaders compiled for one structure after the other.
+// This structure's names for the contract's plain ones, for shaders compiled for one structure after the other.
 // Reads, writes: nothing.
 // No include guard: a shader with two structures includes the names of each in turn, and undefines them.
 #define StructureRef BrickRef

@@ -1,4 +1,4 @@
-// What: the numbers that the scan runs over: lengths of lists become places. Entries are counted with their records, so that
+// The numbers that the scan runs over: lengths of lists become places. Entries are counted with their records, so that
 // the demand for both is known at once.
 // Reads, writes: lists, sums.
 #ifndef BRICKS_SCANNED_GLSL

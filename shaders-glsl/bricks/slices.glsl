@@ -1,4 +1,4 @@
-// What: cuts depths into slices by the bits of the float: quasi-logarithmic, monotone and invertible without rounding.
+// Cuts depths into slices by the bits of the float: quasi-logarithmic, monotone and invertible without rounding.
 // Reads, writes: nothing.
 // A positive float grows with its bits, so taking a first value from the bits and shifting right is monotone, and the
 // boundary below slice k is the float whose bits are first + (k << shift). Within an octave slices are equally thick.

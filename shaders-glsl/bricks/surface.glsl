@@ -1,4 +1,4 @@
-// What: the surface at a hit of bricks: a triangle with barycentrics.
+// The surface at a hit of bricks: a triangle with barycentrics.
 // Reads: the scene. Writes: nothing.
 #ifndef BRICKS_SURFACE_GLSL
 #define BRICKS_SURFACE_GLSL

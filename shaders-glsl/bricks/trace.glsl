@@ -1,4 +1,4 @@
-// What: follows a ray through bricks of cells and tests the triangles that each cell lists.
+// Follows a ray through bricks of cells and tests the triangles that each cell lists.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: DIRT section 3.3, by cells of (column, row, slice) in bricks; bricks/cube.glsl has the planes
 // between them, and ads/box_cells.glsl those of views along axes (BRICK_VIEWS), which have one view and
@@ -158,10 +158,10 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
                 uint primitive = entry;
                 if (alone == BRICK_ALONE_NONE) {
                     state.entries++;
-                    primitive = BRICK_POOL(s, entries)[entry];
+                    primitive = brick_entry(s, entry);
                     trace_log_visit(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
                 } else if (alone == BRICK_ALONE_NEAR) {
-                    primitive = BRICK_POOL(s, near)[entry];
+                    primitive = brick_near(s, entry);
                 }
                 if (primitive != tested.x && primitive != tested.y) {
                     brick_test(s, primitive, ray, state, corrupted);

@@ -1,4 +1,4 @@
-// What: the header and options of bricks.
+// The header and options of bricks.
 // Reads, writes: nothing.
 // Source: none; docs/systems/bricks.md.
 #ifndef BRICKS_TYPES_GLSL

@@ -1,4 +1,4 @@
-// What: the position of cells in bricks of 4x4x4, and the words of a brick.
+// The position of cells in bricks of 4x4x4, and the words of a brick.
 // Reads, writes: nothing.
 // A cell is (column, row, slice) of a view. A brick has a mask of 64 bits, one per cell that lists something,
 // in two words, and a word of its own: for a brick that lists something the number of its first list, for an empty

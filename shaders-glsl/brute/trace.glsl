@@ -1,4 +1,4 @@
-// What: tests every triangle: what all other structures are compared with.
+// Tests every triangle: what all other structures are compared with.
 // Reads: geometry. Writes: nothing.
 // cursor[0] is the next triangle.
 #ifndef BRUTE_TRACE_GLSL

@@ -1,4 +1,4 @@
-// What: the brute-force structure's reference: it has no pools, only the triangles themselves.
+// The brute-force structure's reference: it has no pools, only the triangles themselves.
 // Reads, writes: nothing.
 #ifndef BRUTE_TYPES_GLSL
 #define BRUTE_TYPES_GLSL

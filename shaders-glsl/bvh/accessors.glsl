@@ -1,4 +1,4 @@
-// What: the tree's pools, reached as ads/pools.glsl says.
+// The tree's pools, reached as ads/pools.glsl says.
 // Reads, writes: header, nodes, records, scratch. Every access checks the capacity.
 #ifndef BVH_ACCESSORS_GLSL
 #define BVH_ACCESSORS_GLSL

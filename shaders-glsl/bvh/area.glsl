@@ -1,4 +1,4 @@
-// What: areas of boxes, by which trees are made better.
+// Areas of boxes, by which trees are made better.
 // Reads: header. Writes: nothing.
 #ifndef BVH_AREA_GLSL
 #define BVH_AREA_GLSL

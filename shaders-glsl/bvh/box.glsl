@@ -1,4 +1,4 @@
-// What: the conservative test of a ray against the boxes of a node's children.
+// The conservative test of a ray against the boxes of a node's children.
 // Reads, writes: nothing.
 // Source: Kay and Kajiya 1986 (slabs); the margin is derived in docs/systems/bvh.md.
 #ifndef BVH_BOX_GLSL

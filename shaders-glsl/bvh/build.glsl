@@ -1,4 +1,4 @@
-// What: shared parts of the build passes: the tree being built, the invocation's number, boxes and digits.
+// Shared parts of the build passes: the tree being built, the invocation's number, boxes and digits.
 // Reads, writes: see accessors.glsl.
 // build.step is the digit of the sort, 0 is the lowest; for unions and clusters the level that is read; for chains the round, for treelets
 // BVH_TREELET_CLASSES times the round and the class.

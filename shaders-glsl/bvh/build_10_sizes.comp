@@ -1,4 +1,4 @@
-// What: the number of records below every node of the tree by Morton codes; and no chains yet.
+// The number of records below every node of the tree by Morton codes; and no chains yet.
 // Reads: nodes (ends of runs). Writes: scratch (sizes, numbers of chains).
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: lists the chains of a round. Their order is that of arrival, which changes nothing: chains of a class share no node.
+// Lists the chains of a round. Their order is that of arrival, which changes nothing: chains of a class share no node.
 // Reads: nodes, scratch (sizes). Writes: scratch (chains and their numbers).
 // Source: Karras and Aila 2013, section 4: in each round the smallest subtrees to restructure have twice as many leaves.
 #version 460

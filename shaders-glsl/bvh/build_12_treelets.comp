@@ -1,4 +1,4 @@
-// What: restructures treelets along the chains of one class, from the lowest node of each up, where that makes the boxes of
+// Restructures treelets along the chains of one class, from the lowest node of each up, where that makes the boxes of
 // their nodes smaller. Chains of smaller classes come in earlier dispatches, so what is below a treelet is finished.
 // Reads: header, scratch (chains, sizes), nodes. Writes: nodes, scratch (sizes).
 // Source: Karras and Aila 2013 (treelets by area, from the leaves up); Domingues and Pedrini 2015 (their leaves merged in

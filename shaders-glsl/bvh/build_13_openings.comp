@@ -1,4 +1,4 @@
-// What: finds the children and grandchildren that each node would open if it became a node of four: always the one with
+// Finds the children and grandchildren that each node would open if it became a node of four: always the one with
 // the largest box, until there are four.
 // Reads: header, nodes. Writes: scratch (openings).
 // Source: Wald, Benthin and Boulos 2008 (nodes of more children by opening the largest).

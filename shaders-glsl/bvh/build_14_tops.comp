@@ -1,4 +1,4 @@
-// What: finds the nodes of the tree of two that become nodes of four. Each decides by itself: it goes up until that no
+// Finds the nodes of the tree of two that become nodes of four. Each decides by itself: it goes up until that no
 // longer depends on what is above, which takes a few steps.
 // Reads: header, nodes, scratch (openings). Writes: scratch (numbers: 1 where it becomes one).
 // Source: none; docs/systems/bvh.md, "Opening".

@@ -1,4 +1,4 @@
-// What: lists the nodes of two that become nodes of four, by their numbers.
+// Lists the nodes of two that become nodes of four, by their numbers.
 // Reads: header, scratch (numbers). Writes: scratch (list).
 // Source: none; docs/systems/bvh.md, "Opening".
 #version 460

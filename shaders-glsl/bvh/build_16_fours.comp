@@ -1,4 +1,4 @@
-// What: the nodes of four: children and boxes of each, from those nodes of two that are opened for it.
+// The nodes of four: children and boxes of each, from those nodes of two that are opened for it.
 // Reads: nodes of two, scratch (openings, numbers, list). Writes: nodes of four, header.node_count, header.root.
 // Source: none; docs/systems/bvh.md, "Opening".
 #version 460

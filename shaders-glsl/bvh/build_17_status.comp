@@ -1,4 +1,4 @@
-// What: declares the tree complete. Everything has its exact size before the build is recorded.
+// Declares the tree complete. Everything has its exact size before the build is recorded.
 // Reads: header. Writes: header.status.
 #version 460
 #include "contract/extensions.glsl"

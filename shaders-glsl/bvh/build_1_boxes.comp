@@ -1,4 +1,4 @@
-// What: the box of every triangle, for the part of the build that the host does.
+// The box of every triangle, for the part of the build that the host does.
 // Reads: geometry. Writes: scratch.
 #version 460
 #include "contract/extensions.glsl"

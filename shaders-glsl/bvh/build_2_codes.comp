@@ -1,4 +1,4 @@
-// What: the Morton code of the middle of every triangle's box, 10 bits per axis; and the number of triangles, which
+// The Morton code of the middle of every triangle's box, 10 bits per axis; and the number of triangles, which
 // only the device may know, with the root over them.
 // Reads: geometry, header. Writes: scratch (keys), header.
 // Source: Lauterbach et al. 2009.

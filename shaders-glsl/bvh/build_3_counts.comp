@@ -1,4 +1,4 @@
-// What: counts the digits of each chunk of keys.
+// Counts the digits of each chunk of keys.
 // Reads: scratch (keys). Writes: scratch (counts).
 // Source: Satish et al. 2009 (radix sort by count, running sum and scatter). One invocation counts a chunk
 // alone, so the order of equal keys is kept without atomics or barriers.

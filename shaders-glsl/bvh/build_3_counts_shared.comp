@@ -1,4 +1,4 @@
-// What: counts the digits of each chunk of keys, a workgroup per chunk and an invocation per key.
+// Counts the digits of each chunk of keys, a workgroup per chunk and an invocation per key.
 // Reads: scratch (keys). Writes: scratch (counts).
 // Source: Satish et al. 2009 (radix sort by count, running sum and scatter).
 #version 460

@@ -1,4 +1,4 @@
-// What: moves every key to its place by this digit, from one buffer of keys to the other.
+// Moves every key to its place by this digit, from one buffer of keys to the other.
 // Reads: scratch (keys, counts as starts). Writes: scratch (keys, counts).
 // Source: Satish et al. 2009.
 #version 460

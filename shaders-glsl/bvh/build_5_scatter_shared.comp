@@ -1,4 +1,4 @@
-// What: moves every key to its place by this digit, from one buffer of keys to the other, a workgroup per chunk of keys and an
+// Moves every key to its place by this digit, from one buffer of keys to the other, a workgroup per chunk of keys and an
 // invocation per key. Keys of a chunk with the same digit stay in their order: each counts those before it in a set of bits.
 // Reads: scratch (keys, counts as starts). Writes: scratch (keys).
 // Source: Satish et al. 2009; the sets of bits: none.

@@ -1,4 +1,4 @@
-// What: copies the triangles into the order of the leaves, so that a leaf is one run of memory.
+// Copies the triangles into the order of the leaves, so that a leaf is one run of memory.
 // Reads: geometry, scratch (order), or where the order is kept the records. Writes: records.
 #version 460
 #include "contract/extensions.glsl"

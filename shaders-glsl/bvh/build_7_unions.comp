@@ -1,4 +1,4 @@
-// What: the union of every four boxes of one level, as a box of the next; the triangles are level 0.
+// The union of every four boxes of one level, as a box of the next; the triangles are level 0.
 // Reads: records, scratch (unions). Writes: scratch (unions).
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: children, parents and boxes of all inner nodes, each found by itself in the sorted codes.
+// Children, parents and boxes of all inner nodes, each found by itself in the sorted codes.
 // Reads: records, scratch (keys, unions). Writes: nodes.
 // Source: Karras 2012, figure 4. Equal codes are ordered by their places.
 #version 460

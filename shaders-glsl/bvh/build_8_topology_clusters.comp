@@ -1,4 +1,4 @@
-// What: merges clusters, an invocation per part: the least work.
+// Merges clusters, an invocation per part: the least work.
 // Reads: header, records, scratch (clusters). Writes: nodes, scratch (clusters), header.root.
 // Source: clusters.glsl.
 #version 460

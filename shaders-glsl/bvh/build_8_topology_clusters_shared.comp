@@ -1,4 +1,4 @@
-// What: merges clusters, a workgroup per part, in shared memory: fills a device. The tree is that of build_8_topology_clusters.comp.
+// Merges clusters, a workgroup per part, in shared memory: fills a device. The tree is that of build_8_topology_clusters.comp.
 // Reads: header, records, scratch (clusters). Writes: nodes, scratch (clusters), header.root.
 // Source: clusters.glsl.
 #version 460

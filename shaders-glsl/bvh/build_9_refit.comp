@@ -1,4 +1,4 @@
-// What: boxes of all nodes over fewer records than a treelet has leaves, of a tree over triangles that have moved. Each is found
+// Boxes of all nodes over fewer records than a treelet has leaves, of a tree over triangles that have moved. Each is found
 // by itself, from all records below it; and no chains of the nodes above them yet.
 // Reads: nodes (children), records, scratch (sizes). Writes: nodes (boxes), scratch (numbers of chains).
 // Source: none; docs/systems/bvh.md, "Treelets".

@@ -1,4 +1,4 @@
-// What: boxes of nodes along the chains of one class, from the lowest node of each up, of a tree over triangles that have moved.
+// Boxes of nodes along the chains of one class, from the lowest node of each up, of a tree over triangles that have moved.
 // Chains of smaller classes come in earlier dispatches, so what is below a node is finished.
 // Reads: scratch (chains, sizes), nodes, records. Writes: nodes (boxes).
 // Source: none; docs/systems/bvh.md, "Treelets".

@@ -1,4 +1,4 @@
-// What: clusters of records that are merged from the leaves up, level by level: of BVH_CLUSTERS that follow each other those
+// Clusters of records that are merged from the leaves up, level by level: of BVH_CLUSTERS that follow each other those
 // merge, in rounds, that are each other's nearest, by the area of their union, of the BVH_CLUSTER_REACH before and after; until
 // BVH_CLUSTERS_KEPT are left, which the next level takes, or, of the last level, the root.
 // Reads: header, records, scratch (clusters). Writes: nodes, scratch (clusters), header.root.

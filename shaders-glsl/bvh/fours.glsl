@@ -1,4 +1,4 @@
-// What: words that tell which nodes of the tree of two become nodes of four, and which are opened for them.
+// Words that tell which nodes of the tree of two become nodes of four, and which are opened for them.
 // Reads: scratch. Writes: nothing.
 // Source: none; docs/systems/bvh.md, "Opening".
 #ifndef BVH_FOURS_GLSL

@@ -1,4 +1,4 @@
-// What: the bounds of the geometry, over which Morton codes are placed and from which rays find their margin.
+// The bounds of the geometry, over which Morton codes are placed and from which rays find their margin.
 // Writes: header.
 #ifndef BVH_FROM_BOUNDS_GLSL
 #define BVH_FROM_BOUNDS_GLSL

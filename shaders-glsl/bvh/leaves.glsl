@@ -1,4 +1,4 @@
-// What: leaves of several records that clusters become. Their records are moved next to each other within the part, so that
+// Leaves of several records that clusters become. Their records are moved next to each other within the part, so that
 // references, which name the first record by its old place, are translated where nodes of four are made.
 // Reads: header, scratch (clusters). Writes: scratch (clusters).
 // Source: Meister and Bittner 2018, section 3.4 (subtrees that cost more than their triangles become leaves), but while merging.

@@ -1,4 +1,4 @@
-// What: the numbers that scans run over: in the steps of the radix sort counts by digit and chunk; after these, which nodes of
+// The numbers that scans run over: in the steps of the radix sort counts by digit and chunk; after these, which nodes of
 // two become nodes of four.
 // Reads, writes: scratch (counts, sums, numbers of nodes).
 #ifndef BVH_SCANNED_GLSL

@@ -1,4 +1,4 @@
-// What: chunks, digits and counts of the radix sort.
+// Chunks, digits and counts of the radix sort.
 // Reads: scratch (keys). Writes: nothing.
 #ifndef BVH_SORT_GLSL
 #define BVH_SORT_GLSL

@@ -1,4 +1,4 @@
-// What: the surface at a hit of the tree: a primitive with barycentrics.
+// The surface at a hit of the tree: a primitive with barycentrics.
 // Reads: the scene. Writes: nothing.
 #ifndef BVH_SURFACE_GLSL
 #define BVH_SURFACE_GLSL

@@ -1,4 +1,4 @@
-// What: finds the nearest or any hit by an ordered descent.
+// Finds the nearest or any hit by an ordered descent.
 // Reads: header, nodes, records; the scene where alpha is tested. Writes: header.corrupted.
 // Source: Laine 2010 and Hapala et al. 2011 (descent that can resume without its stack); Woop et al. 2013
 // (the triangle test).

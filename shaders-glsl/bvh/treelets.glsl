@@ -1,4 +1,4 @@
-// What: subtrees by their number of records, chains of them, and where both are kept while treelets are restructured.
+// Subtrees by their number of records, chains of them, and where both are kept while treelets are restructured.
 // A chain is a longest path upwards of nodes with numbers of records of one class. Each class ends at twice the number that
 // it begins at, so a node has at most one child of its own class.
 // Reads: header, scratch (sizes). Writes: nothing.

@@ -1,4 +1,4 @@
-// What: the records of a bounding volume hierarchy with two or four children per node.
+// The records of a bounding volume hierarchy with two or four children per node.
 // Reads, writes: nothing.
 #ifndef BVH_TYPES_GLSL
 #define BVH_TYPES_GLSL

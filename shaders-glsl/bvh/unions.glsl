@@ -1,4 +1,4 @@
-// What: boxes of runs of records, put together from unions of 4, 16, 64 ... of them.
+// Boxes of runs of records, put together from unions of 4, 16, 64 ... of them.
 // Reads: records, scratch (unions). Writes: nodes (boxes).
 #ifndef BVH_UNIONS_GLSL
 #define BVH_UNIONS_GLSL

@@ -1,4 +1,4 @@
-// What: the one place that chooses the alpha test. ALPHA_SCENE is set by permutations that carry
+// The one place that chooses the alpha test. ALPHA_SCENE is set by permutations that carry
 // the scene's set; without it geometry is opaque.
 // Reads, writes: see the file chosen.
 #ifndef CONTRACT_ALPHA_GLSL

@@ -1,4 +1,4 @@
-// What: the alpha test of geometry without alpha: every candidate counts.
+// The alpha test of geometry without alpha: every candidate counts.
 // Reads, writes: nothing.
 // An embedder with masked materials provides a file with the same function instead.
 #ifndef CONTRACT_ALPHA_OPAQUE_GLSL

@@ -1,4 +1,4 @@
-// What: small numbers in the bits of one word. A field is a name for its first bit and its width, which stand as two
+// Small numbers in the bits of one word. A field is a name for its first bit and its width, which stand as two
 // arguments in the calls below: `#define X_CURSOR_VIEW 2, 3`.
 // Reads, writes: nothing.
 #ifndef CONTRACT_BITS_GLSL

@@ -1,4 +1,4 @@
-// What: the language extensions every module is compiled with.
+// The language extensions every module is compiled with.
 // Reads, writes: nothing.
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require

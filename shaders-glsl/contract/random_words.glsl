@@ -1,4 +1,4 @@
-// What: four pseudo-random words from four words, the same on every device.
+// Four pseudo-random words from four words, the same on every device.
 // Reads, writes: nothing.
 // Source: pcg4d of Jarzynski and Olano, "Hash functions for GPU rendering", JCGT 9(3), 2020.
 #ifndef CONTRACT_RANDOM_WORDS_GLSL

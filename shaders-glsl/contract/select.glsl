@@ -1,4 +1,4 @@
-// What: forwards the contract's plain names to the structure for which a shader is compiled. `structure/...` is its
+// Forwards the contract's plain names to the structure for which a shader is compiled. `structure/...` is its
 // folder, given as STRUCTURE in the permutation list.
 // Reads, writes: see the structure.
 #ifndef CONTRACT_SELECT_GLSL

@@ -1,4 +1,4 @@
-// What: hits of stored fragments: of those that keep their triangle only for diagnostics, and of those in another part of
+// Hits of stored fragments: of those that keep their triangle only for diagnostics, and of those in another part of
 // the geometry.
 // Reads: the hit. Writes: the hit.
 // Where a hit has a triangle's id, HIT_STORED in b marks that a and the surface are still the fragment's; HIT_EARLIER, or a

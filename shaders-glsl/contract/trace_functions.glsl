@@ -1,4 +1,4 @@
-// What: the contract's trace functions of a structure, made from its own functions: an invalid ray is a miss, and a
+// The contract's trace functions of a structure, made from its own functions: an invalid ray is a miss, and a
 // structure that is not complete, or was built for other triangles than those that are bound, gives no answer, in queues
 // and in shaders of a host alike. A trace may start with a best hit of other triangles; where any hit suffices, that is the
 // answer.

@@ -1,4 +1,4 @@
-// What: the one place that says where the steps of a traversal are written. TRACE_LOG is set by the queue
+// The one place that says where the steps of a traversal are written. TRACE_LOG is set by the queue
 // kernels; elsewhere steps are discarded.
 // Reads, writes: see the file chosen.
 // Every structure calls trace_log(kind, a, b, c, t_low, t_high) for what it does, with the STEP_* kinds of

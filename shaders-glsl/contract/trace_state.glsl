@@ -1,4 +1,4 @@
-// What: a traversal's state at the start of a ray, and the rule by which hits are ranked.
+// A traversal's state at the start of a ray, and the rule by which hits are ranked.
 // Reads, writes: nothing.
 #ifndef CONTRACT_TRACE_STATE_GLSL
 #define CONTRACT_TRACE_STATE_GLSL

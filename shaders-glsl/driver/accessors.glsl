@@ -1,4 +1,4 @@
-// What: the boxes of a tree of the driver, reached as ads/pools.glsl says.
+// The boxes of a tree of the driver, reached as ads/pools.glsl says.
 // Reads, writes: header, boxes: six floats per triangle, the lower corner and the upper one, in units of header.scale around
 // header.centre.
 #ifndef DRIVER_ACCESSORS_GLSL

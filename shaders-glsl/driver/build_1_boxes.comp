@@ -1,4 +1,4 @@
-// What: the box of every triangle, wider than it by what rounding may move a ray against it in the driver's tests and in ours.
+// The box of every triangle, wider than it by what rounding may move a ray against it in the driver's tests and in ours.
 // Reads: geometry, header. Writes: boxes.
 // Source: docs/systems/driver-rt.md, "Margins".
 #version 460

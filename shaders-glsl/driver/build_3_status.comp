@@ -1,4 +1,4 @@
-// What: declares the tree complete, or says that the boxes did not fit.
+// Declares the tree complete, or says that the boxes did not fit.
 // Reads: header, geometry. Writes: header.status.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: places boxes for the bounds of the geometry and the eye.
+// Places boxes for the bounds of the geometry and the eye.
 // Reads: header of the geometry. Reads, writes: header.
 // Source: docs/systems/driver-rt.md.
 #ifndef DRIVER_FROM_BOUNDS_GLSL

@@ -1,4 +1,4 @@
-// What: the header of a tree of the driver.
+// The header of a tree of the driver.
 // Reads, writes: header.
 #ifndef DRIVER_HEADER_GLSL
 #define DRIVER_HEADER_GLSL

@@ -1,4 +1,4 @@
-// What: the surface at a hit through the driver's tree: a triangle with barycentrics.
+// The surface at a hit through the driver's tree: a triangle with barycentrics.
 // Reads: the scene. Writes: nothing.
 #ifndef DRIVER_SURFACE_GLSL
 #define DRIVER_SURFACE_GLSL

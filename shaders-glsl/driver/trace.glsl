@@ -1,4 +1,4 @@
-// What: asks the driver for the boxes that a ray passes, and tests their triangles.
+// Asks the driver for the boxes that a ray passes, and tests their triangles.
 // Reads: header, the driver's tree, geometry. Writes: nothing.
 // Source: VK_KHR_ray_query. The triangle test is the project's, so hits do not depend on the driver; docs/systems/driver-rt.md.
 //

@@ -1,4 +1,4 @@
-// What: the header of a tree of the driver over boxes of triangles.
+// The header of a tree of the driver over boxes of triangles.
 // Reads, writes: nothing.
 // Source: docs/systems/driver-rt.md.
 #ifndef DRIVER_TYPES_GLSL

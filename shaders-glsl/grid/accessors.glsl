@@ -1,4 +1,4 @@
-// What: the pools of a grid, reached as ads/pools.glsl says.
+// The pools of a grid, reached as ads/pools.glsl says.
 // Reads, writes: header, lists, entries, scratch. Lists hold a word per cell: the length of its list, then where it
 // begins, and once all entries are stored where it ends. Scratch holds the sums of the scan, and behind these the
 // large-triangle queue.

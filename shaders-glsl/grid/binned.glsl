@@ -1,4 +1,4 @@
-// What: work of a binning pass of a grid on a triangle in a column of cells; BIN_VISIT says which pass it is.
+// Work of a binning pass of a grid on a triangle in a column of cells; BIN_VISIT says which pass it is.
 // Reads: geometry, header. Writes: lists, entries.
 // Source: Kalojanov and Slusallek 2009, who sort pairs of triangle and cell; here lengths are counted, scanned, and the
 // lists filled. ads/box_clip.glsl decides which cells a triangle reaches into.

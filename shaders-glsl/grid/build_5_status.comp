@@ -1,4 +1,4 @@
-// What: declares the structure complete, or says that something did not fit.
+// Declares the structure complete, or says that something did not fit.
 // Reads: header, geometry. Writes: header.status.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: places the cells of a grid for the bounds of the geometry and the eye.
+// Places the cells of a grid for the bounds of the geometry and the eye.
 // Reads: header of the geometry. Reads, writes: header.
 // Source: docs/systems/grid.md.
 #ifndef GRID_FROM_BOUNDS_GLSL

@@ -1,4 +1,4 @@
-// What: the header of a grid.
+// The header of a grid.
 // Reads, writes: header.
 #ifndef GRID_HEADER_GLSL
 #define GRID_HEADER_GLSL

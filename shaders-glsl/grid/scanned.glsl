@@ -1,4 +1,4 @@
-// What: the numbers that the scan runs over: lengths of lists become places, and their sum the demand.
+// The numbers that the scan runs over: lengths of lists become places, and their sum the demand.
 // Reads, writes: lists, scratch, header.demand.
 #ifndef GRID_SCANNED_GLSL
 #define GRID_SCANNED_GLSL

@@ -1,4 +1,4 @@
-// What: the surface at a hit of a grid: a triangle with barycentrics.
+// The surface at a hit of a grid: a triangle with barycentrics.
 // Reads: the scene. Writes: nothing.
 #ifndef GRID_SURFACE_GLSL
 #define GRID_SURFACE_GLSL

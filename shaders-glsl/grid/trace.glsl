@@ -1,4 +1,4 @@
-// What: follows a ray from cell to cell of a grid and tests the triangles that each cell lists.
+// Follows a ray from cell to cell of a grid and tests the triangles that each cell lists.
 // Reads: header, lists, entries, geometry. Writes: header.corrupted.
 // Source: Amanatides and Woo 1987, with t of each plane computed anew instead of accumulated (ads/box_cells.glsl). Indices
 // only go forwards, and a cell is missed by no more than rounding, for which its list has a margin. Instead of their

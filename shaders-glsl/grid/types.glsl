@@ -1,4 +1,4 @@
-// What: the header of a grid.
+// The header of a grid.
 // Reads, writes: nothing.
 // Source: docs/systems/grid.md.
 #ifndef GRID_TYPES_GLSL

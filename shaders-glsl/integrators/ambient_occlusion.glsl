@@ -1,4 +1,4 @@
-// What: ambient occlusion: cosine-weighted visibility of a white environment.
+// Ambient occlusion: cosine-weighted visibility of a white environment.
 // Reads: the seed. Writes: nothing. Source: docs/shading.md, "Ambient occlusion".
 #ifndef INTEGRATORS_AMBIENT_OCCLUSION_GLSL
 #define INTEGRATORS_AMBIENT_OCCLUSION_GLSL

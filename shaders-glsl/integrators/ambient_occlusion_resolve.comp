@@ -1,4 +1,4 @@
-// What: adds one sample of ambient occlusion to every pixel of the wave: 0 where the ray is blocked, 1
+// Adds one sample of ambient occlusion to every pixel of the wave: 0 where the ray is blocked, 1
 // where it is free or the camera ray hit nothing.
 // Reads: rays and hits of the queue, which is that of the shadow rays. Writes: film.
 // Source: docs/shading.md, "Ambient occlusion".

@@ -1,4 +1,4 @@
-// What: the ambient-occlusion ray of every slot, from the surface that its camera ray hit.
+// The ambient-occlusion ray of every slot, from the surface that its camera ray hit.
 // Reads: surfaces of the queue, frame (the seed). Writes: shadow rays; selects those
 // that are active.
 // Source: docs/shading.md, "Ambient occlusion".

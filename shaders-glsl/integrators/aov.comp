@@ -1,4 +1,4 @@
-// What: distance, normal and primitive of what the ray of every slot hit, for the pixel's record.
+// Distance, normal and primitive of what the ray of every slot hit, for the pixel's record.
 // Reads: rays, hits and surfaces of the queue. Writes: AOV pixels.
 // Source: the output conventions of docs/shading.md and of the command.
 #version 460

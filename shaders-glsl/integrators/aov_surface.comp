@@ -1,4 +1,4 @@
-// What: records the hit of every slot as materials and meshes have it, for the pixel.
+// Records the hit of every slot as materials and meshes have it, for the pixel.
 // Reads: surfaces of the queue, geometry, draws, materials, vertex attributes. Writes: surface pixels.
 // Source: docs/images.md, "Further images".
 #version 460

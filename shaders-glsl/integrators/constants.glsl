@@ -1,4 +1,4 @@
-// What: numbers that integrators share with Rust.
+// Numbers that integrators share with Rust.
 // Only `#define NAME number` stands here: Rust constants of the same names are generated from it.
 // Source: docs/whitted.md, docs/cube-map.md, docs/photons.md.
 #ifndef INTEGRATORS_CONSTANTS_GLSL

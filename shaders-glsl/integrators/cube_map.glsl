@@ -1,4 +1,4 @@
-// What: a cube map of radiance around one point. Each of six faces has a border of one texel, which the next face has as
+// A cube map of radiance around one point. Each of six faces has a border of one texel, which the next face has as
 // well, so that a lookup blends four texels of one face.
 // Reads: texels and header of INTEGRATOR_SET, frame. Writes: nothing.
 // Source: docs/cube-map.md; Greene 1986.

@@ -1,4 +1,4 @@
-// What: bounds of all triangles that are perfectly smooth by their material; each invocation looks at one of so many as
+// Bounds of all triangles that are perfectly smooth by their material; each invocation looks at one of so many as
 // there are invocations.
 // Reads: geometry, materials. Writes: keys of the header of the cube map, which were filled before: all bits for the lower
 // ones, none for the upper ones.

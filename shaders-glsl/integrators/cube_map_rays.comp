@@ -1,4 +1,4 @@
-// What: the ray of every texel of a cube map, through a random point of the texel.
+// The ray of every texel of a cube map, through a random point of the texel.
 // Reads: header of the cube map, frame. Writes: rays of the queue.
 // Source: docs/cube-map.md.
 #version 460

@@ -1,4 +1,4 @@
-// What: the surfaces of those hits in the list of this pixel that are on the triangle drawn.
+// The surfaces of those hits in the list of this pixel that are on the triangle drawn.
 // Reads: lists, rays and hits of the queue, geometry, scene. Writes: surfaces of the queue, its count.
 // Source: DIRT section 4.2.2, fetch pass. A fragment reads one part of the list: the loops of an invocation are bounded.
 #version 460

@@ -1,4 +1,4 @@
-// What: shared parts of passes that fetch surfaces by drawing: lists of hits for each pixel of a cube around the
+// Shared parts of passes that fetch surfaces by drawing: lists of hits for each pixel of a cube around the
 // camera, a mask of the triangles that have hits, and where a point lies on the cube.
 // Reads, writes: lists, mask, counts. Stages that only read say so (FETCH_READ_ONLY).
 // Source: DIRT sections 4.2.1, final storage, and 4.2.2, fetch pass. Lists are contiguous, so that a fragment can read a

@@ -1,4 +1,4 @@
-// What: proposes, for each triangle with hits and face of the cube, the pixels whose lists may hold them.
+// Proposes, for each triangle with hits and face of the cube, the pixels whose lists may hold them.
 // Reads: geometry, frame, mask. Writes: nothing.
 // Source: DIRT section 4.2.2, fetch pass; the dilated triangles of ads/coverage.glsl. An instance is a face and a part of
 // the lists.

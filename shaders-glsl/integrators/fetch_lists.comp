@@ -1,4 +1,4 @@
-// What: puts the hits of a queue into lists for each pixel of a cube, in three steps: counts, places of lists, entries.
+// Puts the hits of a queue into lists for each pixel of a cube, in three steps: counts, places of lists, entries.
 // Slots without a hit get the surface of a miss.
 // Reads: hits of the queue, geometry, frame. Writes: lists, mask, counts, surfaces of misses. A hit counts as not ready
 // until its surface is fetched.

@@ -1,4 +1,4 @@
-// What: adds the radiance of every path of a wave to its pixel.
+// Adds the radiance of every path of a wave to its pixel.
 // Reads: path states. Writes: film.
 // Source: docs/shading.md, "Paths".
 #version 460

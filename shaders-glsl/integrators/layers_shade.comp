@@ -1,4 +1,4 @@
-// What: one step of ray casting through layers: the surface that a ray hits adds its colour by its opacity, and the ray goes
+// One step of ray casting through layers: the surface that a ray hits adds its colour by its opacity, and the ray goes
 // on behind it. Where a ray ends, its radiance is added to its pixel.
 // Reads: rays and surfaces of the queue, states, frame, environment. Writes: states, film, rays of the queue (the next
 // round); selects the slots that have a ray to trace.

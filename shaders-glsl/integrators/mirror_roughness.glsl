@@ -1,4 +1,4 @@
-// What: test for perfectly smooth surfaces.
+// Test for perfectly smooth surfaces.
 // Reads, writes: nothing. Source: docs/whitted.md.
 #ifndef INTEGRATORS_MIRROR_ROUGHNESS_GLSL
 #define INTEGRATORS_MIRROR_ROUGHNESS_GLSL

@@ -1,4 +1,4 @@
-// What: adds the light that was sampled in this round to every path whose shadow ray hit nothing.
+// Adds the light that was sampled in this round to every path whose shadow ray hit nothing.
 // Reads: hits of the queue, which is that of the shadow rays, and pending radiance. Writes: path states.
 // Source: docs/shading.md, "Paths".
 #version 460

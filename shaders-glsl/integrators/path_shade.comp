@@ -1,4 +1,4 @@
-// What: one step of every path that continues: emission, light sample, scattering. Of scenes where no surface lets light
+// One step of every path that continues: emission, light sample, scattering. Of scenes where no surface lets light
 // pass in a straight line; path_shade_passing.comp is for the others.
 // Reads: rays and surfaces (or hits) of the queue, path states, scene, geometry. Writes: path states, shadow rays, pending
 // radiance, rays of the queue (the next closest-hit round); selects the slots that have a ray to trace, in both queues.

@@ -1,4 +1,4 @@
-// What: one step of every path that continues, where surfaces let light pass in a straight line. Paths and their shadow
+// One step of every path that continues, where surfaces let light pass in a straight line. Paths and their shadow
 // rays take turns in one queue: a path that asks for a shadow ray waits until that has ended, however many surfaces it
 // passes. Where a path ends, its radiance is added to its pixel.
 // Reads: rays and surfaces (or hits) of the queue, path states, waiting paths, scene, geometry. Writes: path states, waiting paths,

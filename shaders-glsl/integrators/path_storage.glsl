@@ -1,4 +1,4 @@
-// What: paths of a wave as the kernels that shade them find and leave them.
+// Paths of a wave as the kernels that shade them find and leave them.
 // Reads: hits and surfaces of the queue, the scene. Reads, writes: path states. What a scene without transmission, or without anything that lets light
 // pass in a straight line, never changes is neither stored nor read.
 // Source: wavefront path tracing as in pbrt-v4, section 15.

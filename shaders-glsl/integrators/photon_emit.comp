@@ -1,4 +1,4 @@
-// What: the photons of a sample as they leave the lights: one path per slot, its flux by what chose it. The first slot
+// The photons of a sample as they leave the lights: one path per slot, its flux by what chose it. The first slot
 // also writes the header of the map.
 // Reads: frame, lights, emissive triangles, environment, geometry, materials, textures. Writes: path states, rays of the
 // queue, header.

@@ -1,4 +1,4 @@
-// What: one step of every photon that goes on: it is stored where a rough surface is met after a scattering, and scattered.
+// One step of every photon that goes on: it is stored where a rough surface is met after a scattering, and scattered.
 // Reads: rays and surfaces of the queue, path states, scene. Writes: path states, photons, their lists, rays of the queue
 // (the next closest-hit round), film faults; selects the slots that have a ray to trace.
 // Source: docs/photons.md, "Scattering"; Veach 1997, section 5.3, for shading normals.

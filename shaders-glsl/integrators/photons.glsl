@@ -1,4 +1,4 @@
-// What: the photon map of a sample: photons in lists of the cells of a uniform grid, cells hashed into a table, and the
+// The photon map of a sample: photons in lists of the cells of a uniform grid, cells hashed into a table, and the
 // radiance that a surface scatters of the photons around it.
 // Reads: the map of INTEGRATOR_SET. Writes: the same with PHOTONS_WRITTEN, else film faults.
 // Source: docs/photons.md; Jensen 1996, Teschner et al. 2003 for the hash, Silverman 1986 for the kernel.

@@ -1,4 +1,4 @@
-// What: the camera ray of every slot of a wave, through a random point of its pixel and of the lens, or through the centres
+// The camera ray of every slot of a wave, through a random point of its pixel and of the lens, or through the centres
 // of both.
 // Reads: frame. Writes: rays of the queue.
 // Source: docs/shading.md, "Functions" and "Lens".

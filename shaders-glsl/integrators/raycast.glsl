@@ -1,4 +1,4 @@
-// What: the light of ray casting: emission plus base colour under a light at the eye.
+// The light of ray casting: emission plus base colour under a light at the eye.
 // Reads, writes: nothing. Source: Appel 1968, with the light at the eye.
 #ifndef INTEGRATORS_RAYCAST_GLSL
 #define INTEGRATORS_RAYCAST_GLSL

@@ -1,4 +1,4 @@
-// What: adds one sample of ray casting to every pixel of the wave: emission plus base colour under a
+// Adds one sample of ray casting to every pixel of the wave: emission plus base colour under a
 // light at the eye, the environment where the camera ray hits nothing.
 // Reads: rays and surfaces of the queue, frame, environment. Writes: film.
 // Source: Appel 1968, with the light at the eye.

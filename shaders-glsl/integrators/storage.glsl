@@ -1,4 +1,4 @@
-// What: data of integrators per slot of a wave and per pixel of the image, and the functions that access it. Slot i of
+// Data of integrators per slot of a wave and per pixel of the image, and the functions that access it. Slot i of
 // a wave holds pixel first_pixel + i of the image, or of the list of those that a sample is taken of. Buffers with a record
 // per pixel are those of the band of the image that the wave is in.
 // Reads, writes: the buffers of INTEGRATOR_SET.

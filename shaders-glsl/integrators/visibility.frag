@@ -1,4 +1,4 @@
-// What: tests whether the ray of a pixel hits a triangle, and keeps the round's part of the hit.
+// Tests whether the ray of a pixel hits a triangle, and keeps the round's part of the hit.
 // Reads: geometry, frame, rays of the queue; the scene where alpha is tested. Writes: hits of the queue, counts.
 // Source: the visibility buffer; which pixels a triangle is tested at is proposed by visibility.vert alone.
 #version 460

@@ -1,4 +1,4 @@
-// What: shared parts of passes that find what the camera sees by drawing: the slots they work on, and the hits of the
+// Shared parts of passes that find what the camera sees by drawing: the slots they work on, and the hits of the
 // queue as words, so that fragments can take their minimum.
 // Reads, writes: hits of the queue, counts.
 // Source: Burns and Hunt 2013, the visibility buffer, with ids decided by the test that rays are decided by.

@@ -1,4 +1,4 @@
-// What: proposes, for each triangle, the pixels of a wave whose rays may hit it.
+// Proposes, for each triangle, the pixels of a wave whose rays may hit it.
 // Reads: geometry, frame. Writes: nothing.
 // Source: the dilated triangles of ads/coverage.glsl.
 // The image area that is drawn is that of the rows in which the wave has pixels. A point of it is (x/z, y/z) times half

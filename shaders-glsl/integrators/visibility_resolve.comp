@@ -1,4 +1,4 @@
-// What: the hit and the surface of every slot of a wave from the triangle that drawing found, as a trace would store
+// The hit and the surface of every slot of a wave from the triangle that drawing found, as a trace would store
 // them.
 // Reads: rays of the queue, the primitives of its hits, geometry, scene. Writes: hits and surfaces of the queue.
 // Triangles are drawn through a pinhole: with a lens no ray has an answer, which is counted as not ready.

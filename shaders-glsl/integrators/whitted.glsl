@@ -1,4 +1,4 @@
-// What: Whitted's ray tracing, one step per closest hit: emission, one light sample, and the rays that go on from there.
+// Whitted's ray tracing, one step per closest hit: emission, one light sample, and the rays that go on from there.
 // With CUBE_MAP_LOOKUP a cube map answers mirrored and refracted rays; with CUBE_MAP_DRAWN the rays are those of its texels.
 // Reads: scene tables through scene/*.glsl; the cube map. Writes: state and waiting rays, through
 // integrators/whitted_storage.glsl; the film's count of samples that sent a ray on.

@@ -1,4 +1,4 @@
-// What: adds the light that was sampled in this round where the shadow ray hit nothing, and trees that have ended to their
+// Adds the light that was sampled in this round where the shadow ray hit nothing, and trees that have ended to their
 // pixels.
 // Reads: rays and hits of the queue, which is that of the shadow rays, and states. Writes: states, film.
 // Source: docs/whitted.md.

@@ -1,4 +1,4 @@
-// What: one step of every tree that continues. Of scenes where no surface lets light pass in a straight line;
+// One step of every tree that continues. Of scenes where no surface lets light pass in a straight line;
 // whitted_shade_passing.comp is for the others.
 // Reads: rays and surfaces of the queue, states, waiting rays, scene, geometry. Writes: states, waiting rays, shadow rays,
 // film, rays of the queue (the next closest-hit round); selects the slots that have a ray to trace, in both queues.

@@ -1,4 +1,4 @@
-// What: one step of every tree that continues, where surfaces let light pass in a straight line. Rays and their shadow
+// One step of every tree that continues, where surfaces let light pass in a straight line. Rays and their shadow
 // rays take turns in one queue: what a surface sends on waits until its shadow ray has ended, however many surfaces that
 // passes. Where a tree ends, its radiance is added to its pixel.
 // Reads: rays and surfaces of the queue, states, waiting rays, scene, geometry. Writes: states, waiting rays, film, rays of

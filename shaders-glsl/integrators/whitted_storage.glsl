@@ -1,4 +1,4 @@
-// What: trees of rays of a wave as the kernels that shade them find and leave them.
+// Trees of rays of a wave as the kernels that shade them find and leave them.
 // Reads, writes: states and waiting rays of INTEGRATOR_SET, surfaces of the queue.
 // Source: docs/whitted.md, "Storage".
 #ifndef INTEGRATORS_WHITTED_STORAGE_GLSL

@@ -1,4 +1,4 @@
-// What: the pools of a layered depth cube, reached as ads/pools.glsl says.
+// The pools of a layered depth cube, reached as ads/pools.glsl says.
 // Reads, writes: header, lists, depths, payload, blocks, heads, conservative lists, scratch. Every access checks the capacity.
 #ifndef LDC_ACCESSORS_GLSL
 #define LDC_ACCESSORS_GLSL

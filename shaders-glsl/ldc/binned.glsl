@@ -1,4 +1,4 @@
-// What: work of a binning pass of a layered depth cube on a triangle in the view it faces most; BIN_VISIT
+// Work of a binning pass of a layered depth cube on a triangle in the view it faces most; BIN_VISIT
 // says which pass it is.
 // Reads: geometry, header, with ALPHA_SCENE the scene; lists, depths, payload. Writes: see ldc/visit.glsl.
 // Source: Bürger et al. section 1.2, by computing instead of drawing. The same functions decide as in the

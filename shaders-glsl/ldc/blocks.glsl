@@ -1,4 +1,4 @@
-// What: the blocks of a layered depth cube, of both levels: their number, and the depths in them.
+// The blocks of a layered depth cube, of both levels: their number, and the depths in them.
 // Reads, writes: header, blocks.
 // Source: Bürger et al. section 1.3, minimum and maximum depth per block; slices and the second level are not
 // in the paper.

@@ -1,4 +1,4 @@
-// What: declares the structure complete, or says what was missing.
+// Declares the structure complete, or says what was missing.
 // Reads: header. Writes: header.status.
 #version 460
 #include "contract/extensions.glsl"

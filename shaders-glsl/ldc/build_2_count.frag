@@ -1,4 +1,4 @@
-// What: length of each cell's list; with peeling, the number of layers, and in a second draw the words of lists are
+// Length of each cell's list; with peeling, the number of layers, and in a second draw the words of lists are
 // advanced from their first place to their end.
 // Reads: geometry, header. Writes: lists; scratch, header.layer_demand, header.beyond.
 // Source: Bürger et al. section 1.2, where the maximum length is the number of layers to peel.

@@ -1,4 +1,4 @@
-// What: stores each fragment: depth and triangle, in the list of its cell; and widens its blocks' depths.
+// Stores each fragment: depth and triangle, in the list of its cell; and widens its blocks' depths.
 // Reads: geometry, header. Writes: lists, depths, payload, blocks.
 // Source: Bürger et al. sections 1.2 and 1.3: all layers in one pass instead of one per layer.
 #version 460

@@ -1,4 +1,4 @@
-// What: peels a layer: step 2 k finds the smallest depth of each cell behind its layer k - 1, step 2 k + 1 the lowest
+// Peels a layer: step 2 k finds the smallest depth of each cell behind its layer k - 1, step 2 k + 1 the lowest
 // triangle at that depth. The word of a list is its first place; it becomes its end when all layers are peeled.
 // Reads: geometry, header, lists. Writes: depths, payload, blocks.
 // Source: Bürger et al. section 1.2, depth peeling; triangles tell equal depths apart, so that none is lost.

@@ -1,4 +1,4 @@
-// What: keeps triangles in cells that they reach into without covering their centre. Conservative coverage only.
+// Keeps triangles in cells that they reach into without covering their centre. Conservative coverage only.
 // Reads: geometry, header, lists, depths, payload. Writes: heads, conservative lists, blocks, header.conservative_demand.
 // Source: not in the paper, in which rays pass between the cells of the views there.
 #version 460

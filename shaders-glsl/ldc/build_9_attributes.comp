@@ -1,4 +1,4 @@
-// What: replaces the triangle of each fragment by colour and normal, as seen along the triangle's
+// Replaces the triangle of each fragment by colour and normal, as seen along the triangle's
 // normal. Sorting, peeling and conservative lists need triangles, so it comes last. Payload attributes only.
 // Normals of a cube in a space of its own are turned to there from where the scene is posed. Where there is no map fragments
 // keep their triangles, as those that emit do.

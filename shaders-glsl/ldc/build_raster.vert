@@ -1,4 +1,4 @@
-// What: proposes, for each triangle, the cells of its view whose centres it may cover, with CONSERVATIVE those that it may
+// Proposes, for each triangle, the cells of its view whose centres it may cover, with CONSERVATIVE those that it may
 // reach into.
 // Reads: geometry, header. Writes: nothing.
 // Source: Bürger et al. section 1.2.1; the vertex stage chooses the view instead of a geometry shader. With three passes an

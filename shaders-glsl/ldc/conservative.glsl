@@ -1,4 +1,4 @@
-// What: the conservative lists of the cells of a layered depth cube: where they are.
+// The conservative lists of the cells of a layered depth cube: where they are.
 // Reads, writes: heads, conservative lists, header.conservative_demand, header.corrupted.
 // Source: not in the paper; see ads/conservative.glsl.
 #ifndef LDC_CONSERVATIVE_GLSL

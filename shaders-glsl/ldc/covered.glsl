@@ -1,4 +1,4 @@
-// What: cells that keep a triangle in the view it faces most, and its depths there, the same for every builder.
+// Cells that keep a triangle in the view it faces most, and its depths there, the same for every builder.
 // Reads: geometry, header, with ALPHA_SCENE the scene. Writes: nothing.
 // Where the rasterizer draws, without attachments, no layers are needed: the view travels as a varying.
 #ifndef LDC_COVERED_GLSL

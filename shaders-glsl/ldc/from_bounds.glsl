@@ -1,4 +1,4 @@
-// What: places the cube of a layered depth cube over the bounds of the geometry.
+// Places the cube of a layered depth cube over the bounds of the geometry.
 // Reads, writes: header.
 // Source: none; docs/systems/ldc.md.
 #ifndef LDC_FROM_BOUNDS_GLSL

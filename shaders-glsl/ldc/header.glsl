@@ -1,4 +1,4 @@
-// What: the header of a layered depth cube.
+// The header of a layered depth cube.
 // Reads, writes: header; stages with STRUCTURE_READ_ONLY only read it.
 #ifndef LDC_HEADER_GLSL
 #define LDC_HEADER_GLSL

@@ -1,4 +1,4 @@
-// What: traverses the squares of a flat grid that a ray crosses, column by column along its major axis.
+// Traverses the squares of a flat grid that a ray crosses, column by column along its major axis.
 // Reads, writes: nothing.
 // Source: Bürger et al. section 1.4, DDA over pixels; in closed form. Which rows of a column are crossed
 // follows from the column alone, so a traversal can go on anywhere. The visited squares are a superset of the

@@ -1,4 +1,4 @@
-// What: the saved state of a ray that pauses, and how its traversal resumes from it.
+// The saved state of a ray that pauses, and how its traversal resumes from it.
 // Reads: trace state. Writes: trace state.
 // cursor: 0 flags and view, 1 block of the second level, 2 block, 3 cell, 4 place within what is being searched.
 #ifndef LDC_PAUSE_GLSL

@@ -1,4 +1,4 @@
-// What: the numbers that the scan of lists runs over: lengths become places, their sum the demand.
+// The numbers that the scan of lists runs over: lengths become places, their sum the demand.
 // Reads, writes: lists, scratch, header.demand.
 #ifndef LDC_SCANNED_GLSL
 #define LDC_SCANNED_GLSL

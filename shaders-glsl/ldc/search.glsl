@@ -1,4 +1,4 @@
-// What: searches one cell for the nearest fragment that a ray hits within it.
+// Searches one cell for the nearest fragment that a ray hits within it.
 // Reads: lists, depths, payload, heads, conservative lists, geometry. Writes: header.corrupted.
 // Source: Bürger et al. section 1.4. The order of a list only skips fragments that the acceptance would
 // refuse, so hits do not depend on it. The nearest along the ray is taken, whichever layer it is.

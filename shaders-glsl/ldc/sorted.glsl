@@ -1,4 +1,4 @@
-// What: the elements of a list for the shared sort: by depth, ties by triangle. Entry k of a sorted list is layer k of
+// The elements of a list for the shared sort: by depth, ties by triangle. Entry k of a sorted list is layer k of
 // its cell.
 // Reads, writes: lists, depths, payload, scratch, header.long_demand, header.unsorted.
 // Source: the order that the peeling of Bürger et al. section 1.2 yields.

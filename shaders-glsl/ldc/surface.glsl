@@ -1,4 +1,4 @@
-// What: the surface at a hit of a layered depth cube: of a triangle with the barycentrics of a point on its
+// The surface at a hit of a layered depth cube: of a triangle with the barycentrics of a point on its
 // plane, or of a fragment's own words.
 // Reads: header, the scene (payload index, and fragments that emit), payload (attributes). Writes: header.corrupted.
 #ifndef LDC_SURFACE_GLSL

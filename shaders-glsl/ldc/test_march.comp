@@ -1,4 +1,4 @@
-// What: lists the squares that a traversal of a flat grid visits, for tests: once in one go, and once stopped
+// Lists the squares that a traversal of a flat grid visits, for tests: once in one go, and once stopped
 // and resumed at every square.
 // Reads: rays in units of cells. Writes: visits (square, rows left), counts.
 #version 460

@@ -1,4 +1,4 @@
-// What: follows a ray through the three views, one after the other; each can only bring the end of the ray nearer.
+// Follows a ray through the three views, one after the other; each can only bring the end of the ray nearer.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: Bürger et al. section 1.4.
 #ifndef LDC_TRACE_GLSL

@@ -1,4 +1,4 @@
-// What: a ray's traversal through one view: over blocks of blocks, over blocks of cells, and over cells, each within those
+// A ray's traversal through one view: over blocks of blocks, over blocks of cells, and over cells, each within those
 // above it whose depths overlap its own.
 // Reads: header, blocks. Writes: nothing.
 // Source: Bürger et al. section 1.4, two-level traversal. A block's or cell's segment of the ray follows from its place

@@ -1,4 +1,4 @@
-// What: the records and options of the layered depth cube.
+// The records and options of the layered depth cube.
 // Reads, writes: nothing.
 // Source: Bürger, Hertel, Krüger, Westermann 2007: layered depth images along three axes, each triangle in the
 // one it faces most, with minimum and maximum depth per block of pixels.

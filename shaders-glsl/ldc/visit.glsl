@@ -1,4 +1,4 @@
-// What: work of the build on a triangle in a cell of its view, the same for every builder: it counts, or stores.
+// Work of the build on a triangle in a cell of its view, the same for every builder: it counts, or stores.
 // Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists, depths, payload, blocks; scratch,
 // header.layer_demand, header.beyond.
 // Source: Bürger et al. sections 1.2 and 1.3.

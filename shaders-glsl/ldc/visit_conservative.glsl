@@ -1,4 +1,4 @@
-// What: stores a triangle in the conservative list of a cell that it reaches into without covering the centre, where no
+// Stores a triangle in the conservative list of a cell that it reaches into without covering the centre, where no
 // fragment represents it: at edges towards triangles of another view, at silhouettes, and where it is smaller than a
 // cell. The same for every builder.
 // Reads: geometry, header, lists, depths, payload. Writes: heads, conservative lists, blocks, header.conservative_demand.

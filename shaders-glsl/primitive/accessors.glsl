@@ -1,4 +1,4 @@
-// What: the pools of primitive lists, reached as ads/pools.glsl says.
+// The pools of primitive lists, reached as ads/pools.glsl says.
 // Reads, writes: header, bounds, lists, entries, sums, near-region list. Every access checks the capacity.
 #ifndef PRIMITIVE_ACCESSORS_GLSL
 #define PRIMITIVE_ACCESSORS_GLSL

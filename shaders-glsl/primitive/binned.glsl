@@ -1,4 +1,4 @@
-// What: work of a binning pass on a triangle in a face; BIN_VISIT says which pass it is.
+// Work of a binning pass on a triangle in a face; BIN_VISIT says which pass it is.
 // Reads: geometry, header, bounds. Writes: bounds, or lists and entries; large-triangle queue, header.large_demand,
 // header.groups.
 // Source: DIRT section 4.1, by computing instead of drawing. The same functions decide as in the raster builder.

@@ -1,4 +1,4 @@
-// What: depth bounds of each cell.
+// Depth bounds of each cell.
 // Reads: geometry, header. Writes: bounds.
 // Source: DIRT section 3.2, fill depth.
 #version 460

@@ -1,4 +1,4 @@
-// What: the scale of each cell's buckets, stored once so that build and trace use the same number.
+// The scale of each cell's buckets, stored once so that build and trace use the same number.
 // Reads: bounds. Writes: bounds. Runs only where there are several buckets.
 // Source: DIRT section 3.2, equation of the bucket index.
 #version 460

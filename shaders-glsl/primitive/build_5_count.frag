@@ -1,4 +1,4 @@
-// What: length of each list, contiguous storage only.
+// Length of each list, contiguous storage only.
 // Reads: geometry, header, bounds. Writes: lists.
 // Source: DIRT section 3.2, fill primitives; counted first, so that lists can be stored contiguously.
 #version 460

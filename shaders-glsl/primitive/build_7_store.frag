@@ -1,4 +1,4 @@
-// What: puts each triangle into the lists of the cells and buckets it reaches into.
+// Puts each triangle into the lists of the cells and buckets it reaches into.
 // Reads: geometry, header, bounds. Writes: lists, entries, with linked storage header.demand.
 // Source: DIRT section 3.2, fill primitives.
 #version 460

@@ -1,4 +1,4 @@
-// What: proposes, for each triangle and face, the cells that the triangle may reach into.
+// Proposes, for each triangle and face, the cells that the triangle may reach into.
 // Reads: geometry, header. Writes: nothing.
 // Source: DIRT section 3.2; instances replace the paper's geometry-shader amplification, and a dilated triangle
 // its conservative rasterization, unless PRIMITIVE_COVERAGE_EXTENSION asks for that.

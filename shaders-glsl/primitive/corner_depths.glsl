@@ -1,4 +1,4 @@
-// What: the published depths of a triangle in a cell: of its plane at the cell's corners, whatever the triangle covers.
+// The published depths of a triangle in a cell: of its plane at the cell's corners, whatever the triangle covers.
 // Reads, writes: nothing.
 // Source: DIRT section 4.1.1; the authors' program intersects the plane with the rays through the corners, and
 // ignores rays within a thousandth of parallel to it. Where some are ignored, the depths miss part of

@@ -1,4 +1,4 @@
-// What: places the faces of primitive lists for the bounds of the geometry and the eye.
+// Places the faces of primitive lists for the bounds of the geometry and the eye.
 // Reads, writes: header.
 // Source: none; docs/systems/dirt.md.
 #ifndef PRIMITIVE_FROM_BOUNDS_GLSL

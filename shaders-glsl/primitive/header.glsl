@@ -1,4 +1,4 @@
-// What: the header of primitive lists.
+// The header of primitive lists.
 // Reads, writes: header; stages with STRUCTURE_READ_ONLY only read it.
 #ifndef PRIMITIVE_HEADER_GLSL
 #define PRIMITIVE_HEADER_GLSL

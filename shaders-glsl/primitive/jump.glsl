@@ -1,4 +1,4 @@
-// What: the published march: from where a ray leaves a tile half a pixel on along the longer axis, to the tile there.
+// The published march: from where a ray leaves a tile half a pixel on along the longer axis, to the tile there.
 // Reads: header. Writes: nothing.
 // Source: DIRT section 4.2.1 and the authors' program. Tiles that the ray crosses in less than the half pixel
 // are skipped.

@@ -1,4 +1,4 @@
-// What: the lists of triangles, in one of two storages.
+// The lists of triangles, in one of two storages.
 // Reads, writes: lists, entries, header.demand, header.corrupted.
 // Source: DIRT section 3.2, fill primitives. linked: a node of primitive and next, links are node number
 // + 1, 0 ends a list. contiguous: primitives only; the word of a list is its end once all are

@@ -1,4 +1,4 @@
-// What: tests whether a triangle reaches into a cell, with its depths there. This function decides for
+// Tests whether a triangle reaches into a cell, with its depths there. This function decides for
 // every builder; it may accept more than is exact, never less.
 // Reads: header. Writes: nothing.
 // Source: DIRT section 3.2 clips each primitive to the tile. Here the depth follows from the plane over

@@ -1,4 +1,4 @@
-// What: place of the pyramid of primitive lists: behind the bounds of the cells.
+// Place of the pyramid of primitive lists: behind the bounds of the cells.
 // Reads: bounds, header. Writes: bounds, of blocks.
 // Source: DIRT section 4.1.1, mipmap depth.
 #ifndef PRIMITIVE_PYRAMID_GLSL

@@ -1,4 +1,4 @@
-// What: the fragment's side of the raster builder: one instance per face, triangles pulled from the geometry.
+// The fragment's side of the raster builder: one instance per face, triangles pulled from the geometry.
 // Reads: geometry, header. Writes: nothing.
 // Without attachments no layers are needed: the face travels as a varying.
 #ifndef PRIMITIVE_RASTER_GLSL

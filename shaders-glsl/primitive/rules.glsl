@@ -1,4 +1,4 @@
-// What: the published rules of a ray in a tile: a hit must lie in the tile that listed it.
+// The published rules of a ray in a tile: a hit must lie in the tile that listed it.
 // Reads: geometry. Writes: nothing.
 // Source: DIRT section 4.2.1, algorithm 1, line 14. Rounding moves hits next to a border into the other tile,
 // which may not list the triangle, or may be skipped.

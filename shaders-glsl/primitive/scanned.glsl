@@ -1,4 +1,4 @@
-// What: the numbers that the scan runs over: lengths of lists become places, their sum the demand.
+// The numbers that the scan runs over: lengths of lists become places, their sum the demand.
 // Reads, writes: lists, sums, header.demand.
 #ifndef PRIMITIVE_SCANNED_GLSL
 #define PRIMITIVE_SCANNED_GLSL

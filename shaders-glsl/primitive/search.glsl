@@ -1,4 +1,4 @@
-// What: searches the lists of one cell, bucket by bucket in the order of the ray.
+// Searches the lists of one cell, bucket by bucket in the order of the ray.
 // Reads: bounds, lists, entries, geometry. Writes: header.corrupted.
 // Source: DIRT section 4.2.1. Buckets behind the best hit are skipped, never those before it: a triangle
 // is in every bucket that it reaches into, so the first bucket with a hit need not hold the nearest.

@@ -1,4 +1,4 @@
-// What: the largest block of tiles that a ray can skip, because none of them lists a triangle at the ray's depths.
+// The largest block of tiles that a ray can skip, because none of them lists a triangle at the ray's depths.
 // Reads: bounds. Writes: nothing.
 // Source: DIRT section 4.2.1, Hi-Z tracing. Levels are tried from the finest up, since a ray that was among
 // triangles is likely to be so still; or from the coarsest down, as the paper begins.

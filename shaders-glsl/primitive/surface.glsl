@@ -1,4 +1,4 @@
-// What: the surface at a hit of primitive lists: a triangle with barycentrics.
+// The surface at a hit of primitive lists: a triangle with barycentrics.
 // Reads: the scene. Writes: nothing.
 #ifndef PRIMITIVE_SURFACE_GLSL
 #define PRIMITIVE_SURFACE_GLSL

@@ -1,4 +1,4 @@
-// What: follows a ray through the faces' cells and tests the triangles that each cell lists.
+// Follows a ray through the faces' cells and tests the triangles that each cell lists.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: DIRT section 3.3; the exact march replaces its steps in screen space.
 // Cells only propose triangles. A hit counts by its t, so the traversal goes on until the next cell begins

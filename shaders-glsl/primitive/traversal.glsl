@@ -1,4 +1,4 @@
-// What: the position of a ray's traversal through the cells, and how it is saved between two dispatches.
+// The position of a ray's traversal through the cells, and how it is saved between two dispatches.
 // Reads: header. Writes: nothing.
 // cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 entry of the list,
 // 7 the cell being searched, or the place in the triangles that are tested one by one.

@@ -1,4 +1,4 @@
-// What: the records and options of primitive lists.
+// The records and options of primitive lists.
 // Reads, writes: nothing.
 // Source: Vardis, Vasilakis, Papaioannou 2016 (DIRT), section 3.1: ids of triangles in lists per tile and
 // depth bucket.

@@ -1,4 +1,4 @@
-// What: work of the build on a triangle in a cell, the same for every builder: it widens the cell's
+// Work of the build on a triangle in a cell, the same for every builder: it widens the cell's
 // bounds, counts, or stores.
 // Reads: bounds. Writes: bounds, or lists and entries.
 // Source: DIRT section 3.2, fill depth and fill primitives.

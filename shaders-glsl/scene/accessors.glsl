@@ -1,4 +1,4 @@
-// What: the scene tables: the only storage buffers of shading, and the functions that read them.
+// The scene tables: the only storage buffers of shading, and the functions that read them.
 // Reads: set SCENE_SET, bindings 0 to 14. Writes: nothing. Source: docs/shading.md, "Tables".
 // Indices come from tables that were validated when they were packed; ids that come from a
 // structure are checked here, so that a corrupt hit cannot read out of bounds.

@@ -1,4 +1,4 @@
-// What: light that a rough surface of facets sends back in one scattering, as polynomials, and what becomes of the rest
+// Light that a rough surface of facets sends back in one scattering, as polynomials, and what becomes of the rest
 // after more than one.
 // Reads: nothing. Writes: nothing.
 // Source: docs/shading.md, "Energy"; Kulla and Conty, "Revisiting physically based shading at Imageworks", 2017.

@@ -1,4 +1,4 @@
-// What: tests whether a point of a triangle is there: the alpha test of masked draws. Traces, store passes
+// Tests whether a point of a triangle is there: the alpha test of masked draws. Traces, store passes
 // and light samples call this one function; an embedder may put another file in its place.
 // Reads: draw shadings, vertex attributes, materials, textures. Writes: nothing.
 // Source: docs/shading.md, "Textures" (level 0); glTF 2.0, alphaMode.

@@ -1,4 +1,4 @@
-// What: in which direction the facets of a surface are rougher, and how much.
+// In which direction the facets of a surface are rougher, and how much.
 // Reads: frame, geometry, draw shadings, attributes, materials, textures. Writes: nothing.
 // Source: docs/shading.md, "Anisotropy"; KHR_materials_anisotropy.
 #ifndef SCENE_ANISOTROPY_GLSL

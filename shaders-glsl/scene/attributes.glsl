@@ -1,4 +1,4 @@
-// What: vertex attributes interpolated over a triangle, with defaults where a draw has none.
+// Vertex attributes interpolated over a triangle, with defaults where a draw has none.
 // Reads: posed attributes, vertex attributes. Writes: nothing. Source: docs/shading.md, "Tables".
 #ifndef SCENE_ATTRIBUTES_GLSL
 #define SCENE_ATTRIBUTES_GLSL

@@ -1,4 +1,4 @@
-// What: scattering of a surface: value, density and sampling of its lobes.
+// Scattering of a surface: value, density and sampling of its lobes.
 // Reads: materials (specular colour only). Writes: nothing.
 // Source: docs/shading.md, "Reflection and transmission", "Energy"; glTF 2.0 appendix B.
 #ifndef SCENE_BSDF_GLSL

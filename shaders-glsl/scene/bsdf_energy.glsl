@@ -1,4 +1,4 @@
-// What: light that one scattering at the facets loses, and what becomes of it: it is reflected or goes through after
+// Light that one scattering at the facets loses, and what becomes of it: it is reflected or goes through after
 // several scatterings.
 // Reads: materials (table of rough glass), vertex attributes (that table). Writes: nothing.
 // Source: docs/shading.md, "Energy".

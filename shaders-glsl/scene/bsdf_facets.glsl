@@ -1,4 +1,4 @@
-// What: terms of a surface's scattering seen from one direction, and light its facets reflect and let through once.
+// Terms of a surface's scattering seen from one direction, and light its facets reflect and let through once.
 // Reads, writes: nothing.
 // Source: docs/shading.md, "Reflection and transmission"; glTF 2.0 appendix B.
 #ifndef SCENE_BSDF_FACETS_GLSL

@@ -1,4 +1,4 @@
-// What: terms of scattering at one surface towards one direction: those of its facets, and the shares and
+// Terms of scattering at one surface towards one direction: those of its facets, and the shares and
 // probabilities of the cosine family.
 // Reads: materials (specular colour, table of rough glass), vertex attributes (that table); what scene/anisotropy.glsl
 // reads where facets are rougher along one direction. Writes: nothing.

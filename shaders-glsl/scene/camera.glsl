@@ -1,4 +1,4 @@
-// What: rays of a pixel.
+// Rays of a pixel.
 // Reads: frame. Writes: nothing. Source: docs/shading.md, "Functions" and "Lens".
 #ifndef SCENE_CAMERA_GLSL
 #define SCENE_CAMERA_GLSL

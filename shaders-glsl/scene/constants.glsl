@@ -1,4 +1,4 @@
-// What: numbers that shading shares with Rust.
+// Numbers that shading shares with Rust.
 // Only `#define NAME number` stands here: Rust constants of the same names are generated from it.
 // Source: docs/shading.md.
 #ifndef SCENE_CONSTANTS_GLSL

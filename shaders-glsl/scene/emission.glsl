@@ -1,4 +1,4 @@
-// What: radiance that leaves a point of an emissive triangle, as a light sample sees it.
+// Radiance that leaves a point of an emissive triangle, as a light sample sees it.
 // Reads: draw shadings, vertex attributes, materials, textures. Writes: nothing.
 // Source: docs/shading.md, "Surfaces" and "Lights".
 #ifndef SCENE_EMISSION_GLSL

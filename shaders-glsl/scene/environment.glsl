@@ -1,4 +1,4 @@
-// What: radiance from outside: constant, or a latitude-longitude map of constant texels, sampled by texel.
+// Radiance from outside: constant, or a latitude-longitude map of constant texels, sampled by texel.
 // Reads: frame, environment radiance, environment distribution. Writes: nothing.
 // Source: docs/shading.md, "Lights".
 #ifndef SCENE_ENVIRONMENT_GLSL

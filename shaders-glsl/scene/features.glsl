@@ -1,4 +1,4 @@
-// What: the parts of shading a module contains: specialisation constants, set from what a scene needs. An entry may set
+// The parts of shading a module contains: specialisation constants, set from what a scene needs. An entry may set
 // each macro to something else before it includes anything. Constant ids 90 to 109 belong to scene and integrators.
 // Reads: nothing. Writes: nothing. Source: docs/shading.md, "Functions".
 #ifndef SCENE_FEATURES_GLSL

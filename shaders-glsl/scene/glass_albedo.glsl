@@ -1,4 +1,4 @@
-// What: light that rough glass loses in one scattering, read from the table of its material.
+// Light that rough glass loses in one scattering, read from the table of its material.
 // Reads: vertex attributes. Writes: nothing.
 // Source: docs/shading.md, "Energy". Polynomials of cosine, roughness and index are not accurate enough.
 #ifndef SCENE_GLASS_ALBEDO_GLSL

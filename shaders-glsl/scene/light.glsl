@@ -1,4 +1,4 @@
-// What: directions chosen by the lights, and the density with which they would choose a given one.
+// Directions chosen by the lights, and the density with which they would choose a given one.
 // Reads: frame, lights, emissive triangles, geometry, materials, textures, environment. Writes: nothing.
 // Source: docs/shading.md, "Lights"; KHR_lights_punctual for range and cone.
 #ifndef SCENE_LIGHT_GLSL

@@ -1,4 +1,4 @@
-// What: building blocks of scattering, in a frame whose z axis is the shading normal.
+// Building blocks of scattering, in a frame whose z axis is the shading normal.
 // Reads: nothing. Writes: nothing. Source: docs/shading.md, "Reflection and transmission"; Duff et al.,
 // "Building an orthonormal basis, revisited", JCGT 6(1), 2017; Walter et al. 2007 (GGX); Heitz 2014
 // (height-correlated masking); Dupuy and Benyoub 2023 (visible normals as a spherical cap).

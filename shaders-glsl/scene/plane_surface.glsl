@@ -1,4 +1,4 @@
-// What: the surface at a hit on the plane of a triangle, which may lie outside of the triangle by up to a cell.
+// The surface at a hit on the plane of a triangle, which may lie outside of the triangle by up to a cell.
 // Reads: the scene. Writes: nothing.
 // Barycentrics are taken to the triangle's nearest edge for shading, while the position stays on the ray.
 #ifndef SCENE_PLANE_SURFACE_GLSL

@@ -1,4 +1,4 @@
-// What: shares with which lights are chosen where those depend on the bounds: by the power of lights far away, which
+// Shares with which lights are chosen where those depend on the bounds: by the power of lights far away, which
 // falls on the circle around the bounds. One workgroup.
 // Reads: bounds in the header of the geometry, powers of lights. Writes: kind shares of the frame, cumulative shares of
 // lights. Source: docs/shading.md, "Tables": Lights, Kinds; docs/motion.md, "On the device".

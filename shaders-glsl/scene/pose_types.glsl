@@ -1,4 +1,4 @@
-// What: the records of the pass that poses draws on the device. Scalar block layout.
+// The records of the pass that poses draws on the device. Scalar block layout.
 // Reads: nothing. Writes: nothing. Source: docs/motion.md, "On the device".
 #ifndef SCENE_POSE_TYPES_GLSL
 #define SCENE_POSE_TYPES_GLSL

@@ -1,4 +1,4 @@
-// What: poses the vertices of draws that move: morph targets, then joints or the draw's place; one invocation per vertex.
+// Poses the vertices of draws that move: morph targets, then joints or the draw's place; one invocation per vertex.
 // Reads: pose draws, their groups, placements, joint matrices and shown targets of the frame, shapes at rest.
 // Writes: positions of the geometry, posed attributes, DRAW_MIRRORED of draws and draw shadings.
 // Source: docs/motion.md, "On the device".

@@ -1,4 +1,4 @@
-// What: points and normals of posed triangles, for surfaces and for light samples alike.
+// Points and normals of posed triangles, for surfaces and for light samples alike.
 // Reads: nothing. Writes: nothing. Source: docs/shading.md, "Surfaces"; pbrt, error bounds of
 // intersection points.
 #ifndef SCENE_POSED_TRIANGLE_GLSL

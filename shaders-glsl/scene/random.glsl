@@ -1,4 +1,4 @@
-// What: random numbers: integer-exact functions of pixel, sample, dimension and seed.
+// Random numbers: integer-exact functions of pixel, sample, dimension and seed.
 // Reads: random_seed(), random_sampler(). Writes: nothing.
 // Source: docs/shading.md, "Random numbers"; pcg4d of Jarzynski and Olano, "Hash functions for GPU rendering", JCGT 9(3),
 // 2020; Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020; directions of Joe and Kuo 2008.

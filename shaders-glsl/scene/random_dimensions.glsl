@@ -1,4 +1,4 @@
-// What: uses of random numbers. One sample of one pixel draws dimension d at most once.
+// Uses of random numbers. One sample of one pixel draws dimension d at most once.
 // Only `#define NAME number` stands here: Rust constants of the same names are generated from it.
 // Source: docs/shading.md, "Random numbers".
 // Dimensions come in groups of four; the last two of a group are spread best over a square, so places stand there.

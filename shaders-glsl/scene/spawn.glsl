@@ -1,4 +1,4 @@
-// What: rays that start on a surface and do not hit it again through rounding.
+// Rays that start on a surface and do not hit it again through rounding.
 // Reads: frame. Writes: nothing. Source: docs/shading.md, "Surfaces"; pbrt, error bounds of
 // intersection points, with the largest bound of the three axes for each axis.
 #ifndef SCENE_SPAWN_GLSL

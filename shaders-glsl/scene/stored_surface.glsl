@@ -1,4 +1,4 @@
-// What: the surface at a point, stored as two words with the fragments of a structure: colour and normal, which all
+// The surface at a point, stored as two words with the fragments of a structure: colour and normal, which all
 // published fragments have.
 // Reads: the scene, when storing, and of what emits when shading. Writes: nothing.
 // Source: MMRT section 3.3, albedo 8:8:8:8 and normal 16:16; Bürger et al. section 1.2.1, Hu et al. section 3.1.

@@ -1,4 +1,4 @@
-// What: the surface that light samples see of a smooth triangle, so that the border of its shadow is that of the smooth
+// The surface that light samples see of a smooth triangle, so that the border of its shadow is that of the smooth
 // shape and does not show the triangles.
 // Reads: frame, geometry, draw shadings, posed attributes. Writes: nothing.
 // Source: Hanika 2021, Hacking the shadow terminator (Ray Tracing Gems II, chapter 4), for the origin.

@@ -1,4 +1,4 @@
-// What: scatters light at given surfaces and draws random numbers, for tests.
+// Scatters light at given surfaces and draws random numbers, for tests.
 // Reads: cases, the seed of the frame. Writes: results.
 // Source: docs/shading.md, "Reflection and transmission", "Random numbers".
 #version 460

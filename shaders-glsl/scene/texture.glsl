@@ -1,4 +1,4 @@
-// What: textures sampled from buffers of texels: wrapping, nearest, bilinear and trilinear filtering.
+// Textures sampled from buffers of texels: wrapping, nearest, bilinear and trilinear filtering.
 // Reads: textures, texels. Writes: nothing. Source: docs/shading.md, "Textures".
 #ifndef SCENE_TEXTURE_GLSL
 #define SCENE_TEXTURE_GLSL

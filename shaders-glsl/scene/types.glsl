@@ -1,4 +1,4 @@
-// What: the records of the scene tables and of the shading functions. Scalar block layout: a record has
+// The records of the scene tables and of the shading functions. Scalar block layout: a record has
 // the size of its fields and the alignment of one word.
 // Reads: nothing. Writes: nothing. Source: docs/shading.md, "Tables" and "Functions".
 #ifndef SCENE_TYPES_GLSL

@@ -1,4 +1,4 @@
-// What: the buffers of shadow maps.
+// The buffers of shadow maps.
 // Reads, writes: set SHADOW_MAPS_SET. The views are written with SHADOW_MAPS_VIEWS_WRITTEN, texels with
 // SHADOW_MAPS_TEXELS_WRITTEN, else they are read.
 #ifndef SHADOW_MAPS_ACCESSORS_GLSL

@@ -1,4 +1,4 @@
-// What: places the views of every light, and of every point on an emitting triangle, as lights and triangles are now.
+// Places the views of every light, and of every point on an emitting triangle, as lights and triangles are now.
 // Reads: geometry, lights, emitting triangles, which views each light has. Writes: views, status.
 // Source: Williams 1978; cubes for lights that shine everywhere, a parallel view over all triangles for lights far away.
 #version 460

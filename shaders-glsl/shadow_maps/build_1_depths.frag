@@ -1,4 +1,4 @@
-// What: the depth of what is nearest to the light at each texel's centre, moved back as far as its plane reaches within the
+// The depth of what is nearest to the light at each texel's centre, moved back as far as its plane reaches within the
 // texel, so that no point of the plane lies behind.
 // Reads: geometry, views; the scene where alpha is tested. Writes: texels.
 // Source: Williams 1978; the bias is that of a plane's slope, as in Wang and Molnar 1994 and in polygon offsets.

@@ -1,4 +1,4 @@
-// What: proposes, for each triangle and view, the texels whose centres the triangle may cover.
+// Proposes, for each triangle and view, the texels whose centres the triangle may cover.
 // Reads: geometry, views. Writes: nothing.
 // Source: the dilated triangles of ads/coverage.glsl; an instance per view, without attachments.
 #version 460

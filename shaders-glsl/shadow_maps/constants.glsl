@@ -1,4 +1,4 @@
-// What: numbers that shadow maps share with Rust.
+// Numbers that shadow maps share with Rust.
 // Only `#define NAME number` stands here: Rust constants of the same names are generated from it.
 // Source: docs/shadow-maps.md.
 #ifndef SHADOW_MAPS_CONSTANTS_GLSL

@@ -1,4 +1,4 @@
-// What: the push constants of the passes that draw views.
+// The push constants of the passes that draw views.
 // Reads: push constants. Writes: nothing.
 #ifndef SHADOW_MAPS_DRAW_CONSTANTS_GLSL
 #define SHADOW_MAPS_DRAW_CONSTANTS_GLSL

@@ -1,4 +1,4 @@
-// What: answers the shadow rays that lead to a light with a map, or to a triangle with maps; selects all others.
+// Answers the shadow rays that lead to a light with a map, or to a triangle with maps; selects all others.
 // Reads: rays, geometry, views, texels. Writes: hits; the selection of the queue.
 // Source: Williams 1978, without a filter; the plane of the receiver as in Isidoro 2006.
 #version 460

@@ -1,4 +1,4 @@
-// What: the records of shadow maps. Scalar block layout.
+// The records of shadow maps. Scalar block layout.
 // Reads, writes: nothing. Source: docs/shadow-maps.md.
 #ifndef SHADOW_MAPS_TYPES_GLSL
 #define SHADOW_MAPS_TYPES_GLSL

@@ -1,4 +1,4 @@
-// What: places of points in a view.
+// Places of points in a view.
 // Reads, writes: nothing.
 #ifndef SHADOW_MAPS_VIEW_GLSL
 #define SHADOW_MAPS_VIEW_GLSL

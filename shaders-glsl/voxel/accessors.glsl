@@ -1,4 +1,4 @@
-// What: the pools of voxels with axis A-buffers, reached as ads/pools.glsl says.
+// The pools of voxels with axis A-buffers, reached as ads/pools.glsl says.
 // Reads, writes: header, voxels, normals, lists, fragments, scratch, nodes, octants. Every access checks the capacity.
 // A list is a cell of a view: its word is that of voxel/lists.glsl. Where voxels are the leaves there are no lists, and
 // these words are the triangles of voxels.

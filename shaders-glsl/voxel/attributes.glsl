@@ -1,4 +1,4 @@
-// What: the published payloads of a fragment: 16 bytes with its depth.
+// The published payloads of a fragment: 16 bytes with its depth.
 // Reads: the scene, when packing. Writes: nothing.
 // Source: Hu et al. section 3.1, depth, normal and BRDF; Frid Kastrati and Goswami section 3.2, colour,
 // depth, reflectivity, normal and triangle.

@@ -1,4 +1,4 @@
-// What: work of a binning pass of voxels with axis A-buffers on a triangle in a view; BIN_VISIT says
+// Work of a binning pass of voxels with axis A-buffers on a triangle in a view; BIN_VISIT says
 // which pass it is.
 // Reads: geometry, header, voxels, with PAYLOAD_ATTRIBUTES the scene. Writes: see voxel/visit.glsl and
 // voxel/visit_voxels.glsl.

@@ -1,4 +1,4 @@
-// What: counts the octants of each node of a level that hold something; one dispatch per level, from the lowest of the
+// Counts the octants of each node of a level that hold something; one dispatch per level, from the lowest of the
 // upper levels to the root.
 // Reads: header, voxels, octants. Writes: octants.
 // Source: none; docs/systems/hu.md.

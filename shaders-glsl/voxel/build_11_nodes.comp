@@ -1,4 +1,4 @@
-// What: stores the octree's nodes: each thread one of the upper levels, and the blocks below it.
+// Stores the octree's nodes: each thread one of the upper levels, and the blocks below it.
 // Reads: header, voxels, octants, which are now the numbers of octants before those of each node. Writes: nodes.
 // Source: none; docs/systems/hu.md.
 #version 460

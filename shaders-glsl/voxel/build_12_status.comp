@@ -1,4 +1,4 @@
-// What: declares the structure complete, or says what was missing; and stores the number of fragments.
+// Declares the structure complete, or says what was missing; and stores the number of fragments.
 // Reads: header. Writes: header.status, header.fragments.
 #version 460
 #include "contract/extensions.glsl"

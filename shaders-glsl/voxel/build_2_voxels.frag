@@ -1,4 +1,4 @@
-// What: marks the voxels that a triangle reaches into, with the axis it faces most, or adds its normal to them.
+// Marks the voxels that a triangle reaches into, with the axis it faces most, or adds its normal to them.
 // Reads: geometry, header. Writes: voxels, normals, lists (voxels as leaves).
 // Source: Frid Kastrati and Goswami section 3.2, voxel generation.
 #version 460

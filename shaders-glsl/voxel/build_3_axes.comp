@@ -1,4 +1,4 @@
-// What: the axis of the averaged normal of each occupied voxel: the one it is searched along.
+// The axis of the averaged normal of each occupied voxel: the one it is searched along.
 // Reads: normals. Writes: voxels.
 // Source: Hu et al. section 3.2; Frid Kastrati and Goswami section 3.2.
 #version 460

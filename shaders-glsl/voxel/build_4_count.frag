@@ -1,4 +1,4 @@
-// What: the length of the list of each cell, contiguous storage only; where views keep everything, also the
+// The length of the list of each cell, contiguous storage only; where views keep everything, also the
 // normals of voxels.
 // Reads: geometry, header, voxels (one axis per voxel). Writes: lists; voxels and normals.
 // Source: Hu et al. section 3.1, the one geometry pass; counted first, so that lists can be stored

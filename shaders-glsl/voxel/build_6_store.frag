@@ -1,4 +1,4 @@
-// What: stores each fragment: its depth, and its triangle or surface attributes, as seen along the
+// Stores each fragment: its depth, and its triangle or surface attributes, as seen along the
 // triangle's normal. Where views keep everything and nothing was counted before, also the normals of voxels.
 // Reads: geometry, header, voxels (one axis per voxel), with PAYLOAD_ATTRIBUTES the scene. Writes: lists,
 // fragments, header; voxels and normals.

@@ -1,4 +1,4 @@
-// What: the number of fragments of the longest list, where lists are not bisected: a ray may have to read
+// The number of fragments of the longest list, where lists are not bisected: a ray may have to read
 // that many entries at a time.
 // Reads: lists, fragments. Writes: header.longest.
 // Source: not in the papers, in which rays read lists to their ends, whatever their length.

@@ -1,4 +1,4 @@
-// What: proposes, for each triangle, the columns of voxels that it may reach into, in the view it faces most.
+// Proposes, for each triangle, the columns of voxels that it may reach into, in the view it faces most.
 // Reads: geometry, header. Writes: nothing.
 // Source: Frid Kastrati and Goswami section 3.2; a dilated triangle replaces conservative rasterization.
 #version 460

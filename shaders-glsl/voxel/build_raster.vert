@@ -1,4 +1,4 @@
-// What: proposes, for each triangle and view, the cells whose centres the triangle may cover, or that it may
+// Proposes, for each triangle and view, the cells whose centres the triangle may cover, or that it may
 // reach into.
 // Reads: geometry, header. Writes: nothing.
 // Source: Hu et al. section 3.1; instances replace the paper's geometry-shader amplification.

@@ -1,4 +1,4 @@
-// What: finds the voxels of a column that a triangle reaches into. It may accept more than is exact, never less.
+// Finds the voxels of a column that a triangle reaches into. It may accept more than is exact, never less.
 // Reads, writes: nothing.
 // Source: separating axes of a triangle and a square, and the plane's depths over the square.
 #ifndef VOXEL_COLUMN_GLSL

@@ -1,4 +1,4 @@
-// What: cells of the axis A-buffers that a triangle covers, its depths there, and the voxel that the fragment
+// Cells of the axis A-buffers that a triangle covers, its depths there, and the voxel that the fragment
 // lies in, the same for every builder.
 // Reads: geometry, header. Writes: voxels, normals.
 // Where the rasterizer draws there is one instance per view, or one in all where a triangle is drawn only into

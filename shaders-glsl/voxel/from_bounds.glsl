@@ -1,4 +1,4 @@
-// What: places the cube of voxels over the bounds of the geometry.
+// Places the cube of voxels over the bounds of the geometry.
 // Reads, writes: header.
 // Source: none; docs/systems/hu.md.
 #ifndef VOXEL_FROM_BOUNDS_GLSL

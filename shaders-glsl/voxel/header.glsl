@@ -1,4 +1,4 @@
-// What: the header of voxels with axis A-buffers.
+// The header of voxels with axis A-buffers.
 // Reads, writes: header; stages with STRUCTURE_READ_ONLY only read it.
 #ifndef VOXEL_HEADER_GLSL
 #define VOXEL_HEADER_GLSL

@@ -1,4 +1,4 @@
-// What: reads the list of a cell for a point of a ray: how many fragments lie before it, and which one is
+// Reads the list of a cell for a point of a ray: how many fragments lie before it, and which one is
 // nearest to it.
 // Reads: header, lists, fragments. Writes: header.corrupted.
 // Source: Hu et al. section 3.2. Sorted lists are entered by bisection, or read up to the point where

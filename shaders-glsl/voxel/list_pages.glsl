@@ -1,4 +1,4 @@
-// What: the pages of the views: where they are.
+// The pages of the views: where they are.
 // Reads, writes: lists, fragments, header.demand.
 // Source: Frid Kastrati and Goswami section 3.2; see ads/pages.glsl, which needs no lock.
 #ifndef VOXEL_LIST_PAGES_GLSL

@@ -1,4 +1,4 @@
-// What: the list of a cell, in one of three storages: how a fragment is put into it, and how it is read.
+// The list of a cell, in one of three storages: how a fragment is put into it, and how it is read.
 // Reads, writes: lists, fragments, header.demand, header.fragments, header.corrupted.
 // Source: Hu et al. section 3.1, linked lists in one pass; Frid Kastrati and Goswami section 3.2, pages of
 // several.

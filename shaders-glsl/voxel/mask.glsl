@@ -1,4 +1,4 @@
-// What: decides whether a masked triangle is kept in a cell: by the mask at the cell's centre. A triangle that only
+// Decides whether a masked triangle is kept in a cell: by the mask at the cell's centre. A triangle that only
 // reaches into the cell is kept, and its mask evaluated where a ray hits it.
 // Reads: the scene where alpha is tested. Writes: nothing.
 #ifndef VOXEL_MASK_GLSL

@@ -1,4 +1,4 @@
-// What: a sparse octree over the voxels: what it says of a voxel, and where its build keeps what.
+// A sparse octree over the voxels: what it says of a voxel, and where its build keeps what.
 // Reads: header, voxels and octants (build), nodes. Writes: header.corrupted.
 // Source: child masks with one pointer after Laine and Karras 2010; each voxel is looked up from the root, as Crassin et al.
 // 2009 do it.

@@ -1,4 +1,4 @@
-// What: searches one voxel along one axis for the first point at which a ray goes from outside to inside or back, a
+// Searches one voxel along one axis for the first point at which a ray goes from outside to inside or back, a
 // point being inside where an odd number of fragments lies before it in its cell.
 // Reads: header, lists, fragments. Writes: header.corrupted.
 // Source: Hu et al. section 3.2: a few steps from where the ray enters to where it leaves, or one per cell,

@@ -1,4 +1,4 @@
-// What: the numbers that scans run over. Of lists, contiguous storage only: lengths become places, and their sum the demand.
+// The numbers that scans run over. Of lists, contiguous storage only: lengths become places, and their sum the demand.
 // Of the octree: how many octants of each node hold something becomes how many of those before it do, and their sum, with
 // the root, its demand.
 // Reads, writes: lists, scratch, octants, header.demand, header.node_demand.

@@ -1,4 +1,4 @@
-// What: searches one voxel along one axis for the nearest fragment whose plane a ray hits.
+// Searches one voxel along one axis for the nearest fragment whose plane a ray hits.
 // Reads: header, lists, fragments, geometry. Writes: header.corrupted.
 // Source: Hu et al. section 3.2, 2D-DDA; planes instead of the parity of depths. The order of lists only
 // skips fragments that the depths would refuse, so hits do not depend on it.

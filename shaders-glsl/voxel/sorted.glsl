@@ -1,4 +1,4 @@
-// What: the elements of a contiguous list, and the links of a linked one, for the shared sorts: fragments by depth, ties by
+// The elements of a contiguous list, and the links of a linked one, for the shared sorts: fragments by depth, ties by
 // triangle or by their payload.
 // Reads, writes: lists, fragments, scratch, header.long_demand, header.unsorted.
 // Source: Hu et al. section 3.1, sort pass.

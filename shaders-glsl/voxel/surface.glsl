@@ -1,4 +1,4 @@
-// What: the surface at a hit of the axis A-buffers.
+// The surface at a hit of the axis A-buffers.
 // Reads: the scene (payload index, and what emits), fragments (the others). Writes: header.corrupted.
 // A hit names a triangle and the barycentrics of the point on its plane; they may lie outside the triangle by up to a
 // cell, or voxel, and are clamped to its nearest edge for shading, while the position stays on the ray.

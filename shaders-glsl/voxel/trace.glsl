@@ -1,4 +1,4 @@
-// What: follows a ray through the voxels, over those that an octree says are empty, and searches the occupied ones along
+// Follows a ray through the voxels, over those that an octree says are empty, and searches the occupied ones along
 // their axes.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: Hu et al. section 3.2; voxels as leaves: section 5.2, voxel grids alone.

@@ -1,4 +1,4 @@
-// What: a ray's traversal of the voxels, and of the cells of a view within a voxel, which can pause and resume.
+// A ray's traversal of the voxels, and of the cells of a view within a voxel, which can pause and resume.
 // Reads: header. Writes: nothing.
 // Source: Hu et al. section 3.2, 3D-DDA and 2D-DDA; closed form, superset of the exact cells
 // (ads/march_grid.glsl).

@@ -1,4 +1,4 @@
-// What: the records and options of voxels with axis A-buffers.
+// The records and options of voxels with axis A-buffers.
 // Reads, writes: nothing.
 // Source: Hu et al. 2014, section 3.1; Frid Kastrati and Goswami 2017, section 3.
 #ifndef VOXEL_TYPES_GLSL

@@ -1,4 +1,4 @@
-// What: work of the build on a triangle in a cell of a view, the same for every builder: it counts, or stores.
+// Work of the build on a triangle in a cell of a view, the same for every builder: it counts, or stores.
 // Reads: geometry, header, voxels (one axis per voxel), with PAYLOAD_ATTRIBUTES the scene. Writes: lists,
 // fragments, header; voxels and normals.
 // Source: Hu et al. section 3.1, the one geometry pass; Frid Kastrati and Goswami section 3.2: in the view of

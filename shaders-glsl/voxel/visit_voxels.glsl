@@ -1,4 +1,4 @@
-// What: marks the voxels of a column that a triangle reaches into, with the axis it faces most, or adds its
+// Marks the voxels of a column that a triangle reaches into, with the axis it faces most, or adds its
 // normal or a vote for that axis to them. The same for every builder.
 // Reads: geometry, header. Writes: voxels, normals, lists (voxels as leaves).
 // Source: Frid Kastrati and Goswami section 3.2, voxel generation. Sums of whole numbers replace the moving average

@@ -1,4 +1,4 @@
-// What: a shader of the host's own: a ray for every pixel of a square, traced through bricks on the spot.
+// A shader of the host's own: a ray for every pixel of a square, traced through bricks on the spot.
 // Reads: geometry, bricks. Writes: the hit of every pixel. Set 0 is the host's; geometry and structure come after it.
 #version 460
 #include "contract/extensions.glsl"
@@ -24,10 +24,10 @@ void main() {
     TraceState state = trace_state_begin(ray);
     Hit hit;
     uint result = TRACE_PAUSED;
-    while (result == TRACE_PAUSED) {
+    for (uint round = 0u; round < 16u && result == TRACE_PAUSED; round++) {
         result = brick_trace_closest(BrickRef(uvec2(0u)), ray, state, hit);
     }
-    // Neither while bricks are not ready: the host then shows an earlier picture.
+    // Neither while bricks are not ready, nor where the ray is still paused: the host then shows an earlier picture.
     if (result == TRACE_HIT || result == TRACE_MISS) {
         hits[pixel.y * SIDE + pixel.x] = hit;
     }
