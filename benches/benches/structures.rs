@@ -1,4 +1,4 @@
-//! Build and trace times of every registered system: `cargo bench -- [SCENE] [RAYS]`.
+//! Build and trace times of every registered system: `cargo bench --bench structures -- [SCENE] [RAYS]`.
 //!
 //! Prints, for every registered system and preset, the median build time and the median trace time of random rays,
 //! alternated between systems in one process. Times of software devices are for ratios on that device. For errors
@@ -14,7 +14,8 @@ use rasray_systems::SYSTEMS;
 const REPETITIONS: u32 = 5;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let Setting { name, rays, device, stage, .. } = Setting::read("cargo bench", "spheres:10k", 4096)?;
+    let Setting { name, rays, device, stage, .. } =
+        Setting::read("cargo bench --bench structures", "spheres:10k", 4096)?;
     println!("{}, {name}, {rays} incoherent rays, medians of {REPETITIONS}", device.name());
     let systems: Vec<SystemConfig> = SYSTEMS
         .iter()

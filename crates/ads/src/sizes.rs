@@ -40,8 +40,9 @@ impl Sizes {
             element_bytes,
         };
         let pools: Vec<_> = [header].into_iter().chain(pools.into_iter().map(named)).collect();
-        let is_too_large =
-            |pool: &&PoolSize| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX);
+        let is_too_large = |pool: &&PoolSize| {
+            pool.elements.saturating_mul(pool.element_bytes.div_ceil(4)) >= u64::from(u32::MAX)
+        };
         match pools.iter().find(is_too_large) {
             Some(pool) => Err(AdsError::PoolTooLarge { structure, pool: pool.name, elements: pool.elements }),
             None => Ok(Self { pools }),

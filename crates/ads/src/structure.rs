@@ -77,7 +77,7 @@ pub trait Structure {
     /// are the triangles of the last build.
     ///
     /// # Errors
-    /// Out of memory.
+    /// Out of memory, no sizes suffice ([`Structure::check`]), or the geometry has other parts ([`AdsError::InParts`]).
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError>;
 
     /// Takes the scene of other triangles ([`Structure::set_geometry`]), whose surfaces and alpha masks are read from

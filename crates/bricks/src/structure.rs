@@ -33,9 +33,10 @@ fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
 
 /// Workgroups of an indirect dispatch per level: that number of the first, none of the others before the device counts.
 fn groups_of_levels(first: u32) -> [u32; 12] {
-    let mut groups = [0, 1, 1].repeat(4);
-    groups[0] = first;
-    groups.try_into().unwrap_or_default()
+    std::array::from_fn(|word| match word {
+        0 => first,
+        word => u32::from(word % 3 != 0),
+    })
 }
 
 /// The header that the next build starts from.

@@ -1,4 +1,4 @@
-//! Bricks: the structure that is in no paper, and the default.
+//! Bricks: the structure that is in no paper.
 
 use rasray_bricks::{Addressing, Bricks, Builder, Config, Views};
 
