@@ -115,7 +115,7 @@ impl Design for Passes {
     }
 
     fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-        first_plan(config, geometry)
+        first_plan(config, geometry.triangle_count(), config.cells(geometry))
     }
 
     fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
@@ -165,7 +165,8 @@ impl Design for Passes {
         }
         // Cells of a level are only counted where those of the level before fit: at least the first guess, so that few
         // builds do.
-        let guess = first_demand(&parts.config, &parts.geometry);
+        let guess =
+            first_demand(&parts.config, parts.geometry.triangle_count(), parts.config.cells(&parts.geometry));
         Demand {
             records: counted.records.max(guess.records),
             bricks: counted.bricks.max(guess.bricks),

@@ -332,7 +332,7 @@ mod tests {
         for error in nested {
             assert!(matches!(error, ExperimentError::Gpu(GpuError::DeviceLost { .. })), "{error:?}");
         }
-        let unstable = TracerError::Unstable { structure: "bvh", rebuilds: 4 };
+        let unstable = TracerError::Unstable { structure: "bvh", rebuilds: 4, pool: None };
         let error = ExperimentError::from(FrameError::Tracer(unstable));
         assert!(matches!(error, ExperimentError::Tracer(TracerError::Unstable { .. })), "{error:?}");
     }

@@ -96,7 +96,7 @@ impl Design for Passes {
     }
 
     fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-        first_plan(config, geometry)
+        first_plan(config, geometry.triangle_count(), config.cells_over(geometry))
     }
 
     fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {

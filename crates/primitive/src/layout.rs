@@ -1,6 +1,6 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Geometry, Pyramid, Scan, Sizes, ViewDraw};
+use rasray_ads::{AdsError, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::ads::BIN_BLOCK;
 use rasray_shaders_glsl::constants::primitive as numbers;
 
@@ -87,9 +87,9 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
 }
 
 /// The first guess where nothing has been counted: four entries per cell.
-pub(crate) fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
+pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsError> {
     let entries = config.entries.unwrap_or_else(|| 4 * cell_count(config));
-    plan(config, &Demand { entries, near: 64, triangles: geometry.triangle_count().into() })
+    plan(config, &Demand { entries, near: 64, triangles: triangles.into() })
 }
 
 /// Bytes for counted cells, buckets and entries.

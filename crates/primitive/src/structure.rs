@@ -101,7 +101,7 @@ impl Design for Passes {
     }
 
     fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-        first_plan(config, geometry)
+        first_plan(config, geometry.triangle_count())
     }
 
     fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use rasray_ads::{AdsError, BuildStatus, Check, Structure, Viewpoint};
+use rasray_ads::{AdsError, BuildStatus, Check, PoolStatus, Structure, Viewpoint};
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 
 use crate::{FrameOutcome, FrameStructure, TracerError};
@@ -163,8 +163,15 @@ fn until_complete(
             Step::Grown => outcome.regrows += 1,
             Step::Stuck => {
                 let structure = built.structure().description().name;
-                return Err(TracerError::Unstable { structure, rebuilds: outcome.regrows });
+                let pool = shortest_pool(&built.structure().status(0)?);
+                return Err(TracerError::Unstable { structure, rebuilds: outcome.regrows, pool });
             }
         }
     }
+}
+
+/// The pool whose demand exceeds its capacity most; absent where all suffice.
+fn shortest_pool(status: &BuildStatus) -> Option<PoolStatus> {
+    let pools = status.parts.iter().chain([status]).flat_map(|status| &status.pools);
+    pools.filter(|pool| pool.demand > pool.capacity).max_by_key(|pool| pool.demand - pool.capacity).copied()
 }

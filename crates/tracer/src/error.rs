@@ -1,6 +1,6 @@
 //! Errors of builds and traces.
 
-use rasray_ads::AdsError;
+use rasray_ads::{AdsError, PoolStatus};
 use rasray_gpu::GpuError;
 
 /// Why a build or a trace has no result.
@@ -14,12 +14,17 @@ pub enum TracerError {
     #[error(transparent)]
     Gpu(#[from] GpuError),
     /// A build still needed more capacity after growing to the demand of earlier ones.
-    #[error("{structure} is still incomplete after {rebuilds} rebuilds; its demand is not stable")]
+    #[error(
+        "{structure} is still incomplete after {rebuilds} rebuilds; its demand is not stable{}",
+        pool.as_ref().map(|pool| format!(": {} holds {} and takes {}", pool.name, pool.capacity, pool.demand)).unwrap_or_default()
+    )]
     Unstable {
         /// Name of the structure.
         structure: &'static str,
         /// Rebuilds made.
         rebuilds: u32,
+        /// The pool whose capacity lacks most, where one is too small.
+        pool: Option<PoolStatus>,
     },
     /// A replay was requested of a structure that does not log steps.
     #[error("{structure} does not log steps; create it with `Counters::Steps` to replay a ray")]

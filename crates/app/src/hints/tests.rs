@@ -106,7 +106,7 @@ fn only_what_a_device_lacks_or_fails_at_ends_with_3() {
 fn what_is_not_whole_is_refused() {
     use ExperimentError as E;
     let bvh = "bvh";
-    let unstable = TracerError::Unstable { structure: bvh, rebuilds: 4 };
+    let unstable = TracerError::Unstable { structure: bvh, rebuilds: 4, pool: None };
     check(4, "still incomplete", "not kept", E::from(unstable));
     check(4, "did not finish", "not kept", E::from(TracerError::Unfinished { unfinished: 2, rounds: 3 }));
     check(4, "invalid index", "not kept", E::from(TracerError::Corrupted { structure: bvh, entries: 1 }));
