@@ -89,12 +89,12 @@ fn one_option_at_a_time_changes_no_hit() {
 }
 
 /// Pairs of a subject's options that exclude each other: cells along the axes have no slices, those of a cube's faces
-/// are not divided; layers are peeled by drawing, and several passes draw; trees that the device builds have one triangle per
-/// leaf; boxes give bounds to three of six storages, and are drawn.
+/// are not divided; layers are peeled by drawing, and several passes draw; trees by codes and treelets have one triangle
+/// per leaf; boxes give bounds to three of six storages, and are drawn.
 const REFUSED: &[(&str, usize)] = &[
     ("bricks robust", 10),
     ("bricks robust with views=cube", 10),
-    ("bvh robust", 4),
+    ("bvh robust", 3),
     ("ldc robust", 2),
     ("ldc robust with accept=plane", 2),
     ("mmrt robust", 4),

@@ -33,6 +33,10 @@ fn members_of(record: &RecordLayout) -> Vec<Member> {
     record.members.iter().map(|(name, offset, size)| ((*name).to_owned(), *offset, *size)).collect()
 }
 
+/// Records that shaders write word by word, in the order of their members, behind lists whose number only the device knows; so
+/// no module declares them. That their words are those members is held by `pictures::photons` of the integrators.
+const AS_WORDS: &[&str] = &["Photon"];
+
 /// Whatever module a record is declared in, it is what Rust has; and no record is of Rust alone.
 #[test]
 fn every_record_in_every_module() {
@@ -48,7 +52,13 @@ fn every_record_in_every_module() {
                 }
             }
         }
-        assert!(counts[0] > 0 && counts[1] > 0, "{}: {counts:?} modules have it", record.name);
+        let is_declared = counts[0] > 0 && counts[1] > 0;
+        assert_eq!(
+            is_declared,
+            !AS_WORDS.contains(&record.name),
+            "{}: {counts:?} modules have it",
+            record.name
+        );
     }
 }
 
