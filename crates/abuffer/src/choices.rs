@@ -128,7 +128,7 @@ impl Coverage {
     }
 }
 
-/// Enclosure of the depth bounds of a cell before its fragments are stored. Changes no hit.
+/// Depths that the bounds of a cell enclose before its fragments are stored. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bounds {
     /// The fragments that it will have: all triangles are drawn once more.
@@ -180,7 +180,7 @@ impl Views {
     }
 }
 
-/// Switching of a ray from one view to the next.
+/// Method by which a ray passes from one view to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ViewSwitching {
     /// At the sides of the views' pyramids, which leave nothing out; every view that sees a part of the ray is searched

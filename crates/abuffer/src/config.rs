@@ -16,7 +16,7 @@ pub struct Config {
     /// other odd, the smaller one is increased by one ([`Config::camera_cells`]), so that the cells lie evenly around
     /// the axis.
     pub camera_resolution: [u32; 2],
-    /// Switching of rays from view to view.
+    /// Method by which rays pass from view to view.
     pub view_switching: ViewSwitching,
     /// Storage of a cell's fragments. Changes no hit.
     pub storage: Storage,
@@ -31,7 +31,7 @@ pub struct Config {
     /// [`Coverage::Conservative`] and [`Coverage::EdgeOn`]. Rays then hit nothing that is behind something
     /// else as seen from the eye.
     pub single_layer: bool,
-    /// Stepping of rays.
+    /// Method of stepping rays through cells.
     pub march: March,
     /// Maximum of samples per face, 1 to 65535; only for [`March::Samples`].
     pub samples: u32,
@@ -49,9 +49,9 @@ pub struct Config {
     /// For diagnostics: keep the triangle of each fragment behind a payload without it. Hits then name it,
     /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
     pub ids: bool,
-    /// Coverage test.
+    /// Test of which cells a triangle covers.
     pub coverage: Coverage,
-    /// Enclosure of the depth bounds of cells. [`Bounds::Boxes`] goes with lists by depth bucket only, with
+    /// Depths that the bounds of cells enclose. [`Bounds::Boxes`] goes with lists by depth bucket only, with
     /// [`Builder::Raster`], and not with [`Coverage::Hardware`]. Changes no hit.
     pub bounds: Bounds,
     /// Builder that bins triangles into cells. Changes no hit.

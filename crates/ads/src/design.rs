@@ -67,7 +67,7 @@ impl<C> Parts<C> {
         self.usual_rounds() + 2 * self.rounds(self.geometry.triangle_count())
     }
 
-    /// Target of the passes of a build.
+    /// Triangles, pools and scene that the passes of a build work on.
     pub fn target<'a>(&'a self, scene: Option<&'a BindingSet>) -> BuildTarget<'a> {
         BuildTarget { geometry: &self.geometry, pools: &self.pools, header_pass: &self.header_pass, scene }
     }
@@ -113,7 +113,7 @@ pub trait Design: fmt::Debug + Sized {
     /// Kind of its hits.
     fn kind(config: &Self::Config) -> StructureKind;
 
-    /// Changes that make a build stale, in addition to the triangles.
+    /// Changes of the viewpoint that make a build stale.
     fn depends_on(config: &Self::Config) -> Dependencies;
 
     /// As for [`Structure::is_stale`](crate::Structure::is_stale).
@@ -269,13 +269,13 @@ pub trait Design: fmt::Debug + Sized {
     /// The report, but for [`StructureReport::bytes_by_part`].
     fn report(parts: &Parts<Self::Config>, header: &Self::Header, asked: &Self::Demand) -> StructureReport;
 
-    /// Fault of the pools, if any, after a build over that number of triangles.
+    /// The first fault of the pools after a build over that number of triangles, in words; absent where they are whole.
     fn fault(contents: &Self::Contents, triangles: u32) -> Option<String>;
 
     /// [`Inspect::list_counts`](crate::Inspect::list_counts) of a complete build.
     ///
     /// # Errors
-    /// Fault of the lists.
+    /// A fault of the lists, in words.
     fn list_counts(_contents: &Self::Contents) -> Result<Vec<ListCounts>, String> {
         Ok(Vec::new())
     }

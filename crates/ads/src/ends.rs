@@ -3,8 +3,8 @@
 use crate::words;
 use rasray_shaders_glsl::constants::ads::{ENDS_CLEAR, ENDS_TOUCHING};
 
-/// Use of fragments that are as close to an end of a ray as those of the surface there. Of structures whose fragments
-/// do not say which triangle they are of, or where it is hit.
+/// Rule for fragments that are as close to an end of a ray as those of the surface there, in structures whose
+/// fragments do not say which triangle they are of, or where it is hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
     /// They count: rays hit what they leave and what they end on.

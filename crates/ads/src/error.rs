@@ -34,9 +34,9 @@ pub enum AdsError {
     Option {
         /// Name of the option.
         option: &'static str,
-        /// Value given.
+        /// The value that was given.
         value: String,
-        /// Values possible.
+        /// Possible values, in words.
         expected: &'static str,
     },
     /// A pool needs more elements than its indices can address.
@@ -65,13 +65,13 @@ pub enum AdsError {
     OtherScene {
         /// Name of the structure.
         structure: &'static str,
-        /// Parts that differ.
+        /// Buffers, alpha masks or specialisation constants, which differ.
         what: &'static str,
     },
     /// A geometry's counts or bounds do not describe its buffers.
     #[error("the geometry cannot be used: {reason}")]
     Geometry {
-        /// Fault, with its numbers.
+        /// Fault of the counts, ranges or bounds, with its numbers.
         reason: String,
     },
     /// Buffers that a queue of rays cannot be made of.

@@ -135,7 +135,7 @@ struct Span<'a> {
     buffer: &'a Buffer,
     offset: u64,
     bytes: u64,
-    /// Divisor of the offset, in bytes.
+    /// Alignment of the offset, bytes.
     alignment: u64,
 }
 

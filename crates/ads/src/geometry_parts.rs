@@ -119,7 +119,7 @@ impl GeometryParts {
         self.parts[0].whole()
     }
 
-    /// Parts equal to these of another geometry with as many triangles, within the bounds that it states.
+    /// Divides another geometry with as many triangles into the same parts, within the bounds that it states.
     ///
     /// # Errors
     /// As [`Geometry::in_parts`].

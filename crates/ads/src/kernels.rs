@@ -14,10 +14,10 @@ use crate::{
     TraceModules,
 };
 
-/// Triangles among those of a geometry whose hits a structure looks up surfaces for.
+/// Part of a geometry: surfaces are looked up for hits on its triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TracedPart {
-    /// All of them.
+    /// All triangles.
     Whole,
     /// The part that was traced first.
     First {
@@ -167,9 +167,9 @@ impl TraceKernels {
         recorder.push_constants(bytes_of(&constants));
     }
 
-    /// Records a trace of the slots of `domain`: one dispatch for all, then up to `rounds - 1` for
-    /// the rays that paused. Rays still paused after that are counted as unfinished. `rounds` stands for [`Trace::rounds`].
-    /// With [`Start::Part`] the queue lists the rays as paused, with states.
+    /// Records a trace: one dispatch for all rays, then up to `rounds - 1` for those that paused. Rays still paused
+    /// after that are counted as unfinished. `rounds` is taken in place of [`Trace::rounds`]. With [`Start::Part`] the
+    /// queue lists the rays as paused, with states.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,

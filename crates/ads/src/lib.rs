@@ -18,7 +18,7 @@
 //! # Synchronisation
 //! [`Structure::record_build`], [`Structure::record_trace`] and [`Structure::record_surfaces`] end with
 //! a barrier that makes their results visible to compute shaders and transfers recorded after them.
-//! Buffers that they read must be visible to compute, vertex and fragment shaders before.
+//! Data that they read must be visible to compute, vertex and fragment shaders before.
 
 mod addressing;
 mod bounds_pass;

@@ -38,7 +38,7 @@ impl<'a> BuildPipelines<'a> {
         Self { device, modules, sets, constants, raster: RasterOptions::default() }
     }
 
-    /// As these, with draws that cover every pixel that a triangle touches, which need
+    /// Makes the same pipelines, but with draws that cover every pixel that a triangle touches, which need
     /// [`Feature::ConservativeRasterization`](rasray_gpu::Feature::ConservativeRasterization).
     #[must_use]
     pub fn touching(&self) -> Self {
@@ -99,7 +99,7 @@ pub struct ViewDraw {
     pub first: u32,
 }
 
-/// Target of the passes of one recording.
+/// Triangles, pools and scene that the passes of one recording work on.
 #[derive(Clone, Copy, Debug)]
 pub struct BuildTarget<'a> {
     /// The triangles.

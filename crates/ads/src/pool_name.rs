@@ -44,8 +44,8 @@ pub trait PoolContents<C, P: PoolName>: Sized {
 /// Makes the enum of a structure's pools. After the header, which is there by itself, each has a row in the order of
 /// bindings: the variant, its name in sizes, statuses and reports, and the header's field of its device address.
 ///
-/// Words to be checked on the host are in a struct, which a last line names with the configuration, and with its field
-/// for that where it has one; then a row ends with `=> field` where the struct has the words of its pool:
+/// A last line names the configuration and the struct with the words to be checked on the host, and its field for the
+/// configuration where it has one; then a row ends with `=> field` where the struct has the words of its pool:
 ///
 /// ```ignore
 /// rasray_ads::pools! {

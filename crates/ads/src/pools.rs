@@ -290,8 +290,8 @@ impl Pools {
         self.allow_more_rounds(first, most.min(u32::MAX.into()) as u32)
     }
 
-    /// Records a trace, as [`TraceKernels::record_trace`]. Traces count list entries with an invalid index in the word of the
-    /// header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]).
+    /// Records a trace, as [`TraceKernels::record_trace`]. Traces count list entries with an invalid index in the word
+    /// of the header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]).
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,

@@ -73,7 +73,7 @@ impl BuildStatus {
     }
 }
 
-/// Growth of a pool beyond its demand.
+/// Growth of a pool beyond its demand, in percent of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Growth {
     percent: u32,

@@ -40,7 +40,7 @@ impl StructureReport {
 }
 
 /// Access for a shader of one's own to the structure's GLSL functions (`x_trace_closest`, `x_trace_occluded`,
-/// `x_surface_at` of the structure's folder), beside the set of the geometry that the structure has.
+/// `x_surface_at` of the structure's folder). They also need the set of the structure's geometry.
 #[derive(Clone, Debug)]
 pub struct InlineTrace<'a> {
     /// Layout of the structure's set, which the shader finds at `STRUCTURE_SET`; empty by address.

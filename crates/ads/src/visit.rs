@@ -91,7 +91,7 @@ impl LargePass {
 /// next to it, and labels have the same suffixes.
 #[derive(Clone, Copy, Debug)]
 pub struct Visits<'a> {
-    /// Source of pipelines.
+    /// Maker of the pipelines.
     pub pipelines: &'a BuildPipelines<'a>,
     /// The builder.
     pub builder: Builder,

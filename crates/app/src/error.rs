@@ -33,7 +33,7 @@ pub enum AppError {
     Usage {
         /// Fault of the command line.
         message: String,
-        /// Advice.
+        /// Advice, in one sentence; may be empty.
         help: String,
     },
     /// A file cannot be read, or an output cannot be put where it was asked for. Exit code 2.
@@ -43,7 +43,7 @@ pub enum AppError {
         path: PathBuf,
         /// Fault of the file.
         message: String,
-        /// Advice.
+        /// Advice, in one sentence; may be empty.
         help: String,
     },
     /// An experiment gave no result. Exit code 3 where the device is missing, lacks something required or failed, 4 where
@@ -65,7 +65,7 @@ pub enum AppError {
     About {
         /// A frame, or the comparison of a plan.
         what: String,
-        /// The error.
+        /// The error without its subject.
         source: Box<Self>,
     },
     /// A result exists that would have lost data had it been kept. Exit code 4.
@@ -73,7 +73,7 @@ pub enum AppError {
     Refused {
         /// Results that would have been lost, and where.
         message: String,
-        /// Advice.
+        /// Advice, in one sentence; may be empty.
         help: String,
     },
     /// A hard case's target was not met, and `--check` asked for it. Exit code 1.
@@ -81,7 +81,7 @@ pub enum AppError {
     Target {
         /// Which.
         message: String,
-        /// Advice.
+        /// Advice, in one sentence; may be empty.
         help: String,
     },
     /// A signal stopped the run. Exit code 130.
@@ -89,7 +89,7 @@ pub enum AppError {
     Interrupted {
         /// Progress of the run, and the files written.
         message: String,
-        /// Advice.
+        /// Advice, in one sentence; may be empty.
         help: String,
     },
 }
@@ -150,7 +150,7 @@ impl AppError {
         }
     }
 
-    /// Advice for the command line.
+    /// Advice on the command line, in one sentence; may be empty.
     pub fn help(&self) -> Cow<'_, str> {
         match self {
             Self::Usage { help, .. }

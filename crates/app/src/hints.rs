@@ -52,7 +52,7 @@ pub(crate) fn with_flags(text: &str) -> String {
     parts.map(|(place, part)| if place % 2 == 1 { format!("--{part}") } else { part.to_owned() }).collect()
 }
 
-/// Message, with options written as on the command line.
+/// Message of an error, with options written as on the command line.
 pub(crate) fn message(error: &ExperimentError) -> String {
     match error {
         // Each of these begins with the name of an option.
@@ -82,7 +82,7 @@ pub(crate) fn message(error: &ExperimentError) -> String {
     }
 }
 
-/// Advice; empty where the message says so itself.
+/// Advice for an error; empty where the message already gives it.
 pub(crate) fn help(error: &ExperimentError) -> Cow<'static, str> {
     match error {
         ExperimentError::Selection(error) => help_of_selection(error),
@@ -375,7 +375,7 @@ pub(crate) fn message_of_denoiser(error: &DenoiseError) -> String {
     format!("--denoise: {error}")
 }
 
-/// Advice for it.
+/// Advice for a failure of `--denoise`.
 pub(crate) fn help_of_denoiser(error: &DenoiseError) -> &'static str {
     match error {
         DenoiseError::Missing { .. } | DenoiseError::Unsuitable { .. } => {

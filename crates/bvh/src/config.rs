@@ -54,7 +54,7 @@ impl Children {
     }
 }
 
-/// Work of the device on chunks, of keys that it sorts and of clusters that it merges. The tree is the same.
+/// Way in which the device works on chunks, of keys that it sorts and of clusters that it merges. The tree is the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Chunks {
     /// An invocation takes a chunk alone: the least work.
@@ -71,11 +71,11 @@ pub struct Config {
     /// Children per node; by default two by [`Builder::Lbvh`] and [`Builder::Refit`], whose builds are to be quick, and four by
     /// the others.
     pub children: Option<Children>,
-    /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`] and, with four children per node, by
-    /// [`Builder::Ploc`], whose heuristic may use fewer, and 1 by the others, whose leaves hold one.
+    /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`] and, with four children per
+    /// node, by [`Builder::Ploc`], whose heuristic may use fewer, and 1 by the others, whose leaves hold one.
     pub leaf: Option<u32>,
-    /// Work of the device on chunks; where absent [`Chunks::Serial`] on software devices and [`Chunks::Shared`] on
-    /// others.
+    /// Way in which the device works on chunks; where absent [`Chunks::Serial`] on software devices and
+    /// [`Chunks::Shared`] on others.
     pub chunks: Option<Chunks>,
     /// Addressing of pools.
     pub addressing: Addressing,

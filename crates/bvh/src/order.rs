@@ -1,4 +1,4 @@
-//! Tracks for the host the order of the triangles on the device.
+//! Order of the triangles on the device, as far as the host knows it.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 

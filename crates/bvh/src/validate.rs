@@ -128,7 +128,7 @@ pub enum Fault {
     Leaves {
         /// The record.
         record: usize,
-        /// Leaves that the record is in.
+        /// Number of leaves that the record is in.
         times: usize,
     },
     /// A triangle has no record, or several.
@@ -136,7 +136,7 @@ pub enum Fault {
     Triangles {
         /// The triangle.
         primitive: usize,
-        /// Records of the triangle.
+        /// Number of records of the triangle.
         times: usize,
     },
 }

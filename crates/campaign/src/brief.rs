@@ -30,7 +30,7 @@ pub(crate) struct Said {
 }
 
 impl Said {
-    /// Settings told of these rows, where `before` has been said of them and of others.
+    /// Settings that need no column for these rows, where `before` has been said of them and of others.
     pub(crate) fn of(rows: &[&Row], before: &Self) -> Self {
         let all = Experiment { name: String::new(), rows: rows.iter().copied().cloned().collect() };
         let (settings, varied) = (all.settings(), all.varied());

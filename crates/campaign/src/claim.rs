@@ -131,8 +131,8 @@ impl Finding {
     }
 }
 
-/// True if two rows have a setting in common; an option that one of two systems or integrators does not take tells them
-/// not apart.
+/// True if two rows have a setting in common; an option that one of two systems or integrators does not take does not
+/// tell them apart.
 fn is_alike(row: &Row, other: &Row, name: &str) -> bool {
     let is_option = |row: &Row| {
         let asked = row.report.cell.as_ref().map(|cell| &cell.depends_on);

@@ -18,7 +18,7 @@ impl PlanError {
         Self { message: message.into(), help: help.into() }
     }
 
-    /// Advice.
+    /// Advice for the author of the plan, in one sentence.
     pub fn help(&self) -> &str {
         &self.help
     }

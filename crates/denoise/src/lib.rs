@@ -26,7 +26,7 @@ pub enum DenoiseError {
     /// There is no library of that name, or it needs others that are not there.
     #[error("Open Image Denoise is not installed: {reason}")]
     Missing {
-        /// Message of the system.
+        /// Message of the dynamic linker.
         reason: String,
     },
     /// It is of another version than 2, whose functions are other ones.
@@ -34,7 +34,7 @@ pub enum DenoiseError {
     Unsuitable {
         /// The library.
         name: OsString,
-        /// Part that it lacks.
+        /// Function that it lacks, or the version that it has.
         reason: String,
     },
     /// It refused the picture or this processor.

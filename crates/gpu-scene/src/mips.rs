@@ -73,7 +73,7 @@ fn first_level(width: u32, height: u32, rgba8: &[u8]) -> Level {
     Level { width, height, texels }
 }
 
-/// Values of all bytes of a texel.
+/// Value that each byte stands for, in a colour and in alpha.
 struct Values {
     color: [f32; 256],
     alpha: [f32; 256],

@@ -19,7 +19,7 @@ pub struct Flights {
 struct Slot {
     work: OneTime,
     timers: Option<Timers>,
-    /// Work that the device may not have ended.
+    /// Work that the device may still be doing.
     pending: Option<Completed>,
 }
 

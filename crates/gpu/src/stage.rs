@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Question of a trace.
+/// Question that a trace answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TraceMode {
     /// The nearest hit.

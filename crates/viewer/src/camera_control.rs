@@ -6,7 +6,7 @@ use rasray_options::text::{number, numbers};
 use rasray_scene::{Camera, Lens, Projection};
 use rasray_scene_source::placed_view;
 
-/// Steepest look up and down: short of straight up, where a camera without roll has no right side.
+/// Largest angle up and down, radians: short of straight up, where a camera without roll has no right side.
 const STEEPEST: f64 = 89.0 * std::f64::consts::PI / 180.0;
 
 /// Numbers of a camera as the command line has them: eye and target in metres, the full vertical angle of view in degrees.

@@ -1,6 +1,6 @@
 //! A window for scenes: the same structures and integrators as `rasray render`, live.
 //!
-//! All but the window works without one: a [`Session`] holds what was chosen and turns keys, drags and widgets into
+//! A viewer works here without a window: a [`Session`] holds what was chosen and turns keys, drags and widgets into
 //! [`Settings`]; an [`Engine`] makes pictures of settings on a device, step by step, and repeats only what a change makes
 //! necessary ([`Redo`]); a [`Worker`] runs it in a thread, so that a window never waits for a build. The picture that
 //! refinement ends at is the one that `rasray render` writes for the session's command line, bit by bit.

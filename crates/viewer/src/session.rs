@@ -29,9 +29,9 @@ const REST: f64 = 0.2;
 /// A failure in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
-    /// Message.
+    /// Fault, in one sentence.
     pub message: String,
-    /// Advice; may be empty.
+    /// Advice on what to do about it; may be empty.
     pub help: String,
 }
 
@@ -93,7 +93,7 @@ pub struct Session {
     pub pictures: u64,
     /// Rate at which they come.
     pub picture_rate: Rate,
-    /// Work that takes long.
+    /// Work that takes long, in a few words; absent where there is none.
     pub status: Option<String>,
     /// Why there is no picture of the settings that were asked for.
     failed: Option<Failure>,

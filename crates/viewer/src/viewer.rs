@@ -1,4 +1,4 @@
-//! A window but for drawing: a session with the threads that carry it out.
+//! A window without its drawing: a session with the threads that carry it out.
 
 use std::ffi::OsStr;
 use std::sync::{Arc, mpsc};

@@ -33,7 +33,7 @@ pub enum Update {
 
 /// A scene that was read.
 pub struct Opened {
-    /// Beginning of a session of it.
+    /// State that a session of it begins with.
     pub opening: Opening,
     /// Scene for an engine to show.
     pub source: SceneSource,

@@ -18,7 +18,7 @@ const VALIDATION: &std::ffi::CStr = c"VK_LAYER_KHRONOS_validation";
 /// Frames that the host has in flight at most.
 pub const FRAMES: usize = 2;
 
-/// Renderer. Everything made from it goes before it.
+/// A renderer of its own: device, queue and frames. Everything made from it is destroyed before it.
 pub struct Host {
     _entry: ash::Entry,
     instance: ash::Instance,

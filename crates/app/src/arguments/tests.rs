@@ -51,7 +51,7 @@ fn defaults_are_the_documented_ones() {
     assert_eq!(given.work.structure, StructureArguments::default());
 }
 
-/// Options left out suit the scene, its own camera and nothing else.
+/// The values of options left out suit the scene, its own camera and nothing else.
 #[test]
 fn a_picture_of_a_built_in_scene_suits_it() {
     for (line, expected) in [

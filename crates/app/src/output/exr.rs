@@ -32,7 +32,7 @@ pub struct Metadata {
     pub version: String,
     /// The key of the file; absent where it holds less than was asked for.
     pub key: Option<String>,
-    /// Name of its denoiser; absent without one.
+    /// Name and version of its denoiser; absent without one.
     pub denoised: Option<String>,
     /// Which share of the samples of which picture it holds; absent: all.
     pub part: Option<PartOf>,

@@ -44,7 +44,7 @@ pub(crate) fn encode_shown(
         .map_err(|error| AppError::refused(format!("the picture could not be encoded: {error}"), ""))
 }
 
-/// Encodes rows, with those texts that there are, each by its name, and the error in words.
+/// Encodes rows, with those texts that there are, each by its name. Errors are in words.
 fn encode_rows<'a>(
     rows: impl Iterator<Item = impl AsRef<[u8]>>,
     size: [u32; 2],

@@ -76,7 +76,7 @@ pub struct SkinPlace {
     pub first_joint: u32,
 }
 
-/// Share of a joint in the vertices of a mesh.
+/// Share of a joint in the vertices of a mesh, and their mean.
 #[derive(Clone, Copy, Debug)]
 pub struct JointPlace {
     /// Index into the joints of the skin.

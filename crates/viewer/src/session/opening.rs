@@ -1,4 +1,4 @@
-//! Beginning of a session, and another scene in its course.
+//! State that a session begins with, and another scene in its course.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ use crate::option_controls::SystemChoice;
 use crate::playback::Playback;
 use crate::settings::Settings;
 
-/// Beginning of a session.
+/// State that a session begins with.
 #[derive(Clone, Debug)]
 pub struct Opening {
     /// The scene as it was named.

@@ -30,7 +30,7 @@ use painter::Painter;
 use panel::Panel;
 pub use saving::{SavePicture, SavedPicture};
 
-/// Interval between looks whether a signal asked for the end.
+/// Time between looks for a signal that asks for the end.
 const POLL: Duration = Duration::from_millis(100);
 
 /// Longest wait for a frame that was asked for before it is asked for again.

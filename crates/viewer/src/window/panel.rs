@@ -61,7 +61,7 @@ pub(super) struct Moment {
     pub(super) frames: Option<f64>,
 }
 
-/// Message of a key or a button.
+/// Message about what a key or a button has done.
 struct Notice {
     text: String,
     is_error: bool,

@@ -1,4 +1,4 @@
-//! Tests of a window but for drawing: other scenes, picks, cameras, and pictures while something moves.
+//! Tests of a window without its drawing: other scenes, picks, cameras, and pictures while something moves.
 
 use std::ffi::OsStr;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ use crate::{
 /// Advice of whoever opens scenes where one cannot be opened.
 const HELP: &str = "name another file";
 
-/// Beginning of a session of a scene, with the settings of these tests.
+/// State that a session of a scene begins with, with the settings of these tests.
 fn opened(scene: &OsStr) -> Result<Opened, Failure> {
     let loaded =
         load(scene).map_err(|error| Failure { message: error.to_string(), help: HELP.to_owned() })?;
