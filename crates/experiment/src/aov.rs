@@ -157,7 +157,7 @@ impl AovSelection {
         Self(other.into_iter().fold(self.0, |bits, aov| bits | 1 << aov as u16))
     }
 
-    /// True if any needs materials and meshes at the surface of a pixel.
+    /// True if any needs materials and meshes of the surfaces that pixels show.
     pub(crate) fn has_surfaces(self) -> bool {
         self.iter().any(|aov| {
             matches!(aov, Aov::Albedo | Aov::Position | Aov::Uv | Aov::Material | Aov::Instance | Aov::Motion)
@@ -174,7 +174,7 @@ impl AovSelection {
         self.contains(Aov::Direct) || self.contains(Aov::Indirect)
     }
 
-    /// The workload with that of these images added.
+    /// Adds to a workload what these images need of it.
     pub fn workload(self, workload: Workload) -> Workload {
         match self.contains(Aov::Albedo) {
             true => Workload { emission: true, shades: true, ..workload },
@@ -182,7 +182,7 @@ impl AovSelection {
         }
     }
 
-    /// Needs of a picture with these images.
+    /// Data of a scene that a picture with these images needs.
     pub fn needs(self, scene: &Scene, workload: Workload) -> Needs {
         let needs = Needs::of(scene, self.workload(workload));
         match self.contains(Aov::Uv) {

@@ -58,7 +58,7 @@ fn is_fastest(system: &System) -> bool {
 }
 
 impl SystemConfig {
-    /// Fits a choice of the job to frames, each of which builds a structure for so many rays at most: a tree whose
+    /// Fits a structure that the job chose to frames, each of which builds it for so many rays at most: a tree whose
     /// build is quick, unless there are so many rays that they repay a better one. The device has no say, so that
     /// shares of a job are alike.
     #[must_use]

@@ -16,7 +16,7 @@ pub struct DeviceScene {
     pub scene: GpuScene,
     /// Triangles that were left out: their coordinates are not finite, or beyond what can be squared.
     pub dropped_triangles: u64,
-    /// Poses what moves, where it is posed on the device.
+    /// The pass that poses what moves, where it is posed on the device.
     pub(super) pose: Option<PosePass>,
     /// Where everything is that moves, once it was posed.
     pub(super) posed: Option<FramePose>,

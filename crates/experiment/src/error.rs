@@ -125,7 +125,7 @@ pub enum ExperimentError {
     /// Camera rays that are drawn, and a camera with a lens.
     #[error("primary {primary} draws through a pinhole, and the camera has a lens")]
     Pinhole {
-        /// Value of `primary`.
+        /// Value of the option `primary`.
         primary: &'static str,
     },
     /// First hits were asked of a structure that has none.

@@ -15,7 +15,7 @@ pub struct ImagePasses {
     integrator: Box<dyn Integrator>,
     /// Answers camera rays in place of traces.
     visibility: Option<Visibility>,
-    /// True where the structure's view of the camera does.
+    /// True if the structure's view of the camera answers camera rays.
     has_stored_hits: bool,
     /// Answers shadow rays in place of traces.
     shadow_maps: Option<ShadowMaps>,

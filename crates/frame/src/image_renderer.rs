@@ -28,7 +28,7 @@ pub enum Advance {
 /// An image in the making: sample after sample, and wave after wave within a sample. Each call submits and waits, so that
 /// no submission is longer than a wave, and a picture can be looked at or given up in between.
 ///
-/// It is made of a structure that is complete ([`rasray_tracer::build_until_complete`]); pictures are those of
+/// The structure must be complete ([`rasray_tracer::build_until_complete`]); pictures are those of
 /// [`FrameRenderer`](crate::FrameRenderer), bit for bit.
 #[derive(Debug)]
 pub struct ImageRenderer {
@@ -229,8 +229,8 @@ impl ImageRenderer {
         };
         let traced = self.passes.traced(structure);
         timings.extend(integrator.render_wave(&self.device, timing, traced, wave)?);
-        // The film lacks light where a ray had no answer, so it is looked for now and not after the last wave. Queues
-        // count on from wave to wave.
+        // The film lacks light where a ray had no answer, so such rays are counted now and not after the last wave.
+        // Queues count on from wave to wave.
         self.unfinished = self.count_unfinished(structure, &integrator.queues())?;
         if self.unfinished > 0 && structure.allow_more_rounds() {
             self.clear()?;

@@ -308,7 +308,7 @@ impl FrameRenderer {
         if ended.outcome == FrameOutcome::Complete && unanswered > 0 && !has_more_rounds() {
             return Err(FrameError::Unfinished { rays: unanswered });
         }
-        // They may have allowed more traces for surfaces that paths pass, too.
+        // Frames before it may have allowed more traces for surfaces that paths pass, too.
         let unended = u64::from(film.faults.unended);
         let integrator = self.image.integrator();
         let has_more_traces =

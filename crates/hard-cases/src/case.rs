@@ -7,7 +7,7 @@ use rasray_reference::oracle::{Ray, Verdict};
 /// Three corners in metres.
 pub type Triangle = [[f32; 3]; 3];
 
-/// Size of a case.
+/// Size and seed of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale {
     /// Rays to generate. Cases that consist of a few listed rays have no more than those.
@@ -30,7 +30,7 @@ impl Scale {
 pub struct HardCase {
     /// Short and unique.
     pub id: &'static str,
-    /// One line that describes it.
+    /// One line that says what it is and what it threatens.
     pub title: &'static str,
     /// In the order of their ids. May hold coordinates that loaders must drop.
     pub triangles: Vec<Triangle>,
@@ -40,7 +40,7 @@ pub struct HardCase {
     pub eye: [f32; 3],
     /// Answers that are known.
     pub expect: Expectation,
-    /// Size in which it was made.
+    /// Size and seed that it was made with.
     pub scale: Scale,
     /// The quantity that is measured.
     pub measure: &'static str,

@@ -1,4 +1,4 @@
-//! Errors of traced hits and rendered images against the truth, and their confidence.
+//! Errors of traced hits and rendered images against the truth, and the confidence in them.
 //!
 //! - [`HitConfusion`] compares a structure's hits with exact verdicts, ray by ray.
 //! - [`ImageError`] compares an image with a reference.

@@ -5,8 +5,8 @@ mod agx;
 
 use crate::image::Image;
 
-/// Tone of linear colours: exposed, then brought into the range of a screen by a curve. The default is exposure 0 and
-/// no curve beyond that of sRGB.
+/// Exposure of linear colours, and the curve that then brings them into the range of a screen. The default is exposure
+/// 0 and no curve beyond that of sRGB.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tone {
     /// Brings exposed colours into the range of a screen.

@@ -13,7 +13,7 @@ pub struct RaysFile {
     pub place: Place,
 }
 
-/// Place that origins are relative to.
+/// Says what origins are relative to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Place {
     /// To a point of the world, metres; [`Ray::origin`] holds the offset.

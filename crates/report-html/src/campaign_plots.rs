@@ -60,7 +60,7 @@ const WRONG: Measure = Measure {
 const FLIP: Measure =
     Measure { name: "image.flip_mean", title: "FLIP", words: "FLIP, mean", spread: None, is_error: true };
 
-/// Name of a row where others differ from it in these settings.
+/// Name of a row, from the settings in which rows differ.
 struct Label {
     /// System, preset, options.
     contestant: String,

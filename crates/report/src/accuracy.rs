@@ -99,7 +99,7 @@ pub struct RateRecord {
     pub bound: Bound,
     /// Where the true rate lies with 95 % confidence.
     pub interval: [f64; 2],
-    /// Such an interval with which all rates of the report hold together, see [`crate::Statistics`].
+    /// Interval such that those of all rates of the report hold together, see [`crate::Statistics`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub family_interval: Option<[f64; 2]>,
 }

@@ -159,7 +159,7 @@ pub struct Memory {
     /// Kept only to measure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diagnostic_bytes: Option<u64>,
-    /// Bytes of buffers of an image: film, queues, states, and those of drawing; without structure, scene, shadow maps.
+    /// Buffers of an image: film, queues, states, and those of drawing; without structure, scene and shadow maps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame_bytes: Option<u64>,
     /// `frame_bytes` per pixel of the image.

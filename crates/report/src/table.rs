@@ -213,7 +213,7 @@ mod tests {
         assert!(last.contains("brute-force robust eye") && last.trim_end().ends_with('-'), "{last}");
     }
 
-    /// Every cell of the table stands there once, however narrow a terminal is.
+    /// Every cell of a table is shown once, however narrow a terminal is.
     #[test]
     fn a_table_fits_its_terminal() {
         let rate = RateRecord::of(Rate { count: 812, total: 199_000 }).expect("something was tried");

@@ -8,7 +8,7 @@ pub fn shown(text: &str) -> Cow<'_, str> {
     written_out(text, &['\n', '\t'])
 }
 
-/// [`shown`], but for these characters.
+/// [`shown`], but `kept` are not written out either.
 pub fn shown_but<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
     written_out(text, &[&['\n', '\t'], kept].concat())
 }

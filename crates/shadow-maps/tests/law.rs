@@ -69,7 +69,7 @@ impl View {
     }
 }
 
-/// Answer of a naive map to a point.
+/// Answer of a naive map to a ray.
 pub enum Naive {
     Occluded,
     Open,

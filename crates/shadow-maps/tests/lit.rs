@@ -203,8 +203,8 @@ impl Lit {
         })
     }
 
-    /// From points spread evenly over all surfaces to places spread at random over an emitting triangle, which number
-    /// and corners give.
+    /// From points spread evenly over all surfaces to places spread at random over the emitting triangle of this number
+    /// and these corners.
     pub fn rays_to_emitter(&self, emitter: u32, corners: [DVec3; 3], count: usize) -> Vec<Ray> {
         self.rays_to(self.scene.lights().len() as u32 + emitter, count, |random, p| {
             let (root, along) = (random.next().sqrt(), random.next());

@@ -8,7 +8,7 @@ use crate::SystemsError;
 use crate::options::{OPTIONS, option};
 use crate::structure_option::{Group, StructureOption};
 
-/// Closeness of a system to its paper.
+/// Version of a system: says how closely it follows its paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Preset {
     /// The paper's structure with its errors repaired.

@@ -3,7 +3,7 @@
 use rasray_ads::StructureKind;
 use rasray_options::{OptionRow, Values, Word};
 
-/// Purpose of an option, in the order in which help shows them.
+/// Purposes of options, in the order in which help shows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Group {
     /// The resolution of a structure.

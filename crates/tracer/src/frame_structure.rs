@@ -128,8 +128,8 @@ impl FrameStructure {
     }
 
     /// Takes for each of the parts that move whether its vertices moved; one that is not stated did. What is built for
-    /// a part in a space of its own stays ([`Description::follows`](rasray_ads::Description::follows)). Without parts, all of the vertices have moved where
-    /// any have.
+    /// a part in a space of its own stays ([`Description::follows`](rasray_ads::Description::follows)). Without parts,
+    /// all of the vertices have moved where any have.
     pub fn parts_moved(&mut self, moved: &[bool]) {
         if !self.is_in_parts() {
             if moved.is_empty() || moved.contains(&true) {
@@ -205,8 +205,8 @@ impl FrameStructure {
     }
 
     /// Does what only the host can do for the build of the next frame, if that builds: for structures that are built on the
-    /// device alone, nothing. Where [`Description::builds_on_host`](rasray_ads::Description::builds_on_host) says so, this
-    /// waits for the device, and vertices must be where they are to be built.
+    /// device alone, nothing. Where [`Description::builds_on_host`](rasray_ads::Description::builds_on_host) says so,
+    /// this waits for the device, and vertices must be where they are to be built.
     ///
     /// # Errors
     /// The device failed, or memory does not suffice.

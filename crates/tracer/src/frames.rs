@@ -109,8 +109,8 @@ impl Frames {
 
     /// Records a frame and submits it; returns its number. `before` records what moves vertices and comes first, `after`
     /// what traces through the structure; both are given the slot, which is [`Frames::free_slot`]. Where the host has a part
-    /// in the build ([`Description::builds_on_host`](rasray_ads::Description::builds_on_host)), `before` is submitted by
-    /// itself and waited for.
+    /// in the build ([`Description::builds_on_host`](rasray_ads::Description::builds_on_host)), `before` is submitted
+    /// by itself and waited for.
     ///
     /// # Errors
     /// [`TracerError::Busy`]; what `after` returns, or what the device, the recording or the structure reports: nothing

@@ -56,8 +56,8 @@ const LAYERS_STATES: u32 = 9;
 /// Rounds that a wave has at first.
 const USUAL_LAYERS: u32 = 8;
 
-/// Colours of [`Raycast`](crate::Raycast) of all surfaces along a ray, front to back: each adds its colour by its
-/// opacity and lets the rest of 1 pass. A round per surface, as many as it takes ([`Integrator::record_rest`],
+/// Shows all surfaces along a ray in the colours of [`Raycast`](crate::Raycast), front to back: each adds its colour
+/// by its opacity and lets the rest of 1 pass. A round per surface, as many as it takes ([`Integrator::record_rest`],
 /// [`Integrator::allow_more_rounds`]).
 #[derive(Debug)]
 pub struct Layers {

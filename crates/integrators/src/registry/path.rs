@@ -81,7 +81,7 @@ pub struct Path {
     fetch: Option<Fetch>,
 }
 
-/// Tests of light samples.
+/// Buffers and kernels that test light samples.
 #[derive(Debug)]
 enum Shadows {
     /// Whatever a ray hits stops it: a queue of their own, traced for occlusion.

@@ -486,7 +486,8 @@ fn exponent(points: &[(f64, f64)]) -> f64 {
     along / logarithms().map(|(a, _)| (a - x).powi(2)).sum::<f64>()
 }
 
-/// The variance of a mean of samples over that of the first, where it is as one over the area that photons are gathered in.
+/// The variance of a mean of samples over that of the first, where it is as one over the area that photons are gathered
+/// in.
 fn variance(samples: u32) -> f64 {
     let (mut of_sample, mut sum) = (1.0, 0.0);
     for sample in 1..=samples {
@@ -496,7 +497,8 @@ fn variance(samples: u32) -> f64 {
     sum / f64::from(samples).powi(2)
 }
 
-/// Squared errors of light by a plane mirror on the floor, in its middle and where it ends. In the middle they are noise.
+/// Squared errors of light by a plane mirror on the floor, in its middle and where it ends. In the middle they are
+/// noise.
 #[test]
 fn squared_errors_fall_as_the_page_says() {
     const SIDE: u32 = 32;

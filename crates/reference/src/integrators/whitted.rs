@@ -64,7 +64,7 @@ impl Rules {
     }
 }
 
-/// A ray in the tree of a sample.
+/// State of a ray in the tree of a sample.
 #[derive(Clone, Copy)]
 pub(super) struct Node {
     throughput: Vec3,

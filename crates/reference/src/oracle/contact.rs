@@ -18,7 +18,7 @@ const DOUBLE_ERROR: f64 = 16.0 * EPSILON;
 /// A double-precision sum of products is used for t if cancellation costs at most 12 bits.
 const WELL_CONDITIONED: f64 = 1.0 / 4096.0;
 
-/// Hit of a ray on a triangle, near enough for single precision to report it.
+/// A ray that meets a triangle, or passes so near that single precision may report a hit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
     /// Exactly inside the triangle and the range.

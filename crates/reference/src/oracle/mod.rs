@@ -230,8 +230,8 @@ impl<'a> Oracle<'a> {
         found.contacts.push((slot, contact));
     }
 
-    /// Rest of a contact where the ray passes backs: nothing of a back that single precision sees as well. Where
-    /// rounding decides the side, the triangle may be reported, and promises nothing.
+    /// The contact as it counts for a ray that passes backs: none with a back that single precision sees as well.
+    /// Where rounding decides the side, the triangle may be reported, and promises nothing.
     fn met(&self, ray: &Ray, slot: usize, contact: Contact) -> Option<Contact> {
         let back = self.backs.get(slot).copied().flatten().filter(|_| ray.culls_back_faces);
         let Some(back) = back else { return Some(contact) };

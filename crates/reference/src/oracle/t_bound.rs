@@ -1,4 +1,4 @@
-//! Bounds from above of the error of the device's test in t, and of the bound that it computes itself.
+//! Upper bounds of the error of the device's test in t, and of the bound of that error which it computes itself.
 //!
 //! The device's test (`shaders-glsl/ads/triangle.glsl`) takes t from the plane of a triangle or from a mix of its
 //! corners, whichever has the smaller bound of its error, and answers a hit only where t exceeds that bound, so that a

@@ -19,7 +19,7 @@ pub const SMOOTH_ROUGHNESS: f32 = 0.03;
 const STRAIGHT_INDEX: f32 = 1.0e-3;
 /// Bounds of the probability of the cosine family where both families exist.
 const COSINE_BOUNDS: (f32, f32) = (0.05, 0.95);
-/// Multiple of its share of the light that this probability may be at its lower bound.
+/// The lower bound is at most this multiple of the share of the light that the cosine family has.
 const COSINE_FACTOR: f32 = 4.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Start of rays that leave a surface without hitting it again through rounding.
+//! Rays that leave a surface, with origins from which they do not hit it again through rounding.
 
 use glam::Vec3;
 

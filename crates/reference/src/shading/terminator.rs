@@ -1,4 +1,4 @@
-//! The surface that light samples see of smooth triangles.
+//! The surface that light samples see in place of a smooth triangle.
 
 use glam::Vec3;
 

@@ -168,7 +168,7 @@ pub struct PathOptions {
     pub bounces: u32,
     /// Effect of smooth thin panes on light; without bounces they are opaque.
     pub glass_shadows: GlassShadows,
-    /// Start of shadow rays of coarse smooth meshes.
+    /// Where shadow rays of smooth surfaces start.
     pub shadow_terminator: ShadowTerminator,
     /// Reflection of rough surfaces.
     pub specular: SpecularLobe,
