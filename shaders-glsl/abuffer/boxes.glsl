@@ -65,8 +65,8 @@ vec3 abuffer_box_rounding(AbufferRef s, uint view, vec3 lower, vec3 upper) {
     return 1.0e-6 * sums;
 }
 
-// View of a box with corners relative to the eye: its corners along the axes of the view, and the bounds in x/z and y/z
-// (lower, upper) of the cells whose centres what is in it may cover. False where there are none.
+// Finds where a view sees a box with corners relative to the eye: its corners along the axes of the view, and the
+// bounds in x/z and y/z (lower, upper) of the cells whose centres its contents may cover. False where there are none.
 bool abuffer_see_box(AbufferRef s, uint view, vec3 lower, vec3 upper, out vec3 first, out vec3 last, out vec4 bounds) {
     float side = float(abuffer_resolution(s, view));
     float limit = 1.0 + 2.0 / side;

@@ -1,4 +1,4 @@
-// Proposes, for each box around objects and each view, the cells whose centres what is in the box may cover.
+// Proposes, for each box around objects and each view, the cells whose centres the objects in the box may cover.
 // Reads: header, bounds of boxes. Writes: nothing.
 // Source: MMRT section 3.3, bounding boxes in place of the geometry.
 #version 460

@@ -53,7 +53,7 @@
 // Ratio of depth to width over a cell beyond which a triangle's plane counts as edge-on there: about seven degrees.
 #define ABUFFER_EDGE_ON_SLOPE 8.0
 
-// Contents of the depth bounds of a cell before fragments are stored: those that it will have, or the boxes around
+// Depth bounds of a cell before fragments are stored: of the fragments that it will have, or of the boxes around
 // objects that are over it.
 #define ABUFFER_BOUNDS_GEOMETRY 0u
 #define ABUFFER_BOUNDS_BOXES 1u

@@ -21,7 +21,7 @@ bool abuffer_keeps(uint primitive, CellCoverage coverage) {
     return ABUFFER_CONSERVATIVE || alpha_accepts(primitive, coverage.barycentrics);
 }
 
-// Reach of a triangle in depth from its fragment at z: itself, rounding included, not its plane.
+// Reach in depth of a triangle from its fragment at z: of the triangle itself, rounding included, not of its plane.
 float abuffer_triangle_extent(bool known, vec2 depths, float z) {
     return known ? max(depths.y - z, z - depths.x) : uintBitsToFloat(0x7F800000u);
 }

@@ -25,10 +25,10 @@ layout(constant_id = 22) const uint ABUFFER_IDS = 0u;
 // 1 where each ray places its samples at an offset of its own within their steps.
 layout(constant_id = 23) const uint ABUFFER_JITTER = 0u;
 layout(constant_id = 24) const uint ABUFFER_VIEW_SWITCHING = ABUFFER_SWITCH_EXACT;
-// Contents of a cell's depth bounds before its fragments are stored, of storages with buckets.
+// ABUFFER_BOUNDS_*: depth bounds of a cell before its fragments are stored, of storages with buckets.
 layout(constant_id = 25) const uint ABUFFER_BOUNDS_OF = ABUFFER_BOUNDS_GEOMETRY;
 
-// Steps and tests of rays, ABUFFER_STEP_* and ABUFFER_TEST_*. Each is most of a trace's code, so modules that
+// Steps of rays and what they test, ABUFFER_STEP_* and ABUFFER_TEST_*. Each is most of a trace's code, so modules that
 // trace are compiled once for each (permutations.txt); elsewhere the options decide.
 #ifdef ABUFFER_STEPS
 const uint ABUFFER_STEP = ABUFFER_STEPS;

@@ -30,7 +30,7 @@ bool back_face_is_passed(Ray ray, uint primitive, bool counter_clockwise) {
     return (flags & DRAW_SINGLE_SIDED) != 0u && counter_clockwise == ((flags & DRAW_MIRRORED) != 0u);
 }
 
-// True if the ray passes a fragment that stands for the triangle: it meets the side that it would meet of its plane.
+// True if the ray passes a fragment that stands for the triangle: the side that it meets is that of the plane.
 bool back_face_is_passed_by_plane(Ray ray, uint primitive) {
     if (!ray_culls_back_faces(ray)) {
         return false;

@@ -1,4 +1,4 @@
-// Between which depths a triangle lies within columns of cells along an axis (ads/box_cells.glsl).
+// The depths between which a triangle lies within columns of cells along an axis (ads/box_cells.glsl).
 // This function decides for every builder; it may accept more than is exact, never less.
 // Reads, writes: nothing.
 // The part of a triangle within a column of square section is convex. Its depths are one interval, and it reaches into

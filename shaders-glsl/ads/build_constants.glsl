@@ -4,7 +4,7 @@
 #ifndef ADS_BUILD_CONSTANTS_GLSL
 #define ADS_BUILD_CONSTANTS_GLSL
 
-// Structure of a build pass and its step. 12 bytes.
+// The structure that a build pass works on, and the step of the pass. 12 bytes.
 layout(push_constant, scalar) uniform BuildConstants {
     StructureRef structure;   // the device address of the header, low word first; zero with descriptors
     uint step;                // a number whose meaning is the pass's, such as the digit of a sort

@@ -1,5 +1,5 @@
-// Works out what of a structure's header follows from the bounds of the geometry, which only the device knows, and from
-// the eye. One invocation; the first pass of every build.
+// Works out the parts of a structure's header that follow from the bounds of the geometry, which only the device knows,
+// and from the eye. One invocation; the first pass of every build.
 // Reads: the geometry's header; of the structure's what the host wrote: options, capacities, eye. Writes: the structure's.
 #version 460
 #include "contract/extensions.glsl"

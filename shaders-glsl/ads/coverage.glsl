@@ -178,7 +178,8 @@ vec4 coverage_proposal_within(vec3 a, vec3 b, vec3 c, uint corner, uint resoluti
     return vec4(p * to_clip, 0.5, 1.0);
 }
 
-// Proposal for cells whose centre the triangle covers, whatever the hardware's snapping: 1/32 of a cell.
+// coverage_proposal_within for cells whose centre the triangle covers, with a margin for the hardware's snapping: 1/32
+// of a cell.
 vec4 coverage_proposal(vec3 a, vec3 b, vec3 c, uint corner, uint resolution) {
     return coverage_proposal_within(a, b, c, corner, resolution, 2.0 / float(resolution) / 32.0);
 }

@@ -1,4 +1,4 @@
-// Tests whether a triangle becomes a ray's best hit, and says why not.
+// Tests whether a triangle becomes a ray's best hit, and if not, says why.
 // Reads: geometry, of rays that pass backs also draws; the scene where alpha is tested. Writes: nothing.
 #ifndef ADS_EVALUATE_GLSL
 #define ADS_EVALUATE_GLSL

@@ -1,5 +1,5 @@
 // Tests whether the plane of a fragment's triangle, which represents the surface in the fragment's cell, becomes
-// a ray's best hit, and says why not.
+// a ray's best hit, and if not, says why.
 // Reads: geometry; the scene where alpha is tested. Writes: nothing.
 // Source: not in the papers, which compare depths; see docs/systems/mmrt.md.
 #ifndef ADS_EVALUATE_PLANE_GLSL

@@ -1,4 +1,5 @@
-// Counts what the steps of a ray tell, and writes those of one slot of a queue in the order in which they are taken.
+// Counts views and cells by the steps of a ray, and writes the steps of one slot of a queue in the order in which they
+// are taken.
 // Reads: the logged slot; geometry. Writes: steps, and their number also where they do not fit. Triangles are logged by
 // their ids.
 // Dead code unless specialisation constant 0 is at least COUNTERS_SUMS, and writing unless it is COUNTERS_STEPS.

@@ -6,7 +6,7 @@
 
 layout(local_size_x = 1) in;
 
-// Options of ending a round. 4 bytes.
+// Constants of the pass that ends a round. 4 bytes.
 layout(push_constant, scalar) uniform NextRoundConstants {
     uint last;            // 1: no round follows
 } pushed;

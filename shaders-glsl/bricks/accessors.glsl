@@ -70,7 +70,7 @@ uint brick_total(BrickRef s) {
     return brick_view_count() * brick_count(brick_cells(s));
 }
 
-// The triangle of an entry of the lists, of a place that a list of stored ones has.
+// The triangle of an entry of the lists; the entry must be within the pool.
 uint brick_entry(BrickRef s, uint entry) {
     return BRICK_POOL(s, entries)[entry];
 }

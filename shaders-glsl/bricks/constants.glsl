@@ -11,7 +11,7 @@
 // Maximum number of empty bricks that one step crosses, its own included.
 #define BRICK_REACH 8u
 
-// Error of the computed place of a point of a ray, over the distance of the geometry: 16 units.
+// Largest error of the computed place of a point of a ray, over the distance of the geometry: 16 units.
 #define BRICK_PLACE 9.6e-7
 
 // Most divisions of a cell into 4x4x4 smaller ones, and the small triangles that a cell lists before it is divided:

@@ -106,7 +106,8 @@ uint leaf_count(uint reference) {
     return ((reference & ~BVH_LEAF) >> BVH_LEAF_SHIFT) + 1u;
 }
 
-// True where two leaves whose records follow each other cost less as one by surface area, a triangle as much as a node.
+// True where two leaves whose records follow each other cost no more as one by surface area, a triangle as much as a
+// node.
 bool become_leaf(Cluster a, Cluster b, uint first_record_of_b, float per_metre) {
     uint count_a = leaf_count(a.reference);
     uint count_b = leaf_count(b.reference);

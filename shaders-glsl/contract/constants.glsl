@@ -54,7 +54,7 @@
 #define SURFACE_PRIMITIVE 8u
 #define SURFACE_EMISSION 16u
 
-// Recorded work of rays; each value includes those below it.
+// Extent to which the work of rays is recorded; each value includes those below it.
 #define COUNTERS_OFF 0u
 // Sums over all rays, in the queue's header.
 #define COUNTERS_SUMS 1u

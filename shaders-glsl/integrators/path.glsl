@@ -66,7 +66,7 @@ void path_ask_light(PathState state, Surface s, LightSample light, BsdfValue tow
     asked.target = light.target;
 }
 
-// True if a path goes straight on through a surface, with this probability.
+// True, with this probability, if a path goes straight on through a surface.
 bool path_chooses(inout PathState state, float probability) {
     uint dimension = RANDOM_OPACITY_FIRST + state.choices;
     state.choices += 1u;

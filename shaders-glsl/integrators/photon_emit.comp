@@ -16,7 +16,7 @@ layout(local_size_x = QUEUE_GROUP_SIZE) in;
 // The disk of light from afar is larger than what it covers by rounding.
 #define PHOTON_DISK_MARGIN 1.001
 
-// How a photon leaves a light.
+// A photon as it leaves a light.
 struct Emission {
     Ray ray;                  // inactive: nothing is emitted
     vec3 flux;                // W, over the probability of its choice

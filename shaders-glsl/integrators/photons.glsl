@@ -41,15 +41,15 @@ struct PhotonHeader {
 #else
 #define PHOTON_ACCESS readonly
 #endif
-// One buffer, because drivers bind 30 at most and paths have the others. First a word for each list, the number of its first
-// photon plus 1 (0: it is empty), then PHOTON_WORDS for each photon in the order of its members. Of path p the photon after
-// k scatterings is entry (k - 1) * paths + p, so that each has a place of its own.
+// One buffer, because some drivers bind 30 at most and paths have the others. First a word for each list, the number of
+// its first photon plus 1 (0: it is empty), then PHOTON_WORDS for each photon in the order of its members. Of path p
+// the photon after k scatterings is entry (k - 1) * paths + p, so that each has a place of its own.
 layout(set = INTEGRATOR_SET, binding = 9, scalar) PHOTON_ACCESS buffer PhotonMapBuffer {
     PhotonHeader photon_header;
     uint photon_words[];
 };
 
-// Whether a surface scatters otherwise than in one direction: photons are stored there.
+// True if a surface scatters otherwise than in one direction: photons are stored there.
 bool photon_is_stored_at(BsdfTerms terms) {
     float family, through;
     bsdf_cosine_probability(terms, family, through);

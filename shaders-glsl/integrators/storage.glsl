@@ -19,7 +19,7 @@ struct FilmPixel {
     uint samples;             // samples in the sum
 };
 
-// Samples that the film lacks, and those that sent a ray on. 24 bytes.
+// Counts of samples and light that the film lacks, and of samples that sent a ray on. 24 bytes.
 struct FilmFaults {
     uint non_finite;      // samples with a channel that is not finite, which are not added to their pixel
     uint unended;         // paths with surfaces left to pass after the last round recorded, not added to their pixel yet

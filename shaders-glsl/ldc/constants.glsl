@@ -13,7 +13,8 @@
 #define LDC_COVERAGE_EXACT 1u
 #define LDC_COVERAGE_CONSERVATIVE 2u
 
-// Depths that blocks tell: the smallest and the largest in them, or with them which slices of the cube's depth.
+// Depths that a block stores: the smallest and the largest in it, or in addition the slices of the cube's depth that it
+// occupies.
 #define LDC_OCCUPANCY_BOUNDS 0u
 #define LDC_OCCUPANCY_SLICES 1u
 
@@ -35,8 +36,8 @@
 // it faces most, so that its plane leaves the cell before that.
 #define LDC_PLANE_REACH 2.0
 
-// Distance before and behind the ray's segment in its cell at which a fragment's plane counts, in widths of a cell.
-// More keeps rays from leaving a curved surface between two cells, less keeps planes from protruding next to it.
+// Largest distance before and behind the ray's segment in its cell at which a fragment's plane counts, in widths of a
+// cell. More keeps rays from leaving a curved surface between two cells, less keeps planes from protruding next to it.
 #define LDC_PLANE_SLACK 0.125
 
 // Distance of a ray from its origin, in widths of a cell, from which it can hit a plane that it started close to.
@@ -49,8 +50,8 @@
 // Margin for the rounding of what is subtracted from corner and ray, over the largest coordinate of the geometry.
 #define LDC_ROUNDING 4.8e-7
 
-// Extra reach of cells for triangles where the cube is in a space of its own, in cells: rounding moves
-// them as far where they are posed. Fragments are where cells have their centres, and may be off by more.
+// Extra reach of cells for triangles where the cube is in a space of its own, in cells: rounding may move them as far
+// where they are posed. Fragments are where cells have their centres, and may be off by more.
 #define LDC_RIGID_REACH 0.001
 #define LDC_RIGID_REACH_FRAGMENTS 0.05
 

@@ -8,8 +8,8 @@
 #include "scene/stored_surface.glsl"
 #include "ldc/accessors.glsl"
 
-// Bound on a length where the part is posed over that where its cube was built, and a normal where it is posed: turned
-// by the transpose of the map, which takes the front to the front.
+// Returns a bound on a length where the part is posed, over that where its cube was built. Turns the normal to where
+// the part is posed, by the transpose of the map, which takes the front to the front.
 float ldc_posed(LdcRef s, inout vec3 normal) {
     if (LDC_RIGID == 0u) {
         return 1.0;

@@ -23,13 +23,13 @@ layout(constant_id = 58) const uint LDC_PAYLOAD = LDC_PAYLOAD_INDEX;
 layout(constant_id = 59) const uint LDC_IDS = 0u;
 // Planes know which triangle a ray leaves and where it is hit, so only other acceptances ask.
 layout(constant_id = 60) const uint LDC_ENDS = ENDS_TOUCHING;
-// Draws of the scene by a pass: once for all views, or once for each of the three.
+// Draws of the scene in a pass: 1 for all views, or 3, one for each.
 layout(constant_id = 61) const uint LDC_PASSES = 1u;
 layout(constant_id = 62) const uint LDC_BLOCK_ROWS = 8u;
 // 1 where the cube is in a space of its own (ads/rigid.glsl).
 layout(constant_id = 63) const uint LDC_RIGID = 0u;
 
-// Extra reach of cells for triangles then, in cells: rounding moves them as far where they are posed.
+// Extra reach of cells for triangles then, in cells: rounding may move them as far where they are posed.
 #define LDC_REACH_RIGID (LDC_ACCEPT == LDC_ACCEPT_TRIANGLE ? LDC_RIGID_REACH : LDC_RIGID_REACH_FRAGMENTS)
 #define LDC_REACH_MORE (LDC_RIGID == 0u ? 0.0 : LDC_REACH_RIGID)
 #define AXIS_REACH_MORE LDC_REACH_MORE

@@ -16,7 +16,7 @@ void primitive_from_bounds(PrimitiveRef s, vec3 lower, vec3 upper) {
     }
     vec3 first = lower - centre;
     vec3 last = upper - centre;
-    // Growth of an error in the views.
+    // Factor by which an error is longer as views see it.
     float scale = 1.0;
     float distance_from_centre = box_reach(first, last);
     if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CAMERA) {

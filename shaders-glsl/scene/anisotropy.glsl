@@ -1,4 +1,4 @@
-// In which direction the facets of a surface are rougher, and how much.
+// The direction in which the facets of a surface are rougher, and how much rougher they are.
 // Reads: frame, geometry, draw shadings, attributes, materials, textures. Writes: nothing.
 // Source: docs/shading.md, "Anisotropy"; KHR_materials_anisotropy.
 #ifndef SCENE_ANISOTROPY_GLSL

@@ -1,4 +1,4 @@
-// From a hit to what is shaded there.
+// The surface at a hit, as it is shaded.
 // Reads: geometry, every scene table but lights and environment. Writes: nothing.
 // Source: docs/shading.md, "Surfaces"; Akenine-Moeller et al. 2019 for the texture level.
 #ifndef SCENE_SURFACE_GLSL

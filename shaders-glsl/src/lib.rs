@@ -168,11 +168,11 @@ mod tests {
             let structure = shader.name.split('/').next().unwrap_or_default();
             let most = match (shader.entry, structure) {
                 ("ads/surfaces.comp" | "integrators/visibility_resolve.comp", _) => 5_000,
-                // Data of masks, backs and hits of a triangle are found by its id, which parts of a geometry look up.
+                // Masks, backs and hits find data of a triangle by its id, which parts of a geometry look up.
                 ("ads/trace.comp", "brute" | "bvh" | "bricks" | "grid") => 10_000,
                 // Anisotropic materials have a texture and tangents of their own.
                 ("integrators/path_shade.comp", _) if shader.name.ends_with(".hits") => 25_000,
-                // Light of photons asks all lobes for their value, as light samples do.
+                // Gathering photons asks all lobes for their value, as light samples do.
                 ("integrators/path_shade.comp", _) if shader.name.ends_with(".photons") => 25_000,
                 ("integrators/path_shade.comp", _) => 20_000,
                 _ => 32_000,

@@ -125,7 +125,7 @@ impl Ray {
     }
 
     /// This ray as a shadow ray that leads to the light of that number: lights without extent come first, then emitting
-    /// triangles. What is beyond `RAY_LIGHT_MOST - 1` has no room and is one of no map.
+    /// triangles. A number beyond `RAY_LIGHT_MOST - 1` has no room: the ray counts as one to a light without a map.
     #[must_use]
     pub fn with_light(self, light: u32) -> Self {
         let below = (1 << RAY_LIGHT_SHIFT) - 1;

@@ -10,8 +10,8 @@
 // A view keeps the triangles that face it most; a voxel is searched along the axes of all its triangles.
 #define VOXEL_AXES_TRIANGLE 2u
 
-// Marks of an occupied voxel: only the fragments in it, with all axes; or the triangles that reach into it, in a pass
-// before.
+// Marks by which a voxel is occupied: only the fragments in it, with all axes; or the triangles that reach into it, in a
+// pass before.
 #define VOXEL_MARKED_BY_FRAGMENTS 0u
 #define VOXEL_MARKED_BY_TRIANGLES 1u
 

@@ -189,7 +189,7 @@ void voxel_restore(TraceState state, inout VoxelTraversal traversal) {
     traversal.held = state.cursor[7];
 }
 
-// Moves a traversal to where it paused, through the cells of a view.
+// Moves a traversal through the cells of a view to where it paused.
 void voxel_restore_cells(TraceState state, inout VoxelTraversal traversal) {
     uint flags = state.cursor[0];
     ivec3 cell = ivec3(bits_get(state.cursor[4], VOXEL_CURSOR_CELL_X), bits_get(state.cursor[4], VOXEL_CURSOR_CELL_Y), 0);

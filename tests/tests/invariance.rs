@@ -88,9 +88,9 @@ fn one_option_at_a_time_changes_no_hit() {
     }
 }
 
-/// Pairs of a subject's options that exclude each other: cells along the axes have no slices, those of a cube's faces
-/// are not divided; layers are peeled by drawing, and several passes draw; trees by codes and treelets have one triangle
-/// per leaf; boxes give bounds to three of six storages, and are drawn.
+/// Number of pairs of a subject's options that exclude each other: cells along the axes have no slices, those of a
+/// cube's faces are not divided; layers are peeled by drawing, and several passes draw; trees by codes and treelets
+/// have one triangle per leaf; boxes give bounds to three of six storages, and are drawn.
 const REFUSED: &[(&str, usize)] = &[
     ("bricks robust", 10),
     ("bricks robust with views=cube", 10),

@@ -104,7 +104,7 @@ fn decode_as(
     format: ImageFormat,
     limits: &Limits,
 ) -> Result<DynamicImage, SceneError> {
-    // The inner state of a decoder helps nobody who has only the file.
+    // Messages about the inner state of a decoder help nobody who has only the file.
     let failed = |error: image::ImageError| SceneError::Image {
         path: path.to_owned(),
         image: name.to_owned(),

@@ -26,7 +26,7 @@ use rasray_scene::{Instance, Material, Mesh, Texture, Wrap};
 /// See the module's documentation.
 const FAR: f64 = 8.0;
 
-/// Width of the gap between groups of a mesh that lie apart, over that of the boxes on either side.
+/// Least width of a gap that divides a mesh into groups, over the side of the larger box next to it.
 const APART: f64 = 32.0;
 
 /// Most levels of division of a file: gaps that are nested deeper are no plausible file, and would take long to find.

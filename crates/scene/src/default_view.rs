@@ -1,4 +1,4 @@
-//! Camera, light and material of scenes that bring none of their own; and bounds.
+//! Camera, light and material of scenes that bring none of their own; and bounds of scenes.
 
 use glam::DVec3;
 
@@ -22,7 +22,7 @@ pub(crate) use seen::seen_instances;
 
 /// Full vertical angle of the default camera that stands outside, radians.
 const FOV_Y: f64 = 0.8;
-/// Extent of the picture over that of the scene's bounds.
+/// Extent of the picture, over that of the scene's bounds.
 const MARGIN: f64 = 1.05;
 
 /// A camera for a scene that has none, upright with +y; the same for the same scene.

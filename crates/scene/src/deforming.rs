@@ -11,7 +11,7 @@ use crate::warning::Warning;
 ///
 /// The number of meshes, instances and materials never changes, nor do transforms of instances.
 pub trait Deformer: Debug + Send + Sync {
-    /// Constancy of the triangles.
+    /// Says whether triangles may change.
     fn topology(&self) -> Topology;
 
     /// Seconds from which on nothing changes any more.
@@ -33,7 +33,7 @@ pub trait Deformer: Debug + Send + Sync {
     }
 }
 
-/// Constancy of the triangles of a mesh over time.
+/// Says whether the triangles of a mesh may change with time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Topology {
     /// Only [`Shape::Vertices`] are given: vertices move, triangles keep their number, order and corners.
@@ -79,7 +79,7 @@ impl Shape {
     }
 }
 
-/// Changes of a scene with time.
+/// The way in which a scene changes with time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// Not at all.
@@ -103,7 +103,7 @@ impl Motion {
         }
     }
 
-    /// Changes, in words.
+    /// Its description, in words.
     pub fn described(self) -> &'static str {
         match self {
             Self::Still => "nothing moves",

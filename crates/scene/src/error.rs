@@ -94,7 +94,7 @@ pub enum SceneError {
     NoTriangles {
         /// The scene file.
         path: PathBuf,
-        /// Fates of the triangles.
+        /// Reason, such as that all were dropped.
         reason: String,
     },
     /// The file cannot be shown without something that is not supported.

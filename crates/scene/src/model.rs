@@ -1,4 +1,4 @@
-//! Types of scenes.
+//! Types that a scene is made of.
 
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ pub struct Scene {
     pub environment: Environment,
     /// Cameras in world space, in scene order.
     pub cameras: Vec<Camera>,
-    /// Changes with time: clips, skins and morph targets as read, or a deformer.
+    /// Its changes with time: clips, skins and morph targets as read, or a deformer.
     pub animation: Animation,
     /// Data that was dropped, replaced or not supported, each with a count and a place.
     pub warnings: Vec<Warning>,
@@ -192,7 +192,7 @@ pub enum Wrap {
     Clamp,
 }
 
-/// Combination of texels.
+/// Ways of combining texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Filter {
     /// The texel that holds the point.
@@ -345,7 +345,7 @@ pub struct Animation {
     pub morphed_meshes: usize,
     /// Nodes, keys, skins and morph targets: all that posing needs.
     pub rig: crate::animation::Rig,
-    /// Source of meshes without a rig: a simulation, or a file for each frame.
+    /// Deformer of meshes without a rig: a simulation, or a file for each frame.
     pub deformer: Option<Arc<dyn crate::deforming::Deformer>>,
     /// Remarks of the deformer at the time that is shown; [`Scene::warnings`] holds it too.
     pub deformer_warnings: Vec<Warning>,

@@ -4,8 +4,8 @@ use crate::deforming::{Deformation, Topology};
 use crate::{Moment, Motion, Scene, SceneError};
 
 impl Scene {
-    /// Changes of the scene with time. In every case the number of instances and materials stays; meshes may be added
-    /// by [`Self::at`] where nodes share one that they deform differently.
+    /// The way in which the scene changes with time. In every case the number of instances and materials stays; meshes
+    /// may be added by [`Self::at`] where nodes share one that they deform differently.
     pub fn motion(&self) -> Motion {
         match self.animation.deformer.as_ref().map(|deformer| deformer.topology()) {
             Some(Topology::Changing) => Motion::Changing,

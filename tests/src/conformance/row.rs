@@ -55,11 +55,11 @@ pub struct Law {
     pub reason: &'static str,
     /// Of the unambiguous rays, times the resolution.
     pub per_cell: f64,
-    /// Fall of the limit.
+    /// The way in which the limit falls with the resolution.
     pub curve: Curve,
 }
 
-/// Fall of the largest rate of a law with the resolution N.
+/// The way in which the largest rate of a law falls with the resolution N.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curve {
     /// `per_cell / N`: each ray hits one border, whose share of the rays is as wide as a cell.

@@ -10,8 +10,8 @@ pub static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
         .concat()
 });
 
-/// Comparisons of rows with cases in all runs together: each law and each end of a deviation is one comparison,
-/// for rays that the oracle decides and for those that it does not.
+/// Number of comparisons of rows with cases in all runs together: each law and each end of a deviation is one
+/// comparison, for rays that the oracle decides and for those that it does not.
 pub fn comparisons() -> usize {
     let cases = |row: &Row| hard_cases::ids().iter().filter(|id| row.cases.contain(id)).count();
     ROWS.iter().map(|row| 4 * cases(row)).sum()

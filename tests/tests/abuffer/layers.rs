@@ -72,7 +72,7 @@ fn compare(
     let single = Config { single_layer: true, ..all };
     let (_, of_all) = built(bench, all, geometry, scene, eye);
     let (structure, of_single) = built(bench, single, geometry, scene, eye);
-    // Those that a mask cuts out included.
+    // Including those that a mask cuts out.
     let (_, covering) = built(bench, all, geometry, None, eye);
     let (of_all, kept, covering) = (cells(&of_all), cells(&of_single), cells(&covering));
     for (cell, (all, kept)) in of_all.iter().zip(&kept).enumerate() {

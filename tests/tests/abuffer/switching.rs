@@ -1,4 +1,4 @@
-//! Ways of rays from view to view: as published they lose what lies within a cell of a view's side, and nothing else.
+//! Rays that pass from view to view: as published they lose what lies within a cell of a view's side, and nothing else.
 
 use rasray_abuffer::{ABuffer, Config, March, ViewSwitching, Views};
 use rasray_ads::{CameraView, Hit, Ray, TraceMode, Viewpoint};

@@ -16,7 +16,7 @@ use rasray_tracer::build_until_complete;
 
 use super::scenes::{frame_of, scene as built_in};
 
-/// Kernel of builds by Morton codes that builds that keep their order lack.
+/// A kernel of builds by Morton codes; builds that keep their order do without.
 const SORT: &str = "bvh/build_5_scatter";
 const REFIT: &str = "bvh/build_9_refit";
 
@@ -215,7 +215,7 @@ fn only_an_order_that_is_known_to_exist_is_kept() {
     assert!(!stage.build(&mut other), "the build before was incomplete");
     assert!(stage.build(&mut other));
     stage.same_hits(&other, &now, "after an incomplete build");
-    // After an order was known: it is still the one.
+    // An incomplete build after an order was known: that order still stands.
     stage.put(&moved(&triangles, 5), false);
     assert!(keeps_order(&stage.record(&mut other, 0, true)));
     assert!(!other.status(0).expect("readable").complete);

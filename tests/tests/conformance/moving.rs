@@ -46,7 +46,7 @@ struct Moving {
     /// Seconds.
     times: &'static [f64],
     tier: Tier,
-    /// Fall of the errors of structures that store fragments with the resolution: [`laws`].
+    /// Laws by which errors of structures that store fragments fall with the resolution: [`laws`].
     laws: Laws,
 }
 

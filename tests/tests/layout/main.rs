@@ -33,8 +33,8 @@ fn members_of(record: &RecordLayout) -> Vec<Member> {
     record.members.iter().map(|(name, offset, size)| ((*name).to_owned(), *offset, *size)).collect()
 }
 
-/// Records that shaders write word by word, in the order of their members, behind lists whose number only the device knows; so
-/// no module declares them. That their words are those members is held by `pictures::photons` of the integrators.
+/// Records that shaders write word by word, in the order of their members, behind lists whose number only the device
+/// knows; so no module declares them. `pictures::photons` of the integrators tests that their words are those members.
 const AS_WORDS: &[&str] = &["Photon"];
 
 /// Whatever module a record is declared in, it is what Rust has; and no record is of Rust alone.

@@ -87,7 +87,7 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
     assert!(statuses_differ > 0, "no structure's demand depends on the eye: the test cannot fail");
 }
 
-/// Objects recorded for a host live as long as the record of it, whatever happens to structure and queue.
+/// Objects that a recording for a host uses live as long as the recording, whatever happens to structure and queue.
 #[test]
 fn a_structure_may_be_dropped_or_resized_while_the_device_has_yet_to_use_it() {
     let bench = Bench::new();

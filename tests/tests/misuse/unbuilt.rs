@@ -182,7 +182,7 @@ fn a_number_of_triangles_that_changed_makes_builds_stale() {
     }
 }
 
-/// Data to be gathered or counted first is not there before.
+/// No ray is answered before indices are gathered and triangles counted.
 #[test]
 fn brute_force_waits_for_indices_that_are_gathered_and_triangles_that_are_counted() {
     let bench = Bench::new();

@@ -8,7 +8,7 @@ use rasray_shaders_glsl::records::test_kernels::{BucketCase as Case, BucketTestC
 use rasray_tests::harness::Bench;
 use rasray_tests::visits::run_kernel;
 
-/// Arithmetic of `ads/bucket.glsl`.
+/// The scale of `ads/bucket.glsl`, by its arithmetic.
 fn scale(z_min: f32, z_max: f32, buckets: u32) -> f32 {
     let range = z_max - z_min;
     if range <= z_max * 9.536_743e-7 {

@@ -246,8 +246,7 @@ fn a_tile_has_each_triangle_once_however_many_of_its_buckets_list_it() {
     assert!(several > 0, "no triangle reached into two buckets of a tile");
 }
 
-/// Bounds that hold for every structure: a cell that holds something holds no more than most, and nothing is counted
-/// twice.
+/// Bounds that hold for every structure: no cell holds more than the stated maximum, and nothing is counted twice.
 #[test]
 fn counts_of_every_structure_agree_with_what_it_reports() {
     let bench = Bench::new();

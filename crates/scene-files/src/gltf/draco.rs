@@ -23,7 +23,7 @@ const EXTENSION: &str = "KHR_draco_mesh_compression";
 /// The streams of a file, decoded when they are first needed.
 #[derive(Default)]
 pub(super) struct Streams {
-    /// Part of a stream that an accessor of a compressed primitive is.
+    /// By accessor of a compressed primitive: the part of a stream that it stands for.
     parts: HashMap<usize, Part>,
     /// By buffer view.
     decoded: HashMap<usize, OnceCell<Decoded>>,

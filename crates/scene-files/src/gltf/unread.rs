@@ -16,7 +16,7 @@ pub(super) struct Unread {
 }
 
 /// Attributes of primitives that are not read, by mesh and primitive, where there are any. The typed tree has no place
-/// for it.
+/// for them.
 pub(super) fn find(tree: &Value) -> HashMap<(usize, usize), Unread> {
     let mut found = HashMap::new();
     for (mesh, source) in tree.get("meshes").and_then(Value::as_array).into_iter().flatten().enumerate() {

@@ -1,4 +1,4 @@
-//! Parts of an OBJ file that are not shown, or otherwise than it says.
+//! Parts of an OBJ file that are not shown, or not as it says.
 
 use super::statements::Statement;
 use crate::kinds::Kinds;

@@ -85,7 +85,7 @@ impl Statement<'_> {
         self.parsed(path, least, number)
     }
 
-    /// Numbers in double precision.
+    /// [`Self::numbers`] in double precision.
     pub fn wide_numbers<const N: usize>(
         &self,
         path: &Path,

@@ -156,8 +156,8 @@ fn doubles_and_whole_numbers_far_from_the_origin_are_what_they_are() {
     }
 }
 
-/// Single-precision coordinates are not touched, wherever they are; nor are things that are large against their
-/// distance.
+/// Coordinates that single precision holds are not touched, wherever they are; nor are meshes that are large against
+/// their distance.
 #[test]
 fn what_loses_nothing_keeps_its_bits() {
     let folder = tempfile::tempdir().expect("a folder");

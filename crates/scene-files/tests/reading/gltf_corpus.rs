@@ -180,7 +180,7 @@ fn every_file_of_the_corpus_is_listed() {
     assert!(missing.is_empty(), "not in the tables: {missing:?}");
 }
 
-/// Scenes that can move have a rig, and no others have. Posed by no clip it is what it is at rest, to the bit.
+/// Scenes that can move have a rig, and no others have. Posed by no clip, a scene is as at rest, to the bit.
 #[test]
 fn what_moves_has_a_rig() {
     let Some(folder) = scenes_folder("what_moves_has_a_rig") else { return };

@@ -132,7 +132,7 @@ fn only_what_flattens_something_is_named() {
     assert!(messages(&scene, "zero-scale")[0].contains("1 more"));
 }
 
-/// Hiding by a skin's scale of 0 at rest is no fault of the mesh: its triangles and normals are there when it is shown.
+/// A mesh that a joint hides at rest by a scale of 0 is not at fault: triangles and normals are there when it is shown.
 #[test]
 fn what_a_joint_hides_at_rest_is_not_said_to_be_broken() {
     let mut file = File::new();

@@ -25,7 +25,7 @@ pub struct Foliage {
 }
 
 impl Foliage {
-    /// Numbers that can be asked for.
+    /// Numbers of leaves that can be asked for.
     pub const LEAVES: RangeInclusive<u64> = 1_000..=1_000_000;
 }
 
@@ -150,7 +150,7 @@ struct Blade {
     long: DVec3,
     /// Half the width, metres, across `long`.
     wide: DVec3,
-    /// Ways that the wind takes its foot and its tip, metres.
+    /// Distances that the wind moves its foot and its tip, metres.
     give: [f64; 2],
     /// Where it is in its own flutter, as a share of a turn.
     phase: f64,

@@ -84,7 +84,7 @@ pub const NAMES: [&str; 15] = [
     "cloth-ball",
 ];
 
-/// Size and samples that suit a built-in scene where those of any scene would not.
+/// Size and samples of a picture, for built-in scenes that those of all scenes do not suit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Picture {
     /// Pixels a row, and rows: in the proportions of what the scene's camera looks at.

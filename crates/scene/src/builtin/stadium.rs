@@ -20,7 +20,7 @@ pub struct Stadium {
 }
 
 impl Stadium {
-    /// Numbers that can be asked for.
+    /// Numbers of seats that can be asked for.
     pub const SEATS: RangeInclusive<u64> = 100..=15_000;
 }
 

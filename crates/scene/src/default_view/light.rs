@@ -6,8 +6,7 @@ use super::sky::sky;
 use crate::{Environment, Light, Motion, Scene, Warning};
 
 /// Least emission that lights a scene: the mean radiance over all of its surfaces, W/(sr m^2). The lamp of a Cornell
-/// box gives the box 0.09; a white surface that saw 0.05 all around would be
-/// shown as a dark grey.
+/// box gives the box 0.09; a white surface that saw 0.05 all around would be shown as a dark grey.
 const LEAST_EMISSION: f64 = 0.05;
 
 /// True if anything lights the scene: a punctual light that is not black, an environment that is not black, or

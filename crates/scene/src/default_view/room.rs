@@ -91,13 +91,13 @@ struct View {
     way: f64,
 }
 
-/// View from a point.
+/// Surfaces seen from a point.
 struct Surroundings {
     /// Metres; infinite if nothing is seen.
     nearest: f64,
     /// Share of all directions that end on a front.
     fronts: f64,
-    /// Share of the directions within 45 degrees of straight down.
+    /// Share of the directions within 45 degrees of straight down that end on a front.
     fronts_below: f64,
 }
 

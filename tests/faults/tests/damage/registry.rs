@@ -11,7 +11,7 @@ use rasray_tracer::{BatchTracer, TracerError, build_until_complete};
 
 use crate::damage::survive::{RAYS, words};
 
-/// Values for every word of a pool.
+/// A name, and a function that overwrites every word of a pool.
 type Filling = (&'static str, fn(&mut [u32]));
 
 const FILLINGS: [Filling; 3] = [

@@ -1,4 +1,4 @@
-//! Fall of the error of rendered images, the part of it that is not noise, and its statement:
+//! Errors of rendered images: how they fall, what of them is not noise, and how they are stated:
 //! `docs/image-truth.md`.
 
 mod coupled;
@@ -21,7 +21,7 @@ fn cornell() -> (Scene, Camera) {
     (scene, camera)
 }
 
-/// The view on the CPU.
+/// Pixels of the reference on the CPU.
 fn reference(scene: &Scene, camera: &Camera, origin: DVec3, seed: u32) -> Vec<[f32; 3]> {
     let view = View {
         camera: camera.clone(),

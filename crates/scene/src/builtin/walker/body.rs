@@ -179,7 +179,7 @@ fn shoes(joints: &[Joint]) -> Part {
             0.034,
         );
     }
-    // Cut off just above the ground.
+    // Anything that would reach into the ground is cut off just above it.
     part.cuts.push((at(0.0, 0.002, 0.0), DVec3::NEG_Y));
     part
 }
