@@ -374,16 +374,22 @@ mod tests {
     #[test]
     fn an_option_is_named_that_requires_a_feature() {
         let given = [("tile", "1"), ("coverage", "conservative-extension")];
-        let spec = spec("dirt", "robust", &given).expect("the options are valid");
-        let required = spec.requirements().expect("the options are valid").required;
-        let named = |feature| {
-            assert!(required.contains(&feature), "{feature}");
+        let named = |preset, feature| {
+            let spec = spec("dirt", preset, &given).expect("the options are valid");
+            assert!(
+                spec.requirements().expect("the options are valid").required.contains(&feature),
+                "{feature}"
+            );
             spec.option_that_requires(feature).map(|(option, value)| format!("{option} {value}"))
         };
-        let extension = named(Feature::ConservativeRasterization);
-        assert_eq!(extension.as_deref(), Some("coverage conservative-extension"));
-        // Any coverage draws.
-        assert_eq!(named(Feature::FragmentStoresAndAtomics), None);
+        for preset in ["robust", "published"] {
+            let extension = named(preset, Feature::ConservativeRasterization);
+            assert_eq!(extension.as_deref(), Some("coverage conservative-extension"));
+        }
+        // One preset computes unless a coverage is drawn, the other draws any.
+        let drawing = named("robust", Feature::FragmentStoresAndAtomics);
+        assert_eq!(drawing.as_deref(), Some("coverage conservative-extension"));
+        assert_eq!(named("published", Feature::FragmentStoresAndAtomics), None);
     }
 
     #[test]
