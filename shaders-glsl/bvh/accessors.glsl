@@ -93,6 +93,16 @@ uint bvh_child(BvhRef s, uint link) {
     return slot == 0u ? BVH_NODES(s)[node].child_0 : BVH_NODES(s)[node].child_1;
 }
 
+// The first record of a leaf.
+uint bvh_leaf_first(uint reference) {
+    return reference & ((1u << BVH_LEAF_SHIFT) - 1u);
+}
+
+// Records of a leaf.
+uint bvh_leaf_count(uint reference) {
+    return ((reference & ~BVH_LEAF) >> BVH_LEAF_SHIFT) + 1u;
+}
+
 // A triangle, read as whole vectors. An index past the end is counted and gives a triangle without area.
 BvhRecord bvh_record(BvhRef s, uint record, inout uint corrupted) {
     if (record >= BVH_HEADER(s).record_capacity) {

@@ -102,16 +102,12 @@ void adopt(uint reference, uint link) {
     }
 }
 
-uint leaf_count(uint reference) {
-    return ((reference & ~BVH_LEAF) >> BVH_LEAF_SHIFT) + 1u;
-}
-
 // True where two leaves whose records follow each other cost no more as one by surface area, a triangle as much as a
 // node.
 bool become_leaf(Cluster a, Cluster b, uint first_record_of_b, float per_metre) {
-    uint count_a = leaf_count(a.reference);
-    uint count_b = leaf_count(b.reference);
-    uint first_record_of_a = a.reference & ((1u << BVH_LEAF_SHIFT) - 1u);
+    uint count_a = bvh_leaf_count(a.reference);
+    uint count_b = bvh_leaf_count(b.reference);
+    uint first_record_of_a = bvh_leaf_first(a.reference);
     if ((a.reference & b.reference & BVH_LEAF) == 0u || count_a + count_b > BVH_CLUSTER_LEAF
         || first_record_of_a + count_a != first_record_of_b) {
         return false;
@@ -126,7 +122,7 @@ Cluster joined(Cluster a, Cluster b, uint first_record_of_b, float per_metre) {
     uint node = first_record_of_b - 1u;
     if (become_leaf(a, b, first_record_of_b, per_metre)) {
         bvh_set_parent(build.structure, node, BVH_HOLE);
-        uint reference = a.reference + (leaf_count(b.reference) << BVH_LEAF_SHIFT);
+        uint reference = a.reference + (bvh_leaf_count(b.reference) << BVH_LEAF_SHIFT);
         return Cluster(min(a.lower, b.lower), max(a.upper, b.upper), reference);
     }
     bvh_set_node(build.structure, node,

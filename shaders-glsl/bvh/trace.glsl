@@ -133,8 +133,8 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
             paused = true;
             break;
         }
-        uint first = child & ((1u << BVH_LEAF_SHIFT) - 1u);
-        uint count = ((child & ~BVH_LEAF) >> BVH_LEAF_SHIFT) + 1u;
+        uint first = bvh_leaf_first(child);
+        uint count = bvh_leaf_count(child);
         for (uint record = first; record < first + count; record++) {
             BvhRecord triangle = bvh_record(s, record, corrupted);
             test_corners(ray, triangle.primitive, triangle.a, triangle.b, triangle.c, -BVH_INFINITY, BVH_INFINITY, best);
