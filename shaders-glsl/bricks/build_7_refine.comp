@@ -1,52 +1,14 @@
 // Stores each triangle of a divided cell in the smaller cells that it reaches into. One invocation per record of the level.
 // Reads: records, bricks, geometry, header. Writes: records (less the divided cells), records and masks of the next level,
 // header.record_demand, header.demand.
-// Source: not in the paper; the same function decides as for the cells of a view.
+// Source: bricks/refine.glsl.
 #version 460
 #include "contract/extensions.glsl"
 #include "bricks/bin.glsl"
 #include "bricks/level.glsl"
+#include "bricks/refine.glsl"
 
 layout(local_size_x = BRICK_GROUP_SIZE) in;
-
-// The part of a triangle in the brick of a divided cell, one column of it after the other.
-struct Refined {
-    ivec3 corner;         // first cell of the brick
-    ivec2 lower;          // first and last column that the triangle may reach into, within the brick
-    ivec2 upper;
-    int slices;           // of a column of the brick
-    ivec2 column;         // the next
-    uvec2 cells;          // reached so far
-};
-
-// `brick`: its place among those of the level; `side`: its cells along each axis.
-Refined refined_begin(BoxClip clip, uvec3 brick, ivec3 side) {
-    Refined part;
-    part.corner = side * ivec3(brick);
-    part.lower = max(ivec2(floor(clip.lower.xy - clip.margin.xy)) - part.corner.xy, ivec2(0));
-    part.upper = min(ivec2(floor(clip.upper.xy + clip.margin.xy)) - part.corner.xy, side.xy - 1);
-    part.slices = side.z;
-    part.column = part.lower;
-    part.cells = uvec2(0u);
-    return part;
-}
-
-// Adds the cells of the next column; false behind the last.
-bool refined_column(BoxClip clip, inout Refined part) {
-    if (any(greaterThan(part.column, part.upper))) {
-        return false;
-    }
-    vec2 depths;
-    if (box_clip_depths(clip, part.corner.xy + part.column, 1, depths)) {
-        ivec2 slices = ivec2(floor(depths)) - part.corner.z;
-        if (slices.x < part.slices && slices.y >= 0) {
-            part.cells |= brick_column_bits(uvec2(part.column), uint(max(slices.x, 0)), uint(min(slices.y, part.slices - 1)));
-        }
-    }
-    bool next_row = part.column.x == part.upper.x;
-    part.column = next_row ? ivec2(part.lower.x, part.column.y + 1) : part.column + ivec2(1, 0);
-    return true;
-}
 
 void main() {
     uint next = build.step + 1u;

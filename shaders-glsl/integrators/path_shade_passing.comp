@@ -10,34 +10,9 @@
 layout(constant_id = 95) const bool PATHS_PASS_PANES = true;
 #define SHADING_PANES PATHS_PASS_PANES
 #include "ads/queue.glsl"
-#include "integrators/path_storage.glsl"
+#include "integrators/path_passing.glsl"
 
 layout(local_size_x = QUEUE_GROUP_SIZE) in;
-
-// The next ray of a path that has shaded what its own ray hit: its shadow ray where it has one.
-Ray shade_path(uint slot, inout PathState state, Ray ray, Surface surface, out uint cut) {
-    PathStep asked = path_step(state, ray, surface, wave.limit);
-    cut = asked.cut;
-    if (asked.shadow_ray.t_max < 0.0) {
-        path_waiting[slot].pending = vec3(0.0);
-        return asked.next_ray;
-    }
-    state.passed = 0u;
-    path_waiting[slot] = PathWaiting(asked.next_ray, asked.target, asked.pending);
-    return asked.shadow_ray;
-}
-
-// The next ray of a path whose shadow ray was traced: the shadow ray behind what it hit, or the path's own.
-Ray shade_shadow(uint slot, inout PathState state, Ray ray, Surface surface, vec3 pending, out uint cut) {
-    Ray next = path_shadow_step(state, ray, surface, path_waiting[slot].target, pending, cut);
-    if (next.t_max < 0.0) {
-        state.passed = 0u;
-        next = path_waiting[slot].next_ray;
-        pending = vec3(0.0);
-    }
-    path_waiting[slot].pending = pending;
-    return next;
-}
 
 void main() {
     uint slot;

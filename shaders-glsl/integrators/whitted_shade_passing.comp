@@ -10,34 +10,9 @@
 layout(constant_id = 106) const bool WHITTED_PASSES_PANES = true;
 #define SHADING_PANES WHITTED_PASSES_PANES
 #include "ads/queue.glsl"
-#include "integrators/whitted.glsl"
+#include "integrators/whitted_passing.glsl"
 
 layout(local_size_x = QUEUE_GROUP_SIZE) in;
-
-// The shadow ray of a surface that was shaded; inactive where it has none. All rays of the surface wait.
-Ray shade_ray(uint slot, inout WhittedState state, Ray ray, Surface surface, out uint cut) {
-    WhittedStep asked = whitted_step(slot, state, ray, surface);
-    cut = asked.cut;
-    if (asked.next.ray.t_max >= 0.0) {
-        whitted_push(slot, state, asked.next);
-    }
-    state.pending = asked.shadow_ray.t_max >= 0.0 ? asked.pending : vec3(0.0);
-    state.target = asked.target;
-    state.node.passed = 0u;
-    return asked.shadow_ray;
-}
-
-// The shadow ray behind what it hit; inactive where it has ended.
-Ray shade_shadow(inout WhittedState state, Ray ray, Surface surface, out uint cut) {
-    PathState path = path_begin(0u, 0u);
-    path.radiance = state.radiance;
-    path.passed = state.node.passed;
-    Ray next = path_shadow_step(path, ray, surface, state.target, state.pending, cut);
-    state.radiance = path.radiance;
-    state.node.passed = path.passed;
-    if (next.t_max < 0.0) state.pending = vec3(0.0);
-    return next;
-}
 
 void main() {
     uint slot;

@@ -1,14 +1,12 @@
 // Places the views of every light, and of every point on an emitting triangle, as lights and triangles are now.
 // Reads: geometry, lights, emitting triangles, which views each light has. Writes: views, status.
-// Source: Williams 1978; cubes for lights that shine everywhere, a parallel view over all triangles for lights far away.
+// Source: shadow_maps/place_views.glsl.
 #version 460
 #include "contract/extensions.glsl"
 #define SHADOW_MAPS_VIEWS_WRITTEN
 #include "ads/geometry.glsl"
-#include "ads/placement.glsl"
-#include "ads/views.glsl"
 #include "scene/types.glsl"
-#include "shadow_maps/accessors.glsl"
+#include "shadow_maps/place_views.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -16,74 +14,6 @@ layout(set = SHADOW_MAPS_SET, binding = 3, scalar) readonly buffer ShadowMapsSou
 layout(set = SHADOW_MAPS_SET, binding = 4, scalar) readonly buffer ShadowMapsEmitterBuffer {
     EmissiveTriangle shadow_maps_emitters[];
 };
-
-// Metres that numbers relative to the origin of a view may be off by.
-float rounding_from(vec3 origin) {
-    vec3 lower = geometry_header.lower;
-    vec3 upper = geometry_header.upper;
-    return SHADOW_MAPS_ROUNDING * (length(upper - lower) + length(origin) + box_reach(lower, upper));
-}
-
-// Two axes across a unit direction.
-void axes_across(vec3 forward, out vec3 right, out vec3 up) {
-    vec3 aside = abs(forward.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-    right = normalize(cross(aside, forward));
-    up = cross(forward, right);
-}
-
-ShadowMapsView view_of_face(vec3 origin, uint face, uint excluded) {
-    vec3 x = face_from_world(vec3(1.0, 0.0, 0.0), face);
-    vec3 y = face_from_world(vec3(0.0, 1.0, 0.0), face);
-    vec3 z = face_from_world(vec3(0.0, 0.0, 1.0), face);
-    return ShadowMapsView(origin, vec3(x.x, y.x, z.x), vec3(x.y, y.y, z.y), vec3(x.z, y.z, z.z), 0u, rounding_from(origin), excluded);
-}
-
-ShadowMapsView view_of_cone(Light light) {
-    float cosine = clamp(-light.cone_offset / light.cone_scale, SHADOW_MAPS_WIDEST_COSINE, SHADOW_MAPS_NARROWEST_COSINE);
-    float tangent = SHADOW_MAPS_WIDENED * sqrt(1.0 - cosine * cosine) / cosine;
-    vec3 forward = normalize(light.direction);
-    vec3 right;
-    vec3 up;
-    axes_across(forward, right, up);
-    return ShadowMapsView(light.position, right / tangent, up / tangent, forward, 0u, rounding_from(light.position), PRIMITIVE_NONE);
-}
-
-// As wide, high and deep as what lies within the bounds, and a little more.
-ShadowMapsView view_from_afar(vec3 direction) {
-    vec3 forward = normalize(direction);
-    vec3 right;
-    vec3 up;
-    axes_across(forward, right, up);
-    vec3 lower = geometry_header.lower;
-    vec3 upper = geometry_header.upper;
-    vec3 half_extent = 0.5 * upper - 0.5 * lower;
-    float rounding = rounding_from(vec3(0.0));
-    float more = 8.0 * rounding + PLACEMENT_SMALLEST;
-    vec3 half_sides = vec3(dot(abs(right), half_extent), dot(abs(up), half_extent), dot(abs(forward), half_extent));
-    half_sides = half_sides * 1.0001 + more;
-    vec3 origin = 0.5 * lower + 0.5 * upper - half_sides.z * forward;
-    rounding += SHADOW_MAPS_ROUNDING * length(origin);
-    return ShadowMapsView(origin, right / half_sides.x, up / half_sides.y, forward, 1u, rounding, PRIMITIVE_NONE);
-}
-
-// The six views around a point of light.
-void write_cube(uint first_view, vec3 origin, uint excluded) {
-    for (uint face = 0u; face < SHADOW_MAPS_CUBE_VIEWS; face++) {
-        shadow_maps_views[first_view + face] = view_of_face(origin, face, excluded);
-    }
-}
-
-// Points of a triangle, evenly spread: Hammersley's set, moved half a step from the edges, on the map from the square to the
-// triangle that light samples use.
-vec3 point_on(uint primitive, uint index, uint count) {
-    vec2 place = vec2(float(index) / float(count), float(bitfieldReverse(index)) * 2.3283064e-10) + 0.5 / float(count);
-    float root = sqrt(place.x);
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    geometry_vertices(primitive, a, b, c);
-    return (1.0 - root) * a + root * ((1.0 - place.y) * b + place.y * c);
-}
 
 void main() {
     uint index = gl_GlobalInvocationID.x;

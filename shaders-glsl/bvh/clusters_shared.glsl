@@ -1,0 +1,67 @@
+// The clusters of a workgroup in shared memory: the nearest of each, and which merge in a round.
+// Reads, writes: shared memory.
+// Source: bvh/clusters.glsl.
+#ifndef BVH_CLUSTERS_SHARED_GLSL
+#define BVH_CLUSTERS_SHARED_GLSL
+
+#include "bvh/clusters.glsl"
+
+// Clusters of an invocation.
+const uint SHARE = BVH_CLUSTERS / BVH_GROUP_SIZE;
+const uint MASKS = BVH_CLUSTERS / 32u;
+
+// The clusters that are left, the first record of each, and the place of its nearest.
+shared vec3 lowers[BVH_CLUSTERS];
+shared vec3 uppers[BVH_CLUSTERS];
+shared uint references[BVH_CLUSTERS];
+shared uint records[BVH_CLUSTERS];
+shared uint nearest[BVH_CLUSTERS];
+// Bits of the second of every two that may merge, of rounds in turns.
+shared uint seconds[2][MASKS];
+
+Cluster cluster_at(uint place) {
+    return Cluster(lowers[place], uppers[place], references[place]);
+}
+
+void set_cluster_at(uint place, Cluster cluster) {
+    lowers[place] = cluster.lower;
+    uppers[place] = cluster.upper;
+    references[place] = cluster.reference;
+}
+
+uint nearest_of(uint place, uint count, float per_metre) {
+    Cluster cluster = cluster_at(place);
+    uint best = place;
+    float smallest = uintBitsToFloat(0x7F800000u);
+    uint end = min(place + BVH_CLUSTER_REACH + 1u, count);
+    for (uint other = max(place, BVH_CLUSTER_REACH) - BVH_CLUSTER_REACH; other < end; other++) {
+        if (other != place) {
+            take_nearer(place, other, area_of_both(cluster, cluster_at(other), per_metre), best, smallest);
+        }
+    }
+    return best;
+}
+
+// The place itself where the cluster may merge with none.
+uint partner_of(uint place) {
+    uint partner = nearest[place];
+    return nearest[partner] == place ? partner : place;
+}
+
+// Seconds of pairs before a place.
+uint seconds_before(uint turn, uint place) {
+    uint sum = 0u;
+    for (uint word = 0u; word < MASKS; word++) {
+        uint before = clamp(place, 32u * word, 32u * word + 32u) - 32u * word;
+        sum += uint(bitCount(bitfieldExtract(seconds[turn][word], 0, int(before))));
+    }
+    return sum;
+}
+
+void clear_seconds(uint turn) {
+    if (gl_LocalInvocationID.x < MASKS) {
+        seconds[turn][gl_LocalInvocationID.x] = 0u;
+    }
+}
+
+#endif

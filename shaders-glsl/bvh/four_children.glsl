@@ -1,0 +1,40 @@
+// The node of four that an invocation makes, and its children so far.
+// Reads: scratch (numbers). Writes: parents of nodes of four.
+// Source: none; docs/systems/bvh.md, "Opening".
+#ifndef BVH_FOUR_CHILDREN_GLSL
+#define BVH_FOUR_CHILDREN_GLSL
+
+#include "bvh/fours.glsl"
+
+// The node of four, and its children so far with their boxes, side by side.
+uint number;
+uint count = 0u;
+uvec4 children;
+mat3x4 lower_sides;
+mat3x4 upper_sides;
+
+// Puts a child at a place.
+void put(uint place, uint reference, vec3 lower, vec3 upper) {
+    children[place] = reference;
+    for (uint axis = 0u; axis < 3u; axis++) {
+        lower_sides[axis][place] = lower[axis];
+        upper_sides[axis][place] = upper[axis];
+    }
+}
+
+// Adds a child of a node of two.
+void add(uint reference, vec3 lower, vec3 upper) {
+    if ((reference & BVH_LEAF) == 0u) {
+        reference = bvh_scratch(build.structure, number_word(reference));
+        bvh_set_parent_of_four(build.structure, reference, BVH_FOUR * number + count);
+    }
+    // Constant places stay in registers. The box of an absent child is that of the first, which changes no union.
+    [[unroll]] for (uint place = 0u; place < BVH_FOUR; place++) {
+        if (place == count || (count == 0u && place > 0u)) {
+            put(place, place == count ? reference : BVH_NONE, lower, upper);
+        }
+    }
+    count++;
+}
+
+#endif
