@@ -203,33 +203,33 @@ impl Permutation {
         twin
     }
 
-    /// A module for each pair of words, where they are the values of a macro `A<B`; in its name and among its features A
-    /// and B stand for them. `*` is every one of `structures`.
-    fn pairs(&self, structures: &BTreeSet<String>) -> Vec<Self> {
+    /// A module for each pair of `structures` where a macro is `A<B=*`: these are the values of A and B, which stand for
+    /// them in its name and features. Else the module itself.
+    ///
+    /// # Errors
+    /// `A<B` has another value than `*`.
+    fn pairs(&self, structures: &BTreeSet<String>) -> Result<Vec<Self>, String> {
         let Some((place, first, second)) = self.defines.iter().enumerate().find_map(|(place, (name, _))| {
             name.split_once('<').map(|(first, second)| (place, first.to_owned(), second.to_owned()))
         }) else {
-            return vec![self.clone()];
+            return Ok(vec![self.clone()]);
         };
-        let words: Vec<&str> = match self.defines[place].1.as_str() {
-            "*" => structures.iter().map(String::as_str).collect(),
-            given => given.split(',').collect(),
-        };
-        let pairs = words
-            .iter()
-            .enumerate()
-            .flat_map(|(k, one)| words[k + 1..].iter().map(move |other| (one, other)));
-        pairs
-            .map(|(one, other)| {
-                let mut pair = self.clone();
-                let named = |text: &str| text.replace(&first, one).replace(&second, other);
-                pair.name = named(&pair.name);
-                pair.features.iter_mut().for_each(|feature| *feature = named(feature));
-                let values = [(first.clone(), (*one).to_owned()), (second.clone(), (*other).to_owned())];
-                pair.defines.splice(place..=place, values);
-                pair
-            })
-            .collect()
+        if self.defines[place].1 != "*" {
+            return Err(format!("only `*` may stand behind `{first}<{second}=`"));
+        }
+        let pairs = structures.iter().flat_map(|one| {
+            structures.iter().filter(move |other| one < *other).map(move |other| (one, other))
+        });
+        let pairs = pairs.map(|(one, other)| {
+            let mut pair = self.clone();
+            let named = |text: &str| text.replace(&first, one).replace(&second, other);
+            pair.name = named(&pair.name);
+            pair.features.iter_mut().for_each(|feature| *feature = named(feature));
+            let values = [(first.clone(), one.clone()), (second.clone(), other.clone())];
+            pair.defines.splice(place..=place, values);
+            pair
+        });
+        Ok(pairs.collect())
     }
 }
 
@@ -258,10 +258,7 @@ fn choices(line: &str) -> Result<Vec<String>, String> {
     Ok(lines)
 }
 
-/// Reads the permutation list. `[feature+feature]` heads a section; with `.address` after it each of its modules is there
-/// once more, under its name with that ending and with `ADDRESSING_ADDRESS`. `name = entry MACRO=value ...` is a module;
-/// with `{x,y}` in the name, and as many such groups of as many choices behind `=`, one for each choice; with `A<B=x,y,z` one for each pair, in whose name and features A and B stand for the two. `A<B=*` are the pairs of all
-/// values of `STRUCTURE` in the sections before with `.address`. `#` starts a comment.
+/// Reads the permutation list, `permutations.txt` of `rasray-shaders-glsl`, which describes its lines. `#` starts a comment.
 ///
 /// # Errors
 /// Names the line that is none of these.
@@ -301,7 +298,8 @@ pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
                 let values = line.defines.iter().filter(|(name, _)| name == "STRUCTURE");
                 structures.extend(values.map(|(_, value)| value.clone()));
             }
-            for module in line.pairs(&structures) {
+            let modules = line.pairs(&structures).map_err(|wrong| format!("line {}: {wrong}", number + 1))?;
+            for module in modules {
                 let twin = by_address.then(|| module.by_address());
                 permutations.extend([Some(module), twin].into_iter().flatten());
             }
@@ -352,15 +350,14 @@ mod tests {
             names("[a+b] .address\nx = x.comp M=1\n[c]\ny = y.comp"),
             ["x M=1", "x.address M=1 ADDRESSING_ADDRESS=", "y"]
         );
-        assert_eq!(
-            names("[a]\nt.FIRST.SECOND = t.comp FIRST<SECOND=p,q,r"),
-            ["t.p.q FIRST=p SECOND=q", "t.p.r FIRST=p SECOND=r", "t.q.r FIRST=q SECOND=r"]
-        );
         let all = "[q] .address\nx = x.comp STRUCTURE=q\n[p] .address\nx = x.comp STRUCTURE=p\ny = y.comp STRUCTURE=p
-            [r]\nx = x.comp STRUCTURE=r\n[t+A+B]\nt.A.B = t.comp A<B=*\n";
-        assert!(names(all).ends_with(&["t.p.q A=p B=q".to_owned()]));
+            [r]\nx = x.comp STRUCTURE=r\n[s] .address\nx = x.comp STRUCTURE=s\n[t+A+B]\nt.A.B = t.comp A<B=*\n";
+        let pairs = ["t.p.q A=p B=q", "t.p.s A=p B=s", "t.q.s A=q B=s"];
+        assert!(names(all).ends_with(&pairs.map(str::to_owned)));
         let pair = read_permutations(all).expect("the list is well formed").pop().expect("a pair");
-        assert_eq!(pair.features, ["t", "p", "q"]);
+        assert_eq!(pair.features, ["t", "q", "s"]);
+        let error = read_permutations("[t+A+B]\nt.A.B = t.comp A<B=p,q\n").expect_err("it names the pair");
+        assert!(error.contains("line 2") && error.contains("A<B"), "{error}");
         assert!(read_permutations("[a] .else\n").is_err());
         assert!(read_permutations("[a]\nx x.comp\n").is_err());
     }
