@@ -60,7 +60,7 @@ const bool ABUFFER_SNAPS = ABUFFER_VIEW_SWITCHING == ABUFFER_SWITCH_SNAP;
 const bool ABUFFER_HAS_CUBE = (ABUFFER_VIEWS & ABUFFER_VIEWS_CUBE) != 0u;
 const bool ABUFFER_HAS_CAMERA = (ABUFFER_VIEWS & ABUFFER_VIEWS_CAMERA) != 0u;
 
-// State and sizes of one A-buffer. 248 bytes.
+// State and sizes of one A-buffer. Shared, 248 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments found by the build, or pages begun for them, also those beyond the capacity

@@ -12,7 +12,7 @@
 #define GEOMETRY_SET 0
 #endif
 
-// Counts and bounds of the geometry, and where positions and indices lie. 112 bytes.
+// Counts and bounds of the geometry, and where positions and indices lie. Shared, 112 bytes.
 struct GeometryHeader {
     uint vertex_count;   // vertices
     uint triangle_count; // triangles

@@ -13,7 +13,7 @@
 #define QUEUE_SET 2
 #endif
 
-// Counts and sums of one queue. 112 bytes.
+// Counts and sums of one queue. Shared, 112 bytes.
 struct QueueHeader {
     uint groups_x;        // indirect dispatch of the next round
     uint groups_y;        // always 1
@@ -45,7 +45,7 @@ struct QueueHeader {
     uint corrupted_before; // the same in the parts before it, where that was one of several
 };
 
-// One step of a logged traversal; contract/constants.glsl says what a STEP_* kind means by its words. 28 bytes.
+// One step of a logged traversal; contract/constants.glsl says what a STEP_* kind means by its words. Shared, 28 bytes.
 struct TraceStep {
     uint kind;                // a STEP_* number; it says what the words after `round` mean
     uint round;               // the dispatch it was taken in, from 0

@@ -8,7 +8,7 @@
 #include "ads/constants.glsl"
 #include "ads/geometry.glsl"
 
-// The map from where a part is posed to where its structure was built, both in metres. 72 bytes.
+// The map from where a part is posed to where its structure was built, both in metres. Shared, 72 bytes.
 struct GeometryRigid {
     vec3 x;               // first column of the linear map
     vec3 y;               // second column

@@ -6,7 +6,7 @@
 
 layout(local_size_x = 64) in;
 
-// A depth within a range of depths. 16 bytes.
+// A depth within a range of depths. Shared, 16 bytes.
 struct BucketCase {
     float z_min;          // the least depth
     float z_max;          // the greatest depth

@@ -7,7 +7,7 @@
 
 layout(local_size_x = 64) in;
 
-// A triangle, and a cell of a face. 48 bytes.
+// A triangle, and a cell of a face. Shared, 48 bytes.
 struct CoverageCase {
     vec3 triangle[3];     // corners, metres relative to the eye
     uint face;            // 0 to 5
@@ -15,7 +15,7 @@ struct CoverageCase {
     int y;                // row, from -1 to the resolution
 };
 
-// Coverage of the cell's centre. 12 bytes.
+// Coverage of the cell's centre. Shared, 12 bytes.
 struct CoverageResult {
     uint covered;         // 0 or 1
     float z;              // depth; 0 where it is not covered

@@ -8,7 +8,7 @@
 
 layout(local_size_x = 64) in;
 
-// A cell that a march visited, and where on the ray. 20 bytes.
+// A cell that a march visited, and where on the ray. Shared, 20 bytes.
 struct Visit {
     uint face;            // 0 to 5; SEGMENT_NEAR for the near region
     int x;                // column, from -1 to the resolution

@@ -6,7 +6,7 @@
 
 layout(local_size_x = 64) in;
 
-// A geometry to place. 72 bytes.
+// A geometry to place. Shared, 72 bytes.
 struct PlacementCase {
     vec3 bounds[2];       // lower and upper corner, metres
     vec3 around[2];       // bounds of the whole
@@ -14,7 +14,7 @@ struct PlacementCase {
     uint cells[3];        // cells of the box along each axis
 };
 
-// Where it is placed. 84 bytes.
+// Where it is placed. Shared, 84 bytes.
 struct PlacementResult {
     vec3 centre;          // `centre_within`
     vec3 middle;          // `centre_of_bounds`

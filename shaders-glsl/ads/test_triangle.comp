@@ -6,14 +6,14 @@
 
 layout(local_size_x = 64) in;
 
-// A triangle and a ray. 60 bytes.
+// A triangle and a ray. Shared, 60 bytes.
 struct TriangleCase {
     vec3 triangle[3];     // corners, metres
     vec3 origin;          // metres
     vec3 direction;       // of any length
 };
 
-// Where the ray hits the triangle. 12 bytes.
+// Where the ray hits the triangle. Shared, 12 bytes.
 struct TriangleResult {
     uint hit;             // 0 or 1
     float t;              // defined where it does

@@ -15,7 +15,7 @@ layout(constant_id = 42) const uint BRICK_CORNERS_KEPT = 1u;
 // Most divisions of a cell. Bricks that may have divided cells have words for those.
 layout(constant_id = 43) const uint BRICK_DEPTH = 0u;
 
-// State and sizes of bricks. 504 bytes.
+// State and sizes of bricks. Shared, 504 bytes.
 struct BrickHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity

@@ -1,7 +1,7 @@
 //! Structs and push constants of GLSL as structs of Rust.
 //!
-//! A record is a block of push constants, or a struct whose comment says its size ("336 bytes."): the host and shaders
-//! both have it. Everything is read from the text of the GLSL, and no compiled module is: modules are what tests hold
+//! A record is a block of push constants, whose comment says its size ("12 bytes."), or a struct whose comment says that
+//! the host has it, too, and its size ("Shared, 336 bytes."). Everything is read from the text of the GLSL, and no compiled module is: modules are what tests hold
 //! the result against. Offsets follow scalar block layout, in which a member has the alignment of its scalars; those are
 //! words of 4 bytes.
 
@@ -16,6 +16,9 @@ pub(crate) const ZEROS_MISLEAD: [&str; 6] =
 
 /// Bytes of a scalar.
 const WORD: usize = 4;
+
+/// Word that the comment of a struct has before its size where the host has the struct, too.
+const SHARED: &str = "Shared,";
 
 /// Beginning of a block of push constants.
 const PUSH_CONSTANTS: &str = "layout(push_constant, scalar) uniform ";
@@ -80,7 +83,7 @@ pub(crate) fn code_of_records(
     Ok(code)
 }
 
-/// The blocks of push constants of a file, and the structs whose comments say how many bytes they have.
+/// The blocks of push constants of a file, and the structs whose comments say that they are shared.
 fn records_of(file: &str, text: &str) -> Result<Vec<Declared>, String> {
     let mut found = Vec::new();
     let mut comment: Vec<String> = Vec::new();
@@ -90,7 +93,7 @@ fn records_of(file: &str, text: &str) -> Result<Vec<Declared>, String> {
             comment.push(words.trim().to_owned());
             continue;
         }
-        let comment = std::mem::take(&mut comment);
+        let mut comment = std::mem::take(&mut comment);
         let pushed = line.strip_prefix(PUSH_CONSTANTS);
         if pushed.is_none() && line.starts_with("layout(") && line.contains("push_constant") {
             return Err(format!("{file}: `{line}` is no `{PUSH_CONSTANTS}Name {{`"));
@@ -98,11 +101,15 @@ fn records_of(file: &str, text: &str) -> Result<Vec<Declared>, String> {
         let opened = pushed.or_else(|| line.strip_prefix("struct "));
         let Some(name) = opened.and_then(|rest| rest.strip_suffix('{')).map(str::trim) else { continue };
         let fault = |what: &str| format!("{file}: {name}: {what}");
-        let Some(bytes) = bytes_in(&comment) else {
-            if pushed.is_some() {
+        let says_shared = comment.iter().any(|line| line.split_whitespace().any(|word| word == SHARED));
+        let bytes = match (pushed, says_shared, bytes_in(&comment)) {
+            (Some(_), _, Some(bytes)) => bytes,
+            (Some(_), _, None) => {
                 return Err(fault("no comment says how many bytes these push constants have"));
             }
-            continue;
+            (None, true, Some(bytes)) if take_shared(&mut comment, bytes) => bytes,
+            (None, false, None) => continue,
+            _ => return Err(fault("its comment has to say `Shared, 8 bytes.`, or neither")),
         };
         let (mut members, mut above) = (Vec::new(), Vec::new());
         loop {
@@ -132,6 +139,17 @@ fn records_of(file: &str, text: &str) -> Result<Vec<Declared>, String> {
 fn bytes_in(comment: &[String]) -> Option<usize> {
     let words: Vec<_> = comment.iter().flat_map(|line| line.split_whitespace()).collect();
     words.windows(2).find_map(|pair| (pair[1] == "bytes.").then(|| pair[0].parse().ok())?)
+}
+
+/// Takes the word out of a comment that says `Shared, 8 bytes.`; false where it does not.
+fn take_shared(comment: &mut [String], bytes: usize) -> bool {
+    let size = format!("{bytes} bytes.");
+    let marked = format!("{SHARED} {size}");
+    comment.iter_mut().any(|line| {
+        let has = line.contains(&marked);
+        *line = line.replace(&marked, &size);
+        has
+    })
 }
 
 /// `uint groups[3];`.
@@ -255,13 +273,13 @@ mod tests {
     }
 
     #[test]
-    fn structs_of_known_size_are_records() {
+    fn shared_structs_and_push_constants_are_records() {
         let text = "
             // Of the shader alone.
             struct Walk {
                 bool done;
             };
-            // Two of them. 8 bytes.
+            // Two of them. Shared, 8 bytes.
             struct Pair {
                 uint first;       // STATUS_*
                 // metres;
@@ -272,7 +290,7 @@ mod tests {
                 StructureRef structure;   // the address
                 uint step;                // the number
             } pass;
-            // 160 bytes.
+            // Shared, 160 bytes.
             struct All {
                 Pair pairs[2];    // both
                 float a;          // a
@@ -311,7 +329,8 @@ mod tests {
 
     #[test]
     fn what_is_no_record_is_told() {
-        let of = |bytes: u32, members: &str| format!("// {bytes} bytes.\nstruct Odd {{\n{members}\n}};\n");
+        let of =
+            |bytes: u32, members: &str| format!("// Shared, {bytes} bytes.\nstruct Odd {{\n{members}\n}};\n");
         for (text, expected) in [
             (of(8, "uint a; // a"), "Odd has 4 bytes, and its comment says 8"),
             (of(4, "uint a;"), "nothing says what a is"),
@@ -321,7 +340,10 @@ mod tests {
             (of(8, "uint a, b; // a"), "is not one member"),
             (of(4, "#ifdef A\nuint a; // a"), "is not one member"),
             (of(4, "uint a; // a").repeat(2), "has the name Odd, too"),
-            ("// 4 bytes.\nstruct Odd {\nuint a; // a".to_owned(), "it does not end"),
+            ("// Shared, 4 bytes.\nstruct Odd {\nuint a; // a".to_owned(), "it does not end"),
+            ("// 4 bytes.\nstruct Odd {\nuint a; // a\n};".to_owned(), "its comment has to say"),
+            ("// Shared, 4.\nstruct Odd {\nuint a; // a\n};".to_owned(), "its comment has to say"),
+            ("// Shared, of 4 bytes.\nstruct Odd {\nuint a; // a\n};".to_owned(), "its comment has to say"),
             (format!("{PUSH_CONSTANTS}Odd {{\nuint a; // a\n}} odd;"), "no comment says how many bytes"),
             (format!("// 8 bytes.\n{PUSH_CONSTANTS}Odd {{\nuint a; // a\n}} odd;"), "Odd has 4 bytes"),
             (

@@ -5,7 +5,7 @@
 
 #include "contract/constants.glsl"
 
-// A ray in metres relative to the frame origin. 48 bytes.
+// A ray in metres relative to the frame origin. Shared, 48 bytes.
 // Hits count for t_min < t < t_max, t in units of |direction|.
 struct Ray {
     vec3 origin;              // metres relative to the frame origin
@@ -18,7 +18,7 @@ struct Ray {
     float cone_spread;        // growth of the width per metre, radians
 };
 
-// Hit of a ray. 16 bytes. A miss has primitive PRIMITIVE_NONE and t = t_max.
+// Hit of a ray. Shared, 16 bytes. A miss has primitive PRIMITIVE_NONE and t = t_max.
 // a and b belong to the structure: barycentrics of vertices 1 and 2 where hits are primitives.
 struct Hit {
     float t;                  // in units of the ray direction's length
@@ -29,7 +29,7 @@ struct Hit {
     float b;
 };
 
-// The position of a traversal, so that it can pause and resume. 64 bytes. Zeroed (trace_state_begin)
+// The position of a traversal, so that it can pause and resume. Shared, 64 bytes. Zeroed (trace_state_begin)
 // for a fresh ray; `cursor` belongs to the structure.
 struct TraceState {
     Hit best;                 // best hit so far
@@ -42,7 +42,7 @@ struct TraceState {
     uint visit;
 };
 
-// The work of a ray. 24 bytes.
+// The work of a ray. Shared, 24 bytes.
 struct RayWork {
     uint cells;               // cells visited
     uint entries;             // list entries read
@@ -52,7 +52,7 @@ struct RayWork {
     uint searched;            // of the cells visited, those in which a list entry was read or cells of its own were searched
 };
 
-// A surface to be shaded. 128 bytes. Metres relative to the frame origin, linear Rec. 709, W/(sr m^2).
+// A surface to be shaded. Shared, 128 bytes. Metres relative to the frame origin, linear Rec. 709, W/(sr m^2).
 struct Surface {
     vec3 position;            // where the surface is
     float position_error;     // metres: bound of `|computed - true|` along each axis
@@ -76,7 +76,7 @@ struct Surface {
     uint material;            // index of the material, or PRIMITIVE_NONE
 };
 
-// One run of triangles of one instance. 24 bytes. Global triangle id = first_triangle + local index.
+// One run of triangles of one instance. Shared, 24 bytes. Global triangle id = first_triangle + local index.
 struct Draw {
     uint first_triangle;      // global id of the first triangle
     uint triangle_count;      // number of triangles

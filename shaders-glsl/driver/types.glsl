@@ -7,7 +7,7 @@
 #include "contract/types.glsl"
 #include "driver/constants.glsl"
 
-// State and sizes of the tree, and where its boxes are. 88 bytes.
+// State and sizes of the tree, and where its boxes are. Shared, 88 bytes.
 struct DriverHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint capacity;        // boxes the pool holds

@@ -7,7 +7,7 @@
 #include "contract/types.glsl"
 #include "grid/constants.glsl"
 
-// State and sizes of a grid. 152 bytes.
+// State and sizes of a grid. Shared, 152 bytes.
 struct GridHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity

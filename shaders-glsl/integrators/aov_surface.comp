@@ -10,7 +10,7 @@
 
 layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
-// Hit of the ray through a pixel's centre, as materials and meshes have it. 48 bytes.
+// Hit of the ray through a pixel's centre, as materials and meshes have it. Shared, 48 bytes.
 struct AovSurface {
     vec3 albedo;          // base colour, linear; of an unlit material what it shows; 0: nothing
     vec3 position;        // metres relative to the frame origin; 0: nothing

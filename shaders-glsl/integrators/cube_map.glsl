@@ -10,7 +10,7 @@
 #include "integrators/storage.glsl"
 #include "scene/camera.glsl"
 
-// Its size, and where the point is. 44 bytes.
+// Its size, and where the point is. Shared, 44 bytes.
 struct CubeMapHeader {
     uint resolution;          // texels along a side of a face, without its border
     vec3 position;            // metres relative to the frame origin

@@ -22,7 +22,7 @@
 #define FETCH_ACCESS
 #endif
 
-// The arguments of the draw, and counts. 36 bytes. Counts are of all fetches since the reset, modulo 2^32.
+// The arguments of the draw, and counts. Shared, 36 bytes. Counts are of all fetches since the reset, modulo 2^32.
 struct FetchHeader {
     uint vertex_count;    // of the draw: three per triangle
     uint instance_count;  // of the draw: one per face and part of a list

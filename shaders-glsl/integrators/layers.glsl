@@ -9,7 +9,7 @@
 #include "scene/environment.glsl"
 #include "scene/spawn.glsl"
 
-// Light gathered along a ray. 20 bytes.
+// Light gathered along a ray. Shared, 20 bytes.
 struct LayersState {
     vec3 radiance;        // so far, W/(sr m^2)
     float left;           // share of the light behind that reaches the eye

@@ -17,7 +17,7 @@
 // Photons come to any rough surface after any scattering; else to those met after perfectly smooth ones alone.
 layout(constant_id = 102) const bool PHOTONS_ARE_ALL = false;
 
-// Light that arrived at a surface after at least one scattering. 44 bytes.
+// Light that arrived at a surface after at least one scattering. Shared, 44 bytes.
 struct Photon {
     vec3 position;            // metres relative to the frame origin
     uint next;                // number of the next photon of its list plus 1; 0: it is the last
@@ -29,7 +29,7 @@ struct Photon {
 // The words of a photon in the map.
 #define PHOTON_WORDS 11u
 
-// The head of the map of a sample. 12 bytes.
+// The head of the map of a sample. Shared, 12 bytes.
 struct PhotonHeader {
     float radius;             // metres around a surface within which photons count
     float cell;               // side of a cell, metres

@@ -13,13 +13,13 @@
 #define INTEGRATOR_SET 1
 #endif
 
-// Radiance of a pixel, summed over its samples. 16 bytes.
+// Radiance of a pixel, summed over its samples. Shared, 16 bytes.
 struct FilmPixel {
     vec3 sum;                 // sum over its samples, linear RGB, W/(sr m^2)
     uint samples;             // samples in the sum
 };
 
-// Counts of samples and light that the film lacks, and of samples that sent a ray on. 24 bytes.
+// Counts of samples and light that the film lacks, and of samples that sent a ray on. Shared, 24 bytes.
 struct FilmFaults {
     uint non_finite;      // samples with a channel that is not finite, which are not added to their pixel
     uint unended;         // paths with surfaces left to pass after the last round recorded, not added to their pixel yet
@@ -29,14 +29,14 @@ struct FilmFaults {
     uint crowded;         // surfaces with more than PHOTON_GATHER_LIMIT photons around them, which lack the light of all
 };
 
-// State of a path while its shadow ray is traced. 72 bytes.
+// State of a path while its shadow ray is traced. Shared, 72 bytes.
 struct PathWaiting {
     Ray next_ray;         // of the path, to be traced when the shadow ray has ended
     vec3 target;          // where a shadow ray of finite length ends
     vec3 pending;         // light that arrives unless something stops it, W/(sr m^2); 0: the path's own ray is traced
 };
 
-// Hit of the ray through a pixel's centre. 20 bytes.
+// Hit of the ray through a pixel's centre. Shared, 20 bytes.
 struct AovPixel {
     float distance;       // metres from the ray's origin (the eye in perspective); 0: nothing
     vec3 normal;          // unit geometric normal, world axes, facing the ray; 0: nothing

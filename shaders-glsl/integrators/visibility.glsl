@@ -12,7 +12,7 @@
 #define INTEGRATOR_SET 1
 #endif
 
-// Counts of the triangles drawn since they were cleared. 4 bytes.
+// Counts of the triangles drawn since they were cleared. Shared, 4 bytes.
 struct VisibilityCounts {
     uint covering;        // triangles drawn over all pixels of a wave: those that reach behind the eye within the view
 };

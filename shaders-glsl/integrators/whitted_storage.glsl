@@ -7,7 +7,7 @@
 #include "integrators/constants.glsl"
 #include "integrators/storage.glsl"
 
-// A ray of a tree, apart from where it goes. 28 bytes.
+// A ray of a tree, apart from where it goes. Shared, 28 bytes.
 struct WhittedNode {
     vec3 throughput;          // share of the light hit next that reaches the camera
     uint medium;              // material whose inside the ray is in, or MATERIAL_NONE
@@ -16,13 +16,13 @@ struct WhittedNode {
     uint passed;              // surfaces that the ray, or its shadow ray, has passed in a straight line
 };
 
-// A ray that waits until those before it were traced. 76 bytes.
+// A ray that waits until those before it were traced. Shared, 76 bytes.
 struct WhittedRay {
     Ray ray;                  // where it goes
     WhittedNode node;         // what it is in its tree
 };
 
-// The tree of a sample. 68 bytes.
+// The tree of a sample. Shared, 68 bytes.
 struct WhittedState {
     vec3 radiance;            // gathered so far, W/(sr m^2)
     uint waiting;             // rays of the slot that wait, or WHITTED_ENDED

@@ -34,7 +34,7 @@ layout(constant_id = 63) const uint LDC_RIGID = 0u;
 #define LDC_REACH_MORE (LDC_RIGID == 0u ? 0.0 : LDC_REACH_RIGID)
 #define AXIS_REACH_MORE LDC_REACH_MORE
 
-// State and sizes of a layered depth cube. 224 bytes.
+// State and sizes of a layered depth cube. Shared, 224 bytes.
 struct LdcHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // places of fragments in all lists, also those beyond the capacity

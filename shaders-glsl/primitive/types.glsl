@@ -27,7 +27,7 @@ uint primitive_view_count() {
     return PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_CAMERA ? 1u : 6u;
 }
 
-// State and sizes of primitive lists. 196 bytes.
+// State and sizes of primitive lists. Shared, 196 bytes.
 struct PrimitiveHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity

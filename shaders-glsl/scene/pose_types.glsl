@@ -5,14 +5,14 @@
 
 #include "scene/constants.glsl"
 
-// Vertices of one workgroup. 8 bytes.
+// Vertices of one workgroup. Shared, 8 bytes.
 struct PoseGroup {
     uint draw;                  // index into the pose draws
     uint first_vertex;          // of the draw; as many as a workgroup has threads, or what is left of the draw
 };
 
 // A draw that moves: where its vertices come from and go to. Words count from the start of the named table;
-// ATTRIBUTE_NONE means absent. 44 bytes.
+// ATTRIBUTE_NONE means absent. Shared, 44 bytes.
 struct PoseDraw {
     uint draw;                  // index into the draw shadings
     uint first_vertex;          // global vertex index of its first vertex
@@ -27,7 +27,7 @@ struct PoseDraw {
     uint first_joint;           // joint 0 of its skin in the joint matrices
 };
 
-// An affine map. 48 bytes.
+// An affine map. Shared, 48 bytes.
 struct PoseMatrix {
     vec3 x;                     // where x goes
     vec3 y;                     // where y goes
@@ -35,7 +35,7 @@ struct PoseMatrix {
     vec3 translation;           // metres, added last
 };
 
-// Where a draw is in this frame. 96 bytes.
+// Where a draw is in this frame. Shared, 96 bytes.
 struct PosePlacement {
     PoseMatrix place;           // from the pivot to the frame origin; with joints they turn, and this is the translation alone
     vec3 normal_x;              // the map of normals, scaled so that its largest element is about 1; unused with joints
@@ -46,7 +46,7 @@ struct PosePlacement {
     uint target_count;          // morph targets that count in this frame
 };
 
-// A morph target with its weight. 16 bytes.
+// A morph target with its weight. Shared, 16 bytes.
 struct PoseTarget {
     uint positions;             // displacements, 3 words a vertex, metres
     uint normals;               // displacements, 3 words a vertex
@@ -54,7 +54,7 @@ struct PoseTarget {
     float weight;               // not 0
 };
 
-// Powers of a light that come before it and its own, by luminance. 8 bytes.
+// Powers of a light that come before it and its own, by luminance. Shared, 8 bytes.
 struct PoseLightPower {
     float near;                 // W, of point and spot lights
     float far;                  // W/m^2, of directional lights

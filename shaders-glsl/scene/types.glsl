@@ -8,7 +8,7 @@
 #include "scene/constants.glsl"
 
 // Camera, sizes of the tables and the constant environment. Metres relative to the frame origin.
-// 160 bytes.
+// Shared, 160 bytes.
 struct Frame {
     vec3 camera_position;       // where perspective rays start; the centre of an orthographic image
     uint projection;            // PROJECTION_*
@@ -40,7 +40,7 @@ struct Frame {
     uint texel_shift;           // a run of texels has `2^texel_shift` of them; at most 30
 };
 
-// Shading of a draw; one per draw of the geometry, same order. 44 bytes.
+// Shading of a draw; one per draw of the geometry, same order. Shared, 44 bytes.
 // Offsets count words (f32) from the start of the named table; ATTRIBUTE_NONE means absent.
 struct DrawShading {
     uint first_triangle;        // global triangle id of its first triangle
@@ -56,7 +56,7 @@ struct DrawShading {
     uint instance;              // index into the scene's instances
 };
 
-// A texture as a material uses it. 32 bytes.
+// A texture as a material uses it. Shared, 32 bytes.
 struct TextureRef {
     uint texture;               // index into textures, or TEXTURE_NONE
     uint uv_set;                // 0 or 1
@@ -64,7 +64,7 @@ struct TextureRef {
     vec3 row_v;                 // `v' = dot(row_v, (u, v, 1))`
 };
 
-// Material of a surface. 300 bytes.
+// Material of a surface. Shared, 300 bytes.
 struct Material {
     vec4 base_color;            // linear RGBA
     vec3 emission;              // W/(sr m^2)
@@ -93,7 +93,7 @@ struct Material {
 
 // Where the texels of a texture lie and how they are sampled.
 // Levels are stored one after the other, level 0 first, each tight and rows top first.
-// Level l has max(1, width >> l) by max(1, height >> l) texels. 20 bytes.
+// Level l has max(1, width >> l) by max(1, height >> l) texels. Shared, 20 bytes.
 struct Texture {
     uint first_texel;           // number of level 0's first texel, over all runs
     uint width;                 // texels per row of level 0
@@ -103,7 +103,7 @@ struct Texture {
     uint sampling;
 };
 
-// A light without extent. 56 bytes.
+// A light without extent. Shared, 56 bytes.
 struct Light {
     vec3 position;              // metres relative to the frame origin; directional: unused
     uint kind;                  // LIGHT_*
@@ -115,13 +115,13 @@ struct Light {
     float cumulative;           // share of the power of all punctual lights up to and including this one; the last is 1
 };
 
-// One triangle of an emissive draw. 8 bytes.
+// One triangle of an emissive draw. Shared, 8 bytes.
 struct EmissiveTriangle {
     uint primitive;             // global triangle id
     float cumulative;           // share of all power up to and including this entry; the last is 1
 };
 
-// State of a path from one dispatch to the next. 56 bytes.
+// State of a path from one dispatch to the next. Shared, 56 bytes.
 struct PathState {
     vec3 throughput;            // share of the light hit next that reaches the camera
     uint pixel;                 // number of the pixel in the whole image: `row * width + column`

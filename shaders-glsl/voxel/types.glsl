@@ -26,7 +26,7 @@ layout(constant_id = 82) const uint VOXEL_ENDS = ENDS_TOUCHING;
 layout(constant_id = 83) const uint VOXEL_LEAVES = VOXEL_LEAVES_FRAGMENTS;
 layout(constant_id = 84) const uint VOXEL_TRAVERSAL = VOXEL_TRAVERSAL_DDA;
 
-// State and sizes of voxels with axis A-buffers. 164 bytes.
+// State and sizes of voxels with axis A-buffers. Shared, 164 bytes.
 struct VoxelHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments found by the build, or pages begun for them, also those beyond the capacity
