@@ -11,22 +11,22 @@
 #include "bricks/margin.glsl"
 
 // Positions of columns and slices.
-struct BrickSpace {
-    BrickGrid grid;   // these two of the faces of a cube
-    BrickSlices slices;
+struct BricksSpace {
+    BricksGrid grid;     // these two of the faces of a cube
+    BricksSlices slices;
     BoxCells axes;       // these two of views along axes
     uvec3 cells;
 };
 
-BrickSpace brick_space(BrickRef s) {
-    return BrickSpace(brick_grid(s), brick_slices(s), brick_axes(s, 0u), brick_cells(s));
+BricksSpace bricks_space(BricksRef s) {
+    return BricksSpace(bricks_grid(s), bricks_slices(s), bricks_axes(s, 0u), bricks_cells(s));
 }
 
 // A triangle in a view.
-struct BrickBin {
+struct BricksBin {
     uint primitive;
     uint face;
-    BrickSpace space;
+    BricksSpace space;
     Overlap overlap;
     float margin;         // x/z: how far columns reach beyond their sides for the nearest corner
     BoxClip clip;       // of views along axes
@@ -37,12 +37,12 @@ struct BrickBin {
 };
 
 // The triangle is relative to the centre. False where it reaches into no column of the view.
-bool brick_bin_begin(BrickSpace space, BinTriangle triangle, uint face, out BrickBin bin) {
+bool bricks_bin_begin(BricksSpace space, BinTriangle triangle, uint face, out BricksBin bin) {
     bin.primitive = triangle.primitive;
     bin.face = face;
     bin.space = space;
     bin.small = false;
-    if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
+    if (BRICKS_VIEWS == BRICKS_VIEWS_AXES) {
         bin.clip = box_clip_begin(space.axes, space.cells, triangle.a, triangle.b, triangle.c);
         ivec2 last = ivec2(space.cells.xy) - 1;
         bin.lower = clamp(ivec2(floor(bin.clip.lower.xy - bin.clip.margin.xy)), ivec2(0), last);
@@ -58,7 +58,7 @@ bool brick_bin_begin(BrickSpace space, BinTriangle triangle, uint face, out Bric
         return false;
     }
     float nearest = min(a.z, min(b.z, c.z));
-    bin.margin = brick_margin(space.grid, nearest);
+    bin.margin = bricks_margin(space.grid, nearest);
     if (!bin_bounds(space.grid.columns, space.grid.near_size, a, b, c, bin.margin, 0, bin.lower, bin.upper)) {
         return false;
     }
@@ -68,8 +68,8 @@ bool brick_bin_begin(BrickSpace space, BinTriangle triangle, uint face, out Bric
 }
 
 // The depths of the triangle within a square of `side` columns; false where it does not reach into it.
-bool brick_bin_depths(BrickBin bin, ivec2 column, int side, out vec2 depths) {
-    if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
+bool bricks_bin_depths(BricksBin bin, ivec2 column, int side, out vec2 depths) {
+    if (BRICKS_VIEWS == BRICKS_VIEWS_AXES) {
         return box_clip_depths(bin.clip, column, side, depths);
     }
     float columns = float(bin.space.grid.columns);
@@ -80,38 +80,38 @@ bool brick_bin_depths(BrickBin bin, ivec2 column, int side, out vec2 depths) {
         return false;
     }
     // The margin is that of the depth at which the ray hits the triangle there, not of its nearest corner.
-    precise float narrow = half_side + brick_margin(bin.space.grid, depths.x);
+    precise float narrow = half_side + bricks_margin(bin.space.grid, depths.x);
     return widest - narrow < 0.125 * half_side || overlap_at(bin.space.grid.near_size, bin.overlap, vec3(place, 1.0), narrow, depths);
 }
 
 // The first and last slice of depths that a triangle has in a column.
-uvec2 brick_bin_slices(BrickBin bin, vec2 depths) {
-    if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
+uvec2 bricks_bin_slices(BricksBin bin, vec2 depths) {
+    if (BRICKS_VIEWS == BRICKS_VIEWS_AXES) {
         return uvec2(clamp(ivec2(floor(depths)), ivec2(0), ivec2(bin.space.cells.z) - 1));
     }
     float rounding = bin.space.grid.rounding;
-    return uvec2(brick_slice_of(depths.x - rounding, bin.space.slices), brick_slice_of(depths.y + rounding, bin.space.slices));
+    return uvec2(bricks_slice_of(depths.x - rounding, bin.space.slices), bricks_slice_of(depths.y + rounding, bin.space.slices));
 }
 
 // Stores the triangle in a column if it reaches into it. Returns how many entries that makes.
-uint brick_bin_column(BrickRef s, BrickBin bin, ivec2 column) {
+uint bricks_bin_column(BricksRef s, BricksBin bin, ivec2 column) {
     vec2 depths;
-    if (!brick_bin_depths(bin, column, 1, depths)) {
+    if (!bricks_bin_depths(bin, column, 1, depths)) {
         return 0u;
     }
-    uvec2 slices = brick_bin_slices(bin, depths);
+    uvec2 slices = bricks_bin_slices(bin, depths);
     for (uint first = slices.x; first <= slices.y; first = (first | 3u) + 1u) {
         uint last = min(slices.y, first | 3u);
-        uint brick = brick_index(bin.face, ivec3(column, first), bin.space.cells);
-        uvec2 cells = brick_column_bits(uvec2(column), first & 3u, last & 3u);
-        brick_store_record(s, 0u, BrickRecord(bin.primitive, brick, bin.small, cells));
+        uint brick = bricks_index(bin.face, ivec3(column, first), bin.space.cells);
+        uvec2 cells = bricks_column_bits(uvec2(column), first & 3u, last & 3u);
+        bricks_store_record(s, 0u, BricksRecord(bin.primitive, brick, bin.small, cells));
     }
     return slices.y - slices.x + 1u;
 }
 
-void brick_count_entries(BrickRef s, uint entries) {
+void bricks_count_entries(BricksRef s, uint entries) {
     if (entries > 0u) {
-        atomicAdd(BRICK_HEADER(s).demand, entries);
+        atomicAdd(BRICKS_HEADER(s).demand, entries);
     }
 }
 

@@ -9,33 +9,33 @@
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
 
-layout(local_size_x = BRICK_GROUP_SIZE) in;
+layout(local_size_x = BRICKS_GROUP_SIZE) in;
 
 void main() {
-    uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
-    uvec3 bricks = brick_cells(build.structure) >> 2;
+    uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICKS_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uvec3 bricks = bricks_cells(build.structure) >> 2;
     uint deep = bricks.z;
-    if (line >= brick_view_count() * bricks.y * deep) {
+    if (line >= bricks_view_count() * bricks.y * deep) {
         return;
     }
     uint first = line / deep * bricks.x * deep + line % deep;
     // Towards lower and higher slices.
-    uvec2 runs = uvec2(BRICK_RUNS_BEGIN);
+    uvec2 runs = uvec2(BRICKS_RUNS_BEGIN);
     for (uint x = 0u; x < bricks.x; x++) {
         uint brick = first + x * deep;
-        uint word = BRICK_POOL(build.structure, bricks)[brick_at(brick)];
-        bool empty = brick_is_empty(word);
-        runs.x = brick_runs_with(runs.x, empty ? word & 15u : 0u);
-        runs.y = brick_runs_with(runs.y, empty ? word >> 4 & 15u : 0u);
-        BRICK_DISTANCES(build.structure)[brick] = brick_reach_of(runs.x) | brick_reach_of(runs.y) << 4;
+        uint word = BRICKS_POOL(build.structure, bricks)[bricks_at(brick)];
+        bool empty = bricks_is_empty(word);
+        runs.x = bricks_runs_with(runs.x, empty ? word & 15u : 0u);
+        runs.y = bricks_runs_with(runs.y, empty ? word >> 4 & 15u : 0u);
+        BRICKS_DISTANCES(build.structure)[brick] = bricks_reach_of(runs.x) | bricks_reach_of(runs.y) << 4;
     }
-    runs = uvec2(BRICK_RUNS_BEGIN);
+    runs = uvec2(BRICKS_RUNS_BEGIN);
     for (uint x = bricks.x; x-- > 0u;) {
         uint brick = first + x * deep;
-        uint word = BRICK_POOL(build.structure, bricks)[brick_at(brick)];
-        bool empty = brick_is_empty(word);
-        runs.x = brick_runs_with(runs.x, empty ? word & 15u : 0u);
-        runs.y = brick_runs_with(runs.y, empty ? word >> 4 & 15u : 0u);
-        BRICK_DISTANCES(build.structure)[brick] |= brick_reach_of(runs.x) << 8 | brick_reach_of(runs.y) << 12;
+        uint word = BRICKS_POOL(build.structure, bricks)[bricks_at(brick)];
+        bool empty = bricks_is_empty(word);
+        runs.x = bricks_runs_with(runs.x, empty ? word & 15u : 0u);
+        runs.y = bricks_runs_with(runs.y, empty ? word >> 4 & 15u : 0u);
+        BRICKS_DISTANCES(build.structure)[brick] |= bricks_reach_of(runs.x) << 8 | bricks_reach_of(runs.y) << 12;
     }
 }

@@ -8,48 +8,48 @@
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
 
-layout(local_size_x = BRICK_GROUP_SIZE) in;
+layout(local_size_x = BRICKS_GROUP_SIZE) in;
 
 // The runs of four octants, and the reaches of a brick towards them.
 void lengthen(inout uint runs[4], uint reaches) {
     for (uint q = 0u; q < 4u; q++) {
-        runs[q] = brick_runs_with(runs[q], reaches >> (4u * q) & 15u);
+        runs[q] = bricks_runs_with(runs[q], reaches >> (4u * q) & 15u);
     }
 }
 
 uint reaches_of(uint runs[4]) {
-    return brick_reach_of(runs[0]) | brick_reach_of(runs[1]) << 4 | brick_reach_of(runs[2]) << 8 | brick_reach_of(runs[3]) << 12;
+    return bricks_reach_of(runs[0]) | bricks_reach_of(runs[1]) << 4 | bricks_reach_of(runs[2]) << 8 | bricks_reach_of(runs[3]) << 12;
 }
 
 void main() {
-    uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
-    uvec3 bricks = brick_cells(build.structure) >> 2;
+    uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICKS_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uvec3 bricks = bricks_cells(build.structure) >> 2;
     uint stride = bricks.x * bricks.z;
-    if (line >= brick_view_count() * stride) {
+    if (line >= bricks_view_count() * stride) {
         return;
     }
     uint first = line / stride * bricks.y * stride + line % stride;
-    uint runs[4] = uint[4](BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN);
+    uint runs[4] = uint[4](BRICKS_RUNS_BEGIN, BRICKS_RUNS_BEGIN, BRICKS_RUNS_BEGIN, BRICKS_RUNS_BEGIN);
     for (uint y = 0u; y < bricks.y; y++) {
         uint brick = first + y * stride;
-        uint reaches = BRICK_DISTANCES(build.structure)[brick];
+        uint reaches = BRICKS_DISTANCES(build.structure)[brick];
         lengthen(runs, reaches);
         if (reaches != 0u) {
-            if (BRICK_DEPTH != 0u) {
-                BRICK_POOL(build.structure, bricks)[brick_layer_at(brick)] = reaches;
+            if (BRICKS_DEPTH != 0u) {
+                BRICKS_POOL(build.structure, bricks)[bricks_layer_at(brick)] = reaches;
             }
             // Until the pass in the other direction, these are the reaches towards lower rows.
-            BRICK_POOL(build.structure, bricks)[brick_at(brick)] = BRICK_EMPTY | reaches_of(runs);
+            BRICKS_POOL(build.structure, bricks)[bricks_at(brick)] = BRICKS_EMPTY | reaches_of(runs);
         }
     }
-    runs = uint[4](BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN);
+    runs = uint[4](BRICKS_RUNS_BEGIN, BRICKS_RUNS_BEGIN, BRICKS_RUNS_BEGIN, BRICKS_RUNS_BEGIN);
     for (uint y = bricks.y; y-- > 0u;) {
         uint brick = first + y * stride;
-        uint reaches = BRICK_DISTANCES(build.structure)[brick];
+        uint reaches = BRICKS_DISTANCES(build.structure)[brick];
         lengthen(runs, reaches);
         if (reaches != 0u) {
-            uint lower = BRICK_POOL(build.structure, bricks)[brick_at(brick)] & 0xFFFFu;
-            BRICK_POOL(build.structure, bricks)[brick_at(brick)] = brick_empty_word(lower | reaches_of(runs) << 16);
+            uint lower = BRICKS_POOL(build.structure, bricks)[bricks_at(brick)] & 0xFFFFu;
+            BRICKS_POOL(build.structure, bricks)[bricks_at(brick)] = bricks_empty_word(lower | reaches_of(runs) << 16);
         }
     }
 }

@@ -7,18 +7,18 @@
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
 
-layout(local_size_x = BRICK_GROUP_SIZE) in;
+layout(local_size_x = BRICKS_GROUP_SIZE) in;
 
 void main() {
-    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (primitive >= min(geometry_triangle_count(), BRICK_HEADER(build.structure).triangle_capacity)) {
+    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICKS_GROUP_SIZE + gl_GlobalInvocationID.x;
+    if (primitive >= min(geometry_triangle_count(), BRICKS_HEADER(build.structure).triangle_capacity)) {
         return;
     }
     vec3 a;
     vec3 b;
     vec3 c;
     geometry_vertices(primitive, a, b, c);
-    BRICK_CORNERS(build.structure)[3u * primitive] = a;
-    BRICK_CORNERS(build.structure)[3u * primitive + 1u] = b;
-    BRICK_CORNERS(build.structure)[3u * primitive + 2u] = c;
+    BRICKS_CORNERS(build.structure)[3u * primitive] = a;
+    BRICKS_CORNERS(build.structure)[3u * primitive + 1u] = b;
+    BRICKS_CORNERS(build.structure)[3u * primitive + 2u] = c;
 }

@@ -10,12 +10,12 @@
 layout(local_size_x = 1) in;
 
 void main() {
-    bool lists_fit = BRICK_HEADER(build.structure).demand <= BRICK_HEADER(build.structure).capacity
-        && BRICK_HEADER(build.structure).near_demand <= BRICK_HEADER(build.structure).near_capacity
-        && BRICK_HEADER(build.structure).record_demand <= BRICK_HEADER(build.structure).record_capacity
-        && BRICK_HEADER(build.structure).cell_demand <= BRICK_HEADER(build.structure).cell_capacity
-        && BRICK_HEADER(build.structure).brick_demand <= BRICK_HEADER(build.structure).brick_capacity;
-    bool fits = lists_fit && geometry_triangle_count() <= BRICK_HEADER(build.structure).triangle_capacity
-        && BRICK_HEADER(build.structure).large_demand <= BRICK_LARGE_LIMIT * BRICK_HEADER(build.structure).triangle_capacity;
-    BRICK_HEADER(build.structure).status = build_status(fits);
+    bool lists_fit = BRICKS_HEADER(build.structure).demand <= BRICKS_HEADER(build.structure).capacity
+        && BRICKS_HEADER(build.structure).near_demand <= BRICKS_HEADER(build.structure).near_capacity
+        && BRICKS_HEADER(build.structure).record_demand <= BRICKS_HEADER(build.structure).record_capacity
+        && BRICKS_HEADER(build.structure).cell_demand <= BRICKS_HEADER(build.structure).cell_capacity
+        && BRICKS_HEADER(build.structure).brick_demand <= BRICKS_HEADER(build.structure).brick_capacity;
+    bool fits = lists_fit && geometry_triangle_count() <= BRICKS_HEADER(build.structure).triangle_capacity
+        && BRICKS_HEADER(build.structure).large_demand <= BRICKS_LARGE_LIMIT * BRICKS_HEADER(build.structure).triangle_capacity;
+    BRICKS_HEADER(build.structure).status = build_status(fits);
 }

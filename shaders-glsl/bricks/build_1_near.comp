@@ -10,23 +10,23 @@
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
 
-layout(local_size_x = BRICK_GROUP_SIZE) in;
+layout(local_size_x = BRICKS_GROUP_SIZE) in;
 
 void main() {
-    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICKS_GROUP_SIZE + gl_GlobalInvocationID.x;
     if (primitive >= geometry_triangle_count()) {
         return;
     }
     vec3 lower;
     vec3 upper;
-    bin_box(BRICK_HEADER(build.structure).centre, primitive, lower, upper);
+    bin_box(BRICKS_HEADER(build.structure).centre, primitive, lower, upper);
     vec3 away = max(max(lower, -upper), vec3(0.0));
     float nearest = max(away.x, max(away.y, away.z));
-    int before = (floatBitsToInt(BRICK_HEADER(build.structure).reach) - floatBitsToInt(nearest)) >> 23;
-    atomicAdd(BRICK_HEADER(build.structure).octaves[clamp(before, 0, int(BRICK_OCTAVES) - 1)], 1u);
-    float size = BRICK_HEADER(build.structure).near_size + BRICK_HEADER(build.structure).rounding;
+    int before = (floatBitsToInt(BRICKS_HEADER(build.structure).reach) - floatBitsToInt(nearest)) >> 23;
+    atomicAdd(BRICKS_HEADER(build.structure).octaves[clamp(before, 0, int(BRICKS_OCTAVES) - 1)], 1u);
+    float size = BRICKS_HEADER(build.structure).near_size + BRICKS_HEADER(build.structure).rounding;
     if (bin_box_is_near(lower, upper, size)) {
-        LIST_APPEND(BRICK_HEADER(build.structure).near_demand, BRICK_HEADER(build.structure).near_capacity,
-            BRICK_POOL(build.structure, near), 0u, primitive)
+        LIST_APPEND(BRICKS_HEADER(build.structure).near_demand, BRICKS_HEADER(build.structure).near_capacity,
+            BRICKS_POOL(build.structure, near), 0u, primitive)
     }
 }

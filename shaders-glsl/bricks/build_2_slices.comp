@@ -7,25 +7,25 @@
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
 
-layout(local_size_x = BRICK_GROUP_SIZE) in;
+layout(local_size_x = BRICKS_GROUP_SIZE) in;
 
 void main() {
     if (gl_GlobalInvocationID.x != 0u) {
         return;
     }
     uint triangles = 0u;
-    for (uint octave = 0u; octave < BRICK_OCTAVES; octave++) {
-        triangles += BRICK_HEADER(build.structure).octaves[octave];
+    for (uint octave = 0u; octave < BRICKS_OCTAVES; octave++) {
+        triangles += BRICKS_HEADER(build.structure).octaves[octave];
     }
-    // As few octaves as hold all but one triangle in BRICK_OCTAVE_SHARE; nearer depths are in the first slice.
-    uint octaves = BRICK_OCTAVES;
-    uint nearer = BRICK_HEADER(build.structure).octaves[BRICK_OCTAVES - 1u];
-    while (octaves > 1u && nearer <= triangles / BRICK_OCTAVE_SHARE) {
+    // As few octaves as hold all but one triangle in BRICKS_OCTAVE_SHARE; nearer depths are in the first slice.
+    uint octaves = BRICKS_OCTAVES;
+    uint nearer = BRICKS_HEADER(build.structure).octaves[BRICKS_OCTAVES - 1u];
+    while (octaves > 1u && nearer <= triangles / BRICKS_OCTAVE_SHARE) {
         octaves--;
-        nearer += BRICK_HEADER(build.structure).octaves[octaves - 1u];
+        nearer += BRICKS_HEADER(build.structure).octaves[octaves - 1u];
     }
-    BrickSlices slices = brick_slices_over(BRICK_HEADER(build.structure).reach, octaves,
-        BRICK_HEADER(build.structure).slices);
-    BRICK_HEADER(build.structure).slice_first = slices.first;
-    BRICK_HEADER(build.structure).slice_shift = slices.shift;
+    BricksSlices slices = bricks_slices_over(BRICKS_HEADER(build.structure).reach, octaves,
+        BRICKS_HEADER(build.structure).slices);
+    BRICKS_HEADER(build.structure).slice_first = slices.first;
+    BRICKS_HEADER(build.structure).slice_shift = slices.shift;
 }

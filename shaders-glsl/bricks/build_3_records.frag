@@ -12,11 +12,11 @@ layout(location = 0) flat in uvec2 primitive_and_view;
 void main() {
     ivec2 column = ivec2(gl_FragCoord.xy) - 1;
     BinTriangle triangle;
-    BrickBin bin;
-    if (!bin_centred(BRICK_HEADER(build.structure).centre, primitive_and_view.x, triangle)
-        || !brick_bin_begin(brick_space(build.structure), triangle, primitive_and_view.y, bin)
+    BricksBin bin;
+    if (!bin_centred(BRICKS_HEADER(build.structure).centre, primitive_and_view.x, triangle)
+        || !bricks_bin_begin(bricks_space(build.structure), triangle, primitive_and_view.y, bin)
         || any(lessThan(column, bin.lower)) || any(greaterThan(column, bin.upper))) {
         return;
     }
-    brick_count_entries(build.structure, brick_bin_column(build.structure, bin, column));
+    bricks_count_entries(build.structure, bricks_bin_column(build.structure, bin, column));
 }

@@ -6,20 +6,20 @@
 #include "contract/extensions.glsl"
 #include "bricks/level.glsl"
 
-layout(local_size_x = BRICK_GROUP_SIZE) in;
+layout(local_size_x = BRICKS_GROUP_SIZE) in;
 
 void main() {
-    uint last = brick_stored(build.structure);
+    uint last = bricks_stored(build.structure);
     if (gl_GlobalInvocationID.x == 0u) {
-        BRICK_HEADER(build.structure).brick_first[build.step + 1u] = last;
-        BRICK_HEADER(build.structure).record_first[build.step + 1u] = brick_stored_records(build.structure);
+        BRICKS_HEADER(build.structure).brick_first[build.step + 1u] = last;
+        BRICKS_HEADER(build.structure).record_first[build.step + 1u] = bricks_stored_records(build.structure);
     }
-    uint first = BRICK_HEADER(build.structure).brick_first[build.step] + gl_GlobalInvocationID.x;
-    for (uint brick = first; brick < last; brick += BRICK_LEVEL_STRIDE) {
-        uvec2 cells = brick_mask(build.structure, brick);
+    uint first = BRICKS_HEADER(build.structure).brick_first[build.step] + gl_GlobalInvocationID.x;
+    for (uint brick = first; brick < last; brick += BRICKS_LEVEL_STRIDE) {
+        uvec2 cells = bricks_mask(build.structure, brick);
         uint count = uint(bitCount(cells.x) + bitCount(cells.y));
         if (count > 0u) {
-            BRICK_POOL(build.structure, bricks)[brick_at(brick)] = atomicAdd(BRICK_HEADER(build.structure).cell_demand, count);
+            BRICKS_POOL(build.structure, bricks)[bricks_at(brick)] = atomicAdd(BRICKS_HEADER(build.structure).cell_demand, count);
         }
     }
 }

@@ -8,31 +8,31 @@
 #include "bricks/level.glsl"
 #include "bricks/refine.glsl"
 
-layout(local_size_x = BRICK_GROUP_SIZE) in;
+layout(local_size_x = BRICKS_GROUP_SIZE) in;
 
 void main() {
     uint next = build.step + 1u;
-    BoxCells axes = brick_axes(build.structure, next);
-    uvec3 all = brick_cells(build.structure) << 2u * brick_divisions(build.structure, next);
-    uvec3 side = uvec3(brick_side(build.structure, build.step));
-    ivec3 next_side = brick_side(build.structure, next);
+    BoxCells axes = bricks_axes(build.structure, next);
+    uvec3 all = bricks_cells(build.structure) << 2u * bricks_divisions(build.structure, next);
+    uvec3 side = uvec3(bricks_side(build.structure, build.step));
+    ivec3 next_side = bricks_side(build.structure, next);
     uint entries = 0u;
-    uvec2 range = brick_level_records();
-    for (uint place = range.x; place < range.y; place += BRICK_LEVEL_STRIDE) {
-        BrickRecord record = brick_record(build.structure, place);
-        uvec2 divided = brick_divided(build.structure, record.brick);
+    uvec2 range = bricks_level_records();
+    for (uint place = range.x; place < range.y; place += BRICKS_LEVEL_STRIDE) {
+        BricksRecord record = bricks_record(build.structure, place);
+        uvec2 divided = bricks_divided(build.structure, record.brick);
         uvec2 cells = divided & record.cells;
         if ((cells.x | cells.y) == 0u) {
             continue;
         }
-        brick_set_cells(build.structure, place, record.cells & ~divided);
+        bricks_set_cells(build.structure, place, record.cells & ~divided);
         BinTriangle triangle;
-        if (!bin_centred(BRICK_HEADER(build.structure).centre, record.primitive, triangle)) {
+        if (!bin_centred(BRICKS_HEADER(build.structure).centre, record.primitive, triangle)) {
             continue;
         }
         BoxClip clip = box_clip_begin(axes, all, triangle.a, triangle.b, triangle.c);
-        uvec3 brick = brick_place_of(build.structure, record.brick, build.step);
-        uint child = BRICK_POOL(build.structure, bricks)[brick_child_at(record.brick)];
+        uvec3 brick = bricks_place_of(build.structure, record.brick, build.step);
+        uint child = BRICKS_POOL(build.structure, bricks)[bricks_child_at(record.brick)];
         // One loop over the columns of all cells, so that invocations with few of each do not wait for those with many.
         Refined part;
         uint word;
@@ -40,21 +40,21 @@ void main() {
         bool begins = true;
         while (true) {
             if (begins) {
-                if (!brick_take_cell(cells, word, bit)) {
+                if (!bricks_take_cell(cells, word, bit)) {
                     break;
                 }
-                part = refined_begin(clip, side * brick + uvec3(brick_cell_of_bit(word, bit)), next_side);
+                part = refined_begin(clip, side * brick + uvec3(bricks_cell_of_bit(word, bit)), next_side);
             }
             begins = !refined_column(clip, part);
             if (begins) {
                 // Less the entry of the divided cell.
                 entries += uint(bitCount(part.cells.x) + bitCount(part.cells.y)) - 1u;
                 if ((part.cells.x | part.cells.y) != 0u) {
-                    uint of_cell = child + brick_rank(divided, word, bit);
-                    brick_store_record(build.structure, next, BrickRecord(record.primitive, of_cell, box_clip_is_small(clip), part.cells));
+                    uint of_cell = child + bricks_rank(divided, word, bit);
+                    bricks_store_record(build.structure, next, BricksRecord(record.primitive, of_cell, box_clip_is_small(clip), part.cells));
                 }
             }
         }
     }
-    brick_count_entries(build.structure, entries);
+    bricks_count_entries(build.structure, entries);
 }

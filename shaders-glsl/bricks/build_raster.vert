@@ -18,10 +18,10 @@ layout(location = 0) flat out uvec2 primitive_and_view;
 // Columns of a view along z: a square viewport of as many columns along a side as the longer side has, with a border
 // of one. a, b, c relative to the centre.
 vec4 propose_columns(vec3 a, vec3 b, vec3 c, uint corner) {
-    vec3 lower = BRICK_HEADER(build.structure).cells_lower;
-    vec3 per_metre = BRICK_HEADER(build.structure).cells_per_metre;
-    float rounding = BRICK_HEADER(build.structure).rounding;
-    uint side = max(BRICK_HEADER(build.structure).columns, BRICK_HEADER(build.structure).rows);
+    vec3 lower = BRICKS_HEADER(build.structure).cells_lower;
+    vec3 per_metre = BRICKS_HEADER(build.structure).cells_per_metre;
+    float rounding = BRICKS_HEADER(build.structure).rounding;
+    uint side = max(BRICKS_HEADER(build.structure).columns, BRICKS_HEADER(build.structure).rows);
     vec3 p[3] = vec3[3](a, b, c);
     for (int k = 0; k < 3; k++) {
         p[k] = vec3((p[k] - lower).xy * per_metre.xy * (2.0 / float(side)) - 1.0, 1.0);
@@ -34,10 +34,10 @@ vec4 propose_columns(vec3 a, vec3 b, vec3 c, uint corner) {
 
 // Columns of a face.
 vec4 propose_face_columns(vec3 a, vec3 b, vec3 c, uint corner) {
-    BrickGrid grid = brick_grid(build.structure);
+    BricksGrid grid = bricks_grid(build.structure);
     float nearest = min(a.z, min(b.z, c.z));
     // The centre of every column that the triangle reaches into, with 1/32 of a column for the hardware's grid.
-    float margin = 1.0 / float(grid.columns) + brick_margin(grid, nearest) + 1.0 / (16.0 * float(grid.columns));
+    float margin = 1.0 / float(grid.columns) + bricks_margin(grid, nearest) + 1.0 / (16.0 * float(grid.columns));
     return coverage_proposal_within(a, b, c, corner, grid.columns, margin);
 }
 
@@ -49,9 +49,9 @@ void main() {
     vec3 a;
     vec3 b;
     vec3 c;
-    if (!bin_corners(BRICK_HEADER(build.structure).centre, primitive, a, b, c)) {
+    if (!bin_corners(BRICKS_HEADER(build.structure).centre, primitive, a, b, c)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-    } else if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
+    } else if (BRICKS_VIEWS == BRICKS_VIEWS_AXES) {
         gl_Position = propose_columns(a, b, c, corner);
     } else {
         gl_Position = propose_face_columns(face_from_world(a, view), face_from_world(b, view), face_from_world(c, view), corner);

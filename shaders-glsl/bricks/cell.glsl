@@ -8,12 +8,12 @@
 #include "ads/evaluate.glsl"
 
 // Values that are constant along a ray.
-struct BrickTraversal {
+struct BricksTraversal {
     ivec3 cells;          // columns, rows and slices, of the smallest cells
     ivec3 shift;          // log2 of the smallest cells along each side of a cell of a view
     float steepness;      // rows that the ray crosses for each column or slice, whichever are more
     // The following is for the faces of a cube only.
-    BrickSlices slices;
+    BricksSlices slices;
     float half_side;      // half the columns of a face
     float column;         // width of one in x/z
     float rounding;       // metres: bound of how far rounding moves the ray
@@ -25,10 +25,10 @@ struct BrickTraversal {
 
 // Bricks beyond an empty one that are empty too: along all axes towards an octant, or farther along columns and slices alone
 // where that is what a ray crosses in one step.
-ivec3 brick_empty_bricks(BrickWords words, uint octant, float steepness) {
-    int cube = brick_distance(words.word, octant);
-    if (BRICK_DEPTH != 0u) {
-        int layer = brick_layer_distance(words.layer, octant);
+ivec3 bricks_empty_bricks(BricksWords words, uint octant, float steepness) {
+    int cube = bricks_distance(words.word, octant);
+    if (BRICKS_DEPTH != 0u) {
+        int layer = bricks_layer_distance(words.layer, octant);
         if (layer > cube && min(1.0 / max(steepness, 1.0e-6), float(layer + 1)) * max(1.0, steepness) > float(cube + 1)) {
             return ivec3(layer, 0, layer);
         }
@@ -37,7 +37,7 @@ ivec3 brick_empty_bricks(BrickWords words, uint octant, float steepness) {
 }
 
 // The smallest cells that a ray may cross in one step: all between first and last along each axis.
-struct BrickBox {
+struct BricksBox {
     ivec3 first;
     ivec3 last;
     bool listed;          // one cell, which lists something
@@ -46,26 +46,26 @@ struct BrickBox {
 
 // The box of a brick whose cells are as large as 2^shift of the smallest along a side; it has one cell along an axis where that
 // would be less than 1. False, and the brick of the cell, if that is divided.
-bool brick_box_in(BrickWords words, ivec3 shift, ivec3 cell, bvec3 up, inout uint brick, inout BrickBox box) {
+bool bricks_box_in(BricksWords words, ivec3 shift, ivec3 cell, bvec3 up, inout uint brick, inout BricksBox box) {
     ivec3 size = max(shift, 0);
     ivec3 within = mix(ivec3(3), ivec3(0), lessThan(shift, ivec3(0)));
     ivec3 place = cell >> size;
     ivec3 at = place & within;
-    uint word = brick_word(at);
-    uint bit = brick_bit(at);
+    uint word = bricks_word(at);
+    uint bit = bricks_bit(at);
     if ((words.divided[word] >> bit & 1u) != 0u && any(greaterThan(shift, ivec3(0)))) {
-        brick = words.child + brick_rank(words.divided, word, bit);
+        brick = words.child + bricks_rank(words.divided, word, bit);
         return false;
     }
     uvec2 all = words.mask | words.divided;
     ivec3 first = at;
     ivec3 last = at;
     bool listed = (words.mask[word] >> bit & 1u) != 0u;
-    if (BRICK_SKIP != 0u && !listed) {
-        brick_empty_cells(all, at, up, first, last);
+    if (BRICKS_SKIP != 0u && !listed) {
+        bricks_empty_cells(all, at, up, first, last);
     } else if (listed) {
         box.listed = true;
-        box.list = words.word + brick_rank(all, word, bit);
+        box.list = words.word + bricks_rank(all, word, bit);
     }
     ivec3 corner = place - at;
     box.first = corner + (first & within) << size;
@@ -74,37 +74,37 @@ bool brick_box_in(BrickWords words, ivec3 shift, ivec3 cell, bvec3 up, inout uin
 }
 
 // Box crossed from a cell in one step. Bricks, lists and triangles with an invalid index are counted, here and below.
-BrickBox brick_box(BrickRef s, BrickTraversal traversal, uint face, ivec3 cell, bvec3 up, inout uint corrupted) {
+BricksBox bricks_box(BricksRef s, BricksTraversal traversal, uint face, ivec3 cell, bvec3 up, inout uint corrupted) {
     uvec3 of_view = uvec3(traversal.cells >> traversal.shift);
-    uint brick = brick_index(face, cell >> traversal.shift, of_view);
-    BrickBox box = BrickBox(cell, cell, false, 0u);
-    BrickWords words = brick_words(s, brick);
-    if (BRICK_SKIP != 0u && brick_is_empty(words.word)) {
+    uint brick = bricks_index(face, cell >> traversal.shift, of_view);
+    BricksBox box = BricksBox(cell, cell, false, 0u);
+    BricksWords words = bricks_words(s, brick);
+    if (BRICKS_SKIP != 0u && bricks_is_empty(words.word)) {
         ivec3 inside = (ivec3(4) << traversal.shift) - 1;
-        ivec3 beyond = brick_empty_bricks(words, brick_octant(up), traversal.steepness) * (inside + 1);
+        ivec3 beyond = bricks_empty_bricks(words, bricks_octant(up), traversal.steepness) * (inside + 1);
         box.first = max((cell & ~inside) - beyond, ivec3(0));
         box.last = min((cell | inside) + beyond, traversal.cells - 1);
         return box;
     }
     ivec3 shift = traversal.shift;
-    for (uint level = 0u; level <= BRICK_DEPTH; level++) {
-        if (brick_box_in(words, shift, cell, up, brick, box)) {
+    for (uint level = 0u; level <= BRICKS_DEPTH; level++) {
+        if (bricks_box_in(words, shift, cell, up, brick, box)) {
             break;
         }
         if (brick >= traversal.bricks) {
             corrupted += 1u;
             break;
         }
-        words = brick_words(s, brick);
+        words = bricks_words(s, brick);
         shift -= 2;
     }
     return box;
 }
 
 // Where the list of a cell begins and ends. One that leaves the pool is empty.
-uvec2 brick_entries(BrickRef s, BrickTraversal traversal, uint list, inout uint corrupted) {
+uvec2 bricks_entries(BricksRef s, BricksTraversal traversal, uint list, inout uint corrupted) {
     if (list < traversal.listed) {
-        uvec2 entries = uvec2(list == 0u ? 0u : BRICK_POOL(s, lists)[list - 1u], BRICK_POOL(s, lists)[list]);
+        uvec2 entries = uvec2(list == 0u ? 0u : BRICKS_POOL(s, lists)[list - 1u], BRICKS_POOL(s, lists)[list]);
         if (entries.y <= traversal.stored) {
             return entries;
         }
@@ -114,9 +114,9 @@ uvec2 brick_entries(BrickRef s, BrickTraversal traversal, uint list, inout uint 
 }
 
 // Tests a candidate with the corners kept here, or with those of the geometry.
-void brick_test(BrickRef s, uint primitive, Ray ray, inout TraceState state, inout uint corrupted) {
-    bool kept = BRICK_CORNERS_KEPT != 0u;
-    if (primitive >= (kept ? BRICK_HEADER(s).triangle_capacity : geometry_triangle_count())) {
+void bricks_test(BricksRef s, uint primitive, Ray ray, inout TraceState state, inout uint corrupted) {
+    bool kept = BRICKS_CORNERS_KEPT != 0u;
+    if (primitive >= (kept ? BRICKS_HEADER(s).triangle_capacity : geometry_triangle_count())) {
         corrupted += 1u;
         return;
     }
@@ -124,9 +124,9 @@ void brick_test(BrickRef s, uint primitive, Ray ray, inout TraceState state, ino
     vec3 b;
     vec3 c;
     if (kept) {
-        a = BRICK_CORNERS(s)[3u * primitive];
-        b = BRICK_CORNERS(s)[3u * primitive + 1u];
-        c = BRICK_CORNERS(s)[3u * primitive + 2u];
+        a = BRICKS_CORNERS(s)[3u * primitive];
+        b = BRICKS_CORNERS(s)[3u * primitive + 1u];
+        c = BRICKS_CORNERS(s)[3u * primitive + 2u];
     } else {
         geometry_vertices(primitive, a, b, c);
     }

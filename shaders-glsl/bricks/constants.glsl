@@ -3,42 +3,42 @@
 #define BRICKS_CONSTANTS_GLSL
 
 // The views: faces of a cube around a centre, or one box along the axes of the world.
-#define BRICK_VIEWS_CUBE 0u
-#define BRICK_VIEWS_AXES 1u
+#define BRICKS_VIEWS_CUBE 0u
+#define BRICKS_VIEWS_AXES 1u
 
 // In the word of a brick: no cell of it has a list.
-#define BRICK_EMPTY 0x80000000u
+#define BRICKS_EMPTY 0x80000000u
 // Maximum number of empty bricks that one step crosses, its own included.
-#define BRICK_REACH 8u
+#define BRICKS_REACH 8u
 
 // Largest error of the computed place of a point of a ray, over the distance of the geometry: 16 units.
-#define BRICK_PLACE 9.6e-7
+#define BRICKS_PLACE 9.6e-7
 
 // Most divisions of a cell into 4x4x4 smaller ones, and the small triangles that a cell lists before it is divided:
 // small ones are no longer than the cell along any axis.
-#define BRICK_DEPTH_MOST 3u
-#define BRICK_CROWDED 16u
+#define BRICKS_DEPTH_MOST 3u
+#define BRICKS_CROWDED 16u
 // Margins that smaller cells are wide, at the least: along an axis where they were narrower a cell is not divided.
-#define BRICK_DIVIDED_MARGINS 2.0
+#define BRICKS_DIVIDED_MARGINS 2.0
 // Maximum columns along a side of a view of the smallest cells: positions of bricks have 16 bits.
-#define BRICK_FINEST_LIMIT 16384u
+#define BRICKS_FINEST_LIMIT 16384u
 // Workgroups of an indirect dispatch, whose invocations go on with what is left.
-#define BRICK_GROUPS_MOST 65535u
+#define BRICKS_GROUPS_MOST 65535u
 
 // Maximum columns along a side of a view and maximum slices: loops over them stay far below the iterations that drivers
 // allow an invocation.
-#define BRICK_SIDE_LIMIT 1024u
-#define BRICK_SLICE_LIMIT 1024u
+#define BRICKS_SIDE_LIMIT 1024u
+#define BRICKS_SLICE_LIMIT 1024u
 
 // Octaves of depth in which triangles are counted; and N where one triangle in N may begin nearer than the depths that
 // are divided into slices.
-#define BRICK_OCTAVES 32u
-#define BRICK_OCTAVE_SHARE 256u
+#define BRICKS_OCTAVES 32u
+#define BRICKS_OCTAVE_SHARE 256u
 
 // Words per triangle of the large-triangle queue: one per view.
-#define BRICK_LARGE_LIMIT 6u
+#define BRICKS_LARGE_LIMIT 6u
 
 // Threads in a workgroup of the build's compute passes.
-#define BRICK_GROUP_SIZE 64u
+#define BRICKS_GROUP_SIZE 64u
 
 #endif

@@ -1,7 +1,7 @@
 // Reaches of empty bricks towards each octant, found one axis after the other.
 // Reads, writes: nothing; build passes read and write words.
 // A word of the first pass holds two reaches of 4 bits, towards lower and higher slices; of the second four,
-// of the third eight. A reach counts bricks from the own one on, BRICK_REACH at most; 0 is a brick that lists
+// of the third eight. A reach counts bricks from the own one on, BRICKS_REACH at most; 0 is a brick that lists
 // something. The reach along two axes is the side of the largest square that is empty, since each column of
 // it must be empty that far.
 #ifndef BRICKS_DISTANCE_GLSL
@@ -10,24 +10,24 @@
 #include "bricks/words.glsl"
 
 // A line of bricks is traversed once in each direction, with the lengths of the runs that end at the
-// brick: nibble v - 1 counts bricks in a row that reach v or more, BRICK_REACH at most. Before the first
+// brick: nibble v - 1 counts bricks in a row that reach v or more, BRICKS_REACH at most. Before the first
 // brick everything is empty.
-#define BRICK_RUNS_BEGIN 0x88888888u
+#define BRICKS_RUNS_BEGIN 0x88888888u
 
 // The runs that end at a brick, from those that end before it and its reach along the axes so far.
-uint brick_runs_with(uint runs, uint reach) {
+uint bricks_runs_with(uint runs, uint reach) {
     uint longer = runs + 0x11111111u - (runs >> 3 & 0x11111111u);
-    return reach < BRICK_REACH ? longer & ((1u << (4u * reach)) - 1u) : longer;
+    return reach < BRICKS_REACH ? longer & ((1u << (4u * reach)) - 1u) : longer;
 }
 
 // The reach of the brick that runs end at, this axis included: the largest v whose run is v long.
-uint brick_reach_of(uint runs) {
+uint bricks_reach_of(uint runs) {
     return uint(bitCount((runs + 0x01234567u) & 0x88888888u));
 }
 
 // The word of an empty brick from its eight reaches.
-uint brick_empty_word(uint reaches) {
-    uint word = BRICK_EMPTY;
+uint bricks_empty_word(uint reaches) {
+    uint word = BRICKS_EMPTY;
     for (uint octant = 0u; octant < 8u; octant++) {
         word |= ((reaches >> (4u * octant) & 15u) - 1u) << (3u * octant);
     }

@@ -6,7 +6,7 @@
 #include "ads/pools.glsl"
 #include "bricks/types.glsl"
 
-STRUCTURE_HEADER(Brick, brick)
-#define BRICK_HEADER(s) STRUCTURE_HEADER_OF(Brick, brick, s)
+STRUCTURE_HEADER(Bricks, bricks)
+#define BRICKS_HEADER(s) STRUCTURE_HEADER_OF(Bricks, bricks, s)
 
 #endif

@@ -1,5 +1,5 @@
 // Shared parts of passes that build one level of bricks: their constants, and the bricks or records that they
-// visit. Workgroups are counted on the device, so an invocation goes on with every BRICK_LEVEL_STRIDE-th.
+// visit. Workgroups are counted on the device, so an invocation goes on with every BRICKS_LEVEL_STRIDE-th.
 // Reads: header. Writes: nothing.
 #ifndef BRICKS_LEVEL_GLSL
 #define BRICKS_LEVEL_GLSL
@@ -8,17 +8,17 @@
 #include "bricks/names.glsl"
 #include "ads/build_constants.glsl"
 
-#define BRICK_LEVEL_STRIDE (gl_NumWorkGroups.x * BRICK_GROUP_SIZE)
+#define BRICKS_LEVEL_STRIDE (gl_NumWorkGroups.x * BRICKS_GROUP_SIZE)
 
 // First brick or record of the level for this invocation, and what is behind the last of the level.
-uvec2 brick_level_bricks() {
-    return uvec2(BRICK_HEADER(build.structure).brick_first[build.step] + gl_GlobalInvocationID.x,
-        min(BRICK_HEADER(build.structure).brick_first[build.step + 1u], BRICK_HEADER(build.structure).brick_capacity));
+uvec2 bricks_level_bricks() {
+    return uvec2(BRICKS_HEADER(build.structure).brick_first[build.step] + gl_GlobalInvocationID.x,
+        min(BRICKS_HEADER(build.structure).brick_first[build.step + 1u], BRICKS_HEADER(build.structure).brick_capacity));
 }
 
-uvec2 brick_level_records() {
-    return uvec2(BRICK_HEADER(build.structure).record_first[build.step] + gl_GlobalInvocationID.x,
-        min(BRICK_HEADER(build.structure).record_first[build.step + 1u], BRICK_HEADER(build.structure).record_capacity));
+uvec2 bricks_level_records() {
+    return uvec2(BRICKS_HEADER(build.structure).record_first[build.step] + gl_GlobalInvocationID.x,
+        min(BRICKS_HEADER(build.structure).record_first[build.step + 1u], BRICKS_HEADER(build.structure).record_capacity));
 }
 
 #endif

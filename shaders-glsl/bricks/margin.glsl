@@ -7,19 +7,19 @@
 
 // The values of the header that decide which columns of a face list a triangle. Precise expressions take values from
 // here: with addresses, glslang does not end where they follow a reference.
-struct BrickGrid {
+struct BricksGrid {
     uint columns;
     float near_size;
     float rounding;
 };
 
-BrickGrid brick_grid(BrickRef s) {
-    return BrickGrid(BRICK_HEADER(s).columns, BRICK_HEADER(s).near_size, BRICK_HEADER(s).rounding);
+BricksGrid bricks_grid(BricksRef s) {
+    return BricksGrid(BRICKS_HEADER(s).columns, BRICKS_HEADER(s).near_size, BRICKS_HEADER(s).rounding);
 }
 
 // Reach of a column beyond its sides at that depth, in x/z, so that neither the rounding of a test nor
 // that of the march makes a ray miss a triangle that it hits.
-float brick_margin(BrickGrid grid, float depth) {
+float bricks_margin(BricksGrid grid, float depth) {
     precise float margin = grid.rounding / max(depth, grid.near_size) + 3.0e-6;
     return margin;
 }

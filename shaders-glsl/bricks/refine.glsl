@@ -38,7 +38,7 @@ bool refined_column(BoxClip clip, inout Refined part) {
     if (box_clip_depths(clip, part.corner.xy + part.column, 1, depths)) {
         ivec2 slices = ivec2(floor(depths)) - part.corner.z;
         if (slices.x < part.slices && slices.y >= 0) {
-            part.cells |= brick_column_bits(uvec2(part.column), uint(max(slices.x, 0)), uint(min(slices.y, part.slices - 1)));
+            part.cells |= bricks_column_bits(uvec2(part.column), uint(max(slices.x, 0)), uint(min(slices.y, part.slices - 1)));
         }
     }
     bool next_row = part.column.x == part.upper.x;

@@ -6,27 +6,27 @@
 
 #include "bricks/accessors.glsl"
 
-uint scan_count(BrickRef s, uint step) {
-    return brick_listed_cells(s);
+uint scan_count(BricksRef s, uint step) {
+    return bricks_listed_cells(s);
 }
 
-uint scan_number(BrickRef s, uint step, uint i) {
-    return BRICK_POOL(s, lists)[i];
+uint scan_number(BricksRef s, uint step, uint i) {
+    return BRICKS_POOL(s, lists)[i];
 }
 
-void scan_set_number(BrickRef s, uint step, uint i, uint number) {
-    BRICK_POOL(s, lists)[i] = number;
+void scan_set_number(BricksRef s, uint step, uint i, uint number) {
+    BRICKS_POOL(s, lists)[i] = number;
 }
 
-uint scan_sum(BrickRef s, uint step, uint block) {
-    return BRICK_POOL(s, sums)[block];
+uint scan_sum(BricksRef s, uint step, uint block) {
+    return BRICKS_POOL(s, sums)[block];
 }
 
-void scan_set_sum(BrickRef s, uint step, uint block, uint sum) {
-    BRICK_POOL(s, sums)[block] = sum;
+void scan_set_sum(BricksRef s, uint step, uint block, uint sum) {
+    BRICKS_POOL(s, sums)[block] = sum;
 }
 
-void scan_set_total(BrickRef s, uint step, uint total) {
+void scan_set_total(BricksRef s, uint step, uint total) {
 }
 
 #endif

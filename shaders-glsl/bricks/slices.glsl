@@ -5,27 +5,27 @@
 #ifndef BRICKS_SLICES_GLSL
 #define BRICKS_SLICES_GLSL
 
-struct BrickSlices {
+struct BricksSlices {
     int count;            // depths before the first slice belong to it, depths behind the last one to that
     int first;            // bits of the depth at which slice 0 begins
     int shift;            // 23 less the logarithm of the slices an octave
 };
 
-int brick_slice_of(float z, BrickSlices slices) {
+int bricks_slice_of(float z, BricksSlices slices) {
     return clamp((floatBitsToInt(max(z, 0.0)) - slices.first) >> slices.shift, 0, slices.count - 1);
 }
 
 // Depth of the boundary below slice k, for 0 < k < count.
-float brick_slice_boundary(int k, BrickSlices slices) {
+float bricks_slice_boundary(int k, BricksSlices slices) {
     return intBitsToFloat(slices.first + (k << slices.shift));
 }
 
 // The slices whose last one ends behind `farthest` and that exclude at most `octaves` octaves before the first.
-BrickSlices brick_slices_over(float farthest, uint octaves, uint count) {
+BricksSlices bricks_slices_over(float farthest, uint octaves, uint count) {
     uint an_octave = 1u << uint(findMSB(max(count / max(octaves, 1u), 1u)));
     int shift = 23 - findMSB(an_octave);
     int first = floatBitsToInt(farthest) - (int(count - 1u) << shift);
-    return BrickSlices(int(count), max(first, 0), shift);
+    return BricksSlices(int(count), max(first, 0), shift);
 }
 
 #endif

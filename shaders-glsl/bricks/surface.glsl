@@ -6,7 +6,7 @@
 #include "scene/surface.glsl"
 #include "bricks/header.glsl"
 
-Surface brick_surface_at(BrickRef s, Ray ray, Hit hit) {
+Surface bricks_surface_at(BricksRef s, Ray ray, Hit hit) {
     return scene_surface(ray, hit.t, hit.primitive, vec2(hit.a, hit.b));
 }
 

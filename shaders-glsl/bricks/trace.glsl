@@ -12,20 +12,20 @@
 #include "ads/march_cube.glsl"
 
 // Number of triangles that are tested one by one.
-uint brick_alone(BrickRef s, uint alone) {
-    return alone == BRICK_ALONE_ALL ? geometry_triangle_count()
-        : min(BRICK_HEADER(s).near_demand, BRICK_HEADER(s).near_capacity);
+uint bricks_alone(BricksRef s, uint alone) {
+    return alone == BRICKS_ALONE_ALL ? geometry_triangle_count()
+        : min(BRICKS_HEADER(s).near_demand, BRICKS_HEADER(s).near_capacity);
 }
 
 // Tests what is tested one by one, then follows the ray, over the near region if it crosses that; a ray that tests all
 // triangles is not followed. Either reads its candidates by the same code, which is most of the kernel. `resumed`: as the
 // cursor says. True if the budget ended first.
-bool brick_trace_cells(BrickRef s, Ray ray, BrickSpan span, uint alone, bool any_hit, bool resumed, inout TraceState state) {
+bool bricks_trace_cells(BricksRef s, Ray ray, BricksSpan span, uint alone, bool any_hit, bool resumed, inout TraceState state) {
     uint work = 0u;
     // Added up here: an atomic in a loop costs time.
     uint corrupted = 0u;
-    const bool axes = BRICK_VIEWS == BRICK_VIEWS_AXES;
-    BrickTraversal traversal = brick_traversal(s);
+    const bool axes = BRICKS_VIEWS == BRICKS_VIEWS_AXES;
+    BricksTraversal traversal = bricks_traversal(s);
     // A finite end, also where the end of the geometry overflows.
     span.t_last = min(span.t_last, 3.0e38);
     bool crosses_near = span.near.x <= span.near.y && span.near.y < span.t_last;
@@ -33,33 +33,33 @@ bool brick_trace_cells(BrickRef s, Ray ray, BrickSpan span, uint alone, bool any
         // A ray that ends in the near region needs no cell of it.
         span.t_last = min(span.t_last, span.near.x);
     }
-    BrickWalk walk = brick_walk_begin(span, ray.direction, alone, resumed, state);
-    BrickLine line;
+    BricksWalk walk = bricks_walk_begin(span, ray.direction, alone, resumed, state);
+    BricksLine line;
     // The two triangles tested last: large ones are in many consecutive cells.
     uvec2 tested = uvec2(PRIMITIVE_NONE);
     // Each iteration crosses a cell or the empty cells around it, and stays below the budget; the first may test what is
     // tested one by one.
-    while (alone != BRICK_ALONE_NONE || (walk.t <= span.t_last && !(walk.t > state.best.t + span.slack))) {
-        if (walk.turns && alone == BRICK_ALONE_NONE) {
-            line = brick_line(s, span.origin, ray.direction, walk.face);
+    while (alone != BRICKS_ALONE_NONE || (walk.t <= span.t_last && !(walk.t > state.best.t + span.slack))) {
+        if (walk.turns && alone == BRICKS_ALONE_NONE) {
+            line = bricks_line(s, span.origin, ray.direction, walk.face);
             if (axes) {
-                traversal.steepness = brick_line_steepness(line);
+                traversal.steepness = bricks_line_steepness(line);
             }
             if (walk.begins) {
                 trace_log_visit(STEP_VIEW, walk.face, 0u, 0u, walk.t, span.t_last);
-                walk.cell = clamp(brick_line_cell_at(line, traversal, walk.t), ivec3(0), traversal.cells - 1);
+                walk.cell = clamp(bricks_line_cell_at(line, traversal, walk.t), ivec3(0), traversal.cells - 1);
             }
             walk.turns = false;
             walk.begins = false;
         }
         // A list that was being read when the ray paused goes on without a unit for its cell.
-        bool enters = walk.entry == BRICK_LIST_BEGIN;
-        BrickBox box = BrickBox(walk.cell, walk.cell, true, 0u);
+        bool enters = walk.entry == BRICKS_LIST_BEGIN;
+        BricksBox box = BricksBox(walk.cell, walk.cell, true, 0u);
         vec3 exits = vec3(0.0);
         float t_out = walk.t;
         uvec2 entries = uvec2(0u);
-        if (alone != BRICK_ALONE_NONE) {
-            entries.y = brick_alone(s, alone);
+        if (alone != BRICKS_ALONE_NONE) {
+            entries.y = bricks_alone(s, alone);
         } else {
             if (enters) {
                 if (work >= work_budget) {
@@ -68,15 +68,15 @@ bool brick_trace_cells(BrickRef s, Ray ray, BrickSpan span, uint alone, bool any
                 }
                 work++;
             }
-            box = brick_box(s, traversal, walk.face, walk.cell, line.up, corrupted);
-            exits = brick_line_exits(line, traversal, box);
+            box = bricks_box(s, traversal, walk.face, walk.cell, line.up, corrupted);
+            exits = bricks_line_exits(line, traversal, box);
             t_out = max(min(exits.x, min(exits.y, exits.z)), walk.t);
             if (enters) {
                 state.cells++;
                 trace_log_visit(STEP_CELL, walk.face, uint(walk.cell.x), uint(walk.cell.y), walk.t, t_out);
             }
             if (box.listed) {
-                entries = brick_entries(s, traversal, box.list, corrupted);
+                entries = bricks_entries(s, traversal, box.list, corrupted);
                 if (enters) {
                     trace_log(STEP_LIST, uint(walk.cell.z), entries.x, 0u, 0.0, 0.0);
                 }
@@ -93,28 +93,28 @@ bool brick_trace_cells(BrickRef s, Ray ray, BrickSpan span, uint alone, bool any
                 }
                 work++;
                 uint primitive = walk.entry;
-                if (alone == BRICK_ALONE_NONE) {
+                if (alone == BRICKS_ALONE_NONE) {
                     state.entries++;
-                    primitive = brick_entry(s, walk.entry);
+                    primitive = bricks_entry(s, walk.entry);
                     trace_log_visit(STEP_ENTRY, walk.entry, 0u, 0u, 0.0, 0.0);
-                } else if (alone == BRICK_ALONE_NEAR) {
-                    primitive = brick_near(s, walk.entry);
+                } else if (alone == BRICKS_ALONE_NEAR) {
+                    primitive = bricks_near(s, walk.entry);
                 }
                 if (primitive != tested.x && primitive != tested.y) {
-                    brick_test(s, primitive, ray, state, corrupted);
+                    bricks_test(s, primitive, ray, state, corrupted);
                     tested = uvec2(primitive, tested.x);
                 }
-                if (alone != BRICK_ALONE_NONE && any_hit && state.best.primitive != PRIMITIVE_NONE) {
+                if (alone != BRICKS_ALONE_NONE && any_hit && state.best.primitive != PRIMITIVE_NONE) {
                     break;
                 }
             }
-            if (walk.paused || alone == BRICK_ALONE_ALL || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
+            if (walk.paused || alone == BRICKS_ALONE_ALL || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
                 break;
             }
-            walk.entry = BRICK_LIST_BEGIN;
+            walk.entry = BRICKS_LIST_BEGIN;
         }
-        if (alone != BRICK_ALONE_NONE) {
-            alone = BRICK_ALONE_NONE;
+        if (alone != BRICKS_ALONE_NONE) {
+            alone = BRICKS_ALONE_NONE;
             tested = uvec2(PRIMITIVE_NONE);
             continue;
         }
@@ -129,64 +129,64 @@ bool brick_trace_cells(BrickRef s, Ray ray, BrickSpan span, uint alone, bool any
         walk.t = t_out;
         bool leaves_x = exits.x <= exits.y && exits.x <= exits.z;
         bool leaves_y = !leaves_x && exits.y <= exits.z;
-        walk.cell = brick_next_cell(line, traversal, box, walk.cell, walk.t, leaves_x, leaves_y);
+        walk.cell = bricks_next_cell(line, traversal, box, walk.cell, walk.t, leaves_x, leaves_y);
         if (axes && (any(lessThan(walk.cell, ivec3(0))) || any(greaterThanEqual(walk.cell, traversal.cells)))) {
             break;
         }
         int crossed = leaves_x ? walk.cell.x : walk.cell.y;
         if (!axes && (leaves_x || leaves_y) && (crossed < 0 || crossed >= traversal.cells.x)) {
-            walk.face = brick_face_beyond(walk.face, leaves_x, crossed < 0);
+            walk.face = bricks_face_beyond(walk.face, leaves_x, crossed < 0);
             walk.turns = true;
             walk.begins = true;
         }
     }
     if (corrupted != 0u) {
-        atomicAdd(BRICK_HEADER(s).corrupted, corrupted);
+        atomicAdd(BRICKS_HEADER(s).corrupted, corrupted);
     }
     if (walk.paused) {
-        brick_walk_keep(walk, alone, state);
+        bricks_walk_keep(walk, alone, state);
     }
     return walk.paused;
 }
 
 // The whole ray.
-uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
-    vec3 origin = ray.origin - BRICK_HEADER(s).centre;
-    float reach = BRICK_HEADER(s).reach;
+uint bricks_trace(BricksRef s, Ray ray, inout TraceState state, bool any_hit) {
+    vec3 origin = ray.origin - BRICKS_HEADER(s).centre;
+    float reach = BRICKS_HEADER(s).reach;
     float slack = hit_slack(origin, ray.direction, reach);
     // Views along axes do not touch, so there is no near region between them.
-    vec2 near = BRICK_VIEWS == BRICK_VIEWS_AXES ? vec2(1.0, 0.0)
-        : near_region_interval(origin, ray.direction, BRICK_HEADER(s).near_size);
-    vec2 clip = bounds_interval(BRICK_HEADER(s).lower, BRICK_HEADER(s).upper, origin, ray.direction, ray.t_min - slack,
+    vec2 near = BRICKS_VIEWS == BRICKS_VIEWS_AXES ? vec2(1.0, 0.0)
+        : near_region_interval(origin, ray.direction, BRICKS_HEADER(s).near_size);
+    vec2 clip = bounds_interval(BRICKS_HEADER(s).lower, BRICKS_HEADER(s).upper, origin, ray.direction, ray.t_min - slack,
         ray.t_max + slack);
     if (!(clip.x < clip.y)) {
         return TRACE_MISS;
     }
     bool distant = largest_coordinate(origin) > ORIGIN_LIMIT * reach;
-    bool resumed = bits_are_set(state.cursor[0], BRICK_CURSOR_STARTED);
+    bool resumed = bits_are_set(state.cursor[0], BRICKS_CURSOR_STARTED);
     bool intersects_near = near.x <= near.y && near.x <= clip.y && near.y >= clip.x;
-    uint alone = BRICK_ALONE_NONE;
-    if (!resumed || bits_are_set(state.cursor[0], BRICK_CURSOR_LISTED)) {
-        alone = distant ? BRICK_ALONE_ALL : (intersects_near ? BRICK_ALONE_NEAR : BRICK_ALONE_NONE);
+    uint alone = BRICKS_ALONE_NONE;
+    if (!resumed || bits_are_set(state.cursor[0], BRICKS_CURSOR_LISTED)) {
+        alone = distant ? BRICKS_ALONE_ALL : (intersects_near ? BRICKS_ALONE_NEAR : BRICKS_ALONE_NONE);
     }
-    if (!resumed && alone != BRICK_ALONE_NONE) {
+    if (!resumed && alone != BRICKS_ALONE_NONE) {
         trace_log_visit(STEP_VIEW, distant ? SEGMENT_ALL : SEGMENT_NEAR, 0u, 0u, clip.x, clip.y);
     }
-    BrickSpan span = BrickSpan(origin, clip.x, clip.y, near, slack);
-    if (brick_trace_cells(s, ray, span, alone, any_hit, resumed, state)) {
+    BricksSpan span = BricksSpan(origin, clip.x, clip.y, near, slack);
+    if (bricks_trace_cells(s, ray, span, alone, any_hit, resumed, state)) {
         return TRACE_PAUSED;
     }
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
-uint brick_status(BrickRef s) {
-    return BRICK_HEADER(s).status;
+uint bricks_status(BricksRef s) {
+    return BRICKS_HEADER(s).status;
 }
 
-Hit brick_hit(BrickRef s, Hit best) {
+Hit bricks_hit(BricksRef s, Hit best) {
     return best;
 }
 
-TRACE_FUNCTIONS(BrickRef, brick)
+TRACE_FUNCTIONS(BricksRef, bricks)
 
 #endif

@@ -8,15 +8,15 @@
 #include "bricks/constants.glsl"
 
 // Constant ids 40 to 49 belong to bricks.
-layout(constant_id = 40) const uint BRICK_VIEWS = BRICK_VIEWS_AXES;
-layout(constant_id = 41) const uint BRICK_SKIP = 1u;
-layout(constant_id = 42) const uint BRICK_CORNERS_KEPT = 1u;
+layout(constant_id = 40) const uint BRICKS_VIEWS = BRICKS_VIEWS_AXES;
+layout(constant_id = 41) const uint BRICKS_SKIP = 1u;
+layout(constant_id = 42) const uint BRICKS_CORNERS_KEPT = 1u;
 
 // Most divisions of a cell. Bricks that may have divided cells have words for those.
-layout(constant_id = 43) const uint BRICK_DEPTH = 0u;
+layout(constant_id = 43) const uint BRICKS_DEPTH = 0u;
 
 // State and sizes of bricks. Shared, 504 bytes.
-struct BrickHeader {
+struct BricksHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
     uint capacity;        // entries the pool holds
@@ -45,8 +45,8 @@ struct BrickHeader {
     uvec2 near_address;   // device address of the near-region list
     uvec2 records_address; // device address of the records
     uvec2 triangles_address; // device address of the triangles' corners
-    int slice_first;      // `BrickSlices.first`: bits of the depth at which slice 0 begins
-    int slice_shift;      // `BrickSlices.shift`: 23 less the logarithm of the slices per octave
+    int slice_first;      // `BricksSlices.first`: bits of the depth at which slice 0 begins
+    int slice_shift;      // `BricksSlices.shift`: 23 less the logarithm of the slices per octave
     uint record_demand;   // records, also those beyond the capacity
     uint record_capacity; // records the pool holds
     uint cell_demand;     // cells that list something, as far as records fit
@@ -54,8 +54,8 @@ struct BrickHeader {
     uint triangle_capacity; // triangles whose corners the pool holds
     uint large_demand;           // triangles in the large-triangle queue
     uint groups[3];       // workgroups for those triangles, one each
-    uint octaves[BRICK_OCTAVES]; // triangles that begin that many octaves before the farthest geometry
-    uvec3 depths;         // how often cells may be divided along each axis, BRICK_DEPTH or less
+    uint octaves[BRICKS_OCTAVES]; // triangles that begin that many octaves before the farthest geometry
+    uvec3 depths;         // how often cells may be divided along each axis, BRICKS_DEPTH or less
     uint brick_demand;    // bricks of all levels, also those beyond the capacity
     uint brick_capacity;  // bricks the pool holds
     // Level 0 are the bricks of the views, level n + 1 those of divided cells of level n.

@@ -2,7 +2,7 @@
 // paused ray.
 // Reads: header. Writes: nothing.
 // Source: DIRT section 3.3, by cells of (column, row, slice) in bricks; bricks/cube.glsl has the planes
-// between them, and ads/box_cells.glsl those of views along axes (BRICK_VIEWS), which have one view and
+// between them, and ads/box_cells.glsl those of views along axes (BRICKS_VIEWS), which have one view and
 // no near region. Every step goes from t to where the ray leaves the cell, or the empty cells around it; the
 // axis of that exit gets the next index exactly, the others are found from the point there and clamped between
 // their previous values and the end of the empty cells. So indices only go forwards, and a cell is missed by no more
@@ -22,19 +22,19 @@
 #include "bricks/cube.glsl"
 
 // Fields of the flags.
-#define BRICK_CURSOR_STARTED 0, 1
-#define BRICK_CURSOR_LISTED 1, 1
-#define BRICK_CURSOR_FACE 2, 3
+#define BRICKS_CURSOR_STARTED 0, 1
+#define BRICKS_CURSOR_LISTED 1, 1
+#define BRICKS_CURSOR_FACE 2, 3
 // The list of the cell has not been begun.
-#define BRICK_LIST_BEGIN 0xFFFFFFFFu
+#define BRICKS_LIST_BEGIN 0xFFFFFFFFu
 
 // Triangles tested one by one before the ray is followed.
-#define BRICK_ALONE_NONE 0u
-#define BRICK_ALONE_NEAR 1u
-#define BRICK_ALONE_ALL 2u
+#define BRICKS_ALONE_NONE 0u
+#define BRICKS_ALONE_NEAR 1u
+#define BRICKS_ALONE_ALL 2u
 
 // The part of a ray that is followed.
-struct BrickSpan {
+struct BricksSpan {
     vec3 origin;          // of the ray, metres relative to the centre
     float t_first;
     float t_last;
@@ -43,62 +43,62 @@ struct BrickSpan {
 };
 
 // Where a ray is.
-struct BrickWalk {
+struct BricksWalk {
     float t;
     uint face;            // of the cube; 0 in views along axes
     ivec3 cell;           // one of the smallest
-    uint entry;           // the next of the cell's list, or BRICK_LIST_BEGIN
+    uint entry;           // the next of the cell's list, or BRICKS_LIST_BEGIN
     bool turns;           // it comes into a view: its line there is to be found
     bool begins;          // and so is its cell
     bool paused;          // the budget ended
 };
 
 // A ray in a view.
-struct BrickLine {
-    BrickRay in_face;     // of a face of the cube
+struct BricksLine {
+    BricksRay in_face;    // of a face of the cube
     BoxLine along_axes;   // of a view along axes
     bvec3 up;             // indices grow along the axis
 };
 
-BrickTraversal brick_traversal(BrickRef s) {
-    BrickTraversal traversal;
-    traversal.shift = 2 * ivec3(brick_divisions(s, BRICK_DEPTH));
-    traversal.cells = ivec3(brick_cells(s)) << traversal.shift;
-    traversal.bricks = brick_stored(s);
+BricksTraversal bricks_traversal(BricksRef s) {
+    BricksTraversal traversal;
+    traversal.shift = 2 * ivec3(bricks_divisions(s, BRICKS_DEPTH));
+    traversal.cells = ivec3(bricks_cells(s)) << traversal.shift;
+    traversal.bricks = bricks_stored(s);
     traversal.steepness = 1.0;
-    traversal.slices = brick_slices(s);
+    traversal.slices = bricks_slices(s);
     traversal.half_side = 0.5 * float(traversal.cells.x);
     traversal.column = 2.0 / float(traversal.cells.x);
-    traversal.rounding = BRICK_PLACE * BRICK_HEADER(s).reach;
-    traversal.stored = min(BRICK_HEADER(s).capacity, BRICK_HEADER(s).demand);
-    traversal.listed = brick_listed_cells(s);
+    traversal.rounding = BRICKS_PLACE * BRICKS_HEADER(s).reach;
+    traversal.stored = min(BRICKS_HEADER(s).capacity, BRICKS_HEADER(s).demand);
+    traversal.listed = bricks_listed_cells(s);
     return traversal;
 }
 
 // Where a ray is at first: where the cursor says if it is `resumed`, else where the span begins or the near region ends.
-BrickWalk brick_walk_begin(BrickSpan span, vec3 direction, uint alone, bool resumed, TraceState state) {
-    BrickWalk walk = BrickWalk(span.t_first, 0u, ivec3(0), BRICK_LIST_BEGIN, true, true, false);
-    walk.begins = !resumed || alone != BRICK_ALONE_NONE;
+BricksWalk bricks_walk_begin(BricksSpan span, vec3 direction, uint alone, bool resumed, TraceState state) {
+    BricksWalk walk = BricksWalk(span.t_first, 0u, ivec3(0), BRICKS_LIST_BEGIN, true, true, false);
+    walk.begins = !resumed || alone != BRICKS_ALONE_NONE;
     if (resumed) {
         walk.entry = state.cursor[4];
     }
     if (!walk.begins) {
-        walk.face = bits_get(state.cursor[0], BRICK_CURSOR_FACE);
+        walk.face = bits_get(state.cursor[0], BRICKS_CURSOR_FACE);
         walk.t = uintBitsToFloat(state.cursor[1]);
         walk.cell = ivec3(cell_of_bits(state.cursor[2]), state.cursor[3]);
     } else if (span.near.x <= walk.t && walk.t <= span.near.y) {
         walk.t = span.near.y;
     }
-    if (walk.begins && BRICK_VIEWS != BRICK_VIEWS_AXES) {
+    if (walk.begins && BRICKS_VIEWS != BRICKS_VIEWS_AXES) {
         walk.face = face_of(span.origin + walk.t * direction);
     }
     return walk;
 }
 
-// Keeps in the cursor where a ray is, and what is tested one by one before it is followed (BRICK_ALONE_*).
-void brick_walk_keep(BrickWalk walk, uint alone, inout TraceState state) {
-    state.cursor[0] = bits_put(true, BRICK_CURSOR_STARTED) | bits_put(walk.face, BRICK_CURSOR_FACE)
-        | bits_put(alone != BRICK_ALONE_NONE, BRICK_CURSOR_LISTED);
+// Keeps in the cursor where a ray is, and what is tested one by one before it is followed (BRICKS_ALONE_*).
+void bricks_walk_keep(BricksWalk walk, uint alone, inout TraceState state) {
+    state.cursor[0] = bits_put(true, BRICKS_CURSOR_STARTED) | bits_put(walk.face, BRICKS_CURSOR_FACE)
+        | bits_put(alone != BRICKS_ALONE_NONE, BRICKS_CURSOR_LISTED);
     state.cursor[1] = floatBitsToUint(walk.t);
     state.cursor[2] = bits_of_cell(walk.cell.xy);
     state.cursor[3] = uint(walk.cell.z);
@@ -106,41 +106,41 @@ void brick_walk_keep(BrickWalk walk, uint alone, inout TraceState state) {
 }
 
 // The line of a ray in a view.
-BrickLine brick_line(BrickRef s, vec3 origin, vec3 direction, uint face) {
-    BrickLine line;
-    if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
-        line.along_axes = box_line(brick_axes(s, BRICK_DEPTH), origin, direction);
+BricksLine bricks_line(BricksRef s, vec3 origin, vec3 direction, uint face) {
+    BricksLine line;
+    if (BRICKS_VIEWS == BRICKS_VIEWS_AXES) {
+        line.along_axes = box_line(bricks_axes(s, BRICKS_DEPTH), origin, direction);
         line.up = greaterThanEqual(line.along_axes.direction, vec3(0.0));
     } else {
-        line.in_face = brick_ray(origin, direction, face);
+        line.in_face = bricks_ray(origin, direction, face);
         line.up = greaterThanEqual(line.in_face.heading, vec3(0.0));
     }
     return line;
 }
 
 // Rows that a line along axes crosses for each column or slice, whichever are more.
-float brick_line_steepness(BrickLine line) {
+float bricks_line_steepness(BricksLine line) {
     vec3 speed = abs(line.along_axes.direction);
     return speed.y / max(speed.x, speed.z);
 }
 
 // The cell at t; one outside of the view may be the answer.
-ivec3 brick_line_cell_at(BrickLine line, BrickTraversal traversal, float t) {
-    return BRICK_VIEWS == BRICK_VIEWS_AXES ? box_line_cell_at(line.along_axes, t, traversal.cells)
-        : brick_cell_at(line.in_face, t, traversal.half_side, traversal.rounding, traversal.slices);
+ivec3 bricks_line_cell_at(BricksLine line, BricksTraversal traversal, float t) {
+    return BRICKS_VIEWS == BRICKS_VIEWS_AXES ? box_line_cell_at(line.along_axes, t, traversal.cells)
+        : bricks_cell_at(line.in_face, t, traversal.half_side, traversal.rounding, traversal.slices);
 }
 
 // t at which the line leaves a box along each axis.
-vec3 brick_line_exits(BrickLine line, BrickTraversal traversal, BrickBox box) {
+vec3 bricks_line_exits(BricksLine line, BricksTraversal traversal, BricksBox box) {
     ivec3 planes = mix(box.first, box.last + 1, line.up);
-    return BRICK_VIEWS == BRICK_VIEWS_AXES ? box_line_exits(line.along_axes, planes)
-        : brick_exits(line.in_face, planes, traversal.column, traversal.slices);
+    return BRICKS_VIEWS == BRICKS_VIEWS_AXES ? box_line_exits(line.along_axes, planes)
+        : bricks_exits(line.in_face, planes, traversal.column, traversal.slices);
 }
 
 // The cell behind a box that is left along one axis, at t and from a cell within: along columns, along rows, or else along
 // slices. It may be outside of the view.
-ivec3 brick_next_cell(BrickLine line, BrickTraversal traversal, BrickBox box, ivec3 cell, float t, bool leaves_x, bool leaves_y) {
-    ivec3 next = brick_line_cell_at(line, traversal, t);
+ivec3 bricks_next_cell(BricksLine line, BricksTraversal traversal, BricksBox box, ivec3 cell, float t, bool leaves_x, bool leaves_y) {
+    ivec3 next = bricks_line_cell_at(line, traversal, t);
     next = clamp(next, mix(box.first, cell, line.up), mix(cell, box.last, line.up));
     ivec3 over = mix(box.first - 1, box.last + 1, line.up);
     if (leaves_x) {

@@ -11,74 +11,74 @@
 #include "bricks/types.glsl"
 
 // Words of a brick.
-const uint BRICK_STRIDE = BRICK_DEPTH == 0u ? 3u : 8u;
+const uint BRICKS_STRIDE = BRICKS_DEPTH == 0u ? 3u : 8u;
 
 // Bricks of one view with these numbers of columns, rows and slices, each a multiple of 4.
-uint brick_count(uvec3 cells) {
+uint bricks_count(uvec3 cells) {
     return (cells.x >> 2) * (cells.y >> 2) * (cells.z >> 2);
 }
 
 // Running index of the brick of a cell over all views.
-uint brick_index(uint view, ivec3 cell, uvec3 cells) {
+uint bricks_index(uint view, ivec3 cell, uvec3 cells) {
     uvec3 brick = uvec3(cell) >> 2;
     uvec3 bricks = cells >> 2;
     return ((view * bricks.y + brick.y) * bricks.x + brick.x) * bricks.z + brick.z;
 }
 
 // The brick of that index within a view, in bricks.
-uvec3 brick_place(uint brick, uvec3 cells) {
+uvec3 bricks_place(uint brick, uvec3 cells) {
     uvec3 bricks = cells >> 2;
     uint line = brick / bricks.z;
     return uvec3(line % bricks.x, line / bricks.x % bricks.y, brick % bricks.z);
 }
 
 // Index of the word of a brick, of the two words of its masks, and of those that only bricks have whose cells may be divided.
-uint brick_at(uint brick) {
-    return BRICK_STRIDE * brick;
+uint bricks_at(uint brick) {
+    return BRICKS_STRIDE * brick;
 }
 
-uint brick_mask_at(uint brick, uint word) {
-    return BRICK_STRIDE * brick + 1u + word;
+uint bricks_mask_at(uint brick, uint word) {
+    return BRICKS_STRIDE * brick + 1u + word;
 }
 
-uint brick_divided_at(uint brick, uint word) {
-    return BRICK_STRIDE * brick + 3u + word;
+uint bricks_divided_at(uint brick, uint word) {
+    return BRICKS_STRIDE * brick + 3u + word;
 }
 
-uint brick_child_at(uint brick) {
-    return BRICK_STRIDE * brick + 5u;
+uint bricks_child_at(uint brick) {
+    return BRICKS_STRIDE * brick + 5u;
 }
 
-uint brick_place_at(uint brick) {
-    return BRICK_STRIDE * brick + 6u;
+uint bricks_place_at(uint brick) {
+    return BRICKS_STRIDE * brick + 6u;
 }
 
 // Index of the word of an empty brick of a view that says how far its layer of columns and slices is empty.
-uint brick_layer_at(uint brick) {
-    return BRICK_STRIDE * brick + 6u;
+uint bricks_layer_at(uint brick) {
+    return BRICKS_STRIDE * brick + 6u;
 }
 
 // Which of the two words of the mask holds a cell's bit, and which bit that is.
-uint brick_word(ivec3 cell) {
+uint bricks_word(ivec3 cell) {
     return uint(cell.z >> 1) & 1u;
 }
 
-uint brick_bit(ivec3 cell) {
+uint bricks_bit(ivec3 cell) {
     return uint((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 1) << 4);
 }
 
 // The cell of a bit, within its brick.
-ivec3 brick_cell_of_bit(uint word, uint bit) {
+ivec3 bricks_cell_of_bit(uint word, uint bit) {
     return ivec3(bit & 3u, bit >> 2 & 3u, bit >> 4 | word << 1);
 }
 
 // Bits of the 2x2x2 cells around a cell, in the word of its bit.
-uint brick_octet(ivec3 cell) {
+uint bricks_octet(ivec3 cell) {
     return 0x00330033u << uint((cell.x & 2) | (cell.y & 2) << 2);
 }
 
 // Bits of the cells of a brick between two of them.
-uvec2 brick_cells_between(ivec3 first, ivec3 last) {
+uvec2 bricks_cells_between(ivec3 first, ivec3 last) {
     uint column = (2u << last.x) - (1u << first.x);
     uint rows = 0x1111u & (16u << 4 * last.y) - (1u << 4 * first.y);
     uint slice = column * rows;
@@ -89,8 +89,8 @@ uvec2 brick_cells_between(ivec3 first, ivec3 last) {
 // First and last of the empty cells of a brick that a ray crosses in one step from an empty one, all of them within the brick:
 // 2x2x2 where those are, and as far as the brick where all cells ahead are empty, one axis after the other. `mask` has the bits
 // of cells that are not.
-void brick_empty_cells(uvec2 mask, ivec3 cell, bvec3 up, out ivec3 first, out ivec3 last) {
-    bool around = (mask[brick_word(cell)] & brick_octet(cell)) == 0u;
+void bricks_empty_cells(uvec2 mask, ivec3 cell, bvec3 up, out ivec3 first, out ivec3 last) {
+    bool around = (mask[bricks_word(cell)] & bricks_octet(cell)) == 0u;
     first = around ? cell & ~1 : cell;
     last = around ? cell | 1 : cell;
     for (int axis = 0; axis < 3; axis++) {
@@ -98,7 +98,7 @@ void brick_empty_cells(uvec2 mask, ivec3 cell, bvec3 up, out ivec3 first, out iv
         ivec3 to = last;
         from[axis] = up[axis] ? from[axis] : 0;
         to[axis] = up[axis] ? 3 : to[axis];
-        uvec2 hidden = mask & brick_cells_between(from, to);
+        uvec2 hidden = mask & bricks_cells_between(from, to);
         if ((hidden.x | hidden.y) == 0u) {
             first = from;
             last = to;
@@ -107,7 +107,7 @@ void brick_empty_cells(uvec2 mask, ivec3 cell, bvec3 up, out ivec3 first, out iv
 }
 
 // Bits of the cells of a column of a brick, from the first slice to the last of it.
-uvec2 brick_column_bits(uvec2 column, uint first, uint last) {
+uvec2 bricks_column_bits(uvec2 column, uint first, uint last) {
     uint bit = (column.x & 3u) | (column.y & 3u) << 2;
     uvec2 bits = uvec2(0u);
     for (uint slice = first; slice <= last; slice++) {
@@ -118,7 +118,7 @@ uvec2 brick_column_bits(uvec2 column, uint first, uint last) {
 }
 
 // Takes a cell out of a mask; false where none is left.
-bool brick_take_cell(inout uvec2 mask, out uint word, out uint bit) {
+bool bricks_take_cell(inout uvec2 mask, out uint word, out uint bit) {
     word = mask.x != 0u ? 0u : 1u;
     bit = uint(findLSB(mask[word]));
     bool any_left = mask[word] != 0u;
@@ -127,27 +127,27 @@ bool brick_take_cell(inout uvec2 mask, out uint word, out uint bit) {
 }
 
 // Bits of a mask below that one.
-uint brick_rank(uvec2 mask, uint word, uint bit) {
+uint bricks_rank(uvec2 mask, uint word, uint bit) {
     uint below = (1u << bit) - 1u;
     return uint(word != 0u ? bitCount(mask.x) + bitCount(mask.y & below) : bitCount(mask.x & below));
 }
 
 // The octant towards which a ray steps; each of its three directions is up or down.
-uint brick_octant(bvec3 up) {
+uint bricks_octant(bvec3 up) {
     return (up.z ? 1u : 0u) | (up.x ? 2u : 0u) | (up.y ? 4u : 0u);
 }
 
-bool brick_is_empty(uint word) {
-    return (word & BRICK_EMPTY) != 0u;
+bool bricks_is_empty(uint word) {
+    return (word & BRICKS_EMPTY) != 0u;
 }
 
 // Bricks beyond an empty one, along each axis towards an octant, that are empty too: 0 to 7.
-int brick_distance(uint word, uint octant) {
+int bricks_distance(uint word, uint octant) {
     return int(word >> (3u * octant) & 7u);
 }
 
 // Bricks beyond an empty one, along columns and slices towards an octant, that are empty too in its own row.
-int brick_layer_distance(uint word, uint octant) {
+int bricks_layer_distance(uint word, uint octant) {
     return int(word >> (4u * (octant & 3u)) & 15u) - 1;
 }
 

@@ -25,7 +25,7 @@ void main() {
     Hit hit;
     uint result = TRACE_PAUSED;
     for (uint round = 0u; round < 16u && result == TRACE_PAUSED; round++) {
-        result = brick_trace_closest(BrickRef(uvec2(0u)), ray, state, hit);
+        result = bricks_trace_closest(BricksRef(uvec2(0u)), ray, state, hit);
     }
     // Neither while bricks are not ready, nor where the ray is still paused: the host then shows an earlier picture.
     if (result == TRACE_HIT || result == TRACE_MISS) {

@@ -7,9 +7,9 @@ use rasray_shaders_glsl::constants::bricks as numbers;
 use crate::grid::{BRICK_SIDE, SIDE_LIMIT, Views, cells_along, columns_for};
 
 /// Maximum divisions of a cell.
-const DEPTH_LIMIT: u32 = numbers::BRICK_DEPTH_MOST;
+const DEPTH_LIMIT: u32 = numbers::BRICKS_DEPTH_MOST;
 /// Maximum slices.
-const SLICE_LIMIT: u32 = numbers::BRICK_SLICE_LIMIT;
+const SLICE_LIMIT: u32 = numbers::BRICKS_SLICE_LIMIT;
 
 /// All options. None of them changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,7 +98,7 @@ impl Config {
         let most = cells.into_iter().max().unwrap_or(0);
         (0..=self.most_divisions())
             .rev()
-            .find(|depth| most << (2 * depth) <= numbers::BRICK_FINEST_LIMIT)
+            .find(|depth| most << (2 * depth) <= numbers::BRICKS_FINEST_LIMIT)
             .unwrap_or(0)
     }
 
@@ -125,14 +125,14 @@ impl Config {
     /// Specialisation constants: id and bits.
     pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
         let views = match self.views {
-            Views::Cube => numbers::BRICK_VIEWS_CUBE,
-            Views::Axes => numbers::BRICK_VIEWS_AXES,
+            Views::Cube => numbers::BRICKS_VIEWS_CUBE,
+            Views::Axes => numbers::BRICKS_VIEWS_AXES,
         };
         vec![
-            (ids::BRICK_VIEWS, views),
-            (ids::BRICK_SKIP, u32::from(self.skip)),
-            (ids::BRICK_CORNERS_KEPT, u32::from(self.corners)),
-            (ids::BRICK_DEPTH, self.most_divisions()),
+            (ids::BRICKS_VIEWS, views),
+            (ids::BRICKS_SKIP, u32::from(self.skip)),
+            (ids::BRICKS_CORNERS_KEPT, u32::from(self.corners)),
+            (ids::BRICKS_DEPTH, self.most_divisions()),
         ]
     }
 

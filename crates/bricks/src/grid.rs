@@ -1,13 +1,13 @@
 //! The views of bricks, and their numbers of columns, rows and slices.
 
 use rasray_ads::words;
-use rasray_shaders_glsl::constants::bricks::BRICK_SIDE_LIMIT;
+use rasray_shaders_glsl::constants::bricks::BRICKS_SIDE_LIMIT;
 
 /// Cells along a side of a brick.
 pub(crate) const BRICK_SIDE: u32 = 4;
 
 /// Maximum cells along a side of a view.
-pub(crate) const SIDE_LIMIT: u32 = BRICK_SIDE_LIMIT;
+pub(crate) const SIDE_LIMIT: u32 = BRICKS_SIDE_LIMIT;
 
 /// Which views there are. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

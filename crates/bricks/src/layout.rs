@@ -37,7 +37,7 @@ pub(crate) fn bricks_of(views: Views, cells: [u32; 3]) -> ([u64; 3], u64) {
 /// Words per triangle: its corners, or the large-triangle queue, one word per view, which binning needs
 /// while it builds.
 fn triangle_words(config: &Config) -> u64 {
-    if config.corners { 9 } else { numbers::BRICK_LARGE_LIMIT.into() }
+    if config.corners { 9 } else { numbers::BRICKS_LARGE_LIMIT.into() }
 }
 
 /// Sizes of the pools of bricks of this configuration that hold `demand`.

@@ -20,7 +20,7 @@ pub use grid::Views;
 pub use layout::{Demand, FormulaBytes, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
-pub use rasray_shaders_glsl::records::BrickHeader as Header;
+pub use rasray_shaders_glsl::records::BricksHeader as Header;
 pub use structure::{Bricks, Passes};
 pub use validate::{Cell, Contents, Fault, well_formed};
 

@@ -8,7 +8,7 @@ use rasray_ads::{
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
-use rasray_shaders_glsl::constants::bricks::{BRICK_GROUP_SIZE, BRICK_GROUPS_MOST};
+use rasray_shaders_glsl::constants::bricks::{BRICKS_GROUP_SIZE, BRICKS_GROUPS_MOST};
 
 use crate::build::Build;
 use crate::grid::BRICK_SIDE;
@@ -48,7 +48,7 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
         brick_demand: of_views,
         brick_capacity: parts.elements(Pool::Bricks) as u32,
         brick_first: [0, of_views, 0, 0, 0],
-        brick_groups: groups_of_levels(of_views.div_ceil(BRICK_GROUP_SIZE).min(BRICK_GROUPS_MOST)),
+        brick_groups: groups_of_levels(of_views.div_ceil(BRICKS_GROUP_SIZE).min(BRICKS_GROUPS_MOST)),
         record_groups: groups_of_levels(0),
         capacity: parts.elements(Pool::Entries) as u32,
         near_capacity: parts.elements(Pool::Near) as u32,

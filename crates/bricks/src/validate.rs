@@ -1,6 +1,6 @@
 //! Checks the contents of built bricks.
 
-use rasray_shaders_glsl::constants::bricks::BRICK_EMPTY;
+use rasray_shaders_glsl::constants::bricks::BRICKS_EMPTY;
 
 use crate::grid::BRICK_SIDE;
 use crate::{Config, Header};
@@ -261,7 +261,7 @@ fn words_are_well_formed(contents: &Contents) -> Result<(), Fault> {
         let [listed, divided] = contents.masks(brick);
         let (word, cells) = (contents.words(brick)[0], (listed | divided).count_ones());
         let fault = Fault::Word { brick, word, cells };
-        if level == 0 && contents.config.skip && (cells == 0) != (word & BRICK_EMPTY != 0) {
+        if level == 0 && contents.config.skip && (cells == 0) != (word & BRICKS_EMPTY != 0) {
             return Err(fault);
         }
         if cells == 0 {

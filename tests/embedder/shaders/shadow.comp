@@ -28,7 +28,7 @@ void main() {
     TraceState state = trace_state_begin(ray);
     uint result = TRACE_PAUSED;
     while (result == TRACE_PAUSED) {
-        result = brick_trace_occluded(BrickRef(uvec2(0u)), ray, state);
+        result = bricks_trace_occluded(BricksRef(uvec2(0u)), ray, state);
     }
     visible[index] = result == TRACE_MISS ? 1u : 0u;
 }

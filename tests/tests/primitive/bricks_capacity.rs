@@ -7,7 +7,7 @@ use rasray_bricks::{
     well_formed,
 };
 use rasray_gpu::Timing;
-use rasray_shaders_glsl::constants::bricks::BRICK_EMPTY;
+use rasray_shaders_glsl::constants::bricks::BRICKS_EMPTY;
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::Bench;
 use rasray_tests::rays::around_the_eye;
@@ -223,7 +223,7 @@ fn every_fault_of_a_brick_is_noticed() {
     assert!(matches!(broken(|c| c.bricks[1] ^= 1), Fault::Word { .. }));
     assert!(matches!(
         broken(|c| {
-            let full = c.bricks.iter().step_by(3).position(|&word| word & BRICK_EMPTY == 0);
+            let full = c.bricks.iter().step_by(3).position(|&word| word & BRICKS_EMPTY == 0);
             c.bricks[3 * full.expect("a brick that lists something")] += 1;
         }),
         Fault::Word { .. }
@@ -240,7 +240,7 @@ fn every_fault_of_a_brick_is_noticed() {
 /// An empty brick of a view with one behind it, along slices, that is not.
 fn below_a_full_one(contents: &Contents) -> usize {
     let (deep, words) = (contents.header.slices as usize / 4, contents.config.brick_words() as usize);
-    let empty = |brick: usize| contents.bricks[words * brick] & BRICK_EMPTY != 0;
+    let empty = |brick: usize| contents.bricks[words * brick] & BRICKS_EMPTY != 0;
     (0..contents.header.brick_first[1] as usize - 1)
         .find(|&brick| brick % deep + 1 < deep && empty(brick) && !empty(brick + 1))
         .expect("an empty brick below a full one")
