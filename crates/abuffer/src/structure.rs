@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, ListCounts, Parts, Pooled, RecordLayout,
+    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, ListCounts, Parts, Pooled, RecordLayout,
     SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
@@ -74,7 +74,7 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
         camera_x,
         camera_y,
         camera_z,
-        triangles: (32 * mark_words(parts)).min(u32::MAX.into()) as u32,
+        triangles: (32 * mark_words(config, pools.sizes())).min(u32::MAX.into()) as u32,
         conservative_capacity: parts.elements(Pool::Conservative) as u32,
         large_capacity: scratch(config).large_capacity(pools.sizes()) as u32,
         groups: [0, 0, bin_groups(widest_view(config))],
@@ -83,8 +83,8 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
 }
 
 /// Words of a set of marks of triangles.
-fn mark_words(parts: &Parts<Config>) -> u64 {
-    (parts.elements(Pool::Bounds) - bounds_and_blocks(&parts.config)) / parts.config.mark_sets()
+fn mark_words(config: &Config, sizes: &Sizes) -> u64 {
+    (sizes.elements_of(Pool::Bounds) - bounds_and_blocks(config)) / config.mark_sets()
 }
 
 impl rasray_ads::Demand for Demand {
@@ -138,8 +138,8 @@ impl Design for Build {
         config.trace_variant()
     }
 
-    fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-        first_plan(config, geometry.triangle_count())
+    fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Sizes, AdsError> {
+        first_plan(config, extent.triangle_count)
     }
 
     fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
@@ -173,15 +173,14 @@ impl Design for Build {
         }
     }
 
-    fn capacity(parts: &Parts<Config>) -> Demand {
-        let Parts { config, geometry, pools, .. } = parts;
+    fn capacity(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> Demand {
         Demand {
-            nodes: parts.elements(Pool::Nodes),
-            near_triangles: parts.elements(Pool::Near),
-            long_lists: scratch(config).long_capacity(pools.sizes()),
-            triangles: u64::from(geometry.triangle_count()).max(32 * mark_words(parts)),
-            conservative: parts.elements(Pool::Conservative),
-            large: scratch(config).large_capacity(pools.sizes()),
+            nodes: sizes.elements_of(Pool::Nodes),
+            near_triangles: sizes.elements_of(Pool::Near),
+            long_lists: scratch(config).long_capacity(sizes),
+            triangles: u64::from(extent.triangle_count).max(32 * mark_words(config, sizes)),
+            conservative: sizes.elements_of(Pool::Conservative),
+            large: scratch(config).large_capacity(sizes),
         }
     }
 
@@ -219,5 +218,23 @@ impl Design for Build {
 
     fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
         contents.list_counts().map_err(|fault| fault.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: [[f32; 3]; 2] = [[0.0; 3], [4.0, 2.0, 1.0]];
+
+    #[test]
+    fn pools_are_planned_without_a_device() {
+        let extent = GeometryExtent::new(1_000, BOUNDS);
+        for config in [Config::robust(64), Config::published(64)] {
+            let sizes = Build::first_plan(&config, &extent).expect("options are in range");
+            // Their capacity, in the terms of a demand, is one for these pools.
+            let capacity = Build::capacity(&config, &sizes, &extent);
+            assert_eq!(Build::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
+        }
     }
 }

@@ -7,8 +7,9 @@ use rasray_gpu::{BindingSet, ComputePipeline, Device, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::{
-    AdsError, BuildPipelines, BuildTarget, Configured, Dependencies, Geometry, ListCounts, PoolContents,
-    PoolName, Pools, RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
+    AdsError, BuildPipelines, BuildTarget, Configured, Dependencies, Geometry, GeometryExtent, ListCounts,
+    PoolContents, PoolName, Pools, RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport,
+    Viewpoint,
 };
 
 /// Work units that a ray may spend in a dispatch where the device is not a CPU: nearly every ray needs one dispatch
@@ -48,6 +49,11 @@ impl<C> Parts<C> {
     /// Elements allocated in a pool.
     pub fn elements(&self, pool: impl PoolName) -> u64 {
         self.pools.sizes().elements_of(pool)
+    }
+
+    /// Number and bounds of the triangles.
+    pub fn extent(&self) -> GeometryExtent {
+        self.geometry.extent()
     }
 
     /// Dispatches in which a ray spends `units` of work.
@@ -147,7 +153,7 @@ pub trait Design: fmt::Debug + Sized {
     /// Changes a configuration for a part that is built in a space of its own, so that a build stays while an affine map moves
     /// the part ([`Geometry::record_map`]): traces are those of the variant `.rigid`. False, and no change, where traces
     /// cannot follow.
-    fn follow(_config: &mut Self::Config, _part: &Geometry) -> bool {
+    fn follow(_config: &mut Self::Config, _part: &GeometryExtent) -> bool {
         false
     }
 
@@ -155,7 +161,7 @@ pub trait Design: fmt::Debug + Sized {
     ///
     /// # Errors
     /// An option is out of range, or a pool has more elements than 32-bit indices can address.
-    fn first_plan(config: &Self::Config, geometry: &Geometry) -> Result<Sizes, AdsError>;
+    fn first_plan(config: &Self::Config, extent: &GeometryExtent) -> Result<Sizes, AdsError>;
 
     /// The sizes for a demand.
     ///
@@ -163,12 +169,16 @@ pub trait Design: fmt::Debug + Sized {
     /// As [`Design::first_plan`].
     fn plan(config: &Self::Config, demand: &Self::Demand) -> Result<Sizes, AdsError>;
 
-    /// The sizes that new triangles require before the first build, where a build cannot count them itself; `None`: no
-    /// change.
+    /// The sizes that new triangles require before the first build, where a build cannot count them itself; `None`: those
+    /// that are allocated, `sizes`, suffice.
     ///
     /// # Errors
     /// As [`Design::first_plan`].
-    fn plan_for(_parts: &Parts<Self::Config>, _geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
+    fn plan_for(
+        _config: &Self::Config,
+        _sizes: &Sizes,
+        _extent: &GeometryExtent,
+    ) -> Result<Option<Sizes>, AdsError> {
         Ok(None)
     }
 
@@ -238,8 +248,8 @@ pub trait Design: fmt::Debug + Sized {
     /// The demand of the last build.
     fn asked(&self, parts: &Parts<Self::Config>, header: &Self::Header) -> Self::Demand;
 
-    /// The capacity of the pools, in the terms of the demand.
-    fn capacity(parts: &Parts<Self::Config>) -> Self::Demand;
+    /// The capacity of pools of these sizes for that geometry, in the terms of the demand.
+    fn capacity(config: &Self::Config, sizes: &Sizes, extent: &GeometryExtent) -> Self::Demand;
 
     /// True if the demand of that name varies slightly with the order in which threads run: by one in
     /// [`VARYING_SHARE`](crate::VARYING_SHARE).

@@ -16,7 +16,7 @@ use rasray_shaders_glsl::constants::contract::STATUS_FLAGS;
 
 use crate::geometry_gather::{Count, DRAW_ARGUMENT_BYTES, Gather, TRIANGLE_INDEX_BYTES, pipeline, whole};
 use crate::groups::folded;
-use crate::{AdsError, GeometryDesc, GeometryHeader, GeometryRigid, IndexRange};
+use crate::{AdsError, GeometryDesc, GeometryExtent, GeometryHeader, GeometryRigid, IndexRange};
 
 /// Buffers of the geometry set.
 pub(crate) const BINDINGS: u32 = 4;
@@ -450,6 +450,15 @@ impl Geometry {
     /// Description that it was made from.
     pub fn desc(&self) -> &GeometryDesc {
         &self.desc
+    }
+
+    /// Number and bounds of the triangles, which plans of structures are made for.
+    pub fn extent(&self) -> GeometryExtent {
+        GeometryExtent {
+            triangle_count: self.triangle_count(),
+            bounds: self.bounds(),
+            around: self.whole().bounds(),
+        }
     }
 
     /// Number of triangles, or their maximum where the device counts them.

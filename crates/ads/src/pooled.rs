@@ -60,9 +60,9 @@ impl<D: Design> Pooled<D> {
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
         let traced = geometry;
-        let rest = geometry.rest().filter(|_| D::follow(&mut config, geometry));
+        let rest = geometry.rest().filter(|_| D::follow(&mut config, &geometry.extent()));
         let geometry = rest.unwrap_or(geometry);
-        let sizes = D::first_plan(&config, geometry)?;
+        let sizes = D::first_plan(&config, &geometry.extent())?;
         let common = config.common();
         let Common { addressing, counters, .. } = common;
         let work_budget = common.work_budget.unwrap_or_else(|| default_work_budget(device));
@@ -174,6 +174,11 @@ impl<D: Design> Pooled<D> {
         pools.into_iter().try_for_each(|(pool, bytes)| device.upload(self.parts.pools.pool(pool), 0, bytes))
     }
 
+    /// The capacity of the pools, in the terms of the demand.
+    fn capacity(&self) -> D::Demand {
+        D::capacity(&self.parts.config, self.parts.pools.sizes(), &self.parts.extent())
+    }
+
     fn first_rounds(&self) -> u32 {
         D::first_rounds(&self.parts, &self.known())
     }
@@ -207,7 +212,7 @@ impl<D: Design> Structure for Pooled<D> {
                 return Err(AdsError::InParts { structure: D::NAME, reason });
             }
         };
-        if let Some(sizes) = D::plan_for(&self.parts, built)? {
+        if let Some(sizes) = D::plan_for(&self.parts.config, self.sizes(), &built.extent())? {
             self.resize(device, &sizes)?;
         }
         self.parts.geometry = built.clone();
@@ -258,13 +263,10 @@ impl<D: Design> Structure for Pooled<D> {
         *self.known.lock().unwrap_or_else(PoisonError::into_inner) = header;
         let word = |at: usize| pod_read_unaligned::<u32>(&bytes_of(&header)[at..at + size_of::<u32>()]);
         let mut pools = Vec::new();
-        let _ = self.design.asked(&self.parts, &header).zip(
-            D::capacity(&self.parts),
-            |name, demand, capacity| {
-                pools.push(PoolStatus { name, demand, capacity });
-                demand
-            },
-        );
+        let _ = self.design.asked(&self.parts, &header).zip(self.capacity(), |name, demand, capacity| {
+            pools.push(PoolStatus { name, demand, capacity });
+            demand
+        });
         let was_complete = word(0) & STATUS_COMPLETE != 0;
         let is_current = self.parts.pools.are_of(slot);
         if was_complete && is_current {
@@ -284,7 +286,7 @@ impl<D: Design> Structure for Pooled<D> {
 
     fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {
         let config = &self.parts.config;
-        let capacity = D::capacity(&self.parts);
+        let capacity = self.capacity();
         status.check(headroom, |growth| {
             let wanted = capacity.zip(capacity, |name, capacity, _| {
                 let mut demand = status.demand(name).unwrap_or(0);

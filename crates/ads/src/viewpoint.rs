@@ -2,7 +2,7 @@
 
 use rasray_shaders_glsl::constants::ads::PLACEMENT_EYE_LIMIT;
 
-use crate::Geometry;
+use crate::GeometryExtent;
 
 /// View of a camera: a pyramid whose apex is the eye. Axes are unit and perpendicular.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,16 +67,16 @@ impl From<[f32; 3]> for Viewpoint {
 }
 
 /// True if cells of one box over the stated bounds of a geometry are the same for both viewpoints.
-pub fn box_is_same(geometry: &Geometry, built: Viewpoint, wanted: Viewpoint) -> bool {
-    [built, wanted].iter().all(|viewpoint| box_ignores_eye(geometry, viewpoint.eye))
+pub fn box_is_same(extent: &GeometryExtent, built: Viewpoint, wanted: Viewpoint) -> bool {
+    [built, wanted].iter().all(|viewpoint| box_ignores_eye(extent, viewpoint.eye))
 }
 
 /// True if cells of one box over the stated bounds of a geometry are the same for this eye as for every other one as
 /// near: those of an eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest side, and outside of the whole
 /// of which the geometry is a part, have wider margins (`box_placement` in `ads/placement.glsl`).
-fn box_ignores_eye(geometry: &Geometry, eye: [f32; 3]) -> bool {
-    let [lower, upper] = geometry.bounds();
-    let [around_lower, around_upper] = geometry.whole().bounds();
+fn box_ignores_eye(extent: &GeometryExtent, eye: [f32; 3]) -> bool {
+    let [lower, upper] = extent.bounds;
+    let [around_lower, around_upper] = extent.around;
     let along = |of: &dyn Fn(usize) -> f32| (0..3).map(of).fold(0.0_f32, f32::max);
     let from_centre =
         |point: [f32; 3], axis: usize| (point[axis] - (0.5 * lower[axis] + 0.5 * upper[axis])).abs();
@@ -111,5 +111,20 @@ mod tests {
             assert_eq!(z > 0.0 && x.abs() <= z && y.abs() <= z, seen, "{point:?}");
         }
         assert!(!CameraView { half_width: 0.0, ..view }.is_valid());
+    }
+
+    #[test]
+    fn a_box_depends_on_eyes_far_outside_of_the_whole() {
+        let at = |x: f32| Viewpoint::from([x, 0.0, 0.0]);
+        let part = GeometryExtent::new(12, [[-1.0; 3], [1.0; 3]]);
+        let limit = PLACEMENT_EYE_LIMIT;
+        assert!(box_is_same(&part, at(0.0), at(limit)));
+        assert!(
+            !box_is_same(&part, at(0.0), at(1.5 * limit)) && !box_is_same(&part, at(-2.0 * limit), at(0.0))
+        );
+        // The same box within a whole that reaches as far as that eye.
+        let within = GeometryExtent { around: [[-2.0 * limit; 3], [2.0 * limit; 3]], ..part };
+        assert!(box_is_same(&within, at(-2.0 * limit), at(1.5 * limit)));
+        assert!(!box_is_same(&within, at(0.0), at(2.5 * limit)));
     }
 }

@@ -1,6 +1,6 @@
 //! Options of bricks.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters, Geometry, check_range, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, GeometryExtent, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::bricks as ids;
 use rasray_shaders_glsl::constants::bricks as numbers;
 
@@ -62,10 +62,10 @@ impl Config {
     }
 
     /// Columns, rows and slices of each view over a geometry, multiples of 4.
-    pub fn cells(&self, geometry: &Geometry) -> [u32; 3] {
+    pub fn cells(&self, extent: &GeometryExtent) -> [u32; 3] {
         match self.views {
-            Views::Cube => self.cells_of_faces(geometry.triangle_count()),
-            Views::Axes => cells_along(geometry.bounds(), geometry.triangle_count(), self.grid),
+            Views::Cube => self.cells_of_faces(extent.triangle_count),
+            Views::Axes => cells_along(extent.bounds, extent.triangle_count, self.grid),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Scan, Sizes};
+use rasray_ads::{AdsError, GeometryExtent, Scan, Sizes};
 use rasray_shaders_glsl::constants::bricks as numbers;
 
 use crate::grid::BRICK_SIDE;
@@ -65,8 +65,8 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
 
 /// The first guess where nothing has been counted: eight columns per triangle, of two cells each, two entries per
 /// cell, and where cells are divided a brick for every eight triangles.
-pub(crate) fn first_demand(config: &Config, triangles: u32, grid: [u32; 3]) -> Demand {
-    let triangles = u64::from(triangles);
+pub(crate) fn first_demand(config: &Config, extent: &GeometryExtent) -> Demand {
+    let (triangles, grid) = (u64::from(extent.triangle_count), config.cells(extent));
     let entries = config.entries.unwrap_or(16 * triangles);
     let near = if config.views == Views::Axes { 0 } else { 64 };
     let (records, cells) = (entries / 2, entries / 2);
@@ -76,9 +76,9 @@ pub(crate) fn first_demand(config: &Config, triangles: u32, grid: [u32; 3]) -> D
 }
 
 /// Sizes of the pools of the first guess.
-pub(crate) fn first_plan(config: &Config, triangles: u32, grid: [u32; 3]) -> Result<Sizes, AdsError> {
+pub(crate) fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Sizes, AdsError> {
     config.validate()?;
-    plan(config, &first_demand(config, triangles, grid))
+    plan(config, &first_demand(config, extent))
 }
 
 /// Bytes for counted bricks, cells and entries.

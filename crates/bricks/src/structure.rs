@@ -3,8 +3,8 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, box_is_same,
+    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, box_is_same,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
@@ -24,10 +24,9 @@ pub struct Passes(Build);
 
 /// Columns, rows and slices of each view, one brick where the capacity does not suffice for those that the geometry
 /// needs; and whether it does.
-fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
-    let Parts { config, geometry, .. } = parts;
-    let wanted = config.cells(geometry);
-    let fits = bricks_of(config.views, wanted).1 <= parts.elements(Pool::Bricks);
+fn cells(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> ([u32; 3], bool) {
+    let wanted = config.cells(extent);
+    let fits = bricks_of(config.views, wanted).1 <= sizes.elements_of(Pool::Bricks);
     (if fits { wanted } else { [BRICK_SIDE; 3] }, fits)
 }
 
@@ -40,26 +39,27 @@ fn groups_of_levels(first: u32) -> [u32; 12] {
 }
 
 /// The header that the next build starts from.
-fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
-    let (cells, fits) = cells(parts);
-    let of_views = bricks_of(parts.config.views, cells).1 as u32;
+fn first_header(config: &Config, sizes: &Sizes, extent: &GeometryExtent, eye: [f32; 3]) -> Header {
+    let (cells, fits) = cells(config, sizes, extent);
+    let of_views = bricks_of(config.views, cells).1 as u32;
+    let capacity = |pool| sizes.elements_of(pool) as u32;
     Header {
-        depths: [parts.config.depth_for(cells); 3],
+        depths: [config.depth_for(cells); 3],
         brick_demand: of_views,
-        brick_capacity: parts.elements(Pool::Bricks) as u32,
+        brick_capacity: capacity(Pool::Bricks),
         brick_first: [0, of_views, 0, 0, 0],
         brick_groups: groups_of_levels(of_views.div_ceil(BRICKS_GROUP_SIZE).min(BRICKS_GROUPS_MOST)),
         record_groups: groups_of_levels(0),
-        capacity: parts.elements(Pool::Entries) as u32,
-        near_capacity: parts.elements(Pool::Near) as u32,
+        capacity: capacity(Pool::Entries),
+        near_capacity: capacity(Pool::Near),
         columns: cells[0],
         rows: cells[1],
         slices: cells[2],
         eye,
-        record_capacity: parts.elements(Pool::Records) as u32,
-        cell_capacity: parts.elements(Pool::Lists) as u32,
+        record_capacity: capacity(Pool::Records),
+        cell_capacity: capacity(Pool::Lists),
         // None where bricks do not fit, so that the build is not complete.
-        triangle_capacity: if fits { parts.elements(Pool::Triangles) as u32 } else { 0 },
+        triangle_capacity: if fits { capacity(Pool::Triangles) } else { 0 },
         groups: [0, 0, 1],
         ..Header::default()
     }
@@ -102,7 +102,7 @@ impl Design for Passes {
 
     /// Cells along the axes have a margin for the eye only where that is far away.
     fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
-        let is_same = parts.config.views == Views::Axes && box_is_same(&parts.geometry, built, wanted);
+        let is_same = parts.config.views == Views::Axes && box_is_same(&parts.extent(), built, wanted);
         !is_same && Self::depends_on(&parts.config).are_stale(built, wanted)
     }
 
@@ -114,20 +114,17 @@ impl Design for Passes {
         config.constants()
     }
 
-    fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-        first_plan(config, geometry.triangle_count(), config.cells(geometry))
+    fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Sizes, AdsError> {
+        first_plan(config, extent)
     }
 
     fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
         plan(config, demand)
     }
 
-    fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
-        let now = Self::capacity(parts);
-        let triangles = u64::from(geometry.triangle_count()).max(parts.elements(Pool::Triangles));
-        let grid = parts.config.cells(geometry);
-        let sizes = plan(&parts.config, &Demand { triangles, grid, ..now })?;
-        Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
+    fn plan_for(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> Result<Option<Sizes>, AdsError> {
+        let wanted = plan(config, &Self::capacity(config, sizes, extent))?;
+        Ok(wanted.exceed(sizes).then_some(wanted))
     }
 
     fn make(
@@ -139,24 +136,26 @@ impl Design for Passes {
     }
 
     fn first_header(&mut self, parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
-        Ok(first_header(parts, viewpoint.eye))
+        Ok(first_header(&parts.config, parts.pools.sizes(), &parts.extent(), viewpoint.eye))
     }
 
     fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
-        self.0.record(recorder, &parts.config, cells(parts).0, parts.target(scene));
+        let (cells, _) = cells(&parts.config, parts.pools.sizes(), &parts.extent());
+        self.0.record(recorder, &parts.config, cells, parts.target(scene));
     }
 
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {
         // Only stored records mark cells. Unless all are stored, the bound is one cell per entry.
         let all = header.record_demand <= header.record_capacity;
+        let extent = parts.extent();
         let counted = Demand {
             entries: header.demand.into(),
             near: header.near_demand.into(),
             records: header.record_demand.into(),
             bricks: header.brick_demand.into(),
             cells: if all { header.cell_demand } else { header.demand }.into(),
-            triangles: parts.geometry.triangle_count().into(),
-            grid: parts.config.cells(&parts.geometry),
+            triangles: extent.triangle_count.into(),
+            grid: parts.config.cells(&extent),
         };
         let fits =
             all && header.cell_demand <= header.cell_capacity && header.brick_demand <= header.brick_capacity;
@@ -165,8 +164,7 @@ impl Design for Passes {
         }
         // Cells of a level are only counted where those of the level before fit: at least the first guess, so that few
         // builds do.
-        let guess =
-            first_demand(&parts.config, parts.geometry.triangle_count(), parts.config.cells(&parts.geometry));
+        let guess = first_demand(&parts.config, &extent);
         Demand {
             records: counted.records.max(guess.records),
             bricks: counted.bricks.max(guess.bricks),
@@ -175,15 +173,15 @@ impl Design for Passes {
         }
     }
 
-    fn capacity(parts: &Parts<Config>) -> Demand {
+    fn capacity(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> Demand {
         Demand {
-            entries: parts.elements(Pool::Entries),
-            near: parts.elements(Pool::Near),
-            records: parts.elements(Pool::Records),
-            bricks: parts.elements(Pool::Bricks),
-            cells: parts.elements(Pool::Lists),
-            triangles: parts.elements(Pool::Triangles).max(parts.geometry.triangle_count().into()),
-            grid: parts.config.cells(&parts.geometry),
+            entries: sizes.elements_of(Pool::Entries),
+            near: sizes.elements_of(Pool::Near),
+            records: sizes.elements_of(Pool::Records),
+            bricks: sizes.elements_of(Pool::Bricks),
+            cells: sizes.elements_of(Pool::Lists),
+            triangles: sizes.elements_of(Pool::Triangles).max(extent.triangle_count.into()),
+            grid: config.cells(extent),
         }
     }
 
@@ -203,5 +201,41 @@ impl Design for Passes {
 
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: [[f32; 3]; 2] = [[0.0; 3], [4.0, 2.0, 1.0]];
+
+    #[test]
+    fn pools_are_planned_without_a_device() {
+        let extent = GeometryExtent::new(1_000, BOUNDS);
+        for config in [Config::new(Views::Cube), Config::new(Views::Axes)] {
+            let sizes = Passes::first_plan(&config, &extent).expect("options are in range");
+            // Their capacity, in the terms of a demand, is one for these pools.
+            let capacity = Passes::capacity(&config, &sizes, &extent);
+            assert_eq!(Passes::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
+            let of = |triangles| {
+                let extent = GeometryExtent::new(triangles, BOUNDS);
+                Passes::plan_for(&config, &sizes, &extent).expect("options are in range")
+            };
+            assert_eq!([0, 1, 500, 1_000].map(of), [const { None }; 4], "{config:?}");
+            assert!(of(2_000).is_some_and(|larger| larger.exceed(&sizes)), "{config:?}");
+        }
+    }
+
+    #[test]
+    fn bricks_that_do_not_fit_are_not_built() {
+        let [few, many] = [1_000, 1_000_000].map(|triangles| GeometryExtent::new(triangles, BOUNDS));
+        for config in [Config::new(Views::Cube), Config::new(Views::Axes)] {
+            let sizes = Passes::first_plan(&config, &few).expect("options are in range");
+            assert_eq!(cells(&config, &sizes, &few), (config.cells(&few), true));
+            assert_eq!(cells(&config, &sizes, &many), ([BRICK_SIDE; 3], false));
+            let capacity = |extent| first_header(&config, &sizes, extent, [0.0; 3]).triangle_capacity;
+            assert_eq!([&few, &many].map(capacity), [1_000, 0]);
+        }
     }
 }

@@ -3,8 +3,8 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint,
+    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Recorder, Requirements};
 use rasray_shaders_glsl::constant_ids::bvh::{BVH_CHILDREN, BVH_CLUSTER_LEAF};
@@ -74,18 +74,20 @@ fn refitted(triangles: u32) -> Prepared {
 }
 
 /// True if the capacity suffices for the tree. It has no partial form: unless all of it fits, nothing is built.
-fn has_capacity(parts: &Parts<Config>) -> bool {
-    let Parts { config, geometry, pools, .. } = parts;
-    let sizes = pools.sizes();
-    plan(config, geometry.triangle_count().into())
+fn has_capacity(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> bool {
+    plan(config, extent.triangle_count.into())
         .is_ok_and(|wanted| wanted.pools.iter().all(|pool| sizes.elements(pool.name) >= pool.elements))
 }
 
 /// The header that the next build starts from.
-fn first_header(parts: &Parts<Config>, Prepared { root, nodes, triangles }: Prepared) -> Header {
-    let config = &parts.config;
-    let has_capacity = has_capacity(parts);
-    let capacity = |pool| if has_capacity { parts.elements(pool) as u32 } else { 0 };
+fn first_header(
+    config: &Config,
+    sizes: &Sizes,
+    extent: &GeometryExtent,
+    Prepared { root, nodes, triangles }: Prepared,
+) -> Header {
+    let has_capacity = has_capacity(config, sizes, extent);
+    let capacity = |pool| if has_capacity { sizes.elements_of(pool) as u32 } else { 0 };
     let pair_elements = if has_capacity { pair_elements(config, triangles.into()) as u32 } else { 0 };
     let node_capacity = capacity(Pool::Nodes) - pair_elements;
     let pair_capacity = match config.made_children() {
@@ -162,8 +164,8 @@ impl Design for Passes {
         vec![(BVH_CHILDREN, config.made_children().number()), (BVH_CLUSTER_LEAF, cluster_leaf)]
     }
 
-    fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-        plan(config, geometry.triangle_count().into())
+    fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Sizes, AdsError> {
+        plan(config, extent.triangle_count.into())
     }
 
     fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
@@ -171,9 +173,9 @@ impl Design for Passes {
         plan(config, demand.triangles)
     }
 
-    fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
-        let sizes = plan(&parts.config, geometry.triangle_count().into())?;
-        Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
+    fn plan_for(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> Result<Option<Sizes>, AdsError> {
+        let wanted = plan(config, extent.triangle_count.into())?;
+        Ok(wanted.exceed(sizes).then_some(wanted))
     }
 
     fn make(
@@ -198,13 +200,15 @@ impl Design for Passes {
             return Ok(());
         }
         self.prepared = None;
-        let unknown = on_device(parts.geometry.triangle_count());
-        if !has_capacity(parts) {
+        let (extent, sizes) = (parts.extent(), parts.pools.sizes());
+        let unknown = on_device(extent.triangle_count);
+        if !has_capacity(&parts.config, sizes, &extent) {
             // The status of the build reports that.
             self.prepared = Some(unknown);
             return Ok(());
         }
-        parts.pools.begin_unread::<Pool>(first_header(parts, unknown));
+        let header = first_header(&parts.config, sizes, &extent, unknown);
+        parts.pools.begin_unread::<Pool>(header);
         device.submit(|recorder| self.build.record_boxes(recorder, parts.target(None)))?;
         let triangles = parts.geometry.download_count(device)?;
         let boxes = device.download_as::<Box3>(parts.pools.pool(Pool::Scratch), 0, triangles as usize)?;
@@ -240,7 +244,8 @@ impl Design for Passes {
     }
 
     fn first_header(&mut self, parts: &Parts<Config>, _viewpoint: Viewpoint) -> Result<Header, AdsError> {
-        let triangles = parts.geometry.triangle_count();
+        let extent = parts.extent();
+        let triangles = extent.triangle_count;
         // A number of triangles that the device counts may be another one in each build.
         let is_fixed = parts.geometry.desc().count.is_none();
         self.keeps_tree = parts.config.builder == Builder::Refit && is_fixed && self.order.is_kept();
@@ -250,7 +255,8 @@ impl Design for Passes {
             Builder::Refit if self.keeps_tree => refitted(triangles),
             Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => on_device(triangles),
         };
-        let header = Header { order: self.order.number(), ..first_header(parts, prepared) };
+        let first = first_header(&parts.config, parts.pools.sizes(), &extent, prepared);
+        let header = Header { order: self.order.number(), ..first };
         // Records keep their primitives: what else the first build had in its scratch is sizes now.
         Ok(if self.keeps_tree { Header { order_stride: 0, ..header } } else { header })
     }
@@ -260,10 +266,11 @@ impl Design for Passes {
     }
 
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {
-        let triangles = u64::from(parts.geometry.triangle_count());
+        let extent = parts.extent();
+        let triangles = u64::from(extent.triangle_count);
         let wanted = plan(&parts.config, triangles).unwrap_or_default();
         // The nodes of a tree are counted; all other demand follows from the triangles.
-        let nodes = if has_capacity(parts) {
+        let nodes = if has_capacity(&parts.config, parts.pools.sizes(), &extent) {
             u64::from(header.node_count) + pair_elements(&parts.config, triangles)
         } else {
             wanted.elements_of(Pool::Nodes)
@@ -276,12 +283,12 @@ impl Design for Passes {
         }
     }
 
-    fn capacity(parts: &Parts<Config>) -> Demand {
+    fn capacity(_config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> Demand {
         Demand {
-            nodes: parts.elements(Pool::Nodes),
-            records: parts.elements(Pool::Records),
-            scratch: parts.elements(Pool::Scratch),
-            triangles: parts.geometry.triangle_count().into(),
+            nodes: sizes.elements_of(Pool::Nodes),
+            records: sizes.elements_of(Pool::Records),
+            scratch: sizes.elements_of(Pool::Scratch),
+            triangles: extent.triangle_count.into(),
         }
     }
 
@@ -315,5 +322,29 @@ impl Design for Passes {
 
     fn fault(contents: &Contents, _triangles: u32) -> Option<String> {
         well_formed(contents).err().map(|fault| fault.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: [[f32; 3]; 2] = [[0.0; 3], [4.0, 2.0, 1.0]];
+
+    #[test]
+    fn pools_are_planned_without_a_device() {
+        let extent = GeometryExtent::new(1_000, BOUNDS);
+        for config in [Config::new(Builder::Sah), Config::new(Builder::Ploc), Config::new(Builder::Refit)] {
+            let sizes = Passes::first_plan(&config, &extent).expect("options are in range");
+            // Their capacity, in the terms of a demand, is one for these pools.
+            let capacity = Passes::capacity(&config, &sizes, &extent);
+            assert_eq!(Passes::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
+            let of = |triangles| {
+                let extent = GeometryExtent::new(triangles, BOUNDS);
+                Passes::plan_for(&config, &sizes, &extent).expect("options are in range")
+            };
+            assert_eq!([0, 1, 500, 1_000].map(of), [const { None }; 4], "{config:?}");
+            assert!(of(2_000).is_some_and(|larger| larger.exceed(&sizes)), "{config:?}");
+        }
     }
 }

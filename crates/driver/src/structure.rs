@@ -3,8 +3,8 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, box_is_same,
+    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, box_is_same,
 };
 use rasray_gpu::{
     Access, BindingSet, ComputePipeline, Device, DriverTree, DriverTreeDesc, Feature, Recorder, Requirements,
@@ -57,7 +57,7 @@ impl Design for Passes {
 
     /// Boxes have a margin for the eye only where that is far away.
     fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
-        !box_is_same(&parts.geometry, built, wanted)
+        !box_is_same(&parts.extent(), built, wanted)
             && Self::depends_on(&parts.config).are_stale(built, wanted)
     }
 
@@ -75,17 +75,17 @@ impl Design for Passes {
         Vec::new()
     }
 
-    fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-        plan(config, &Demand { triangles: geometry.triangle_count().into() })
+    fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Sizes, AdsError> {
+        plan(config, &Demand { triangles: extent.triangle_count.into() })
     }
 
     fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
         plan(config, demand)
     }
 
-    fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
-        let sizes = Self::first_plan(&parts.config, geometry)?;
-        Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
+    fn plan_for(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> Result<Option<Sizes>, AdsError> {
+        let wanted = Self::first_plan(config, extent)?;
+        Ok(wanted.exceed(sizes).then_some(wanted))
     }
 
     fn make(
@@ -145,8 +145,8 @@ impl Design for Passes {
         Demand { triangles: parts.geometry.triangle_count().into() }
     }
 
-    fn capacity(parts: &Parts<Config>) -> Demand {
-        Demand { triangles: parts.elements(Pool::Boxes) }
+    fn capacity(_config: &Config, sizes: &Sizes, _extent: &GeometryExtent) -> Demand {
+        Demand { triangles: sizes.elements_of(Pool::Boxes) }
     }
 
     fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
@@ -169,5 +169,30 @@ impl Design for Passes {
 
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Goal;
+
+    const BOUNDS: [[f32; 3]; 2] = [[0.0; 3], [4.0, 2.0, 1.0]];
+
+    #[test]
+    fn pools_are_planned_without_a_device() {
+        let extent = GeometryExtent::new(1_000, BOUNDS);
+        for config in [Config::new(), Config { goal: Goal::Build, ..Config::new() }] {
+            let sizes = Passes::first_plan(&config, &extent).expect("options are in range");
+            // Their capacity, in the terms of a demand, is one for these pools.
+            let capacity = Passes::capacity(&config, &sizes, &extent);
+            assert_eq!(Passes::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
+            let of = |triangles| {
+                let extent = GeometryExtent::new(triangles, BOUNDS);
+                Passes::plan_for(&config, &sizes, &extent).expect("options are in range")
+            };
+            assert_eq!([0, 1, 500, 1_000].map(of), [const { None }; 4], "{config:?}");
+            assert!(of(2_000).is_some_and(|larger| larger.exceed(&sizes)), "{config:?}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Options of a grid.
 
-use rasray_ads::{Addressing, AdsError, Counters, Geometry, check_range, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Counters, GeometryExtent, check_range, check_work_budget};
 use rasray_shaders_glsl::constants::grid::GRID_SIDE_LIMIT;
 
 /// Cells per triangle where the rule chooses their number.
@@ -33,8 +33,8 @@ impl Config {
     }
 
     /// Cells along each axis over a geometry.
-    pub fn cells_over(&self, geometry: &Geometry) -> [u32; 3] {
-        cells_along(geometry.bounds(), geometry.triangle_count(), self.cells)
+    pub fn cells_over(&self, extent: &GeometryExtent) -> [u32; 3] {
+        cells_along(extent.bounds, extent.triangle_count, self.cells)
     }
 
     /// Checks ranges.

@@ -1,6 +1,6 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Scan, Sizes};
+use rasray_ads::{AdsError, GeometryExtent, Scan, Sizes};
 
 use crate::{Config, Pool};
 
@@ -38,11 +38,11 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
 }
 
 /// The first guess where nothing has been counted: eight cells per triangle.
-pub(crate) fn first_plan(config: &Config, triangles: u32, cells: [u32; 3]) -> Result<Sizes, AdsError> {
+pub(crate) fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Sizes, AdsError> {
     config.validate()?;
-    let triangles = u64::from(triangles);
+    let triangles = u64::from(extent.triangle_count);
     let entries = config.entries.unwrap_or(8 * triangles);
-    plan(config, &Demand { entries, triangles, cells })
+    plan(config, &Demand { entries, triangles, cells: config.cells_over(extent) })
 }
 
 /// Bytes for counted cells and entries.

@@ -3,8 +3,8 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, ListCounts, Parts, Pooled, RecordLayout, Scan,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, box_is_same,
+    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, ListCounts, Parts, Pooled, RecordLayout,
+    Scan, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, box_is_same,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
@@ -20,9 +20,9 @@ pub type Grid = Pooled<Passes>;
 pub struct Passes(Build);
 
 /// Cells along each axis, one where the capacity does not suffice for the geometry; and whether it suffices.
-fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
-    let wanted = parts.config.cells_over(&parts.geometry);
-    let fits = cell_count(wanted) <= parts.elements(Pool::Lists);
+fn cells(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> ([u32; 3], bool) {
+    let wanted = config.cells_over(extent);
+    let fits = cell_count(wanted) <= sizes.elements_of(Pool::Lists);
     (if fits { wanted } else { [1; 3] }, fits)
 }
 
@@ -34,23 +34,22 @@ fn turns(cells: [u32; 3]) -> u64 {
 }
 
 /// The header that the next build starts from.
-fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
-    let (cells, fits) = cells(parts);
+fn first_header(config: &Config, sizes: &Sizes, extent: &GeometryExtent, eye: [f32; 3]) -> Header {
+    let (cells, fits) = cells(config, sizes, extent);
     Header {
-        capacity: parts.elements(Pool::Entries) as u32,
+        capacity: sizes.elements_of(Pool::Entries) as u32,
         cells,
         eye,
         // None where cells do not fit, so that the build is not complete.
-        triangle_capacity: if fits { queue_capacity(parts) } else { 0 },
+        triangle_capacity: if fits { queue_capacity(sizes, cells) } else { 0 },
         groups: [0, 0, bin_groups(turns(cells))],
         ..Header::default()
     }
 }
 
-/// Triangles that fit into the large-triangle queue, behind the sums of the scan.
-fn queue_capacity(parts: &Parts<Config>) -> u32 {
-    let sums = Scan::sums(cell_count(parts.config.cells_over(&parts.geometry)));
-    parts.elements(Pool::Scratch).saturating_sub(sums) as u32
+/// Triangles that fit into the large-triangle queue, behind the sums of the scan over these cells.
+fn queue_capacity(sizes: &Sizes, cells: [u32; 3]) -> u32 {
+    sizes.elements_of(Pool::Scratch).saturating_sub(Scan::sums(cell_count(cells))) as u32
 }
 
 impl rasray_ads::Demand for Demand {
@@ -83,7 +82,7 @@ impl Design for Passes {
 
     /// Cells along the axes have a margin for the eye only where that is far away.
     fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
-        !box_is_same(&parts.geometry, built, wanted)
+        !box_is_same(&parts.extent(), built, wanted)
             && Self::depends_on(&parts.config).are_stale(built, wanted)
     }
 
@@ -95,18 +94,17 @@ impl Design for Passes {
         Vec::new()
     }
 
-    fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-        first_plan(config, geometry.triangle_count(), config.cells_over(geometry))
+    fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Sizes, AdsError> {
+        first_plan(config, extent)
     }
 
     fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
         plan(config, demand)
     }
 
-    fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
-        let (triangles, cells) = (geometry.triangle_count().into(), parts.config.cells_over(geometry));
-        let sizes = plan(&parts.config, &Demand { triangles, cells, ..Self::capacity(parts) })?;
-        Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
+    fn plan_for(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> Result<Option<Sizes>, AdsError> {
+        let wanted = plan(config, &Self::capacity(config, sizes, extent))?;
+        Ok(wanted.exceed(sizes).then_some(wanted))
     }
 
     fn make(
@@ -118,22 +116,24 @@ impl Design for Passes {
     }
 
     fn first_header(&mut self, parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
-        Ok(first_header(parts, viewpoint.eye))
+        Ok(first_header(&parts.config, parts.pools.sizes(), &parts.extent(), viewpoint.eye))
     }
 
     fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
-        self.0.record(recorder, cell_count(cells(parts).0), parts.target(scene));
+        let (cells, _) = cells(&parts.config, parts.pools.sizes(), &parts.extent());
+        self.0.record(recorder, cell_count(cells), parts.target(scene));
     }
 
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {
-        Demand { entries: header.demand.into(), ..Self::capacity(parts) }
+        let capacity = Self::capacity(&parts.config, parts.pools.sizes(), &parts.extent());
+        Demand { entries: header.demand.into(), ..capacity }
     }
 
-    fn capacity(parts: &Parts<Config>) -> Demand {
+    fn capacity(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> Demand {
         Demand {
-            entries: parts.elements(Pool::Entries),
-            triangles: parts.geometry.triangle_count().into(),
-            cells: parts.config.cells_over(&parts.geometry),
+            entries: sizes.elements_of(Pool::Entries),
+            triangles: extent.triangle_count.into(),
+            cells: config.cells_over(extent),
         }
     }
 
@@ -157,5 +157,40 @@ impl Design for Passes {
 
     fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
         Ok(vec![contents.list_counts().map_err(|fault| fault.to_string())?])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: [[f32; 3]; 2] = [[0.0; 3], [4.0, 2.0, 1.0]];
+
+    #[test]
+    fn pools_are_planned_without_a_device() {
+        let extent = GeometryExtent::new(1_000, BOUNDS);
+        for config in [Config::new(), Config { cells: Some(16), ..Config::new() }] {
+            let sizes = Passes::first_plan(&config, &extent).expect("options are in range");
+            // Their capacity, in the terms of a demand, is one for these pools.
+            let capacity = Passes::capacity(&config, &sizes, &extent);
+            assert_eq!(Passes::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
+            let of = |triangles| {
+                let extent = GeometryExtent::new(triangles, BOUNDS);
+                Passes::plan_for(&config, &sizes, &extent).expect("options are in range")
+            };
+            assert_eq!([0, 1, 500, 1_000].map(of), [const { None }; 4], "{config:?}");
+            assert!(of(2_000).is_some_and(|larger| larger.exceed(&sizes)), "{config:?}");
+        }
+    }
+
+    #[test]
+    fn cells_that_do_not_fit_are_not_built() {
+        let [few, many] = [1_000, 1_000_000].map(|triangles| GeometryExtent::new(triangles, BOUNDS));
+        let config = Config::new();
+        let sizes = Passes::first_plan(&config, &few).expect("options are in range");
+        assert_eq!(cells(&config, &sizes, &few), (config.cells_over(&few), true));
+        assert_eq!(cells(&config, &sizes, &many), ([1; 3], false));
+        let capacity = |extent| first_header(&config, &sizes, extent, [0.0; 3]).triangle_capacity;
+        assert_eq!([&few, &many].map(capacity), [1_000, 0]);
     }
 }

@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, ListCounts, Parts, Pooled, RecordLayout,
+    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, ListCounts, Parts, Pooled, RecordLayout,
     SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
@@ -71,18 +71,17 @@ impl Design for Build {
 
     /// Cells are about as fine as those of the whole, and at least as many along a side as lets each have a few triangles. A
     /// tolerance is a share of the side, and goes with as many cells as it has elsewhere.
-    fn follow(config: &mut Config, part: &Geometry) -> bool {
+    fn follow(config: &mut Config, part: &GeometryExtent) -> bool {
         match config.accept {
             Accept::Plane => return false,
             Accept::Tolerance => return true,
             Accept::Slope | Accept::Triangle => {}
         }
-        let size = |geometry: &Geometry| {
-            let [lower, upper] = geometry.bounds();
+        let size = |[lower, upper]: [[f32; 3]; 2]| {
             (0..3).map(|axis| f64::from(upper[axis]) - f64::from(lower[axis])).fold(0.0, f64::max)
         };
-        let share = f64::from(config.resolution) * size(part) / size(part.whole());
-        let wanted = share.max(f64::from(part.triangle_count()).sqrt()).max(LEAST_RESOLUTION);
+        let share = f64::from(config.resolution) * size(part.bounds) / size(part.around);
+        let wanted = share.max(f64::from(part.triangle_count).sqrt()).max(LEAST_RESOLUTION);
         if wanted < f64::from(config.resolution) {
             config.resolution = wanted.ceil() as u32;
         }
@@ -101,7 +100,7 @@ impl Design for Build {
         config.constants()
     }
 
-    fn first_plan(config: &Config, _geometry: &Geometry) -> Result<Sizes, AdsError> {
+    fn first_plan(config: &Config, _extent: &GeometryExtent) -> Result<Sizes, AdsError> {
         first_plan(config)
     }
 
@@ -147,14 +146,13 @@ impl Design for Build {
         }
     }
 
-    fn capacity(parts: &Parts<Config>) -> Demand {
-        let Parts { config, pools, .. } = parts;
+    fn capacity(config: &Config, sizes: &Sizes, _extent: &GeometryExtent) -> Demand {
         Demand {
-            fragments: parts.elements(Pool::Payload),
-            conservative: parts.elements(Pool::Conservative),
-            long_lists: scratch(config).long_capacity(pools.sizes()),
-            layers: layer_capacity(config, pools.sizes()),
-            large: scratch(config).large_capacity(pools.sizes()),
+            fragments: sizes.elements_of(Pool::Payload),
+            conservative: sizes.elements_of(Pool::Conservative),
+            long_lists: scratch(config).long_capacity(sizes),
+            layers: layer_capacity(config, sizes),
+            large: scratch(config).large_capacity(sizes),
         }
     }
 
@@ -185,5 +183,40 @@ impl Design for Build {
 
     fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
         contents.list_counts().map_err(|fault| fault.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: [[f32; 3]; 2] = [[0.0; 3], [4.0, 2.0, 1.0]];
+
+    #[test]
+    fn pools_are_planned_without_a_device() {
+        let extent = GeometryExtent::new(1_000, BOUNDS);
+        for config in [Config::robust(64), Config::published(64)] {
+            let sizes = Build::first_plan(&config, &extent).expect("options are in range");
+            // Their capacity, in the terms of a demand, is one for these pools.
+            let capacity = Build::capacity(&config, &sizes, &extent);
+            assert_eq!(Build::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
+        }
+    }
+
+    #[test]
+    fn parts_have_the_cells_of_the_whole_and_a_few_triangles_in_each() {
+        let cells = |accept, triangles, side: f32| {
+            let mut config = Config { accept, ..Config::robust(1024) };
+            let around = [[0.0; 3], [8.0, 1.0, 1.0]];
+            let bounds = [[0.0; 3], [side, 0.0, 0.0]];
+            let part = GeometryExtent { around, ..GeometryExtent::new(triangles, bounds) };
+            Build::follow(&mut config, &part).then_some(config.resolution)
+        };
+        assert_eq!(cells(Accept::Slope, 100, 1.0), Some(128));
+        assert_eq!(cells(Accept::Triangle, 40_000, 1.0), Some(200));
+        assert_eq!(cells(Accept::Slope, 100, 0.01), Some(16));
+        assert_eq!(cells(Accept::Slope, 4_000_000, 8.0), Some(1024));
+        assert_eq!(cells(Accept::Tolerance, 100, 1.0), Some(1024));
+        assert_eq!(cells(Accept::Plane, 100, 1.0), None);
     }
 }

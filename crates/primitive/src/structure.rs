@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, CameraView, Dependencies, Design, Geometry, ListCounts, Parts, Pooled,
+    AdsError, BuildPipelines, CameraView, Dependencies, Design, GeometryExtent, ListCounts, Parts, Pooled,
     RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Feature, Recorder, Requirements};
@@ -100,18 +100,17 @@ impl Design for Passes {
         config.constants()
     }
 
-    fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-        first_plan(config, geometry.triangle_count())
+    fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Sizes, AdsError> {
+        first_plan(config, extent.triangle_count)
     }
 
     fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
         plan(config, demand)
     }
 
-    fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
-        let triangles = u64::from(geometry.triangle_count());
-        let sizes = plan(&parts.config, &Demand { triangles, ..Self::capacity(parts) })?;
-        Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
+    fn plan_for(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> Result<Option<Sizes>, AdsError> {
+        let wanted = plan(config, &Self::capacity(config, sizes, extent))?;
+        Ok(wanted.exceed(sizes).then_some(wanted))
     }
 
     fn make(
@@ -138,11 +137,11 @@ impl Design for Passes {
         }
     }
 
-    fn capacity(parts: &Parts<Config>) -> Demand {
+    fn capacity(_config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> Demand {
         Demand {
-            entries: parts.elements(Pool::Entries),
-            near: parts.elements(Pool::Near),
-            triangles: parts.geometry.triangle_count().into(),
+            entries: sizes.elements_of(Pool::Entries),
+            near: sizes.elements_of(Pool::Near),
+            triangles: extent.triangle_count.into(),
         }
     }
 
@@ -166,5 +165,29 @@ impl Design for Passes {
 
     fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
         contents.list_counts().map_err(|fault| fault.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: [[f32; 3]; 2] = [[0.0; 3], [4.0, 2.0, 1.0]];
+
+    #[test]
+    fn pools_are_planned_without_a_device() {
+        let extent = GeometryExtent::new(1_000, BOUNDS);
+        for config in [Config::robust(64), Config { buckets: 1, ..Config::robust(64) }] {
+            let sizes = Passes::first_plan(&config, &extent).expect("options are in range");
+            // Their capacity, in the terms of a demand, is one for these pools.
+            let capacity = Passes::capacity(&config, &sizes, &extent);
+            assert_eq!(Passes::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
+            let of = |triangles| {
+                let extent = GeometryExtent::new(triangles, BOUNDS);
+                Passes::plan_for(&config, &sizes, &extent).expect("options are in range")
+            };
+            assert_eq!([0, 1, 500, 1_000].map(of), [const { None }; 4], "{config:?}");
+            assert!(of(2_000).is_some_and(|larger| larger.exceed(&sizes)), "{config:?}");
+        }
     }
 }

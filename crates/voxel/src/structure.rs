@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, ListCounts, Parts, Pooled, RecordLayout,
+    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, ListCounts, Parts, Pooled, RecordLayout,
     SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
@@ -82,7 +82,7 @@ impl Design for Build {
         config.constants()
     }
 
-    fn first_plan(config: &Config, _geometry: &Geometry) -> Result<Sizes, AdsError> {
+    fn first_plan(config: &Config, _extent: &GeometryExtent) -> Result<Sizes, AdsError> {
         first_plan(config)
     }
 
@@ -115,13 +115,12 @@ impl Design for Build {
         }
     }
 
-    fn capacity(parts: &Parts<Config>) -> Demand {
-        let Parts { config, pools, .. } = parts;
+    fn capacity(config: &Config, sizes: &Sizes, _extent: &GeometryExtent) -> Demand {
         Demand {
-            entries: parts.elements(Pool::Fragments),
-            long_lists: scratch(config).long_capacity(pools.sizes()),
-            large: scratch(config).large_capacity(pools.sizes()),
-            nodes: parts.elements(Pool::Nodes),
+            entries: sizes.elements_of(Pool::Fragments),
+            long_lists: scratch(config).long_capacity(sizes),
+            large: scratch(config).large_capacity(sizes),
+            nodes: sizes.elements_of(Pool::Nodes),
         }
     }
 
@@ -179,5 +178,23 @@ impl Design for Build {
 
     fn list_counts(contents: &Contents) -> Result<Vec<ListCounts>, String> {
         contents.list_counts().map_err(|fault| fault.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: [[f32; 3]; 2] = [[0.0; 3], [4.0, 2.0, 1.0]];
+
+    #[test]
+    fn pools_are_planned_without_a_device() {
+        let extent = GeometryExtent::new(1_000, BOUNDS);
+        for config in [Config::robust(64), Config::published_hu(64)] {
+            let sizes = Build::first_plan(&config, &extent).expect("options are in range");
+            // Their capacity, in the terms of a demand, is one for these pools.
+            let capacity = Build::capacity(&config, &sizes, &extent);
+            assert_eq!(Build::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
+        }
     }
 }
