@@ -91,6 +91,15 @@ pub enum GpuError {
         /// Who refused: a Vulkan call, or the name of a limit.
         refused_by: &'static str,
     },
+    /// Memory could not be had for another reason than that there is none left: no type of memory fits, or the driver refused
+    /// to allocate or map it.
+    #[error("memory for `{name}` could not be had: {reason}")]
+    Memory {
+        /// Name of the buffer, or "memory pool".
+        name: String,
+        /// Report of the allocator.
+        reason: String,
+    },
     /// The driver has no device memory left for something else than the memory of a buffer.
     #[error(
         "the device ran out of memory in {call} for `{during}`: free memory or give it less work at once"

@@ -2,6 +2,8 @@
 
 use ash::vk;
 
+use crate::memory::device_local_bytes;
+
 /// Limits of a device. Sizes are in bytes.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -58,13 +60,7 @@ impl Limits {
         unsafe { instance.get_physical_device_properties2(physical, &mut properties) };
         // SAFETY: as above.
         let memory = unsafe { instance.get_physical_device_memory_properties(physical) };
-        let device_local_bytes = memory
-            .memory_heaps_as_slice()
-            .iter()
-            .filter(|heap| heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL))
-            .map(|heap| heap.size)
-            .max()
-            .unwrap_or(0);
+        let device_local_bytes = device_local_bytes(&memory);
         let limits = properties.properties.limits;
         Self {
             max_storage_buffer_range: limits.max_storage_buffer_range.into(),

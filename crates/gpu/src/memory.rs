@@ -85,7 +85,7 @@ impl PooledMemory {
     /// the device is destroyed.
     ///
     /// # Errors
-    /// [`GpuError::InvalidUse`] with what the allocator reports.
+    /// [`GpuError::Memory`] with what the allocator reports.
     pub fn new(
         instance: &ash::Instance,
         physical: vk::PhysicalDevice,
@@ -103,14 +103,11 @@ impl PooledMemory {
                 Self::HOST_BLOCK_BYTES,
             ),
         };
-        let allocator = pooled::Allocator::new(&desc).map_err(|error| GpuError::InvalidUse {
-            name: "memory pool".to_owned(),
-            reason: error.to_string(),
-        })?;
+        let allocator =
+            pooled::Allocator::new(&desc).map_err(|error| from_allocator(&error, "memory pool"))?;
         // SAFETY: the physical device belongs to the instance.
         let properties = unsafe { instance.get_physical_device_memory_properties(physical) };
-        let heaps = properties.memory_heaps_as_slice().iter();
-        let device_local_bytes = heaps.map(|heap| heap.size).max().unwrap_or(0);
+        let device_local_bytes = device_local_bytes(&properties);
         Ok(Self { allocator: Mutex::new(allocator), device_local_bytes })
     }
 
@@ -182,7 +179,7 @@ fn from_allocator(error: &gpu_allocator::AllocationError, name: &str) -> GpuErro
     let (call, text) = match error {
         Refusal::FailedToMap(text) => ("vkMapMemory", text.as_str()),
         Refusal::Internal(text) if text.contains(ALLOCATE) => (ALLOCATE, text.as_str()),
-        other => return GpuError::InvalidUse { name: name.to_owned(), reason: other.to_string() },
+        other => return GpuError::Memory { name: name.to_owned(), reason: other.to_string() },
     };
     let codes = [
         vk::Result::ERROR_OUT_OF_HOST_MEMORY,
@@ -194,8 +191,15 @@ fn from_allocator(error: &gpu_allocator::AllocationError, name: &str) -> GpuErro
     let says = |code: &vk::Result| text.ends_with(&format!("{code:?}")) || text == code.to_string();
     match codes.into_iter().find(says) {
         Some(code) => GpuError::from_vulkan(code, call, name),
-        None => GpuError::InvalidUse { name: name.to_owned(), reason: format!("{call} failed: {text}") },
+        None => GpuError::Memory { name: name.to_owned(), reason: format!("{call} failed: {text}") },
     }
+}
+
+/// Bytes of the largest device-local heap; 0 where there is none.
+pub(crate) fn device_local_bytes(properties: &vk::PhysicalDeviceMemoryProperties) -> u64 {
+    let heaps = properties.memory_heaps_as_slice().iter();
+    let local = heaps.filter(|heap| heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL));
+    local.map(|heap| heap.size).max().unwrap_or(0)
 }
 
 /// Amounts of memory in use, and its limit.
@@ -276,7 +280,23 @@ mod tests {
         let unknown = from_allocator(&Refusal::FailedToMap("moon".to_owned()), "nodes").to_string();
         assert!(unknown.contains("vkMapMemory") && unknown.contains("moon"), "{unknown}");
         let other = from_allocator(&Refusal::NoCompatibleMemoryTypeFound, "nodes");
-        assert!(matches!(other, GpuError::InvalidUse { .. }));
+        assert!(matches!(other, GpuError::Memory { name, .. } if name == "nodes"));
+    }
+
+    #[test]
+    fn heaps_of_the_host_are_no_memory_of_the_device() {
+        let mut properties = vk::PhysicalDeviceMemoryProperties::default();
+        assert_eq!(device_local_bytes(&properties), 0);
+        let heaps = [
+            (64 << 30, vk::MemoryHeapFlags::empty()),
+            (8 << 30, vk::MemoryHeapFlags::DEVICE_LOCAL),
+            (256 << 20, vk::MemoryHeapFlags::DEVICE_LOCAL),
+        ];
+        properties.memory_heap_count = heaps.len() as u32;
+        for (heap, (size, flags)) in properties.memory_heaps.iter_mut().zip(heaps) {
+            *heap = vk::MemoryHeap { size, flags };
+        }
+        assert_eq!(device_local_bytes(&properties), 8 << 30);
     }
 
     #[test]

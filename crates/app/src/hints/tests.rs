@@ -52,6 +52,9 @@ fn only_what_a_device_lacks_or_fails_at_ends_with_3() {
     let misused = || GpuError::InvalidUse { name: "queue".to_owned(), reason: "it has no slots".to_owned() };
     check(3, "it has no slots", "a defect", E::Gpu(misused()));
     check(3, "it has no slots", "a defect", E::Integrator(misused().into()));
+    let refused = || GpuError::Memory { name: "queue".to_owned(), reason: "no type fits".to_owned() };
+    check(3, "memory for `queue` could not be had: no type fits", "--resolution", E::Gpu(refused()));
+    check(3, "no type fits", "--size", E::Integrator(refused().into()));
     check(
         2,
         "leave out `surfaces_of_hits`",
