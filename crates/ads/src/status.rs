@@ -1,5 +1,7 @@
 //! Outcome of a build, and what to do then.
 
+use std::fmt;
+
 use crate::{AdsError, Sizes};
 
 /// Demand and capacity of a pool in a build.
@@ -12,6 +14,20 @@ pub struct PoolStatus {
     pub demand: u64,
     /// Elements the pool holds.
     pub capacity: u64,
+}
+
+impl PoolStatus {
+    /// Elements that the capacity lacks; 0 where it suffices.
+    pub fn lacking(&self) -> u64 {
+        self.demand.saturating_sub(self.capacity)
+    }
+}
+
+/// Name and numbers, for messages.
+impl fmt::Display for PoolStatus {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{} holds {} and takes {}", self.name, self.capacity, self.demand)
+    }
 }
 
 /// The outcome of a build, read by the caller after its own wait.
@@ -40,6 +56,13 @@ impl BuildStatus {
     /// The demand for a pool; absent where none has that name.
     pub fn demand(&self, name: &str) -> Option<u64> {
         self.pools.iter().find(|pool| pool.name == name).map(|pool| pool.demand)
+    }
+
+    /// The pool of the structure or of its parts that lacks most elements; absent where all suffice.
+    pub fn shortest_pool(&self) -> Option<PoolStatus> {
+        let of_parts = self.parts.iter().filter_map(Self::shortest_pool);
+        let all = self.pools.iter().copied().chain(of_parts);
+        all.filter(|pool| pool.lacking() > 0).max_by_key(PoolStatus::lacking)
     }
 }
 
@@ -86,5 +109,24 @@ impl Growth {
             return capacity;
         }
         demand.saturating_add(demand.saturating_mul(self.percent.into()) / 100)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pool_that_lacks_most_is_found_in_all_parts() {
+        let pool = |name, demand, capacity| PoolStatus { name, demand, capacity };
+        let of = |pools: &[PoolStatus]| BuildStatus { pools: pools.to_vec(), ..BuildStatus::default() };
+        assert_eq!(of(&[]).shortest_pool(), None);
+        assert_eq!(of(&[pool("nodes", 5, 5), pool("near", 0, 9)]).shortest_pool(), None);
+        let most = pool("near", 70, 9);
+        let still = of(&[pool("nodes", 900, 899), most]);
+        assert_eq!(still.shortest_pool(), Some(most));
+        let whole = BuildStatus { parts: vec![of(&[pool("nodes", 9, 2)]), still], ..BuildStatus::default() };
+        assert_eq!(whole.shortest_pool(), Some(most));
+        assert_eq!(most.to_string(), "near holds 9 and takes 70");
     }
 }

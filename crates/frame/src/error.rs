@@ -1,6 +1,6 @@
 //! Why a frame has no picture.
 
-use rasray_ads::AdsError;
+use rasray_ads::{AdsError, PoolStatus};
 use rasray_gpu::GpuError;
 use rasray_gpu_scene::GpuSceneError;
 use rasray_integrators::IntegratorError;
@@ -37,11 +37,16 @@ pub enum FrameError {
     )]
     DrawnAdaptively,
     /// A frame was not complete however often it was repeated.
-    #[error("a frame through {structure} was not complete after {repeats} repeats; its demand is not stable")]
+    #[error(
+        "a frame through {structure} was not complete after {repeats} repeats; its demand is not stable{}",
+        pool.map(|pool| format!(": {pool}")).unwrap_or_default()
+    )]
     Unstable {
         /// Name of the structure.
         structure: &'static str,
         /// Repeats.
         repeats: u32,
+        /// The pool that lacked most in the last of them, where one was too small.
+        pool: Option<PoolStatus>,
     },
 }

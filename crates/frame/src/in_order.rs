@@ -96,10 +96,10 @@ fn in_order(
                     return Ok(done);
                 }
             }
-            Taken::Nothing => {
+            Taken::Nothing { pool } => {
                 if repeats >= REPEATS {
                     let structure = renderer.structure().structure().description().name;
-                    return Err(FrameError::Unstable { structure, repeats });
+                    return Err(FrameError::Unstable { structure, repeats, pool });
                 }
                 // Poses follow each other, so those that came after it are repeated after it.
                 while renderer.take()?.is_some() {}

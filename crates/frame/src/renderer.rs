@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use rasray_ads::{AdsError, QueueCounters, Structure};
+use rasray_ads::{AdsError, PoolStatus, QueueCounters, Structure};
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, ShadingFeatures, View};
 use rasray_integrators::{Integrator, IntegratorError, Visibility, check_faults, check_features};
@@ -37,7 +37,10 @@ pub enum Taken {
     Picture(Picture),
     /// Its build was not complete, or its rays needed more rounds or passed more surfaces than were recorded, all of which the
     /// next frames have: nothing of it is shown. A frame that continues it has no picture either.
-    Nothing,
+    Nothing {
+        /// The pool that its build lacked most; absent where the build is not why ([`FrameOutcome::Incomplete`]).
+        pool: Option<PoolStatus>,
+    },
 }
 
 /// A finished frame.
@@ -319,7 +322,11 @@ impl FrameRenderer {
         check_faults(&film.faults)?;
         self.film_is_right &= ended.outcome == FrameOutcome::Complete && unanswered + unended == 0;
         if !self.film_is_right {
-            return Ok(Taken::Nothing);
+            let pool = match ended.outcome {
+                FrameOutcome::Complete => None,
+                FrameOutcome::Incomplete { pool } => pool,
+            };
+            return Ok(Taken::Nothing { pool });
         }
         let rasray_tracer::Ended { number, built, passes, .. } = ended;
         Ok(Taken::Picture(Picture { number, film, built, drew_maps: pending.drew_maps, counters, passes }))

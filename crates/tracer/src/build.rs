@@ -61,8 +61,8 @@ enum Step {
     Complete,
     /// Pools that were too small have grown.
     Grown,
-    /// Incomplete, and growing does not help or is not allowed any more.
-    Stuck,
+    /// Incomplete, and growing does not help or is not allowed any more; with the pool that lacked most.
+    Stuck(Option<PoolStatus>),
 }
 
 /// A structure, or one over frames, that [`until_complete`] builds.
@@ -103,7 +103,7 @@ impl Builds for Whole<'_> {
                 self.structure.resize(device, &sizes)?;
                 Ok(Step::Grown)
             }
-            Check::Complete | Check::Grow(_) => Ok(Step::Stuck),
+            Check::Complete | Check::Grow(_) => Ok(Step::Stuck(status.shortest_pool())),
         }
     }
 
@@ -124,8 +124,8 @@ impl Builds for FrameStructure {
     fn finish(&mut self, device: &Device, may_grow: bool) -> Result<Step, AdsError> {
         Ok(match FrameStructure::finish(self, device, 0)? {
             FrameOutcome::Complete => Step::Complete,
-            FrameOutcome::Incomplete if may_grow => Step::Grown,
-            FrameOutcome::Incomplete => Step::Stuck,
+            FrameOutcome::Incomplete { .. } if may_grow => Step::Grown,
+            FrameOutcome::Incomplete { pool } => Step::Stuck(pool),
         })
     }
 
@@ -161,17 +161,10 @@ fn until_complete(
                 return Ok(outcome);
             }
             Step::Grown => outcome.regrows += 1,
-            Step::Stuck => {
+            Step::Stuck(pool) => {
                 let structure = built.structure().description().name;
-                let pool = shortest_pool(&built.structure().status(0)?);
                 return Err(TracerError::Unstable { structure, rebuilds: outcome.regrows, pool });
             }
         }
     }
-}
-
-/// The pool whose demand exceeds its capacity most; absent where all suffice.
-fn shortest_pool(status: &BuildStatus) -> Option<PoolStatus> {
-    let pools = status.parts.iter().chain([status]).flat_map(|status| &status.pools);
-    pools.filter(|pool| pool.demand > pool.capacity).max_by_key(|pool| pool.demand - pool.capacity).copied()
 }

@@ -16,14 +16,14 @@ pub enum TracerError {
     /// A build still needed more capacity after growing to the demand of earlier ones.
     #[error(
         "{structure} is still incomplete after {rebuilds} rebuilds; its demand is not stable{}",
-        pool.as_ref().map(|pool| format!(": {} holds {} and takes {}", pool.name, pool.capacity, pool.demand)).unwrap_or_default()
+        pool.map(|pool| format!(": {pool}")).unwrap_or_default()
     )]
     Unstable {
         /// Name of the structure.
         structure: &'static str,
         /// Rebuilds made.
         rebuilds: u32,
-        /// The pool whose capacity lacks most, where one is too small.
+        /// The pool that lacked most, where one was too small.
         pool: Option<PoolStatus>,
     },
     /// A replay was requested of a structure that does not log steps.

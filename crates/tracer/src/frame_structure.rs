@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use rasray_ads::{AdsError, Check, Geometry, GeometryParts, SceneBinding, Structure, Viewpoint};
+use rasray_ads::{AdsError, Check, Geometry, GeometryParts, PoolStatus, SceneBinding, Structure, Viewpoint};
 use rasray_gpu::{Device, Recorder};
 
 use crate::Refresh;
@@ -30,7 +30,25 @@ pub enum FrameOutcome {
     Complete,
     /// Something was not stored: traces answered *not ready*, and the frame must not be shown. The structure has grown
     /// where that helps, and the next frame builds anew.
-    Incomplete,
+    Incomplete {
+        /// The pool of all parts that lacked most, with the capacity before it grew. Absent where no counted pool lacked
+        /// anything: an earlier frame has made them larger since the build was recorded, or what the build lacked is not
+        /// counted but follows from the number of triangles.
+        pool: Option<PoolStatus>,
+    },
+}
+
+impl FrameOutcome {
+    /// The outcome of two parts together.
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Complete, outcome) | (outcome, Self::Complete) => outcome,
+            (Self::Incomplete { pool }, Self::Incomplete { pool: of_other }) => {
+                let pools = [pool, of_other].into_iter().flatten();
+                Self::Incomplete { pool: pools.max_by_key(PoolStatus::lacking) }
+            }
+        }
+    }
 }
 
 /// Sums over frames.
@@ -65,9 +83,9 @@ struct Part {
     /// Builds recorded so far.
     builds: u64,
     used: Vec<Option<Used>>,
-    /// The last build whose frame has ended, and whether it was complete. Frames end in order, so that none traced
-    /// through an earlier one is left.
-    ended: Option<(u64, bool)>,
+    /// The last build whose frame has ended, and its outcome. Frames end in order, so that none traced through an earlier
+    /// one is left.
+    ended: Option<(u64, FrameOutcome)>,
 }
 
 /// Build that a slot's frame was traced through.
@@ -274,11 +292,11 @@ impl FrameStructure {
             return Err(self.wrong_slot(slot));
         }
         self.pending.pop_front();
-        let mut is_complete = true;
+        let mut outcome = FrameOutcome::Complete;
         let mut failed = None;
         for part in 0..self.parts.len() {
             match self.finish_part(device, part, slot) {
-                Ok(complete) => is_complete &= complete,
+                Ok(of_part) => outcome = outcome.and(of_part),
                 // The others are still to be read.
                 Err(error) => failed = failed.or(Some(error)),
             }
@@ -286,29 +304,29 @@ impl FrameStructure {
         if let Some(error) = failed {
             return Err(error);
         }
-        if is_complete {
-            return Ok(FrameOutcome::Complete);
-        }
-        self.counts.incomplete += 1;
-        Ok(FrameOutcome::Incomplete)
+        self.counts.incomplete += u64::from(outcome != FrameOutcome::Complete);
+        Ok(outcome)
     }
 
-    /// True if the build of a part that a slot's frame used was complete.
-    fn finish_part(&mut self, device: &Device, index: usize, slot: u32) -> Result<bool, AdsError> {
+    /// Outcome of the build of a part that a slot's frame used.
+    fn finish_part(&mut self, device: &Device, index: usize, slot: u32) -> Result<FrameOutcome, AdsError> {
         let Some(used) = self.parts[index].used.get_mut(slot as usize).and_then(Option::take) else {
-            return Ok(true);
+            return Ok(FrameOutcome::Complete);
         };
+        let unknown = FrameOutcome::Incomplete { pool: None };
         if used.made {
             let read = self.read(device, index, slot);
-            let is_complete = matches!(read, Ok(true));
+            let outcome = *read.as_ref().unwrap_or(&unknown);
             let part = &mut self.parts[index];
-            part.ended = Some((used.build, is_complete));
-            if !is_complete && part.built.is_some_and(|built| built.number == used.build) {
+            part.ended = Some((used.build, outcome));
+            if outcome != FrameOutcome::Complete && part.built.is_some_and(|built| built.number == used.build)
+            {
                 part.built = None;
             }
             read?;
         }
-        Ok(self.parts[index].ended == Some((used.build, true)))
+        let ended = self.parts[index].ended.filter(|(build, _)| *build == used.build);
+        Ok(ended.map_or(unknown, |(_, outcome)| outcome))
     }
 
     fn wrong_slot(&self, slot: u32) -> AdsError {
@@ -328,15 +346,16 @@ impl FrameStructure {
         }
     }
 
-    /// True if the build of a part in a slot was complete; grows if not.
-    fn read(&mut self, device: &Device, index: usize, slot: u32) -> Result<bool, AdsError> {
+    /// Outcome of the build of a part in a slot; grows where it was not complete.
+    fn read(&mut self, device: &Device, index: usize, slot: u32) -> Result<FrameOutcome, AdsError> {
         let structure = self.structure.part(index);
         let status = structure.status(slot)?;
         if status.was_complete {
-            return Ok(true);
+            return Ok(FrameOutcome::Complete);
         }
+        let incomplete = FrameOutcome::Incomplete { pool: status.shortest_pool() };
         match structure.check(&status, self.headroom)? {
-            Check::Complete => Ok(status.complete),
+            Check::Complete => Ok(if status.complete { FrameOutcome::Complete } else { incomplete }),
             Check::Grow(sizes) => {
                 let grows = sizes != *structure.sizes();
                 tracing::debug!(
@@ -347,7 +366,7 @@ impl FrameStructure {
                 self.structure.change_part(index, |structure| structure.resize(device, &sizes))?;
                 self.counts.growths += u64::from(grows);
                 self.parts[index].built = None;
-                Ok(false)
+                Ok(incomplete)
             }
         }
     }
@@ -360,5 +379,28 @@ impl std::fmt::Debug for FrameStructure {
             .field("structure", &self.structure().description().name)
             .field("counts", &self.counts)
             .finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_together_lack_what_one_of_them_lacks_most() {
+        let incomplete = |lacking: Option<u64>| FrameOutcome::Incomplete {
+            pool: lacking.map(|lacking| PoolStatus { name: "nodes", demand: 5 + lacking, capacity: 5 }),
+        };
+        let complete = FrameOutcome::Complete;
+        assert_eq!(complete.and(complete), complete);
+        for (one, other, both) in [
+            (complete, incomplete(None), incomplete(None)),
+            (complete, incomplete(Some(3)), incomplete(Some(3))),
+            (incomplete(None), incomplete(Some(3)), incomplete(Some(3))),
+            (incomplete(Some(7)), incomplete(Some(3)), incomplete(Some(7))),
+            (incomplete(None), incomplete(None), incomplete(None)),
+        ] {
+            assert_eq!([one.and(other), other.and(one)], [both; 2]);
+        }
     }
 }

@@ -272,7 +272,7 @@ fn what_continues_adds_its_samples() {
             .expect("a slot is free");
         match renderer.take().expect("the device works").expect("one is in flight") {
             Taken::Picture(picture) => picture.film.pixels,
-            Taken::Nothing => panic!("a tree is complete at once"),
+            Taken::Nothing { pool } => panic!("a tree is complete at once, but {pool:?}"),
         }
     };
     let whole = submit(0..4, false);
@@ -294,14 +294,20 @@ fn a_frame_that_is_not_complete_is_no_picture() {
     renderer.submit(&all[0]).expect("a slot is free");
     let continued = FrameInput { samples: (2..3).into(), continues: true, ..all[0].clone() };
     renderer.submit(&continued).expect("a slot is free");
-    let mut shown = 0;
+    let mut lacking = Vec::new();
     while let Some(one) = renderer.take().expect("the device works") {
-        shown += usize::from(matches!(one, Taken::Picture(_)));
+        match one {
+            Taken::Picture(_) => {
+                panic!("100 fragments are not enough, and nothing can be added to what is not there")
+            }
+            Taken::Nothing { pool } => lacking.push(pool),
+        }
     }
-    assert_eq!(shown, 0, "100 fragments are not enough, and nothing can be added to what is not there");
+    assert_eq!(lacking.len(), 2);
+    assert!(lacking[0].is_some_and(|pool| pool.lacking() > 0), "{lacking:?}");
     // The film still is what an incomplete build left, although the pools suffice now.
     renderer.submit(&continued).expect("a slot is free");
-    assert!(matches!(renderer.take(), Ok(Some(Taken::Nothing))));
+    assert!(matches!(renderer.take(), Ok(Some(Taken::Nothing { pool: None }))));
     let (found, _) = pictures(&mut renderer, all);
     assert_eq!(found.len(), 2);
 }

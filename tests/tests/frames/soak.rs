@@ -94,8 +94,9 @@ fn soak(
             }
             match ended.outcome {
                 FrameOutcome::Complete => assert!(is_answered, "{name}, frame {}", ended.number),
-                FrameOutcome::Incomplete => {
+                FrameOutcome::Incomplete { pool } => {
                     assert!(!is_answered, "{name}: frame {} is right", ended.number);
+                    assert!(pool.is_none_or(|pool| pool.lacking() > 0), "{name}: {pool:?}");
                     incomplete += 1;
                 }
             }

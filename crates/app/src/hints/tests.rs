@@ -1,5 +1,6 @@
 use super::*;
 use crate::error::AppError;
+use rasray_ads::PoolStatus;
 use rasray_experiment::{Holder, OptionValues, TracerError, one_system};
 use rasray_options::Value;
 use rasray_systems::{Preset, Spec};
@@ -109,13 +110,17 @@ fn only_what_a_device_lacks_or_fails_at_ends_with_3() {
 fn what_is_not_whole_is_refused() {
     use ExperimentError as E;
     let bvh = "bvh";
-    let unstable = TracerError::Unstable { structure: bvh, rebuilds: 4, pool: None };
-    check(4, "still incomplete", "not kept", E::from(unstable));
+    let pool = Some(PoolStatus { name: "nodes", demand: 9, capacity: 8 });
+    let unstable = TracerError::Unstable { structure: bvh, rebuilds: 4, pool };
+    check(4, "not stable: nodes holds 8 and takes 9", "not kept", E::from(unstable));
     check(4, "did not finish", "not kept", E::from(TracerError::Unfinished { unfinished: 2, rounds: 3 }));
     check(4, "invalid index", "not kept", E::from(TracerError::Corrupted { structure: bvh, entries: 1 }));
     check(4, "not built", "not kept", E::from(FrameError::Tracer(TracerError::NotReady { rays: 1 })));
     check(4, "2 rays did not finish", "--system bvh", E::from(FrameError::Unfinished { rays: 2 }));
-    check(4, "not stable", "not kept", E::from(FrameError::Unstable { structure: bvh, repeats: 9 }));
+    let unstable = FrameError::Unstable { structure: bvh, repeats: 9, pool };
+    check(4, "not stable: nodes holds 8 and takes 9", "not kept", E::from(unstable));
+    let unstable = FrameError::Unstable { structure: bvh, repeats: 9, pool: None };
+    check(4, "after 9 repeats; its demand is not stable", "not kept", E::from(unstable));
     let system = || "bvh robust".to_owned();
     check(4, "3 entries", "--resolution", E::MissingEntries { system: system(), entries: 3 });
     check(4, "2 rays had no answer", "--system bvh", E::Unanswered { system: system(), rays: 2 });
