@@ -19,6 +19,8 @@ const SIDE: u32 = 32;
 
 /// Frames of the program.
 const COUNT: usize = 12;
+/// Builds of the first frame after which its demand counts as not stable.
+const BUILDS: u32 = 9;
 
 /// Buffers and recording of one frame in flight.
 struct Slot {
@@ -64,6 +66,24 @@ pub fn main() -> Result<()> {
     if complete == COUNT { Ok(()) } else { Err("a frame was not complete".into()) }
 }
 
+/// While the program loads, the first frame is repeated until its pools suffice. No other frame is waited for.
+fn load(host: &Host, device: &Device, bricks: &mut FrameStructure, slot: &mut Slot) -> Result<()> {
+    let mut lacking = None;
+    for _ in 0..BUILDS {
+        slot.submit(host, device, 0, bricks)?;
+        host.wait(0)?;
+        match slot.finish(host, device, 0, bricks)? {
+            Some(FrameOutcome::Incomplete { pool }) => lacking = pool,
+            Some(FrameOutcome::Complete) | None => return Ok(()),
+        }
+    }
+    let lacking = lacking.map(|pool| format!(": {pool}")).unwrap_or_default();
+    Err(format!(
+        "bricks are still incomplete after {BUILDS} builds{lacking}; keep them with more headroom, or choose fewer cells"
+    )
+    .into())
+}
+
 /// The loop of the host: how many frames were complete.
 fn frames(
     host: &Host,
@@ -72,16 +92,13 @@ fn frames(
     bricks: &mut FrameStructure,
     slots: &mut [Slot],
 ) -> Result<usize> {
-    // While the program loads, the first frame is repeated until its pools suffice. No other frame is waited for.
-    while !slots[0].finish(host, device, 0, bricks)? {
-        slots[0].submit(host, device, 0, bricks)?;
-        host.wait(0)?;
-    }
+    load(host, device, bricks, &mut slots[0])?;
     let mut complete = 0;
     for frame in 0..COUNT + FRAMES {
         let (number, slot) = (frame % FRAMES, &mut slots[frame % FRAMES]);
         host.wait(number)?;
-        complete += usize::from(slot.finish(host, device, number, bricks)?);
+        let outcome = slot.finish(host, device, number, bricks)?;
+        complete += usize::from(outcome == Some(FrameOutcome::Complete));
         if frame < COUNT {
             let moved = mesh.positions.iter().map(|[x, y, z]| [x + frame as f32 / 16.0, *y, *z]);
             slot.positions.write(&moved.collect::<Vec<_>>());
@@ -167,22 +184,22 @@ impl Slot {
         Ok(recorder.finish()?)
     }
 
-    /// Returns true if the frame that was waited for was complete; then hits are those of brute force. Pools that were
-    /// too small have grown.
+    /// Outcome of the frame that was waited for; absent where none was submitted. Hits of a complete one are those of brute
+    /// force. Pools that were too small have grown.
     fn finish(
         &mut self,
         host: &Host,
         device: &Device,
         number: usize,
         bricks: &mut FrameStructure,
-    ) -> Result<bool> {
+    ) -> Result<Option<FrameOutcome>> {
         if self.recorded.take().is_none() {
-            return Ok(false);
+            return Ok(None);
         }
-        let is_complete = bricks.finish(device, number as u32)? == FrameOutcome::Complete;
-        if is_complete {
+        let outcome = bricks.finish(device, number as u32)?;
+        if outcome == FrameOutcome::Complete {
             host.compare(&self.found.read::<Hit>(), &self.expected.read::<Hit>())?;
         }
-        Ok(is_complete)
+        Ok(Some(outcome))
     }
 }

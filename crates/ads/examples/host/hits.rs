@@ -6,12 +6,17 @@ use rasray_gpu::{Device, Recorder};
 
 use super::{Host, Result, rays};
 
+/// Builds after which a demand counts as not stable. Most structures need two; one whose demand is known only once an
+/// earlier pool sufficed needs a few more.
+const BUILDS: u32 = 9;
+
 /// Builds and traces in one command buffer of the host, and again where a build needs more capacity.
 pub fn hits(host: &Host, device: &Device, structure: &mut dyn Structure) -> Result<Vec<Hit>> {
     let rays = rays();
     let queue = RayQueue::new(device, "rays", rays.len() as u32, false)?;
     device.upload_slice(queue.rays(), 0, &rays)?;
-    loop {
+    let mut lacking = None;
+    for _ in 0..BUILDS {
         structure.prepare_build(device)?;
         let recorded = host.submit(0, |commands| {
             // SAFETY: the command buffer is being recorded by nobody else, and `recorded` outlives the wait below.
@@ -23,9 +28,18 @@ pub fn hits(host: &Host, device: &Device, structure: &mut dyn Structure) -> Resu
         })?;
         host.wait(0)?;
         drop(recorded);
-        match structure.check(&structure.status(0)?, 0)? {
+        let status = structure.status(0)?;
+        match structure.check(&status, 0)? {
             Check::Complete => return Ok(device.download_as(queue.hits(), 0, rays.len())?),
             Check::Grow(sizes) => structure.resize(device, &sizes)?,
         }
+        lacking = status.shortest_pool();
     }
+    let name = structure.description().name;
+    let lacking = lacking.map(|pool| format!(": {pool}")).unwrap_or_default();
+    Err(format!(
+        "{name} is still incomplete after {BUILDS} builds{lacking}; give `check` a headroom, such as 50 percent, or choose \
+         options with fewer cells"
+    )
+    .into())
 }
