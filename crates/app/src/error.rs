@@ -21,6 +21,8 @@ pub const EXIT_DEVICE: u8 = 3;
 /// Exit code of a result that could not be kept whole: it could not be written, or what was traced
 /// was incomplete.
 pub const EXIT_REFUSED: u8 = 4;
+/// Exit code of a defect: no input, option or device is at fault.
+pub const EXIT_DEFECT: u8 = 5;
 /// Exit code of a run that a signal stopped, whether or not a partial result was written.
 pub const EXIT_INTERRUPTED: u8 = 130;
 
@@ -47,7 +49,7 @@ pub enum AppError {
         help: String,
     },
     /// An experiment gave no result. Exit code 3 where the device is missing, lacks something required or failed, 4 where
-    /// its result is not whole, else 2.
+    /// its result is not whole, 5 where that is a defect, else 2.
     #[error("{}", hints::message(.0))]
     Experiment(#[from] ExperimentError),
     /// A file gave no rays or hits. Exit code 2.

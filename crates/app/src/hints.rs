@@ -33,6 +33,8 @@ const SMALLER_IMAGE: &str = "try a smaller --size, or another --device";
 const SMALLER_SCENE: &str =
     "try a scene with fewer triangles and images, a smaller map for --environment, or another --device";
 
+/// Advice for what neither input nor device is at fault for; its exit code is
+/// [`EXIT_DEFECT`](crate::error::EXIT_DEFECT).
 const DEFECT: &str = "this is a defect; please report it with the command line";
 
 const LOST: &str = "its results are not kept; please report it with the command line";

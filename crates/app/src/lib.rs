@@ -11,7 +11,9 @@ mod progress;
 mod terminal;
 mod version;
 
-pub use error::{AppError, EXIT_DEVICE, EXIT_INTERRUPTED, EXIT_OK, EXIT_REFUSED, EXIT_TARGET, EXIT_USAGE};
+pub use error::{
+    AppError, EXIT_DEFECT, EXIT_DEVICE, EXIT_INTERRUPTED, EXIT_OK, EXIT_REFUSED, EXIT_TARGET, EXIT_USAGE,
+};
 pub use interrupt::Interrupt;
 pub use version::{COMMIT, VERSION, version_text};
 

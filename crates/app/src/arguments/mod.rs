@@ -56,6 +56,7 @@ Exit codes:
   2    bad input or usage
   3    no suitable device, or the device failed
   4    refused to lose data: the result could not be written, or was not complete
+  5    a defect of rasray; please report it
   130  stopped by SIGINT, SIGTERM or SIGHUP; what was finished is written, unless stopped twice
 
 RASRAY_LOG sets the log filter, for example RASRAY_LOG=debug. NO_COLOR=1 keeps colours out of it.";

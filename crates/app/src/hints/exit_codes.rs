@@ -1,27 +1,27 @@
 //! Exit codes of libraries' errors.
 
-use crate::error::{EXIT_DEVICE, EXIT_REFUSED, EXIT_USAGE};
+use super::{DEFECT, help};
+use crate::error::{EXIT_DEFECT, EXIT_DEVICE, EXIT_REFUSED, EXIT_USAGE};
 use rasray_experiment::{
     AdsError, ExperimentError, FrameError, GpuSceneError, Holder, IntegratorError, TracerError,
 };
-use rasray_metrics::MetricsError;
 
-/// The exit code: only what a device lacks or fails at is [`EXIT_DEVICE`].
+/// The exit code: where the advice is to report a defect [`EXIT_DEFECT`], whatever failed; of all others only what a
+/// device lacks or fails at is [`EXIT_DEVICE`].
 pub(crate) fn exit_code(error: &ExperimentError) -> u8 {
+    if help(error) == DEFECT {
+        return EXIT_DEFECT;
+    }
     match error {
         ExperimentError::Opening(_)
         | ExperimentError::Gpu(_)
         | ExperimentError::SceneExceedsBinding { .. }
         | ExperimentError::PoolExceedsBinding { .. }
         | ExperimentError::SystemNeedsFeature { .. }
-        | ExperimentError::ImageTooLarge { memory: Holder::Device, .. }
-        | ExperimentError::OtherTriangles { .. }
-        | ExperimentError::Validation { .. } => EXIT_DEVICE,
+        | ExperimentError::ImageTooLarge { memory: Holder::Device, .. } => EXIT_DEVICE,
         ExperimentError::MissingEntries { .. }
         | ExperimentError::Unanswered { .. }
         | ExperimentError::MissingPixels { .. } => EXIT_REFUSED,
-        ExperimentError::Metrics(MetricsError::TooLarge { .. }) => EXIT_USAGE,
-        ExperimentError::Metrics(_) => EXIT_REFUSED,
         ExperimentError::Ads(error) => code_of_ads(error),
         ExperimentError::GpuScene(error) => code_of_scene(error),
         ExperimentError::Integrator(error) => code_of_integrator(error),

@@ -50,18 +50,9 @@ fn only_what_a_device_lacks_or_fails_at_ends_with_3() {
     use ExperimentError as E;
     check(3, "no Vulkan device", "rasray info", E::Opening(GpuError::NoDevice));
     check(3, "the device was lost", "another --device", E::Gpu(gpu()));
-    let misused = || GpuError::InvalidUse { name: "queue".to_owned(), reason: "it has no slots".to_owned() };
-    check(3, "it has no slots", "a defect", E::Gpu(misused()));
-    check(3, "it has no slots", "a defect", E::Integrator(misused().into()));
     let refused = || GpuError::Memory { name: "queue".to_owned(), reason: "no type fits".to_owned() };
     check(3, "memory for `queue` could not be had: no type fits", "--resolution", E::Gpu(refused()));
     check(3, "no type fits", "--size", E::Integrator(refused().into()));
-    check(
-        2,
-        "leave out `surfaces_of_hits`",
-        "a defect",
-        E::Integrator(IntegratorError::SurfacesOfHits { structure: "hu" }),
-    );
     check(3, "the device was lost", "--resolution", E::Ads(gpu().into()));
     check(3, "the device was lost", "--size", E::Integrator(gpu().into()));
     check(3, "the device was lost", "--resolution", E::from(FrameError::Gpu(gpu())));
@@ -94,8 +85,6 @@ fn only_what_a_device_lacks_or_fails_at_ends_with_3() {
         |memory| E::ImageTooLarge { size: [8192, 8192], bytes_per_pixel: 16, available: 1 << 29, memory };
     check(3, "16 bytes a pixel), and the device has 512.00 MiB", "at most 33,554,432", image(Holder::Device));
     check(2, "this machine has 512.00 MiB", "choose a --size", image(Holder::Host));
-    check(3, "validation layer says: bad", "defect", E::Validation { message: "bad".to_owned() });
-    check(3, "triangles of E5", "defect", E::OtherTriangles { case: "E5".to_owned() });
     let reason = || "no atomics".to_owned();
     let drawn = IntegratorError::CannotDraw { reason: reason() };
     check(3, "no atomics", "--primary trace", E::from(drawn));
@@ -127,7 +116,28 @@ fn what_is_not_whole_is_refused() {
     check(4, "1 of 2 pixels", "defect", E::MissingPixels { image: "depth", pixels: 1, expected: 2 });
     let damaged = AdsError::Damaged { structure: bvh, fault: "a loop".to_owned() };
     check(4, "a loop", "not kept", E::from(damaged));
-    check(4, "not finite", "defect", E::from(MetricsError::NonFiniteReference { pixel: 0 }));
+}
+
+#[test]
+fn what_is_to_be_reported_as_a_defect_ends_with_5() {
+    use ExperimentError as E;
+    let of = |message: &str, error: E| check(5, message, DEFECT, error);
+    let misused = || GpuError::InvalidUse { name: "queue".to_owned(), reason: "it has no slots".to_owned() };
+    of("it has no slots", E::Gpu(misused()));
+    of("it has no slots", E::Ads(misused().into()));
+    of("it has no slots", E::GpuScene(misused().into()));
+    of("it has no slots", E::Integrator(misused().into()));
+    of("it has no slots", E::Integrator(IntegratorError::Ads(misused().into())));
+    let surfaces = IntegratorError::SurfacesOfHits { structure: "hu" };
+    of("leave out `surfaces_of_hits`", E::Integrator(surfaces));
+    of("call prepare_build", E::from(AdsError::NotPrepared { structure: "bvh" }));
+    of("slot 2 of 2", E::from(AdsError::Slot { structure: "bvh", slot: 2, slots: 2 }));
+    of("log steps", E::from(TracerError::NoSteps { structure: "bvh" }));
+    of("all 2 slots", E::from(TracerError::Busy { slots: 2 }));
+    of("not made to move", E::NotPosed);
+    of("validation layer says: bad", E::Validation { message: "bad".to_owned() });
+    of("triangles of E5", E::OtherTriangles { case: "E5".to_owned() });
+    of("not finite", E::from(MetricsError::NonFiniteReference { pixel: 0 }));
 }
 
 #[test]
@@ -161,9 +171,7 @@ fn what_was_asked_for_or_is_in_a_file_ends_with_2() {
     check(2, "no view of the camera", "--primary trace", E::from(AdsError::NoFirstHits { structure: "bvh" }));
     let parts = AdsError::InParts { structure: "hu", reason: "it is one" };
     check(2, "in parts", "--refresh", E::from(parts));
-    check(2, "call prepare_build", "defect", E::from(AdsError::NotPrepared { structure: "bvh" }));
     check(2, "camera rays are drawn", "--adaptive", E::from(FrameError::DrawnAdaptively));
-    check(2, "log steps", "defect", E::from(TracerError::NoSteps { structure: "bvh" }));
     let integrator = IntegratorError::UnknownOption { integrator: "ao", option: "bounces" };
     check(2, "no option `bounces`", "--integrator", E::from(integrator));
     let crowded = IntegratorError::Crowded { surfaces: 3, limit: 9 };
@@ -175,7 +183,6 @@ fn what_was_asked_for_or_is_in_a_file_ends_with_2() {
     check(2, "--primary raster draws through", "--primary trace", E::Pinhole { primary: "raster" });
     check(2, "--primary fragments: bvh has no view", "--views", E::NoFirstHits { structure: "bvh" });
     check(2, "no part that stands still", "--refresh", E::NoStillPart);
-    check(2, "not made to move", "defect", E::NotPosed);
     let ray = E::NoSuchRay { index: 9, set: "eye".to_owned(), rays: 3 };
     check(2, "there is no ray 9 in eye, which has 3", "--rays", ray);
     let count = E::HitCount { name: "other".to_owned(), hits: 2, rays: 3, set: "eye".to_owned() };
