@@ -36,7 +36,7 @@ impl SystemConfig {
         if workload.is_visibility()
             && self.preset == Preset::Published
             && self.options.get("payload").is_none()
-            && let Some(word) = self.system.occlusion_payload
+            && let Some(word) = self.system.frame.and_then(|frame| frame.occlusion_payload)
         {
             self.options.set("payload", word);
         }
@@ -50,7 +50,7 @@ impl SystemConfig {
     pub fn seen_by(mut self, camera: &Camera, frame: &Frame) -> Self {
         let draws = self.preset == Preset::Published || frame.primary == Primary::Fragments;
         let perspective = matches!(camera.projection, Projection::Perspective { .. });
-        if let Some(views) = self.system.camera_views
+        if let Some(views) = self.system.frame.and_then(|frame| frame.camera_views)
             && perspective
             && draws
             && self.options.get("views").is_none()

@@ -14,8 +14,6 @@ pub(crate) const SYSTEM: System = System {
     large_pools: &[("views", "cube"), ("grid", "512"), ("slices", "512")],
     presets: &[Preset::Robust],
     frame: None,
-    occlusion_payload: None,
-    camera_views: None,
     without_scene: &[],
     options: || names(OPTIONS),
     requirements: |spec| Ok(Bricks::requirements_of(&config(spec)?)),

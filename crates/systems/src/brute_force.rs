@@ -13,8 +13,6 @@ pub(crate) const SYSTEM: System = System {
     large_pools: &[],
     presets: &[Preset::Robust],
     frame: None,
-    occlusion_payload: None,
-    camera_views: None,
     without_scene: &[],
     options: Vec::new,
     requirements: |_| Ok(BruteForce::requirements_of()),

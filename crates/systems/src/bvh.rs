@@ -14,8 +14,6 @@ pub(crate) const SYSTEM: System = System {
     large_pools: &[],
     presets: &[Preset::Robust],
     frame: None,
-    occlusion_payload: None,
-    camera_views: None,
     without_scene: &[],
     options: || names(OPTIONS),
     requirements: |spec| Ok(Bvh::requirements_of(&config(spec)?)),

@@ -15,14 +15,10 @@ pub(crate) const SYSTEM: System = System {
     records: LayeredDepthCube::RECORDS,
     large_pools: &[("resolution", "2400")],
     presets: &[Preset::Robust, Preset::Published],
-    frame: Some(PaperFrame {
-        integrator: "whitted",
-        options: &[("select", "specular"), ("ray-depth", "1"), ("mirror-roughness", "0.3")],
-        primary: "raster",
-        occluder: "structure",
-    }),
-    occlusion_payload: None,
-    camera_views: None,
+    frame: Some(PaperFrame::of(
+        "whitted",
+        &[("select", "specular"), ("ray-depth", "1"), ("mirror-roughness", "0.3")],
+    )),
     without_scene: &[("payload", "index")],
     options: || names(OPTIONS),
     requirements: |spec| Ok(LayeredDepthCube::requirements_of(&config(spec)?)),

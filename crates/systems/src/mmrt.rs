@@ -16,9 +16,12 @@ pub(crate) const SYSTEM: System = System {
     records: ABuffer::RECORDS,
     large_pools: &[("resolution", "2400")],
     presets: &[Preset::Robust, Preset::Published],
-    frame: Some(PaperFrame { integrator: "path", options: &[], primary: "raster", occluder: "shadow-maps" }),
-    occlusion_payload: Some("normal"),
-    camera_views: Some("cube+camera"),
+    frame: Some(PaperFrame {
+        occluder: "shadow-maps",
+        occlusion_payload: Some("normal"),
+        camera_views: Some("cube+camera"),
+        ..PaperFrame::of("path", &[])
+    }),
     without_scene: &[("payload", "index")],
     options: || names(OPTIONS),
     requirements: |spec| Ok(ABuffer::requirements_of(&config(spec)?)),

@@ -15,19 +15,10 @@ pub(crate) const SYSTEM: System = System {
     records: Voxels::RECORDS,
     large_pools: &[("resolution", "3500")],
     presets: &[Preset::Robust, Preset::Published],
-    frame: Some(PaperFrame {
-        integrator: "whitted",
-        options: &[
-            ("select", "reflective"),
-            ("ray-depth", "1"),
-            ("shadows", "none"),
-            ("mirror-roughness", "0.3"),
-        ],
-        primary: "raster",
-        occluder: "structure",
-    }),
-    occlusion_payload: None,
-    camera_views: None,
+    frame: Some(PaperFrame::of(
+        "whitted",
+        &[("select", "reflective"), ("ray-depth", "1"), ("shadows", "none"), ("mirror-roughness", "0.3")],
+    )),
     without_scene: &[("payload", "index")],
     options: voxel::names,
     requirements: |spec| Ok(Voxels::requirements_of(&config(spec)?)),

@@ -43,7 +43,7 @@ impl Preset {
     }
 }
 
-/// The frame of a paper's pictures: everything of it but the structure, in words of the command line.
+/// The frame of a paper's pictures, and options of the structure that follow from a frame, in words of the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PaperFrame {
     /// The integrator.
@@ -54,6 +54,25 @@ pub struct PaperFrame {
     pub primary: &'static str,
     /// Occluder of shadow rays.
     pub occluder: &'static str,
+    /// The published preset's `payload` for renders that ask for occlusion alone; absent where the paper has
+    /// none of its own for it.
+    pub occlusion_payload: Option<&'static str>,
+    /// The published preset's `views` where a perspective camera looks at the scene, whose view then has one cell per
+    /// pixel (`camera-resolution`), and those of every preset that first hits are taken from; absent where the paper
+    /// draws none.
+    pub camera_views: Option<&'static str>,
+}
+
+impl PaperFrame {
+    /// Pictures of an integrator with these options: first hits are drawn, shadow rays go through the structure, and none of
+    /// its options follows from the frame.
+    pub(crate) const fn of(
+        integrator: &'static str,
+        options: &'static [(&'static str, &'static str)],
+    ) -> Self {
+        let (primary, occluder) = ("raster", "structure");
+        Self { integrator, options, primary, occluder, occlusion_payload: None, camera_views: None }
+    }
 }
 
 /// A row of the registry. Everything that is known of a system by name is here.
@@ -68,12 +87,6 @@ pub struct System {
     /// The frame that pictures of its published preset are made with, where no integrator is asked for; absent where no paper
     /// shows it.
     pub frame: Option<PaperFrame>,
-    /// The published preset's `payload` for renders that ask for occlusion alone; absent where the paper has
-    /// none of its own for it.
-    pub occlusion_payload: Option<&'static str>,
-    /// The published preset's `views` where a perspective camera looks at the scene, whose view then has one cell per
-    /// pixel (`camera-resolution`); absent where the paper draws none.
-    pub camera_views: Option<&'static str>,
     /// Options with which its published preset needs no scene: by default fragments carry what a scene's materials say.
     pub without_scene: &'static [(&'static str, &'static str)],
     /// The name of the structure that it traces.

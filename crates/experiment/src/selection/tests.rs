@@ -43,7 +43,7 @@ fn published_fragments_carry_what_their_paper_keeps_for_occlusion() {
     for system in SYSTEMS {
         let Ok(config) = one_system(system, Preset::Published, &plain) else { continue };
         let payload = config.clone().serving(occlusion).options.text("payload");
-        assert_eq!(payload.as_deref(), system.occlusion_payload);
+        assert_eq!(payload.as_deref(), system.frame.and_then(|frame| frame.occlusion_payload));
         assert!(config.clone().serving(occlusion).spec().is_ok());
         assert_eq!(config.clone().serving(path), config);
     }
@@ -52,7 +52,7 @@ fn published_fragments_carry_what_their_paper_keeps_for_occlusion() {
         let config = one_system(system("mmrt"), preset, options).expect("valid");
         assert_eq!(config.clone().serving(occlusion), config);
     }
-    assert_eq!(system("mmrt").occlusion_payload, Some("normal"));
+    assert_eq!(system("mmrt").frame.and_then(|frame| frame.occlusion_payload), Some("normal"));
     let plane = options(&[("payload", "plane")]);
     let plane = one_system(system("mmrt"), Preset::Robust, &plane).expect("valid");
     assert!(plane.shortcoming(path).expect("white surfaces").contains("`payload` plane"));
@@ -72,14 +72,14 @@ fn published_views_are_those_of_the_paper() {
             for primary in Primary::ALL {
                 let seen = config.clone().seen_by(&camera, &frame(primary));
                 let draws = preset == Preset::Published || primary == Primary::Fragments;
-                let views = system.camera_views.filter(|_| draws);
+                let views = system.frame.and_then(|frame| frame.camera_views).filter(|_| draws);
                 assert_eq!(seen.options.text("views").as_deref(), views);
                 assert_eq!(seen.options.text("camera-resolution").as_deref(), views.map(|_| "720x480"));
                 seen.spec().expect("the options go together");
             }
         }
     }
-    assert_eq!(system("mmrt").camera_views, Some("cube+camera"));
+    assert_eq!(system("mmrt").frame.and_then(|frame| frame.camera_views), Some("cube+camera"));
     let traced = frame(Primary::Trace);
     let published = one_system(system("mmrt"), Preset::Published, &plain).expect("valid");
     let parallel = Camera { projection: Projection::Orthographic { half_height: 1.0 }, ..camera.clone() };
