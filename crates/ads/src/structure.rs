@@ -152,6 +152,9 @@ pub trait Structure {
 
     /// Raises [`Structure::rounds`], for a caller that found unfinished rays and traces again. Each round costs two
     /// dispatches, also where no ray is paused. Returns false where more rounds would change nothing.
+    ///
+    /// Takes a shared reference, since whoever traces has no other one. The number of rounds is no part of a build and
+    /// changes no answer; that of a recording stays ([`Trace::rounds`]).
     fn allow_more_rounds(&self) -> bool {
         false
     }
