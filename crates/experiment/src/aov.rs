@@ -83,7 +83,7 @@ impl Aov {
             Self::Depth => "Z: metres from the eye along the ray",
             Self::Normal => "N.X N.Y N.Z: geometric normal",
             Self::Primitive => "id: global triangle id",
-            Self::Samples => "samples: how many are in each pixel's mean",
+            Self::Samples => "samples: number in each pixel's mean",
             Self::Albedo => "albedo.R .G .B: base colour",
             Self::Position => "position.X .Y .Z: world, metres",
             Self::Uv => "uv.U .V: texture coordinates 0",
@@ -131,7 +131,7 @@ impl Aov {
     }
 }
 
-/// Which images in addition to the colours.
+/// Images in addition to the colours.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub struct AovSelection(u16);
 

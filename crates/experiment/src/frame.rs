@@ -18,21 +18,21 @@ pub struct Frame {
     pub height: u32,
     /// Samples per pixel, at least 1.
     pub spp: u32,
-    /// How many of them a pixel gets; absent: all.
+    /// Rule for the number of them that a pixel gets; absent: all.
     pub adaptive: Option<Adaptive>,
     /// Seed of all random numbers.
     pub seed: u32,
-    /// Where they come from.
+    /// Source of random numbers.
     pub sampler: Sampler,
-    /// How what the camera sees first is found.
+    /// Method of first hits.
     pub primary: Primary,
-    /// What answers shadow rays.
+    /// Occluder of shadow rays.
     pub occluder: OccluderKind,
-    /// Which rays pass the backs of single-sided surfaces.
+    /// Rays that pass the backs of single-sided surfaces.
     pub back_faces: BackFaces,
 }
 
-/// How what camera rays hit is found.
+/// Method that finds the hits of camera rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Primary {
     /// Rays are traced through the structure.
@@ -62,7 +62,7 @@ impl Primary {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Description, one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Trace => "Rays are traced through the structure",
@@ -77,7 +77,7 @@ impl Primary {
     }
 }
 
-/// What answers shadow rays.
+/// Occluder of shadow rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OccluderKind {
     /// The structure that all other rays are traced through.
@@ -119,7 +119,7 @@ impl OccluderKind {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Description, one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Structure => "Rays are traced through the structure",
@@ -147,7 +147,7 @@ impl OccluderKind {
     }
 }
 
-/// What of a structure a picture builds where the scene has moved since the one before.
+/// Parts of a structure that a picture builds where the scene has moved since the one before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Refresh {
     /// All of it.
@@ -155,7 +155,7 @@ pub enum Refresh {
     All,
     /// The part that moves; what stands still is a part of its own, built once.
     Moving,
-    /// The same with a part for each object that its node alone moves, built in frames in which it moves.
+    /// As [`Self::Moving`], with a part for each object that its node alone moves, built in frames in which it moves.
     Objects,
 }
 
@@ -172,16 +172,16 @@ impl Refresh {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Description, one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::All => "Everything",
             Self::Moving => {
-                "What moves; what stands still has a part of its own, built once. The same hits of systems that find every \
+                "Moving triangles; still ones have a part of their own, built once. The same hits of systems that find every \
                  triangle, the nearer of both parts' hits of others"
             }
             Self::Objects => {
-                "The same with a part for each object that its node alone moves, for at most 32, the largest: each is built in \
+                "As `moving`, with a part for each object that its node alone moves, for at most 32, the largest: each is built in \
                  frames in which it moves"
             }
         }
@@ -214,7 +214,7 @@ impl Frame {
         u64::from(self.width) * u64::from(self.height) * u64::from(self.spp) * (1 + u64::from(bounces))
     }
 
-    /// What an image like this one looks at in a scene.
+    /// Work of an image like this one on a scene.
     pub fn workload(&self) -> Workload {
         self.integrator.workload()
     }

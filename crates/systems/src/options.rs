@@ -78,8 +78,8 @@ pub const OPTIONS: &[StructureOption] = &[
         SameForTriangles,
         Values::Whole(0, 3),
         &["0", "1", "2"],
-        "Bricks along the axes: how often a cell that lists many small triangles is divided into 4x4x4 smaller ones, at \
-         most",
+        "Bricks along the axes: maximum number of times that a cell that lists many small triangles is divided into \
+         4x4x4 smaller ones",
     ),
     row("levels", Size, Same, Values::Whole(1, 2), &["1", "2"], "Levels of blocks of cells"),
     trying(
@@ -91,14 +91,14 @@ pub const OPTIONS: &[StructureOption] = &[
             SameForTriangles,
             &[
                 ("cube", "Six faces around the centre"),
-                ("cube+camera", "The same, and what the camera sees, with cells of its own"),
-                ("camera", "Only what the camera sees"),
+                ("cube+camera", "Six faces around the centre, and the camera's view with cells of its own"),
+                ("camera", "The camera's view alone"),
                 (
                     "axes",
                     "Three along the axes, whatever the eye; for bricks one box of cells that serves all three",
                 ),
             ],
-            "Which projections are drawn",
+            "Projections that are drawn",
         ),
     ),
     words(
@@ -113,7 +113,7 @@ pub const OPTIONS: &[StructureOption] = &[
                  most",
             ),
         ],
-        "Where a ray passes from one view to the next",
+        "Point at which a ray passes from one view to the next",
     ),
     words(
         "storage",
@@ -127,7 +127,7 @@ pub const OPTIONS: &[StructureOption] = &[
             ("sb", "Contiguous, counted first"),
             ("paged", "Linked pages of several entries"),
         ],
-        "How a cell's fragments or triangles are kept",
+        "List storage of a cell's fragments or triangles",
     ),
     of(
         OptionRow {
@@ -161,7 +161,7 @@ pub const OPTIONS: &[StructureOption] = &[
                 ("normal", "The shading normal alone, quantised as published for ambient occlusion"),
                 ("plane", "The plane of its triangle in full, without surface attributes"),
             ],
-            "What a fragment carries",
+            "Data that a fragment carries",
         ),
     ),
     trying(
@@ -177,14 +177,14 @@ pub const OPTIONS: &[StructureOption] = &[
                     "conservative",
                     "Every cell it reaches into; with fragments, where no fragment represents it",
                 ),
-                ("edge-on", "The same for triangles that no cell keeps or that are seen edge-on"),
+                ("edge-on", "As conservative, for triangles that no cell keeps or that are seen edge-on"),
                 ("hardware", "Those that the rasterizer covers"),
                 (
                     "conservative-extension",
                     "As conservative, where VK_EXT_conservative_rasterization touches them",
                 ),
             ],
-            "Which cells a triangle is kept in",
+            "Cells that keep a triangle",
         ),
     ),
     words(
@@ -193,7 +193,7 @@ pub const OPTIONS: &[StructureOption] = &[
         MayChange,
         &[
             ("interval", "Its depth lies in the ray's half-open depth interval in the cell"),
-            ("thickness", "The same with a thickness behind the fragment"),
+            ("thickness", "As interval, with a thickness behind the fragment"),
             ("tolerance", "Its depth is within a fixed tolerance of the ray's depths in the cell"),
             (
                 "slope",
@@ -214,7 +214,7 @@ pub const OPTIONS: &[StructureOption] = &[
             ("t", "Triangles: by t alone"),
             ("tile", "Triangles: where the point lies in the tile that listed it"),
         ],
-        "What counts as a hit",
+        "Condition under which an entry is a hit",
     ),
     row(
         "thickness",
@@ -230,7 +230,7 @@ pub const OPTIONS: &[StructureOption] = &[
         MayChange,
         Values::Number(Unit::Share, Least::Zero),
         &["0.01"],
-        "With `accept` tolerance: how far along a view a fragment may be from the ray, a share of the cube's side",
+        "With `accept` tolerance: maximum distance of a fragment from the ray along a view, a share of the cube's side",
     ),
     words(
         "inside",
@@ -263,10 +263,10 @@ pub const OPTIONS: &[StructureOption] = &[
             ("samples", "A fixed number of samples along the ray"),
             ("dda", "One step per cell of the longer axis"),
             ("exact", "Every cell that the ray crosses"),
-            ("pyramid", "The same, skipping blocks of cells that hold nothing at the ray's depths"),
+            ("pyramid", "As exact, skipping blocks of cells that hold nothing at the ray's depths"),
             ("jump", "To half a pixel beyond the point where the ray leaves a tile"),
         ],
-        "How a ray steps through cells",
+        "Stepping of a ray through cells",
     ),
     row(
         "samples",
@@ -287,7 +287,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Method,
         MayChange,
         &[("best", "At buckets behind the best hit"), ("bucket", "After the first bucket with a hit")],
-        "Lists of triangles: where the search of a tile ends",
+        "Lists of triangles: end of the search of a tile",
     ),
     words(
         "depths",
@@ -297,14 +297,14 @@ pub const OPTIONS: &[StructureOption] = &[
             ("clipped", "Those of its part in the tile"),
             ("corners", "Those of its plane at the corners of the tile"),
         ],
-        "Lists of triangles: which depths a triangle has in a tile",
+        "Lists of triangles: depths of a triangle in a tile",
     ),
     words(
         "depth",
         Method,
         MayChange,
         &[("16", "A half, as a share of the cube's side"), ("32", "A float")],
-        "How a fragment keeps its depth",
+        "Format of a fragment's depth",
     ),
     words(
         "centre",
@@ -325,21 +325,21 @@ pub const OPTIONS: &[StructureOption] = &[
         Method,
         SameForTriangles,
         &[
-            ("all", "In all; a voxel is searched along the axis of its averaged normal"),
-            ("voxel", "In the one along the axis of its voxel's averaged normal"),
+            ("all", "All; a voxel is searched along the axis of its averaged normal"),
+            ("voxel", "The one along the axis of its voxel's averaged normal"),
             (
                 "triangle",
-                "In the one that its triangle faces most; a voxel is searched along the axes of all its triangles",
+                "The one that its triangle faces most; a voxel is searched along the axes of all its triangles",
             ),
         ],
-        "In which of the views along the axes a fragment is kept",
+        "Views along the axes that keep a fragment",
     ),
     words(
         "voxels",
         Method,
         SameForTriangles,
         &[("fragments", "The fragments in it"), ("triangles", "The triangles that reach into it")],
-        "What makes a voxel occupied; by default fragments with `axes` all, else triangles",
+        "Contents that make a voxel occupied; by default fragments with `axes` all, else triangles",
     ),
     words(
         "leaves",
@@ -349,14 +349,14 @@ pub const OPTIONS: &[StructureOption] = &[
             ("fragments", "Its fragments, which the views keep"),
             ("voxels", "The voxel itself, where the ray enters it; there are no views and no fragments"),
         ],
-        "What a ray hits in an occupied voxel",
+        "Surface that a ray hits in an occupied voxel",
     ),
     words(
         "build",
         Method,
         Same,
         &[("single", "All in one pass, then sorted"), ("peel", "One after the other, by depth peeling")],
-        "How the layers of a depth cube are made",
+        "Method that makes the layers of a depth cube",
     ),
     switch("single-layer", Method, MayChange, "Keep only the nearest fragments of each cell"),
     words(
@@ -375,7 +375,7 @@ pub const OPTIONS: &[StructureOption] = &[
             ("raster", "Cells, by drawing"),
             ("binning", "Cells, by computing"),
         ],
-        "How the structure is built",
+        "Algorithm that builds the structure",
     ),
     words(
         "geometry-passes",
@@ -385,7 +385,7 @@ pub const OPTIONS: &[StructureOption] = &[
             ("1", "Once; the view of a triangle is chosen as it is drawn"),
             ("3", "Once for each view along the axes, which leaves out the triangles of the others"),
         ],
-        "How often a pass of the build draws the scene, with `builder` raster",
+        "Draws of the scene by a pass of the build, with `builder` raster",
     ),
     words(
         "children",
@@ -428,7 +428,7 @@ pub const OPTIONS: &[StructureOption] = &[
             ("geometry", "The fragments that it will have: all triangles are drawn once more"),
             ("boxes", "The boxes around objects that are over it: a box is drawn in place of its triangles"),
         ],
-        "Lists by depth bucket: what a cell's range of depths encloses",
+        "Lists by depth bucket: contents that a cell's range of depths encloses",
     ),
     words(
         "occupancy",
@@ -436,9 +436,12 @@ pub const OPTIONS: &[StructureOption] = &[
         Same,
         &[
             ("bounds", "The smallest and the largest"),
-            ("slices", "The same, and which of 64 slices of depth hold something"),
+            (
+                "slices",
+                "The smallest and the largest, and a bit for each of 64 slices of depth that holds something",
+            ),
         ],
-        "What a block of cells stores of the depths in it",
+        "Record of the depths in a block of cells",
     ),
     words(
         "traversal",
@@ -446,16 +449,16 @@ pub const OPTIONS: &[StructureOption] = &[
         Same,
         &[
             ("dda", "One after the other"),
-            ("octree", "The same, over the empty nodes of a sparse octree, which is built from the voxels"),
+            ("octree", "As dda, over the empty nodes of a sparse octree, which is built from the voxels"),
         ],
-        "How a ray goes from voxel to voxel",
+        "Stepping of a ray from voxel to voxel",
     ),
     words(
         "goal",
         Speed,
         Same,
         &[("trace", "Rays"), ("build", "Builds")],
-        "What the driver is asked to make its tree fast for",
+        "Work that the driver's tree is to be fast for",
     ),
     switch("corners", Speed, Same, "Keep a contiguous copy of triangles' corners"),
     words(
@@ -463,7 +466,7 @@ pub const OPTIONS: &[StructureOption] = &[
         Speed,
         Same,
         &[("descriptor", "Storage buffers in a descriptor set"), ("address", "64-bit device addresses")],
-        "How shaders reach the structure's memory",
+        "Access of shaders to the structure's memory",
     ),
     row(
         "layers",

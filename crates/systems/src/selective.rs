@@ -10,7 +10,7 @@ const PUBLISHED_RESOLUTION: u32 = 1024;
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "selective",
-    doc: "The same with voxels first, and each fragment in one of the A-buffers",
+    doc: "Voxels over A-buffers along the three axes: voxels are found first, and each fragment is in one A-buffer",
     structure: "voxel",
     records: Voxels::RECORDS,
     large_pools: &[("resolution", "3500")],

@@ -29,7 +29,7 @@ impl Preset {
     /// Description for help.
     pub fn doc(self) -> &'static str {
         match self {
-            Self::Robust => "The same structure with its errors repaired",
+            Self::Robust => "The paper's structure with its errors repaired",
             Self::Published => "The paper's approximations included",
         }
     }
@@ -50,7 +50,7 @@ pub struct PaperFrame {
     pub integrator: &'static str,
     /// Its options where they differ from its defaults.
     pub options: &'static [(&'static str, &'static str)],
-    /// Where first hits come from.
+    /// Source of first hits.
     pub primary: &'static str,
     /// Occluder of shadow rays.
     pub occluder: &'static str,

@@ -73,7 +73,7 @@ pub struct CampaignArguments {
     /// cells.I-of-N.jsonl alone
     #[arg(long, value_name = "I/N", value_parser = values::shard)]
     pub shard: Option<Shard>,
-    /// Where the work is done.
+    /// Device that does the work.
     #[command(flatten)]
     pub device: DeviceArguments,
 }
@@ -103,7 +103,7 @@ pub struct ReplicateArguments {
     pub campaign: CampaignArguments,
 }
 
-/// Which papers.
+/// Choice of papers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PaperChoice {
     /// All of them.

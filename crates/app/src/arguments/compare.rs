@@ -42,8 +42,8 @@ const SHARES: &str = "Resuming and shares";
 /// Options of `rasray compare`.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP, mut_arg("integrator", |argument| argument.help("Integrator, of all systems [default: path]")),
-          mut_arg("primary", |argument| argument.help("How what the camera sees first is found, of images [default: trace]")),
-          mut_arg("occluder", |argument| argument.help("What answers the shadow rays of lights without extent, of images [default: structure]")))]
+          mut_arg("primary", |argument| argument.help("Method of first hits of images [default: trace]")),
+          mut_arg("occluder", |argument| argument.help("Occluder of shadow rays to lights without extent, of images [default: structure]")))]
 pub struct CompareArguments {
     /// A file (.gltf .glb .obj .ply), numbered files ('a.####.ply'), a built-in scene with parameters, or a hard case
     /// (hard:E5, hard:all)
@@ -52,13 +52,13 @@ pub struct CompareArguments {
     /// Options for one system, such as mmrt.march=samples; of several values each takes part
     #[arg(value_name = "SYSTEM.OPTION=VALUE")]
     pub assignments: Vec<String>,
-    /// What is compared
+    /// Systems to compare
     #[arg(long, value_parser = system_parser(), value_delimiter = ',', required = true)]
     pub systems: Vec<&'static System>,
-    /// How closely the systems follow their papers; each takes part with the presets that it has
+    /// Fidelity of the systems to their papers; each takes part with the presets that it has
     #[arg(long, value_parser = preset_parser(), value_delimiter = ',', default_value = Preset::Robust.name())]
     pub presets: Vec<Preset>,
-    /// Where the rays come from [default: incoherent,camera; none with --rays-file]
+    /// Sets of rays [default: incoherent,camera; none with --rays-file]
     #[arg(long, value_parser = ray_set_parser(), value_delimiter = ',')]
     pub ray_set: Vec<RaySet>,
     /// Rays per set, 1 to 100000000 [default: 200000; 2000 for hard cases]

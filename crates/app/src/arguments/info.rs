@@ -36,7 +36,7 @@ pub struct InfoArguments {
     /// With numbered files: frames per second [default: 25]
     #[arg(long, value_name = "N", value_parser = Quantity::FRAMES_PER_SECOND.parser::<f64>(), requires = "scene")]
     pub fps: Option<f64>,
-    /// With a scene: what it is like at this time of its animation, seconds [default: at rest]
+    /// With a scene: time of its animation, seconds [default: at rest]
     #[arg(long, value_name = "SECONDS", value_parser = Quantity::SECONDS.parser::<f64>(), allow_hyphen_values = true, requires = "scene")]
     pub time: Option<f64>,
     /// With --time: the clip that moves the scene, by name or by position from 0 [default: all that do not move the same
@@ -49,22 +49,22 @@ pub struct InfoArguments {
     /// With a scene: the passes of a structure and how many dispatches and draws each records
     #[arg(long, requires = "scene")]
     pub passes: bool,
-    /// With a scene: what the lists of a structure's cells hold
+    /// With a scene: contents of the lists of a structure's cells
     #[arg(long, requires = "scene")]
     pub statistics: bool,
     /// With --passes or --statistics: the structure
     #[arg(long, value_parser = system_request_parser(), default_value = SystemRequest::AUTOMATIC, requires = OF_STRUCTURE)]
     pub system: SystemRequest,
-    /// With --passes or --statistics: how closely it follows its paper
+    /// With --passes or --statistics: its fidelity to its paper
     #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name(), requires = OF_STRUCTURE)]
     pub preset: Preset,
-    /// The same as JSON
+    /// Output as JSON
     #[arg(long)]
     pub json: bool,
     /// With --passes or --statistics: options of the structure.
     #[command(flatten)]
     pub structure: StructureArguments,
-    /// Where the work is done.
+    /// Device that does the work.
     #[command(flatten)]
     pub device: DeviceArguments,
 }

@@ -41,7 +41,7 @@ pub fn arguments(row: &'static OptionRow, help: String) -> impl Iterator<Item = 
     };
     let off = row.off_name.map(|name| {
         let off = Arg::new(name).long(name).action(ArgAction::SetTrue).conflicts_with(row.name);
-        off.help(format!("The same as --{}=off", row.name))
+        off.help(format!("Short for --{}=off", row.name))
     });
     let argument = match off {
         Some(_) => argument.num_args(0..=1).require_equals(true).default_missing_value("on"),

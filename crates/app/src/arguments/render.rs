@@ -57,16 +57,16 @@ pub struct RenderArguments {
     /// A file (.gltf .glb .obj .ply), numbered files ('a.####.ply'), or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
-    /// What rays are traced through
+    /// Acceleration structure of all rays
     #[arg(long, value_parser = system_request_parser(), default_value = SystemRequest::AUTOMATIC)]
     pub system: SystemRequest,
-    /// How closely the system follows its paper
+    /// Fidelity of the system to its paper
     #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name())]
     pub preset: Preset,
     /// Image to write: .png or .exr; - is standard output
     #[arg(long, short, value_name = "FILE", required_unless_present = "report")]
     pub output: Option<PathBuf>,
-    /// How the image is stored [default: as the name of --output ends]
+    /// File format of the image [default: by the name of --output]
     #[arg(long, value_enum, requires = "output")]
     pub format: Option<ImageFormat>,
     /// Images in addition to the colours, kept in the .exr
@@ -86,7 +86,7 @@ pub struct RenderArguments {
     #[arg(long, value_name = "FIRST-LAST", value_parser = values::frames, requires = "output", conflicts_with = "time",
           help_heading = FRAMES)]
     pub frames: Option<RangeInclusive<u32>>,
-    /// What of the structure each frame builds
+    /// Parts of the structure that each frame builds
     #[arg(long, value_parser = refresh_parser(), default_value = Refresh::All.name(), requires = "frames", conflicts_with = "time",
           help_heading = FRAMES)]
     pub refresh: Refresh,

@@ -59,13 +59,13 @@ pub struct FrameArguments {
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u32,
-    /// Where random numbers come from
+    /// Source of random numbers
     #[arg(long, value_parser = sampler_parser(), default_value = Sampler::Sobol.name())]
     pub sampler: Sampler,
-    /// How what the camera sees first is found, of images [default: trace; raster with a system after a paper]
+    /// Method of first hits of images [default: trace; raster with a system after a paper]
     #[arg(long, value_parser = primary_parser())]
     pub primary: Option<Primary>,
-    /// What answers shadow rays, of images [default: structure; or the paper's]
+    /// Occluder of shadow rays, of images [default: structure; or the paper's]
     #[arg(long, value_parser = occluder_parser())]
     pub occluder: Option<OccluderKind>,
     /// Texels along a side of a shadow map, with --occluder shadow-maps, 16 to 16384 [default: 1024]
@@ -74,7 +74,7 @@ pub struct FrameArguments {
     /// Points on each emitting triangle with a cube of maps each, with --occluder shadow-maps [default: 0, rays are traced]
     #[arg(long, value_name = "N", value_parser = values::whole(0, OccluderKind::MOST_POINTS))]
     pub shadow_points: Option<u32>,
-    /// Which rays pass the backs of single-sided surfaces, as glTF has them (doubleSided: false)
+    /// Rays that pass the backs of single-sided surfaces, as glTF has them (doubleSided: false)
     #[arg(long, value_parser = back_faces_parser(), default_value = BackFaces::Camera.name())]
     pub back_faces: BackFaces,
 }
@@ -124,10 +124,10 @@ pub struct ViewArguments {
     /// A camera of the scene, by name or by position from 0
     #[arg(long, value_name = "NAME", conflicts_with_all = ["eye", "target", "fov"])]
     pub camera: Option<String>,
-    /// Where to look from, metres from -1e18 to 1e18
+    /// Position of the eye, metres from -1e18 to 1e18
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true, requires = "target")]
     pub eye: Option<[f64; 3]>,
-    /// What to look at, metres from -1e18 to 1e18
+    /// Point to look at, metres from -1e18 to 1e18
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true, requires = "eye")]
     pub target: Option<[f64; 3]>,
     /// Full vertical angle of view, with --eye and --target [default: 45]
@@ -191,7 +191,7 @@ pub struct SceneArguments {
     /// Frames per second: number n of --frames, or of a scene in numbered files, is shown at n / this [default: 25]
     #[arg(long, value_name = "N", value_parser = Quantity::FRAMES_PER_SECOND.parser::<f64>())]
     pub fps: Option<f64>,
-    /// What is uploaded, compiled in and stored
+    /// Parts of the scene that are uploaded, compiled in and stored
     #[arg(long, value_enum, default_value_t = NeedsName::Observed)]
     pub needs: NeedsName,
 }
@@ -263,7 +263,7 @@ pub struct WorkArguments {
     /// Options of structures.
     #[command(flatten)]
     pub structure: StructureArguments,
-    /// Where the work is done.
+    /// Device that does the work.
     #[command(flatten)]
     pub device: DeviceArguments,
 }
@@ -282,7 +282,7 @@ impl WorkArguments {
     }
 }
 
-/// Where the work is done.
+/// Device that does the work.
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Device")]
 pub struct DeviceArguments {

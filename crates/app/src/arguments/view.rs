@@ -34,13 +34,13 @@ pub struct ViewerArguments {
     /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
-    /// What rays are traced through
+    /// Acceleration structure of all rays
     #[arg(long, value_parser = system_request_parser(), default_value = SystemRequest::AUTOMATIC)]
     pub system: SystemRequest,
-    /// How closely the system follows its paper
+    /// Fidelity of the system to its paper
     #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name())]
     pub preset: Preset,
-    /// Where pictures are saved, .png; a run of # is a number [default: as SCENE is named]
+    /// File that pictures are saved as, .png; a run of # is a number [default: as SCENE is named]
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Colours, as shown and saved.

@@ -47,7 +47,7 @@ const RESOLUTION: OptionRow = OptionRow::new(
 const POSITION: OptionRow = OptionRow::new(
     "cube-position",
     Values::Point,
-    "Where the cube map is drawn from; the centre of what is perfectly smooth if not given",
+    "Centre of projection of the cube map; the centre of all perfectly smooth surfaces if not given",
 )
 .trying(&["0.2,-0.1,0.3"]);
 
@@ -63,9 +63,9 @@ const BOUNDS_INVOCATIONS: u32 = 4096;
 pub struct CubeMapOptions {
     /// Texels along a side of a face, from 1 to [`CUBE_MAP_LIMIT`].
     pub resolution: u32,
-    /// Where the map is drawn from, world, metres; the centre of the bounds of what is perfectly smooth where absent.
+    /// Centre of projection of the map, world, metres; the centre of the bounds of what is perfectly smooth where absent.
     pub position: Option<[f32; 3]>,
-    /// Which surfaces are in shadow: with [`Shadows::First`] what the map shows is not.
+    /// Surfaces that trace shadow rays: with [`Shadows::First`] those that the map shows do not.
     pub shadows: Shadows,
     /// Surfaces less rough than this perceptual roughness are perfectly smooth; not negative.
     pub mirror_roughness: f32,

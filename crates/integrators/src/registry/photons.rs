@@ -40,7 +40,7 @@ pub(super) const ROW: IntegratorRow = IntegratorRow {
 #[derive(Debug)]
 pub struct Photons {
     map: MapPasses,
-    /// What the camera sees.
+    /// Surfaces that the camera sees.
     seen: Path,
     of_sample: SampleMap,
 }

@@ -14,7 +14,7 @@ use crate::{
 /// The registry's row.
 pub(super) const ROW: IntegratorRow = IntegratorRow {
     name: "raycast",
-    doc: "What the camera sees, unlit",
+    doc: "Surfaces that the camera sees, unlit",
     options: &[],
     rays: &[RayKind::Camera],
     workload: |_| Workload {

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::Wave;
 
-/// Which sample the map at hand is of.
+/// Sample of the map at hand.
 #[derive(Debug, Default)]
 pub(super) struct SampleMap {
     /// The sample whose map was made last, plus 1; 0 where there is none.

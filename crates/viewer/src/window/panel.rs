@@ -396,7 +396,7 @@ fn show_rates(ui: &mut egui::Ui, session: &Session, moment: Moment) {
     let (window, pictures) = (moment.frames, session.picture_rate.per_second(moment.now));
     let [window, pictures] = [window, pictures].map(|rate| rate.unwrap_or(0.0));
     ui.weak(format!("window {window:.1}/s, pictures {pictures:.1}/s"))
-        .on_hover_text("How often each was drawn in the last two seconds; what does not change is not drawn");
+        .on_hover_text("Draws of each in the last two seconds; what does not change is not drawn");
 }
 
 fn show_state(ui: &mut egui::Ui, session: &Session) {

@@ -56,7 +56,7 @@ pub(super) fn show_view(ui: &mut egui::Ui, session: &mut Session, area: &mut Pic
             }
         });
         ui.end_row();
-        ui.label("Zoom").on_hover_text("How the picture lies in the window; the size stays what is saved");
+        ui.label("Zoom").on_hover_text("Scale of the picture in the window; the size stays what is saved");
         ui.horizontal(|ui| show_zoom(ui, area));
         ui.end_row();
         ui.label("Camera");

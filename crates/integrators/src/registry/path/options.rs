@@ -21,28 +21,28 @@ pub(in crate::registry) const BOUNCES: OptionRow = OptionRow::new(
 pub(super) const GLASS_SHADOWS: OptionRow = OptionRow::words(
     "glass-shadows",
     &[GlassShadows::Tint.word(), GlassShadows::Opaque.word()],
-    "What smooth thin panes of glass do to light",
+    "Effect of smooth thin panes of glass on light",
 )
 .by_default(Value::Word(GlassShadows::Tint.name()));
 
 pub(in crate::registry) const SHADOW_TERMINATOR: OptionRow = OptionRow::words(
     "shadow-terminator",
     &[terminator_word(ShadowTerminator::None), terminator_word(ShadowTerminator::Offset)],
-    "Where shadow rays of smooth surfaces start",
+    "Origin of shadow rays of smooth surfaces",
 )
 .by_default(Value::Word(ShadowTerminator::None.name()));
 
 pub(in crate::registry) const SPECULAR: OptionRow = OptionRow::words(
     "specular",
     &[SpecularLobe::Ggx.word(), SpecularLobe::Ward.word()],
-    "How rough surfaces that let no light through reflect",
+    "Reflection of rough surfaces that let no light through",
 )
 .by_default(Value::Word(SpecularLobe::Ggx.name()));
 
 pub(super) const FETCH: OptionRow = OptionRow::words(
     "fetch",
     &[Fetching::Direct.word(), Fetching::Raster.word()],
-    "How surfaces of hits are found",
+    "Method that finds the surfaces of hits",
 )
 .by_default(Value::Word(Fetching::Direct.name()));
 
@@ -168,7 +168,7 @@ pub struct PathOptions {
     pub bounces: u32,
     /// Effect of smooth thin panes on light; without bounces they are opaque.
     pub glass_shadows: GlassShadows,
-    /// Where shadow rays of smooth surfaces start.
+    /// Origin of shadow rays of smooth surfaces.
     pub shadow_terminator: ShadowTerminator,
     /// Reflection of rough surfaces.
     pub specular: SpecularLobe,

@@ -22,7 +22,7 @@ use crate::{
 
 /// The binding of the map, as `integrators/photons.glsl` declares it.
 const MAP: u32 = 9;
-/// Where its number of lists is, and where the lists begin.
+/// Place of its number of lists, and start of the lists.
 const COUNT_AT: u64 = offset_of!(PhotonHeader, lists) as u64;
 const LISTS_AT: u64 = size_of::<PhotonHeader>() as u64;
 
@@ -44,7 +44,7 @@ pub struct PhotonMap {
     pub photons: Vec<Photon>,
 }
 
-/// What makes the map of each sample: photons that are emitted and traced through the structure, in waves of their own.
+/// Passes that make the map of each sample: photons are emitted and traced through the structure, in waves of their own.
 #[derive(Debug)]
 pub(super) struct MapPasses {
     options: PhotonOptions,
@@ -91,7 +91,7 @@ impl MapPasses {
         })
     }
 
-    /// What kernels that gather bind.
+    /// Bindings of kernels that gather.
     pub fn bound(&self) -> [Bound<'_>; 1] {
         [(MAP, &self.map)]
     }
@@ -112,7 +112,7 @@ impl MapPasses {
         self.bindings.set_scene(scene);
     }
 
-    /// Whether photons that are emitted could ever be stored.
+    /// True if photons that are emitted could ever be stored.
     fn stores_any(&self) -> bool {
         stored(self.options.paths.bounces) > 0
     }
@@ -196,7 +196,7 @@ fn lists(photon_paths: u32) -> u32 {
     (2 * photon_paths.next_power_of_two()).max(LEAST_LISTS)
 }
 
-/// Where photons begin in the map, bytes.
+/// Start of the photons in the map, bytes.
 fn photons_at(photon_paths: u32) -> u64 {
     LISTS_AT + 4 * u64::from(lists(photon_paths))
 }

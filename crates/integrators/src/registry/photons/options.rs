@@ -1,4 +1,4 @@
-//! What photons do, and the rows of their options.
+//! Options of photons, and their rows.
 
 use rasray_options::{Least, OptionRow, Unit, Value, Values, Word};
 
@@ -7,7 +7,7 @@ use crate::{IntegratorSpec, PathOptions, WAVE_LIMIT};
 pub(super) const PHOTONS: OptionRow = OptionRow::words(
     "photons",
     &[PhotonKind::Caustic.word(), PhotonKind::All.word()],
-    "Which light photons bring; paths bring the rest",
+    "Light that photons bring; paths bring the rest",
 )
 .by_default(Value::Word(PhotonKind::Caustic.name()));
 
@@ -26,10 +26,10 @@ pub(super) const RADIUS: OptionRow = OptionRow::new(
 )
 .trying(&["0.2"]);
 
-/// Which light photons bring.
+/// Light that photons bring.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PhotonKind {
-    /// What reaches a rough surface by perfectly smooth ones alone: caustics.
+    /// Light that reaches a rough surface by perfectly smooth ones alone: caustics.
     #[default]
     Caustic,
     /// All that reaches a rough surface by others, whatever they are.
@@ -48,10 +48,10 @@ impl PhotonKind {
         }
     }
 
-    /// What it is, in one line of help.
+    /// Description, one line of help.
     pub const fn doc(self) -> &'static str {
         match self {
-            Self::Caustic => "What smooth mirrors and smooth glass alone send to rough surfaces",
+            Self::Caustic => "Light that smooth mirrors and smooth glass alone send to rough surfaces",
             Self::All => "All indirect light of the first rough surface that the camera sees",
         }
     }
@@ -61,13 +61,13 @@ impl PhotonKind {
     }
 }
 
-/// What [`Photons`](super::Photons) does.
+/// Options of [`Photons`](super::Photons).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhotonOptions {
     /// Of the camera's paths and of photons together: `bounces` counts scatterings from the light to the eye. Panes are
     /// opaque, whatever it says, and surfaces of what photons hit are found directly.
     pub paths: PathOptions,
-    /// Which light photons bring.
+    /// Light that photons bring.
     pub kind: PhotonKind,
     /// Photons that lights emit for each sample, from 1 to [`WAVE_LIMIT`].
     pub photon_paths: u32,

@@ -25,7 +25,7 @@ pub(super) const RAY_DEPTH: OptionRow = OptionRow::new(
 pub(super) const SELECT: OptionRow = OptionRow::words(
     "select",
     &[Select::Expected.word(), Select::All.word(), Select::Reflective.word(), Select::Specular.word()],
-    "Where mirrored and refracted rays are traced",
+    "Surfaces from which mirrored and refracted rays are traced",
 )
 .by_default(Value::Word(Select::Expected.name()));
 
@@ -40,7 +40,7 @@ pub(super) const THRESHOLD: OptionRow = OptionRow::new(
 pub(in crate::registry) const SHADOWS: OptionRow = OptionRow::words(
     "shadows",
     &[Shadows::All.word(), Shadows::First.word(), Shadows::None.word()],
-    "Which surfaces are in shadow",
+    "Surfaces that trace shadow rays",
 )
 .by_default(Value::Word(Shadows::All.name()));
 
@@ -58,22 +58,22 @@ pub(super) const COMPACTION: OptionRow = OptionRow::words(
         ("selected", "Passes work on the rays that there are"),
         ("masked", "Passes work on all pixels, also those without a ray; pictures are the same"),
     ],
-    "What passes after the first work on",
+    "Pixels that passes after the first work on",
 )
 .by_default(Value::Word("selected"));
 
-/// Where mirrored and refracted rays are traced. Rays that go straight on through a blended surface or a pane are traced
-/// wherever they carry anything.
+/// Surfaces from which mirrored and refracted rays are traced. Rays that go straight on through a blended surface or a
+/// pane are traced wherever they carry anything.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Select {
-    /// Where a ray carries more than a threshold of what it finds: with 0 the picture is that of all rays.
+    /// Surfaces whose rays carry more than a threshold of what they find: with 0 the picture is that of all rays.
     #[default]
     Expected,
-    /// Everywhere, also where the surface neither mirrors nor refracts.
+    /// All, also those that neither mirror nor refract.
     All,
-    /// Where what the camera sees mirrors; from there on as with all rays.
+    /// Mirrors that the camera sees; beyond them as with all rays.
     Reflective,
-    /// Where the surface mirrors or refracts; other surfaces are lit without shadow rays.
+    /// Surfaces that mirror or refract; others are lit without shadow rays.
     Specular,
 }
 
@@ -94,12 +94,12 @@ impl Select {
     /// Description, one line of help.
     pub const fn doc(self) -> &'static str {
         match self {
-            Self::Expected => "Where they carry more than `threshold`; with 0 the picture is that of all",
-            Self::All => "Everywhere, also where they carry nothing",
-            Self::Reflective => "Where what the camera sees mirrors; from there on all",
-            Self::Specular => {
-                "Where a surface mirrors or refracts; other surfaces are lit without shadow rays"
+            Self::Expected => {
+                "Those whose rays carry more than `threshold`; with 0 the picture is that of all"
             }
+            Self::All => "All, also those whose rays carry nothing",
+            Self::Reflective => "Mirrors that the camera sees; beyond them all",
+            Self::Specular => "Those that mirror or refract; others are lit without shadow rays",
         }
     }
 
@@ -117,7 +117,7 @@ impl Select {
     }
 }
 
-/// Which surfaces trace a shadow ray; the others are lit as if nothing were in the way.
+/// Surfaces that trace shadow rays; the others are lit as if nothing were in the way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shadows {
     /// All.
@@ -169,11 +169,11 @@ impl Shadows {
 pub struct WhittedOptions {
     /// At most this many reflections and refractions in a row, up to [`RAY_DEPTH_LIMIT`]; 0 is direct light only.
     pub ray_depth: u32,
-    /// Where mirrored and refracted rays are traced.
+    /// Surfaces from which mirrored and refracted rays are traced.
     pub select: Select,
     /// With [`Select::Expected`]: share of what a ray finds that must arrive, in its largest channel; not negative.
     pub threshold: f32,
-    /// Which surfaces are in shadow.
+    /// Surfaces that trace shadow rays.
     pub shadows: Shadows,
     /// Surfaces less rough than this perceptual roughness are perfectly smooth; not negative.
     pub mirror_roughness: f32,
