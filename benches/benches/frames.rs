@@ -138,7 +138,7 @@ fn print(measured: &[Measured]) {
     }
 }
 
-/// Where two lines over the rays per pixel meet.
+/// Intersection of two lines over the rays per pixel.
 fn crossover(frame: &Frame, baseline: &Frame) -> String {
     let (fixed, slope) = (frame.at(0.0) - baseline.at(0.0), frame.per_ray() - baseline.per_ray());
     let at = -fixed / slope;

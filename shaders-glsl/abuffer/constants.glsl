@@ -18,15 +18,15 @@
 #define ABUFFER_TEST_PLANES 1u
 #define ABUFFER_TEST_DEPTHS 2u
 
-// Which views are drawn: bits.
+// Views that are drawn: bits.
 #define ABUFFER_VIEWS_CUBE 1u
 #define ABUFFER_VIEWS_CAMERA 2u
 
 // The number of the camera's view, behind the faces and SEGMENT_NEAR.
 #define ABUFFER_CAMERA 7u
 
-// Where a ray passes from one view to the next: at the sides of their pyramids, or half a cell inside of one view
-// to half a cell outside of it.
+// Point at which a ray passes from one view to the next: at the sides of their pyramids, or half a cell inside of one
+// view to half a cell outside of it.
 #define ABUFFER_SWITCH_EXACT 0u
 #define ABUFFER_SWITCH_SNAP 1u
 

@@ -13,7 +13,7 @@
 #include "abuffer/search.glsl"
 #include "abuffer/traversal.glsl"
 
-// Which triangles.
+// Lists of triangles.
 #define ABUFFER_LISTED_NEAR 0u
 #define ABUFFER_LISTED_CONSERVATIVE 1u
 #define ABUFFER_LISTED_ALL 2u

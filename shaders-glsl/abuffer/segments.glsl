@@ -86,8 +86,8 @@ uint abuffer_view_at(AbufferRef s, vec3 origin, vec3 direction, vec2 near, float
     return ABUFFER_HAS_CUBE ? face_of(origin + t * direction) : ABUFFER_IN_FACES;
 }
 
-// Where a ray goes on that has been followed through a view up to `end`: half a cell outside of the view, or where the
-// near region begins before that.
+// Point at which a ray goes on that has been followed through a view up to `end`: half a cell outside of the view, or
+// where the near region begins before that.
 float abuffer_snapped(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, uint view, float end) {
     if (view == SEGMENT_NEAR || !(end < clip.y)) {
         return end;

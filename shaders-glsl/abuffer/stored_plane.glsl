@@ -49,7 +49,7 @@ bool abuffer_plane_is_passed(uvec4 words, Ray ray) {
     return ray_culls_back_faces(ray) && abuffer_plane_is_single_sided(normal) && dot(normal, ray.direction) > 0.0;
 }
 
-// Where a ray intersects a plane; `origin` relative to the eye. False where it runs along the plane.
+// Intersection of a ray with a plane; `origin` relative to the eye. False where it runs along the plane.
 bool abuffer_intersects_plane(uvec4 words, vec3 origin, vec3 direction, out float t) {
     vec3 normal = uintBitsToFloat(words.xyz);
     precise float speed = dot(normal, direction);

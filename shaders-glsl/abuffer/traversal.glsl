@@ -101,7 +101,7 @@ void abuffer_restore_progress(TraceState state, vec2 clip, out AbufferProgress p
     progress = AbufferProgress(bits_get(flags, ABUFFER_CURSOR_STAGE), in_faces ? ends.y : clip.x);
 }
 
-// Where the ray was in that segment, whose traversal has been begun.
+// Place of the ray in that segment, whose traversal has been begun.
 void abuffer_restore(TraceState state, inout AbufferTraversal traversal, out AbufferSearch search) {
     uint flags = state.cursor[0];
     traversal.place = state.cursor[7];

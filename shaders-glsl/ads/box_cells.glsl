@@ -7,7 +7,7 @@
 #ifndef ADS_BOX_CELLS_GLSL
 #define ADS_BOX_CELLS_GLSL
 
-// Where the cells are. Precise expressions take values from such a local copy: with addresses, glslang does
+// Layout of the cells. Precise expressions take values from such a local copy: with addresses, glslang does
 // not end where they follow a reference.
 struct BoxCells {
     vec3 lower;           // metres: corner of the first cell

@@ -74,7 +74,7 @@ void box_clip_edge(vec3 p, vec3 q, vec2 lower, vec2 upper, inout vec2 depths) {
     }
 }
 
-// Which of four points lie on the inner side of the edge pq, or within rounding of it; `winding` is 1 or -1.
+// Those of four points that lie on the inner side of the edge pq, or within rounding of it; `winding` is 1 or -1.
 bvec4 box_clip_inside(vec3 p, vec3 q, vec4 x, vec4 y, float winding, float slack) {
     precise vec2 span = q.xy - p.xy;
     precise vec4 value = winding * (span.x * (y - p.y) - span.y * (x - p.x));

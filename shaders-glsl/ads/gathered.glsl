@@ -6,7 +6,7 @@
 
 #include "ads/geometry.glsl"
 
-// Where indices lie, and of which kind they are. 16 bytes.
+// Place and kind of indices. 16 bytes.
 layout(push_constant, scalar) uniform GeometryGatherConstants {
     uint first_place;    // of the first index, in what is bound, in indices
     uint index_count;    // indices

@@ -11,7 +11,7 @@ layout(local_size_x = 1) in;
 #define GEOMETRY_WRITTEN
 #include "ads/geometry.glsl"
 
-// Where the count lies, and its maximum. 16 bytes.
+// Place of the count, and its maximum. 16 bytes.
 layout(push_constant, scalar) uniform GeometryCountConstants {
     uint count_word;     // of the count, in what is bound
     uint most_triangles; // the maximum

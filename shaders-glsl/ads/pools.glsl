@@ -24,7 +24,7 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) POOL_ACCESS buffer WordAddress { uint words[]; };
 
-// Where a structure is. Unused with descriptors.
+// Addresses of a structure. Unused with descriptors.
 #define STRUCTURE_HEADER(Name, name) \
     struct Name##Ref { uvec2 header; }; \
     layout(buffer_reference, scalar, buffer_reference_align = 4) POOL_ACCESS buffer Name##HeaderAddress { Name##Header header; };

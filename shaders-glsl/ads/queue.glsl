@@ -87,7 +87,7 @@ layout(set = QUEUE_SET, binding = 7, scalar) buffer QueueStepBuffer {
     TraceStep queue_steps[];
 };
 
-// Where in the lists of a queue a list of paused rays begins, and one of selected slots; each alternates between two.
+// Starts, in the lists of a queue, of a list of paused rays and of one of selected slots; each alternates between two.
 uint queue_paused_at(uint round, uint capacity) {
     return (round & 1u) * capacity;
 }

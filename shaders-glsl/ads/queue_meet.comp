@@ -15,7 +15,7 @@ layout(set = 2, binding = 0, scalar) readonly buffer PartStatusBuffer {
     uint part_status[];
 };
 
-// Which rays. 12 bytes.
+// The rays. 12 bytes.
 layout(push_constant, scalar) uniform QueueMeetConstants {
     uint domain;          // the number of first slots, or DOMAIN_SELECTED
     uint any_hit;         // 1: rays that have a hit are done

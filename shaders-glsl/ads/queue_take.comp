@@ -8,7 +8,7 @@
 
 layout(local_size_x = 1) in;
 
-// Which slots. 4 bytes.
+// The slots. 4 bytes.
 layout(push_constant, scalar) uniform QueueTakeConstants {
     uint back;            // 1: those of the take before; 0: those selected since the last one
 } pushed;

@@ -33,7 +33,7 @@ GeometryRigid rigid_map() {
     return geometry_rigids[(end + GEOMETRY_RIGID_BYTES - 1u) / GEOMETRY_RIGID_BYTES];
 }
 
-// Where a posed point was built.
+// Point in the space of the build of a posed point.
 vec3 rigid_point(GeometryRigid map, vec3 point) {
     vec3 from_centre = point - map.centre;
     return (map.x * from_centre.x + map.y * from_centre.y + map.z * from_centre.z) + map.offset;

@@ -14,7 +14,7 @@ struct PlacementCase {
     uint cells[3];        // cells of the box along each axis
 };
 
-// Where it is placed. Shared, 84 bytes.
+// Its placement. Shared, 84 bytes.
 struct PlacementResult {
     vec3 centre;          // `centre_within`
     vec3 middle;          // `centre_of_bounds`

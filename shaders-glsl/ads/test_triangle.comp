@@ -13,7 +13,7 @@ struct TriangleCase {
     vec3 direction;       // of any length
 };
 
-// Where the ray hits the triangle. Shared, 12 bytes.
+// Hit of the ray on the triangle. Shared, 12 bytes.
 struct TriangleResult {
     uint hit;             // 0 or 1
     float t;              // defined where it does

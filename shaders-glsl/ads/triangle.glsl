@@ -193,7 +193,7 @@ vec2 triangle_barycentrics(vec3 p, vec3 a, vec3 b, vec3 c) {
     return squared > 0.0 ? weights / squared : vec2(0.0);
 }
 
-// Where a ray intersects the plane of a triangle: t, and the barycentrics of b and c there, which may lie
+// Intersection of a ray with the plane of a triangle: t, and the barycentrics of b and c there, which may lie
 // outside [0, 1]. False where the ray runs in or parallel to the plane, or the triangle has no area.
 bool triangle_plane(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics) {
     vec3 normal = cross(b - a, c - a);

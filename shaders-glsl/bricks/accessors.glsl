@@ -134,7 +134,7 @@ ivec3 bricks_side(BricksRef s, uint level) {
     return BRICKS_DEPTH == 0u ? ivec3(4) : mix(ivec3(1), ivec3(4), lessThanEqual(uvec3(level), BRICKS_HEADER(s).depths));
 }
 
-// Where a brick of a level is, in bricks of that level.
+// Place of a brick of a level, in bricks of that level.
 uvec3 bricks_place_of(BricksRef s, uint brick, uint level) {
     if (level == 0u) {
         return bricks_place(brick, bricks_cells(s));

@@ -101,7 +101,7 @@ BricksBox bricks_box(BricksRef s, BricksTraversal traversal, uint face, ivec3 ce
     return box;
 }
 
-// Where the list of a cell begins and ends. One that leaves the pool is empty.
+// Begin and end of the list of a cell. One that leaves the pool is empty.
 uvec2 bricks_entries(BricksRef s, BricksTraversal traversal, uint list, inout uint corrupted) {
     if (list < traversal.listed) {
         uvec2 entries = uvec2(list == 0u ? 0u : BRICKS_POOL(s, lists)[list - 1u], BRICKS_POOL(s, lists)[list]);

@@ -58,7 +58,7 @@ uint bricks_layer_at(uint brick) {
     return BRICKS_STRIDE * brick + 6u;
 }
 
-// Which of the two words of the mask holds a cell's bit, and which bit that is.
+// The one of the mask's two words that holds a cell's bit, and the number of that bit.
 uint bricks_word(ivec3 cell) {
     return uint(cell.z >> 1) & 1u;
 }

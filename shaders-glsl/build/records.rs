@@ -285,7 +285,7 @@ mod tests {
                 // metres;
                 int second;       // may be negative
             };
-            // What a pass works on. 12 bytes.
+            // Input of a pass. 12 bytes.
             layout(push_constant, scalar) uniform PassConstants {
                 StructureRef structure;   // the address
                 uint step;                // the number
@@ -307,7 +307,7 @@ mod tests {
              #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]\npub struct Pair {\n",
             "    /// `STATUS_*`.\n    pub first: u32,\n    /// Metres; may be negative.\n    pub second: i32,\n}",
             "assert!(size_of::<Pair>() == 8);\n",
-            "/// What a pass works on. 12 bytes.\n",
+            "/// Input of a pass. 12 bytes.\n",
             "pub struct PassConstants {\n    /// The address.\n    pub structure: [u32; 2],\n",
             "assert!(std::mem::offset_of!(PassConstants, step) == 8);\n",
             "Default, PartialEq, Pod, Zeroable)]\npub struct All {\n",

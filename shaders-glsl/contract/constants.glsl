@@ -47,7 +47,7 @@
 // Of lights with a number that has no room.
 #define RAY_LIGHT_MOST 0xFFFFFFu
 
-// Which fields of a Surface the structure fills; the others hold documented defaults.
+// Fields of a Surface that the structure fills; the others hold documented defaults.
 #define SURFACE_POSITION 1u
 #define SURFACE_NORMAL 2u
 #define SURFACE_MATERIAL 4u

@@ -25,7 +25,7 @@
 // The list of the cell has not been begun.
 #define GRID_LIST_BEGIN 0xFFFFFFFFu
 
-// Where the list of a cell begins and ends. One that leaves the pool is counted and is empty.
+// Begin and end of the list of a cell. One that leaves the pool is counted and is empty.
 uvec2 grid_entries(GridRef s, ivec3 cell, uvec3 cells, uint stored) {
     uint list = grid_list(cell, cells);
     uvec2 entries = uvec2(list == 0u ? 0u : GRID_POOL(s, lists)[list - 1u], GRID_POOL(s, lists)[list]);

@@ -45,7 +45,7 @@ layout(set = INTEGRATOR_SET, binding = 3, scalar) FETCH_ACCESS buffer FetchListB
 // A bit per triangle.
 layout(set = INTEGRATOR_SET, binding = 4, scalar) FETCH_ACCESS buffer FetchMaskBuffer { uint fetch_mask[]; };
 
-// Which slots, and onto which cube. 12 bytes.
+// The slots, and the cube that they are drawn onto. 12 bytes.
 layout(push_constant, scalar) uniform FetchConstants {
     uint domain;          // slots of the queue: the first so many, or DOMAIN_SELECTED
     uint side;            // pixels along a side of a face

@@ -192,7 +192,7 @@ PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) 
     if (largest_component(s.emission) > 0.0) {
         float weight = 1.0;
         if (state.bsdf_pdf != 0.0) {
-            // Where the last scattering was.
+            // Point of the last scattering.
             vec3 origin = SHADING_PASSES ? ray.origin - state.travelled * direction : ray.origin;
             weight = path_emission_weight(state, light_pdf_emitter(s.primitive, origin, s.position));
         }

@@ -60,7 +60,7 @@ layout(set = INTEGRATOR_SET, binding = 15, scalar) readonly buffer WavePixelBuff
 // A sample is taken of the pixels that a list names, not of all.
 layout(constant_id = 107) const bool WAVE_IS_LISTED = false;
 
-// Which slots a kernel works on, and what it is told. 36 bytes.
+// Slots that a kernel works on, and its parameters. 36 bytes.
 layout(push_constant, scalar) uniform WaveConstants {
     uint first_pixel;     // of the wave: of the image, or its place in the list
     uint pixel_count;     // of the wave
@@ -86,7 +86,7 @@ uint wave_pixel(uint slot) {
     return wave_pixels[place - wave.band_first];
 }
 
-// Where the record of a pixel of the wave is in a buffer with one per pixel of the band.
+// Place of the record of a pixel of the wave in a buffer with one per pixel of the band.
 uint band_place(uint pixel) {
     return pixel - wave.band_first;
 }

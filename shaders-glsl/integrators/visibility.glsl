@@ -23,7 +23,7 @@ layout(set = INTEGRATOR_SET, binding = 0, scalar) buffer VisibilityCountsBuffer 
 // no primitive. Positive floats order like their bits.
 layout(set = QUEUE_SET, binding = 2, scalar) coherent buffer QueueHitWordBuffer { uint queue_hit_words[]; };
 
-// Which pixels are drawn, and what is kept of them. 12 bytes.
+// Pixels that are drawn, and values that are kept of them. 12 bytes.
 layout(push_constant, scalar) uniform VisibilityConstants {
     uint first_pixel;     // of the wave
     uint pixel_count;     // of the wave

@@ -8,7 +8,7 @@
 #define LDC_ACCEPT_PLANE 2u
 #define LDC_ACCEPT_TRIANGLE 3u
 
-// Which cells a triangle gets a fragment in.
+// Cells in which a triangle gets a fragment.
 #define LDC_COVERAGE_HARDWARE 0u
 #define LDC_COVERAGE_EXACT 1u
 #define LDC_COVERAGE_CONSERVATIVE 2u

@@ -40,7 +40,7 @@ bool ldc_is_stood_for(
 
 void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
     if (!ldc_fragments_fit(build.structure)) {
-        // Which fragments represent a triangle is not known until all fragments fit.
+        // The fragments that represent a triangle are not known until all fragments fit.
         return;
     }
     AxisView view = ldc_built_view(axis);

@@ -6,7 +6,7 @@
 #define PRIMITIVE_STORAGE_LINKED 0u
 #define PRIMITIVE_STORAGE_CONTIGUOUS 1u
 
-// Which cells list a triangle.
+// Cells that list a triangle.
 #define PRIMITIVE_COVERAGE_HARDWARE 0u
 #define PRIMITIVE_COVERAGE_CONSERVATIVE 1u
 #define PRIMITIVE_COVERAGE_EXTENSION 2u
@@ -15,7 +15,7 @@
 #define PRIMITIVE_ACCEPT_T 0u
 #define PRIMITIVE_ACCEPT_TILE 1u
 
-// Where the search of a tile ends: at buckets behind the best hit, or after the first bucket with a hit.
+// End of the search of a tile: at buckets behind the best hit, or after the first bucket with a hit.
 #define PRIMITIVE_STOP_BEST 0u
 #define PRIMITIVE_STOP_BUCKET 1u
 
@@ -27,7 +27,7 @@
 #define PRIMITIVE_MARCH_EXACT 0u
 #define PRIMITIVE_MARCH_JUMP 1u
 
-// Which blocks of tiles a ray compares with first; off: there are none.
+// Blocks of tiles that a ray compares with first; off: there are none.
 #define PRIMITIVE_PYRAMID_OFF 0u
 #define PRIMITIVE_PYRAMID_FINEST 1u
 #define PRIMITIVE_PYRAMID_COARSEST 2u
@@ -35,7 +35,7 @@
 // Words per triangle for large triangles: one per face.
 #define PRIMITIVE_LARGE_LIMIT 6u
 
-// Where the faces touch: at the eye, at the eye within the geometry, or within the geometry wherever the eye is.
+// Point at which the faces touch: at the eye, at the eye within the geometry, or within the geometry wherever the eye is.
 #define PRIMITIVE_CENTRE_EYE 0u
 #define PRIMITIVE_CENTRE_SCENE 1u
 #define PRIMITIVE_CENTRE_FIXED 2u

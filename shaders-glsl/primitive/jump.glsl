@@ -55,7 +55,7 @@ bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     return true;
 }
 
-// Where the ray entered its new tile, not before the segment.
+// Point at which the ray entered its new tile, not before the segment.
 float primitive_jumped_entry(CellMarch m, float t_begin) {
     float t_in = t_begin;
     for (int axis = 0; axis < 2; axis++) {

@@ -8,7 +8,7 @@
 #include "primitive/pyramid.glsl"
 #include "primitive/traversal.glsl"
 
-// Where the search for a block begins. A face has at most 14 levels.
+// Start of the search for a block. A face has at most 14 levels.
 PyramidLevel primitive_skip_from(PrimitiveRef s) {
     PyramidLevel first = primitive_pyramid_first(s, 0u);
     return PRIMITIVE_PYRAMID == PRIMITIVE_PYRAMID_COARSEST ? pyramid_top(first) : first;

@@ -87,7 +87,7 @@ vec3 environment_sample(float pick, vec2 place, out vec3 radiance, out float pdf
         uint first = height + row * width;
         uint column = environment_search(first, width, place.x);
         float share = environment_share(first, column);
-        // Where the number fell within the texel's share says where in the texel the direction lies.
+        // The place of the number within the texel's share gives the direction's place in the texel.
         float within = share > 0.0 ? (scene_environment_cdf(first + column) - place.x) / share : 0.5;
         azimuth = 2.0 * ENVIRONMENT_PI * (float(column) + clamp(within, 0.0, 1.0)) / float(width);
         float upper = cos(ENVIRONMENT_PI * float(row) / float(height));

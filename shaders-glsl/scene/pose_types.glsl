@@ -35,7 +35,7 @@ struct PoseMatrix {
     vec3 translation;           // metres, added last
 };
 
-// Where a draw is in this frame. Shared, 96 bytes.
+// Placement of a draw in this frame. Shared, 96 bytes.
 struct PosePlacement {
     PoseMatrix place;           // from the pivot to the frame origin; with joints they turn, and this is the translation alone
     vec3 normal_x;              // the map of normals, scaled so that its largest element is about 1; unused with joints

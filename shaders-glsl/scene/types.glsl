@@ -91,7 +91,7 @@ struct Material {
     TextureRef anisotropy_texture; // linear
 };
 
-// Where the texels of a texture lie and how they are sampled.
+// Place and sampling of the texels of a texture.
 // Levels are stored one after the other, level 0 first, each tight and rows top first.
 // Level l has max(1, width >> l) by max(1, height >> l) texels. Shared, 20 bytes.
 struct Texture {

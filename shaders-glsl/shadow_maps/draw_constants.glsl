@@ -3,7 +3,7 @@
 #ifndef SHADOW_MAPS_DRAW_CONSTANTS_GLSL
 #define SHADOW_MAPS_DRAW_CONSTANTS_GLSL
 
-// Which views a draw is of. 4 bytes.
+// Views of a draw. 4 bytes.
 layout(push_constant, scalar) uniform ShadowMapsDrawConstants {
     uint first_view;      // of the instances drawn
 } drawn;

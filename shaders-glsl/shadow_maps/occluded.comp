@@ -9,7 +9,7 @@
 
 layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
-// Which slots. 4 bytes.
+// The slots. 4 bytes.
 layout(push_constant, scalar) uniform ShadowMapsQueueConstants {
     uint domain;          // the number of first slots, or DOMAIN_SELECTED
 } pushed;

@@ -14,7 +14,7 @@ vec3 shadow_maps_in_view(ShadowMapsView view, vec3 p) {
     return vec3(x, y, z);
 }
 
-// Where a point in the space of a view is on the map, from -1 to 1. False where it is not on the map.
+// Place on the map of a point in the space of a view, from -1 to 1. False where it is not on the map.
 bool shadow_maps_on_map(ShadowMapsView view, vec3 p, out vec2 place) {
     place = view.parallel != 0u ? p.xy : p.xy / p.z;
     return (view.parallel != 0u || p.z > 0.0) && all(lessThanEqual(abs(place), vec2(1.0)));

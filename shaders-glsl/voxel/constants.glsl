@@ -39,7 +39,7 @@
 // fragments of the surface it ends on are within a cell of it.
 #define VOXEL_ENDING 2.0
 
-// Which fragments parity counts: all before the point in its cell, or those of them at the depths of the voxel.
+// Fragments that parity counts: all before the point in its cell, or those of them at the depths of the voxel.
 #define VOXEL_INSIDE_COLUMN 0u
 #define VOXEL_INSIDE_VOXEL 1u
 
@@ -59,7 +59,7 @@
 #define VOXEL_STORAGE_LINKED 1u
 #define VOXEL_STORAGE_PAGED 2u
 
-// Which cells a triangle is kept in: those whose centre it covers by the rasterizer, or by the shared function;
+// Cells that keep a triangle: those whose centre it covers by the rasterizer, or by the shared function;
 // or all that it reaches into, and then hits are those of triangles.
 #define VOXEL_COVERAGE_HARDWARE 0u
 #define VOXEL_COVERAGE_EXACT 1u

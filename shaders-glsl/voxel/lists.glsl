@@ -41,7 +41,7 @@ void voxel_link(VoxelRef s, uint list, uint place) {
     }
 }
 
-// Where the fragments of a contiguous list begin and end. A list that leaves the pool is counted and is empty.
+// Begin and end of the fragments of a contiguous list. A list that leaves the pool is counted and is empty.
 uvec2 voxel_list(VoxelRef s, uint list) {
     if (list >= voxel_list_count(s)) {
         return uvec2(0u);

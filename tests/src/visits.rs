@@ -1,4 +1,4 @@
-//! Which cells a march visits, on the device and in double precision.
+//! Cells that a march visits, on the device and in double precision.
 //!
 //! The exact side knows what single precision cannot resolve: parts of a ray that are shorter than
 //! [`unresolved`] in t, or that lie within as much of a seam between faces or of the near region.
@@ -23,9 +23,9 @@ const EXACT: f64 = 1.0e-13;
 pub struct Chord<C> {
     /// The cell.
     pub cell: C,
-    /// Where the ray enters.
+    /// Entry of the ray.
     pub t_in: f64,
-    /// Where the ray leaves; may be infinite.
+    /// Exit of the ray; may be infinite.
     pub t_out: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Which options may change a hit: every system of the registry, one option at a time, in pairs, and in other
+//! Options that may change a hit: every system of the registry, one option at a time, in pairs, and in other
 //! processes with other numbers of driver threads; which slots of a queue are traced. Hits are compared bit for bit.
 
 use std::collections::BTreeSet;

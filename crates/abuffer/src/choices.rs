@@ -149,7 +149,7 @@ impl Bounds {
     }
 }
 
-/// Which views are drawn.
+/// Views that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Views {
     /// Six faces of a cube around the eye: all that is around it.

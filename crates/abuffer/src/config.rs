@@ -10,7 +10,7 @@ use crate::{Accept, Bounds, Coverage, March, Payload, Storage, ViewSwitching, Vi
 pub struct Config {
     /// Cells along a side of each face, 1 to 8192. A power of two keeps cell boundaries exact.
     pub resolution: u32,
-    /// Which views are drawn. A view of the camera needs a [`rasray_ads::Viewpoint`] with one.
+    /// Views that are drawn. A view of the camera needs a [`rasray_ads::Viewpoint`] with one.
     pub views: Views,
     /// Columns and rows of the camera's view, 1 to 8192 each; only for views with a camera. If one is even and the
     /// other odd, the smaller one is increased by one ([`Config::camera_cells`]), so that the cells lie evenly around

@@ -74,7 +74,7 @@ impl Contents {
         f32::from_bits(self.node(link)[0])
     }
 
-    /// Where the payload of a node is in its pool; of no meaning where it is inline.
+    /// Place of a node's payload in its pool; of no meaning where it is inline.
     fn payload_place(&self, link: u32) -> u32 {
         if self.config.storage == Storage::Sb { self.node(link)[1] } else { link - 1 }
     }

@@ -146,7 +146,7 @@ pub trait Design: fmt::Debug + Sized {
     /// Specialisation constants of a part that is built in a space of its own.
     const FOLLOWING: &'static [(u32, u32)] = &[];
 
-    /// Where a header keeps the linear map of such a part, for surfaces of stored fragments: 36 bytes, the first of
+    /// Place in a header of the linear map of such a part, for surfaces of stored fragments: 36 bytes, the first of
     /// [`GeometryRigid`](crate::GeometryRigid), which each lookup copies.
     const RIGID: Option<usize> = None;
 

@@ -77,7 +77,7 @@ pub enum AdsError {
     /// Buffers that a queue of rays cannot be made of.
     #[error("the queue cannot be made: {reason}")]
     Queue {
-        /// Which buffer, and what it lacks.
+        /// Buffer, and the flag or size that it lacks.
         reason: String,
     },
     /// Structures that are no two parts of one, or that were not given what their parts need.

@@ -42,23 +42,23 @@ pub struct Geometry {
     /// Number in the status of a structure built for these triangles; the first of several where only the device
     /// knows their number.
     stamp: u32,
-    /// Where only the device knows the number of triangles.
+    /// Count buffer of a geometry whose number of triangles only the device knows.
     count: Option<Count>,
-    /// Where indices are not read in place.
+    /// Copy of indices that are not read in place.
     gather: Option<Gather>,
     /// Geometry that this is a part of.
     whole: Option<Box<Self>>,
     space: Space,
 }
 
-/// Where the triangles of a geometry are.
+/// Space of the triangles of a geometry.
 #[derive(Clone, Debug)]
 pub(crate) enum Space {
-    /// Where they are posed.
+    /// The world: they are as posed.
     World,
     /// A space of their own, to which a map takes them.
     Own,
-    /// Where they are posed, and the same triangles in a space of their own.
+    /// The world, and the same triangles in a space of their own.
     Mapped(Box<Geometry>),
 }
 
@@ -68,7 +68,7 @@ const STAMP_STEP: u32 = STATUS_FLAGS + 1;
 /// Stamps that no geometry of this process has yet, in steps; 0 is none.
 static NEXT_STAMP: AtomicU32 = AtomicU32::new(1);
 
-/// Where that many stamps lie if `next` is the next one that is free: all in one word. Begins anew after 2^28.
+/// Range of that many stamps if `next` is the next one that is free: all in one word. Begins anew after 2^28.
 fn stamps_from(next: u32, count: u32) -> u32 {
     if next > u32::MAX / STAMP_STEP - count { 1 } else { next }
 }
@@ -93,7 +93,7 @@ pub const NO_MAP: GeometryRigid = GeometryRigid {
     error: f32::INFINITY,
 };
 
-/// Where in a header the map of a part lies that has room for so many runs.
+/// Place in a header of the map of a part that has room for so many runs.
 fn rigid_place(bound_runs: usize) -> usize {
     const { assert!(size_of::<GeometryHeader>() == GEOMETRY_HEADER_BYTES as usize) };
     const { assert!(size_of::<Run>() == GEOMETRY_RUN_BYTES as usize) };
@@ -252,7 +252,7 @@ impl Geometry {
         }
     }
 
-    /// Where the map of a part with a space of its own is, also among the triangles there.
+    /// Place of the map of a part with a space of its own, also among the triangles there.
     pub(crate) fn map_place(&self) -> Option<(&Buffer, u64)> {
         let place = || (&self.header, self.header.size() - size_of::<GeometryRigid>() as u64);
         (!matches!(self.space, Space::World)).then(place)

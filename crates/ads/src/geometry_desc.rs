@@ -1,4 +1,4 @@
-//! Where triangles lie in the buffers of an embedder, and whether they can.
+//! Layout of triangles in the buffers of an embedder, and its checks.
 
 use rasray_gpu::{Buffer, BufferRange, Device};
 
@@ -10,7 +10,7 @@ const POSITION_BYTES: u64 = size_of::<[f32; 3]>() as u64;
 /// Positions in a buffer, read in place: f32x3 each, between them whatever else a vertex has.
 #[derive(Clone, Debug)]
 pub struct PositionRange {
-    /// Where they lie.
+    /// Buffer that holds them.
     pub buffer: Buffer,
     /// Byte of the first one, a multiple of 4.
     pub offset: u64,
@@ -28,13 +28,13 @@ impl From<Buffer> for PositionRange {
 /// Indices in a buffer. Absolute ones of 32 bits are read in place, all others are gathered by each build.
 #[derive(Clone, Debug)]
 pub struct IndexRange {
-    /// Where they lie.
+    /// Buffer that holds them.
     pub buffer: Buffer,
     /// Byte of the first one, a multiple of the format's bytes.
     pub offset: u64,
     /// Format of an index.
     pub format: IndexFormat,
-    /// Which vertex an index refers to.
+    /// Vertex that an index refers to.
     pub indexing: Indexing,
 }
 
@@ -71,7 +71,7 @@ impl IndexFormat {
     }
 }
 
-/// Which index belongs to a triangle, and which vertex an index refers to.
+/// Index that belongs to a triangle, and vertex that an index refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Indexing {
     /// Triangle i has the indices from 3 i, and an index is the number of a vertex.

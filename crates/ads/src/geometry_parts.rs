@@ -26,7 +26,7 @@ pub struct MovingPart {
     pub ids: Vec<Range<u32>>,
     /// Lower and upper corner of all their positions, metres relative to the frame origin.
     pub bounds: [[f32; 3]; 2],
-    /// Where they are in a space of their own, if an affine map takes them from there to where they are posed: each pose says
+    /// Their corners in a space of their own, if an affine map takes them from there to where they are posed: each pose says
     /// which ([`Geometry::record_map`]).
     pub rest: Option<Rest>,
 }
@@ -109,7 +109,7 @@ impl GeometryParts {
         &self.parts[0]
     }
 
-    /// Which triangles move, in each part that moves.
+    /// Moving triangles of each part that moves.
     pub fn moving(&self) -> &[MovingPart] {
         &self.moving
     }

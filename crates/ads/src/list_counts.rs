@@ -3,7 +3,7 @@
 /// Counts of the lists of some cells, such as those of one view.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ListCounts {
-    /// Which cells: a face of the cube (`+x`), `camera`, the view along an axis (`x`), `voxels` or `grid`.
+    /// Cells: a face of the cube (`+x`), `camera`, the view along an axis (`x`), `voxels` or `grid`.
     pub cells_of: &'static str,
     /// All of them, those of a view's border included.
     pub cells: u64,

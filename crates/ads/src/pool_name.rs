@@ -22,7 +22,7 @@ pub trait PoolName: Copy + fmt::Debug + PartialEq + 'static {
     /// Its name in sizes, statuses and reports.
     fn name(self) -> &'static str;
 
-    /// Where the header has its device address, low word first; absent for the header itself.
+    /// Place of its device address in the header, low word first; absent for the header itself.
     fn address_in(self, header: &mut Self::Header) -> Option<&mut [u32; 2]>;
 }
 

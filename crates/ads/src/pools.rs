@@ -16,7 +16,7 @@ use crate::{
     QueueHeader, RayQueue, Sizes, Trace, TraceKernels,
 };
 
-/// Where the header of a queue notes how many list entries with an invalid index a structure met.
+/// Place in the header of a queue of the number of list entries with an invalid index that a structure met.
 const NOTED: u64 = offset_of!(QueueHeader, corrupted) as u64;
 
 /// Factor by which the number of rounds grows where rays did not finish.

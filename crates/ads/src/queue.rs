@@ -16,7 +16,7 @@ use crate::{AdsError, Hit, QueueBuffers, QueueHeader, Ray, RayWork, Surface, Tra
 /// Bytes before the first step: the logged slot and the number of steps.
 const STEP_HEADER: u64 = 8;
 
-/// Which slots of a queue a pass works on.
+/// Slots of a queue that a pass works on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Domain {
     /// The first n slots.

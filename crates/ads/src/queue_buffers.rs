@@ -43,7 +43,7 @@ impl QueueBuffers {
         Self { rays, hits, header: None, states: None, list: None, surfaces: None, work: None }
     }
 
-    /// Which parts there are, and the buffers in the order of bindings.
+    /// The parts, and the buffers in the order of bindings.
     ///
     /// # Errors
     /// One of them is too small for that many slots, was not made for what it is used for, or is given twice.

@@ -84,12 +84,12 @@ impl Slots {
         self.replaced_before.get(slot as usize) == Some(&self.replaced)
     }
 
-    /// Where a recording copies the header to.
+    /// Buffer that a recording copies the header to.
     pub fn header_target(&self) -> (&Buffer, u64) {
         (&self.entries, self.place(self.recorded))
     }
 
-    /// Where a recording copies the count of triangles outside to.
+    /// Buffer that a recording copies the count of triangles outside to.
     pub fn outside_target(&self) -> (&Buffer, u64) {
         (&self.entries, self.place(self.recorded) + self.header_bytes)
     }

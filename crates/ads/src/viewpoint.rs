@@ -1,4 +1,4 @@
-//! Where a build is seen from, and what a camera sees there.
+//! Eye of a build, and view of a camera there.
 
 use rasray_shaders_glsl::constants::ads::PLACEMENT_EYE_LIMIT;
 

@@ -81,7 +81,7 @@ pub enum AppError {
     /// A hard case's target was not met, and `--check` asked for it. Exit code 1.
     #[error("{message}")]
     Target {
-        /// Which.
+        /// The target.
         message: String,
         /// Advice, in one sentence; may be empty.
         help: String,

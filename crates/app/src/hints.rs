@@ -277,7 +277,7 @@ fn names(systems: impl IntoIterator<Item = &'static System>) -> String {
     systems.into_iter().map(|system| system.name).collect::<Vec<_>>().join(", ")
 }
 
-/// Which systems have an option, in words.
+/// Systems that have an option, in words.
 fn who_has(option: &str) -> String {
     match names(SYSTEMS.iter().filter(|system| system.has(option))).as_str() {
         "" => "no system has it".to_owned(),

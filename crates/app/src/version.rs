@@ -1,4 +1,4 @@
-//! Which build of the command this is.
+//! Identity of this build of the command.
 
 use rasray_report::Origin;
 

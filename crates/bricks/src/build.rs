@@ -17,7 +17,7 @@ const GROUP_BYTES: u64 = 12;
 struct OfLevel {
     label: String,
     pipeline: ComputePipeline,
-    /// Where the header has the workgroups of the first level.
+    /// Place in the header of the workgroups of the first level.
     groups: usize,
 }
 

@@ -14,7 +14,7 @@ const SLICE_LIMIT: u32 = numbers::BRICKS_SLICE_LIMIT;
 /// All options. None of them changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Which views there are.
+    /// Projections that cells are made in.
     pub views: Views,
     /// Columns along a side of a face, or cells along the longest side of the geometry's bounds; 1 to 1024, rounded up
     /// to a multiple of 4. Absent: by the number of triangles and, along the axes, by the bounds.

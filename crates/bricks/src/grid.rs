@@ -9,7 +9,7 @@ pub(crate) const BRICK_SIDE: u32 = 4;
 /// Maximum cells along a side of a view.
 pub(crate) const SIDE_LIMIT: u32 = BRICKS_SIDE_LIMIT;
 
-/// Which views there are. Changes no hit.
+/// Projections that cells are made in. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Views {
     /// Six faces of a cube around a centre: cells grow with the distance.

@@ -7,7 +7,7 @@ rasray_ads::pools! {
     pub enum Pool: Header {
         /// Words and masks of bricks.
         Bricks "bricks" bricks_address => bricks,
-        /// Where the list of each cell that has one ends.
+        /// End of the list of each cell that has one.
         Lists "lists" lists_address => lists,
         /// Triangles of all lists.
         Entries "entries" entries_address => entries,

@@ -14,7 +14,7 @@ pub struct Contents {
     pub header: Header,
     /// Bricks, [`Config::brick_words`] each.
     pub bricks: Vec<u32>,
-    /// Where the list of each cell that lists something, or is divided, ends; and once more as many words where cells
+    /// End of the list of each cell that lists something, or is divided; and once more as many words where cells
     /// are divided.
     pub lists: Vec<u32>,
     /// Entries of all lists.
@@ -137,7 +137,7 @@ pub struct Cell {
     pub list: usize,
 }
 
-/// Where a brick is.
+/// Place of a brick.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     brick: usize,

@@ -32,11 +32,11 @@ struct DevicePipelines {
     scan: Scan,
     scatter: ComputePipeline,
     tree: TreePipelines,
-    /// Where treelets of the tree by Morton codes are restructured.
+    /// Passes that restructure treelets of the tree by Morton codes.
     treelets: Option<TreeletPipelines>,
-    /// Where later builds keep the tree of the first.
+    /// Passes of later builds, which keep the tree of the first.
     refit: Option<RefitPipelines>,
-    /// Where nodes of four are made of those of two.
+    /// Passes that make nodes of four of those of two.
     fours: Option<FourPipelines>,
 }
 
@@ -276,7 +276,7 @@ impl FourPipelines {
         })
     }
 
-    /// Which nodes of two become nodes of four, their numbers, and those nodes.
+    /// Choice of the nodes of two that become nodes of four, their numbers, and those nodes.
     fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, scan: &Scan) {
         let nodes = target.geometry.triangle_count().saturating_sub(1);
         pass(recorder, target, "bvh/build_13_openings", &self.openings, 0, nodes);

@@ -1,6 +1,6 @@
 //! Trees of four children per node, made of trees of two.
 //!
-//! Which nodes of the tree of two stay is the choice that lowers the surface area heuristic's cost the most, found from
+//! The nodes of the tree of two that stay are those that lower the surface area heuristic's cost the most, found from
 //! the leaves up: Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", HPG
 //! 2017, section 3.1. Leaves and boxes stay as they are.
 

@@ -94,7 +94,7 @@ fn first_header(
         Children::Two => node_capacity,
         Children::Four => 2 * pair_elements,
     };
-    // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
+    // Place of the primitive of each record: behind the boxes, or in the second word of each key.
     let (order_offset, order_stride) = match config.builder {
         Builder::Sah => (BOX_WORDS as u32 * triangles, 1),
         Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => (1, 2),

@@ -147,7 +147,7 @@ impl Page<'_> {
         if part.rows.iter().all(is_of_rays) { of_rays } else { of_images }
     }
 
-    /// Where a table has all runs of this one.
+    /// Place of the table that has all runs of this one.
     fn above(&self, part: &Experiment) -> Option<&str> {
         let has_all = |keys: &BTreeSet<String>| part.rows.iter().all(|row| keys.contains(&row.key));
         self.tables.iter().find(|(_, keys)| has_all(keys)).map(|(place, _)| place.as_str())

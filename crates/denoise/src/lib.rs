@@ -43,7 +43,7 @@ pub enum DenoiseError {
     /// Images do not have as many pixels as the picture.
     #[error("{name} has {pixels} pixels in place of {expected}")]
     Size {
-        /// Which image.
+        /// The image.
         name: &'static str,
         /// Pixels of the image.
         pixels: usize,

@@ -8,7 +8,7 @@ use rasray_gpu_scene::TexelRuns;
 use rasray_report::{Device, ListRecord, Run};
 use std::ops::ControlFlow;
 
-/// Which device is wanted.
+/// Device that is wanted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct DeviceChoice {
     /// A position in the driver's list, or part of a device's name, case ignored. Absent: the first

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The cells of a comparison as an experiment asks for them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExperimentCells {
-    /// Which experiment.
+    /// The experiment.
     pub experiment: ExperimentRecord,
     /// Those of the comparison.
     pub cells: CellList,

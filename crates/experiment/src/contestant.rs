@@ -13,7 +13,7 @@ use rasray_report::{ListRecord, Run, Times};
 
 /// One system of a comparison.
 pub struct Contestant<'a> {
-    /// Which system.
+    /// The system.
     pub config: &'a SystemConfig,
     /// Spec of its structure, which counts the work of rays.
     pub spec: Spec,

@@ -18,9 +18,9 @@ pub struct DeviceScene {
     pub dropped_triangles: u64,
     /// The pass that poses what moves, where it is posed on the device.
     pub(super) pose: Option<PosePass>,
-    /// Where everything is that moves, once it was posed.
+    /// Poses of everything that moves, once it was posed.
     pub(super) posed: Option<FramePose>,
-    /// Which of the parts that move are elsewhere than before the last pose; empty: all.
+    /// True for each moving part that is elsewhere than before the last pose; empty: all.
     pub(super) moved: Vec<bool>,
 }
 

@@ -30,7 +30,7 @@ pub struct RenderJob<'a> {
     pub refresh: Refresh,
     /// The image.
     pub frame: Frame,
-    /// Which of its samples are made; absent: all.
+    /// Its samples to make; absent: all.
     pub shard: Option<Shard>,
     /// Images wanted in addition.
     pub aovs: AovSelection,
@@ -42,7 +42,7 @@ pub struct RenderJob<'a> {
     pub repetitions: u32,
 }
 
-/// Where rays of a comparison come from.
+/// Source of the rays of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RaySet {
     /// Origins uniform in the scene's box, directions uniform.

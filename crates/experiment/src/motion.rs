@@ -1,4 +1,4 @@
-//! Where what a pixel shows was one frame before.
+//! Position, one frame before, of the point that a pixel shows.
 
 use glam::{DVec2, DVec3};
 use rasray_integrators::{AovPixel, AovSurface};
@@ -20,7 +20,7 @@ pub(crate) struct TrianglesBefore {
 }
 
 impl TrianglesBefore {
-    /// Where a point of a triangle was; nothing where there is no such triangle.
+    /// Earlier position of a point of a triangle; nothing where there is no such triangle.
     fn point(&self, triangle: u32, [b, c]: [f32; 2]) -> Option<DVec3> {
         let first = 3 * triangle as usize;
         let corners = self.indices.get(first..first + 3)?;
@@ -52,7 +52,7 @@ impl<'a> Screen<'a> {
         [axes.x_axis, axes.y_axis, axes.z_axis].map(DVec3::normalize_or_zero)
     }
 
-    /// Where a direction leads to, pixels from the lower left; nothing beside or behind the eye.
+    /// Place in the image that a direction leads to, pixels from the lower left; nothing beside or behind the eye.
     fn of_direction(&self, direction: DVec3) -> Option<DVec2> {
         let [right, up, back] = self.axes();
         let depth = match self.camera.projection {
@@ -63,7 +63,7 @@ impl<'a> Screen<'a> {
         (depth > 0.0).then(|| 0.5 * (across + 1.0) * self.size)
     }
 
-    /// Where a point of the world is seen, pixels from the lower left; nothing beside or behind the eye.
+    /// Place in the image of a point of the world, pixels from the lower left; nothing beside or behind the eye.
     fn of_point(&self, point: DVec3) -> Option<DVec2> {
         self.of_direction(point - self.camera.world_from_camera.translation)
     }

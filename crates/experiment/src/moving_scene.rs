@@ -81,7 +81,7 @@ impl DeviceScene {
         Ok(Some(parts?))
     }
 
-    /// Which of the parts that move are elsewhere than before the last [`DeviceScene::pose`]; empty: all.
+    /// True for each moving part that is elsewhere than before the last [`DeviceScene::pose`]; empty: all.
     pub fn moved(&self) -> &[bool] {
         &self.moved
     }

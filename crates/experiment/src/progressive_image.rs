@@ -16,7 +16,7 @@ use crate::passes::Passes;
 use crate::shard::Shard;
 use rasray_report::{Memory, Pass, PassOf};
 
-/// What answers the camera rays of a frame in place of traces; nothing where they are traced.
+/// Source of the first hits of a frame in place of traces; nothing where they are traced.
 fn visibility(
     device: &Device,
     stage: &DeviceScene,
@@ -32,7 +32,7 @@ fn visibility(
     }
 }
 
-/// The same with what answers the shadow rays of a frame in place of traces.
+/// The passes with the occluder of a frame's shadow rays, in place of traces.
 fn with_occluder(
     passes: ImagePasses,
     device: &Device,
@@ -71,7 +71,7 @@ fn with_occluder(
 
 /// The image of a job in the making, with the times of its passes. Every call submits and waits.
 pub struct ProgressiveImage {
-    /// What is on the film.
+    /// Image on the film.
     pub(super) image: ImageRenderer,
     pub(super) passes: Passes,
     /// Its kernels look up the surfaces of hits.
@@ -117,12 +117,12 @@ impl ProgressiveImage {
         Ok(Self { image: image?, passes: Passes::default(), of_hits: desc.surfaces_of_hits })
     }
 
-    /// Whether it renders what `built` holds, without kernels of its own.
+    /// True if it renders what `built` holds, without kernels of its own.
     pub fn serves(&self, built: &Built) -> bool {
         !self.of_hits || built.structure().description().surfaces_of_triangles
     }
 
-    /// The same with the variance of each pixel measured.
+    /// The image with the variance of each pixel measured.
     #[must_use]
     pub(super) fn measuring(self) -> Self {
         Self { image: self.image.measuring(), ..self }
@@ -140,7 +140,7 @@ impl ProgressiveImage {
         Err(ExperimentError::NoFirstHits { structure: structure.name })
     }
 
-    /// What is on the film.
+    /// Image on the film.
     pub fn image(&self) -> &ImageRenderer {
         &self.image
     }

@@ -62,7 +62,7 @@ impl Pixels {
         Ok(Self { means, sums, counts, samples, samples_most, ..Self::default() })
     }
 
-    /// How samples were shared among the pixels by a rule.
+    /// Shares of samples among the pixels by a rule.
     pub(super) fn adaptive(&self, rule: Adaptive) -> AdaptiveRecord {
         AdaptiveRecord {
             threshold: rule.threshold,
@@ -82,7 +82,7 @@ impl Pixels {
     }
 }
 
-/// What of a film is kept in addition to the means.
+/// Values of a film that are kept in addition to the means.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Kept {
     sums: bool,
@@ -120,7 +120,7 @@ pub(super) fn render_pixels(
     Ok(Pixels { counters, first_use_ms, ..pixels })
 }
 
-/// What a device has of a scene that is rendered at one moment after the other: the scene, the structure, the image. Begin
+/// State on a device of a scene that is rendered at one moment after the other: the scene, the structure, the image. Begin
 /// with nothing for another scene.
 #[derive(Default)]
 pub struct KeptScene(Option<OnDevice>);
@@ -130,11 +130,11 @@ struct OnDevice {
     built: Built,
     rendering: ProgressiveImage,
     made_for: MadeFor,
-    /// Whether every kernel was used.
+    /// True if every kernel was used.
     is_warm: bool,
 }
 
-/// What of a job decides what the device has.
+/// Inputs of a job that decide what the device has.
 struct MadeFor {
     /// For the scene there.
     needs: Needs,
@@ -154,7 +154,7 @@ impl MadeFor {
         Self { needs, refresh: job.refresh, system, frame, shard: job.shard, measures }
     }
 
-    /// Whether the scene on the device is that of another job.
+    /// True if the scene on the device is that of another job.
     fn has_scene_of(&self, other: &Self) -> bool {
         self.needs == other.needs && self.refresh == other.refresh
     }

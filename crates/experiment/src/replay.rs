@@ -90,7 +90,7 @@ pub(super) fn replay_case(
     replay_sets(&setting, systems, std::iter::once((name.to_owned(), rays)), index)
 }
 
-/// Where a system tested the triangle that is truly hit.
+/// Tests of the truly hit triangle by a system, in words.
 fn met(replay: &Replay, truth: &OracleReplay) -> String {
     let Some((primitive, _)) = truth.verdict.outcome.hit() else { return String::new() };
     let met = replay.steps_of(primitive);

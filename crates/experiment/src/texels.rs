@@ -20,7 +20,7 @@ fn demand(scene: &Scene, needs: &Needs) -> Result<TexelDemand, ExperimentError> 
     Ok(TexelDemand::of(scene, &Parts::from(needs))?)
 }
 
-/// Which images a device does not hold as they are.
+/// Images that a device does not hold as they are.
 ///
 /// # Errors
 /// Even images of one texel each are too many.

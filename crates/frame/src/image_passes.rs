@@ -105,7 +105,7 @@ impl ImagePasses {
         self.visibility.as_ref()
     }
 
-    /// Where samples are added.
+    /// Film that samples are added to.
     pub fn film(&self) -> &Film {
         self.integrator.film()
     }

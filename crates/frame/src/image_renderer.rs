@@ -342,7 +342,7 @@ impl ImageRenderer {
         &self.passes
     }
 
-    /// Where samples are added.
+    /// Film that samples are added to.
     pub fn film(&self) -> &Film {
         self.passes.film()
     }

@@ -22,7 +22,7 @@ pub struct FrameInput {
     /// The scene; absent: that of the frame before. Another one may have other triangles, as many as there are; materials,
     /// textures and lights, too, as long as the kernels have code for them.
     pub scene: Option<FrameScene>,
-    /// Where everything is that moves; absent: where the last frame of the same scene has it, at first where the tables do.
+    /// Poses of everything that moves; absent: those of the last frame of the same scene, at first those of the tables.
     pub pose: Option<FramePose>,
     /// Samples of each pixel.
     pub samples: Samples,

@@ -1,4 +1,4 @@
-//! Which samples of an image are made.
+//! Samples of an image to make.
 
 use std::iter::StepBy;
 use std::ops::Range;

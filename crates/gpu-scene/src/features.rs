@@ -10,7 +10,7 @@ use rasray_shaders_glsl::records::Material;
 
 use crate::{SceneTables, TexelRuns};
 
-/// Which code rays and the shading of a scene can reach at all. Kernels leave the rest out.
+/// Code that rays and the shading of a scene can reach. Kernels leave the rest out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShadingFeatures {
     /// Any material refers to a texture.

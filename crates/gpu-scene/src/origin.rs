@@ -1,4 +1,4 @@
-//! Where f32 coordinates start from.
+//! Origin of f32 coordinates.
 
 use glam::DVec3;
 

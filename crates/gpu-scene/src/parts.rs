@@ -1,4 +1,4 @@
-//! Which parts of a scene are packed.
+//! Parts of a scene that are packed.
 
 use rasray_scene::needs::{Needs, Term};
 
@@ -19,7 +19,7 @@ pub enum TextureKind {
     Transmission,
 }
 
-/// Which parts of a scene are packed and uploaded. A part that is left out reads as absent: no
+/// Parts of a scene that are packed and uploaded. A part that is left out reads as absent: no
 /// attribute, no texture, no light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {

@@ -83,7 +83,7 @@ impl TexelDemand {
         self.texels() * TEXEL_BYTES
     }
 
-    /// Which images are made smaller so that `most` texels are enough: time and again the largest, the first of equal
+    /// Images that are made smaller so that `most` texels are enough: time and again the largest, the first of equal
     /// ones, is halved. None where they are enough already.
     ///
     /// # Errors

@@ -273,7 +273,7 @@ impl GpuScene {
         &self.binding
     }
 
-    /// Where the camera stands, metres relative to the frame origin, as shaders see it.
+    /// Eye, metres relative to the frame origin, as shaders see it.
     pub fn eye(&self) -> [f32; 3] {
         self.frame.camera_position
     }
@@ -305,7 +305,7 @@ impl GpuScene {
         &self.frame
     }
 
-    /// Which shading code the scene can reach.
+    /// Shading code that the scene can reach.
     pub fn features(&self) -> ShadingFeatures {
         self.features
     }

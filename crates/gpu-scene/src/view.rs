@@ -25,11 +25,11 @@ pub struct View {
 /// Sampling of pixels, except for the seed of the view, and which surfaces their rays pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampling {
-    /// Where random numbers come from.
+    /// Source of random numbers.
     pub sampler: Sampler,
     /// Samples per pixel that share a pixel's footprint on textures, at least 1.
     pub samples: u32,
-    /// Which rays pass the backs of single-sided surfaces.
+    /// Rays that pass the backs of single-sided surfaces.
     pub back_faces: BackFaces,
 }
 
@@ -54,7 +54,7 @@ impl Sampling {
 }
 
 impl View {
-    /// Where the camera stands, world, metres.
+    /// Eye, world, metres.
     pub fn eye(&self) -> DVec3 {
         self.camera.world_from_camera.translation
     }

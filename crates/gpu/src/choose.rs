@@ -1,4 +1,4 @@
-//! Which device to use: what each one has, and which is preferred.
+//! Choice of a device: properties of each one, and the one preferred.
 
 use std::collections::BTreeSet;
 use std::ffi::{CStr, CString};

@@ -1,4 +1,4 @@
-//! Where the memory of buffers comes from, and how much of it is in use.
+//! Memory of buffers: its source, and the bytes in use.
 
 use std::any::Any;
 use std::ptr::NonNull;

@@ -33,7 +33,7 @@ pub struct RawDevice {
     pub debug_utils: bool,
     /// Cache used for all pipelines, or null.
     pub pipeline_cache: vk::PipelineCache,
-    /// Where memory comes from; without it this crate allocates by itself.
+    /// Allocator of memory; without it this crate allocates by itself.
     pub memory: Option<Arc<dyn Memory>>,
     /// Limit of the memory allocated through this device, in bytes.
     pub memory_limit: Option<u64>,

@@ -5,7 +5,7 @@ use crate::{Config, Contents, Header};
 rasray_ads::pools! {
     /// Pools of a grid, in the order of their bindings.
     pub enum Pool: Header {
-        /// Where the list of each cell ends.
+        /// End of the list of each cell.
         Lists "lists" lists_address => lists,
         /// Triangles of all lists.
         Entries "entries" entries_address => entries,

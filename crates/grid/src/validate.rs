@@ -10,7 +10,7 @@ use crate::layout::cell_count;
 pub struct Contents {
     /// The header.
     pub header: Header,
-    /// Where the list of each cell ends.
+    /// End of the list of each cell.
     pub lists: Vec<u32>,
     /// Entries of all lists.
     pub entries: Vec<u32>,

@@ -36,7 +36,7 @@ pub struct HardCase {
     pub triangles: Vec<Triangle>,
     /// Some may be invalid on purpose.
     pub rays: Vec<Ray>,
-    /// Where views are centred.
+    /// Centre of views.
     pub eye: [f32; 3],
     /// Answers that are known.
     pub expect: Expectation,
@@ -52,7 +52,7 @@ pub struct HardCase {
     pub grid: Option<Grid>,
 }
 
-/// Where a camera at the eye of a case looks, relative to the eye. Its angle of view is a right one, both ways.
+/// Point that a camera at the eye of a case looks at, relative to the eye. Its angle of view is a right one, both ways.
 pub const CAMERA_TOWARDS: [f64; 3] = [0.25, 0.125, 1.0];
 
 /// Answers to all rays of a case that are known by construction.

@@ -4,7 +4,7 @@ use super::case::{AIMED, Answer, Content, Context, Entry, Expectation, Triangle}
 use super::geometry::{aim, cube, midpoint, point_on, quad, sphere};
 use rasray_reference::oracle::Ray;
 
-/// Where coordinates are as coarse as 2^-6.
+/// Coordinate at which numbers are as coarse as 2^-6.
 const FAR: [f32; 3] = [148376.0, 1234.0, -223423.0];
 
 pub(super) const CASES: &[Entry] = &[

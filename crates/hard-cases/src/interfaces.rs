@@ -35,7 +35,7 @@ pub(super) const CASES: &[Entry] = &[
 
 fn nested_glass(context: &Context) -> Content {
     const RADII: [f64; 3] = [1.0, 0.9, 0.5];
-    // Where the ray along the axis passes the poles, in order.
+    // Poles that the ray along the axis passes, in order.
     const INTERFACES: [f32; 6] = [-1.0, -0.9, -0.5, 0.5, 0.9, 1.0];
     let triangles: Vec<Triangle> = RADII.iter().flat_map(|radius| sphere([0.0; 3], *radius, 48)).collect();
     let shell = triangles.len() / RADII.len();

@@ -10,11 +10,11 @@ use crate::{Film, IntegratorError, Traced, WAVE_LIMIT, Wave, wave_capacity};
 /// Inputs that an integrator is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct IntegratorDesc<'a> {
-    /// Where pipelines and buffers are made.
+    /// Device of pipelines and buffers.
     pub device: &'a Device,
     /// The scene that is shaded.
     pub scene: &'a GpuScene,
-    /// Where samples are added; as large as the scene's view.
+    /// Film that samples are added to; as large as the scene's view.
     pub film: &'a Film,
     /// Slots of the queues, from 1 to [`WAVE_LIMIT`]. Fewer than the image has pixels means
     /// several waves per sample.

@@ -182,7 +182,7 @@ impl IntegratorSpec {
         self.row.options.iter().filter_map(|row| Some((row.name, self.get(row.name)?))).collect()
     }
 
-    /// Which of these the value of an option names; the first where it names none.
+    /// The one of these that the value of an option names; the first where it names none.
     fn choice<T: Copy + Default>(&self, option: &OptionRow, all: &[T], name: fn(T) -> &'static str) -> T {
         let word = self.get(option.name).and_then(Value::word);
         all.iter().copied().find(|value| Some(name(*value)) == word).unwrap_or_default()

@@ -5,7 +5,7 @@ use crate::{Config, Contents, Header};
 rasray_ads::pools! {
     /// Pools of a layered depth cube, in the order of their bindings.
     pub enum Pool: Header {
-        /// Where the fragments of each cell end.
+        /// End of the fragments of each cell.
         Lists "lists" lists_address => lists,
         /// Depths of fragments.
         Depths "depths" depths_address => depths,

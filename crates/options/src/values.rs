@@ -15,7 +15,7 @@ pub enum Unit {
     Share,
 }
 
-/// Where numbers begin.
+/// Least number that is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Least {
     /// At 0.
@@ -125,7 +125,7 @@ impl Values {
         }
     }
 
-    /// Where the numbers that are taken begin and end, for help; absent where there is no upper end.
+    /// Lower and upper end of the numbers that are taken, for help; absent where there is no upper end.
     pub fn range(self) -> Option<String> {
         match self {
             Self::Whole(lowest, highest) if highest < u32::MAX => Some(format!("{lowest} to {highest}")),

@@ -76,13 +76,13 @@ pub struct Config {
     /// With [`Config::skip`]: depth bounds of blocks of tiles, which a ray skips. Changes no hit where
     /// [`Config::is_exact`].
     pub pyramid: bool,
-    /// Which of those a ray compares with first.
+    /// The one of those that a ray compares with first.
     pub pyramid_start: PyramidStart,
-    /// Which tiles list a triangle.
+    /// Tiles that list a triangle.
     pub coverage: Coverage,
     /// When a triangle that a ray intersects is a hit.
     pub accept: Accept,
-    /// Where the search of a tile ends.
+    /// End of the search of a tile.
     pub stop: Stop,
     /// Depths of a triangle in a tile.
     pub depths: Depths,

@@ -2,7 +2,7 @@
 
 use rasray_ads::words;
 
-/// Which cells list a triangle.
+/// Cells that list a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
     /// All cells that the triangle reaches into, decided by a shared function; the rasterizer only proposes cells.
@@ -35,7 +35,7 @@ pub enum Accept {
 
 words! { Accept { T "t", Tile "tile" } }
 
-/// Where the search of a tile ends.
+/// End of the search of a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// At buckets behind the best hit.

@@ -27,7 +27,7 @@ pub struct HitsFile {
     pub hits: Vec<Hit>,
 }
 
-/// Where t, primitive, u and v of a row are.
+/// Columns of t, primitive, u and v of a row.
 #[derive(Clone, Copy)]
 enum Columns {
     /// In these fields of a record.

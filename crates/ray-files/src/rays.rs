@@ -9,7 +9,7 @@ use rasray_ads::Ray;
 pub struct RaysFile {
     /// With origins as [`RaysFile::place`] says.
     pub rays: Vec<Ray>,
-    /// Where the origins are.
+    /// Point that the origins are relative to.
     pub place: Place,
 }
 

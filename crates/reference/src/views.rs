@@ -9,7 +9,7 @@ pub struct CellChord {
     pub view: u32,
     /// Column and row, from 0 to the resolution less 1.
     pub cell: [u32; 2],
-    /// Where the ray enters and leaves, in units of the direction's length.
+    /// Entry and exit of the ray, in units of the direction's length.
     pub t: [f64; 2],
 }
 

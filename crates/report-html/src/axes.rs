@@ -51,7 +51,7 @@ pub(super) fn close_log(title: &str, values: impl Iterator<Item = f64>) -> Value
 /// Labels that make an axis a scale: two say nothing of what lies between them on a logarithmic one.
 const LEAST_TICKS: usize = 3;
 
-/// Where labels of a short logarithmic axis stand, in parts of a power of ten: the coarser where they are enough.
+/// Labels of a short logarithmic axis, in parts of a power of ten: the coarser where they are enough.
 const STEPS: [&[f64]; 2] = [&[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]];
 
 /// A linear axis from zero.

@@ -18,7 +18,7 @@ pub(super) struct Head<'a> {
     pub subject: &'a str,
     /// Names and what is to be known by them.
     pub facts: Vec<(&'static str, Cow<'a, str>)>,
-    /// Where it ran.
+    /// Device that it ran on.
     pub device: &'a Device,
 }
 

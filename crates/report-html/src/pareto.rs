@@ -1,4 +1,4 @@
-//! Which runs no other run beats in speed and in error at once.
+//! Runs that no other run beats in speed and in error at once.
 
 /// Speed and error of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 /// A run in a plot.
 struct Entry<'a> {
     run: &'a Run,
-    /// Where it stands from left to right.
+    /// Its place from left to right.
     x: f64,
     /// Speed: more is better.
     speed: f64,
@@ -34,7 +34,7 @@ struct Measure {
     y: &'static str,
     /// True if a faster run stands to the right.
     faster_is_right: bool,
-    /// Where errors too small to be told from zero are drawn; absent on an axis that has a zero.
+    /// Place of errors too small to be told from zero; absent on an axis that has a zero.
     floor: Option<f64>,
 }
 

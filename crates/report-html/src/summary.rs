@@ -64,7 +64,7 @@ fn rate(run: &Run, name: &str, value: Option<u64>) -> Option<Cell> {
     count(value)?.with_range(record.map(interval))
 }
 
-/// Where the true rate lies.
+/// Confidence interval of the true rate.
 fn interval(record: &RateRecord) -> String {
     let [low, high] = record.interval;
     let words =

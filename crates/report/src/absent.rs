@@ -1,4 +1,4 @@
-//! Which numbers a report leaves out.
+//! Numbers that a report leaves out.
 
 /// JSON cannot say that a number is not finite, so such a number is absent.
 pub(crate) fn absent(value: &Option<f64>) -> bool {

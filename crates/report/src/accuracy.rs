@@ -97,7 +97,7 @@ pub struct RateRecord {
     pub rate: f64,
     /// Method of the intervals.
     pub bound: Bound,
-    /// Where the true rate lies with 95 % confidence.
+    /// Interval of the true rate with 95 % confidence.
     pub interval: [f64; 2],
     /// Interval such that those of all rates of the report hold together, see [`crate::Statistics`].
     #[serde(default, skip_serializing_if = "Option::is_none")]

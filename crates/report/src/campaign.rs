@@ -12,7 +12,7 @@ pub struct Campaign {
     pub title: String,
     /// Version of the program, and the commit where known.
     pub program: String,
-    /// Where it ran.
+    /// Device that it ran on.
     pub device: Device,
     /// In the order of the plan.
     pub experiments: Vec<Experiment>,

@@ -59,7 +59,7 @@ pub struct CellView {
     pub camera: String,
     /// Pixels a row, rows: of the image, and of the camera's rays.
     pub size: [u32; 2],
-    /// Which rays pass the backs of single-sided surfaces.
+    /// Rays that pass the backs of single-sided surfaces.
     pub back_faces: String,
 }
 
@@ -87,10 +87,10 @@ pub struct CellImage {
     pub options: BTreeMap<String, String>,
     /// Samples per pixel.
     pub spp: u32,
-    /// Where pixels get as many samples as their noise needs: the threshold and the least samples, as in `0.02 16`.
+    /// Rule by which pixels get as many samples as their noise needs: the threshold and the least samples, as in `0.02 16`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<String>,
-    /// Where random numbers come from.
+    /// Source of random numbers.
     pub sampler: String,
     /// Way in which first hits of camera rays are found.
     pub primary: String,

@@ -44,7 +44,7 @@ pub fn colour(scale: &Scale, value: f64) -> [u8; 3] {
     })
 }
 
-/// Where `count` stands on a scale that ends at `most`: logarithmic, and 0 at 0.
+/// Place of `count` on a scale that ends at `most`: logarithmic, and 0 at 0.
 pub fn place(count: u32, most: u32) -> f64 {
     if most == 0 { 0.0 } else { f64::from(count).ln_1p() / f64::from(most).ln_1p() }
 }

@@ -177,7 +177,7 @@ pub struct Memory {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ListRecord {
-    /// Which cells: `all`, a face of the cube such as `+x`, `camera`, the view along an axis such as `x`, `voxels` or `grid`.
+    /// Cells: `all`, a face of the cube such as `+x`, `camera`, the view along an axis such as `x`, `voxels` or `grid`.
     pub cells_of: String,
     /// All of them.
     pub cells: u64,

@@ -27,7 +27,7 @@ fn row(name: &str, value: Option<String>) -> Option<Vec<String>> {
     value.map(|value| vec![name.to_owned(), value])
 }
 
-/// Where the true rate lies, in per cent.
+/// Confidence interval of the true rate, in per cent.
 fn interval(rate: &RateRecord) -> String {
     let [low, high] = rate.interval.map(|end| 100.0 * end);
     match (rate.bound, rate.count) {

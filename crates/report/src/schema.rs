@@ -24,7 +24,7 @@ pub struct Report {
     /// The command line as it was typed, words joined by spaces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// Where it ran.
+    /// Device that it ran on.
     pub device: Device,
     /// The scene that it ran on.
     pub scene: SceneRecord,
@@ -134,7 +134,7 @@ pub struct FramesRecord {
     pub first: u32,
     /// Number of the last frame, not below the first.
     pub last: u32,
-    /// Which share of them the command makes, such as `2/8`; absent where it makes all.
+    /// Share of them that the command makes, such as `2/8`; absent where it makes all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<String>,
     /// Key of the sequence, equal for all shares, 64 hexadecimal digits: a hash of the first frame's key and of frames
@@ -223,14 +223,14 @@ pub struct Run {
     /// Key of a picture, 64 hexadecimal digits: a hash of everything that decides its values; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub key: Option<String>,
-    /// Which share of the samples was made, such as `2/8`; absent where all were.
+    /// Share of the samples that was made, such as `2/8`; absent where all were.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<String>,
     /// Options as resolved from preset and command line.
     pub options: BTreeMap<String, Value>,
     /// Choices of the device: builder, coverage, atomics.
     pub paths: BTreeMap<String, String>,
-    /// Where the rays come from; absent for images.
+    /// Set of rays; absent for images.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ray_set: Option<String>,
     /// Its name, such as `path`; absent for ray sets.
@@ -266,10 +266,10 @@ pub struct Run {
     /// Seed of all random numbers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<u32>,
-    /// Where random numbers of an image come from, such as `sobol`; absent for ray sets.
+    /// Source of random numbers of an image, such as `sobol`; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sampler: Option<String>,
-    /// Which rays pass the backs of single-sided surfaces, such as `camera`; absent for ray sets.
+    /// Rays that pass the backs of single-sided surfaces, such as `camera`; absent for ray sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub back_faces: Option<String>,
     /// Options of the integrator by name, also those at their default; empty for ray sets.

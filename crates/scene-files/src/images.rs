@@ -10,7 +10,7 @@ use rasray_scene::remarks::Remarks;
 use rasray_scene::text::reason;
 use rasray_scene::{Image, SceneError};
 
-/// Where the encoded bytes of an image are.
+/// Source of the encoded bytes of an image.
 pub(crate) enum Encoded<'a> {
     Bytes(&'a [u8]),
     File(&'a Path),

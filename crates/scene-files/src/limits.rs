@@ -65,7 +65,7 @@ impl Limits {
     }
 }
 
-/// Which scene of a file with several is loaded. Formats with one scene ignore it.
+/// Choice of the scene of a file with several. Formats with one scene ignore it.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub enum SceneChoice {
     /// The default scene of the file; else its first; else all nodes without a parent.
@@ -82,7 +82,7 @@ pub enum SceneChoice {
 pub struct LoadOptions {
     /// Limits of what a file may ask for.
     pub limits: Limits,
-    /// Which scene of the file.
+    /// Scene of the file.
     pub scene: SceneChoice,
     /// Frames per second of a sequence of files, above 0.
     pub fps: f64,

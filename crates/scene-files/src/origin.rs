@@ -1,4 +1,4 @@
-//! Where meshes of OBJ and PLY files are placed, so that coordinates far from the origin keep their precision.
+//! Origins of meshes of OBJ and PLY files, chosen so that coordinates far from the origin keep their precision.
 //!
 //! These files have coordinates in text, in double precision or in whole numbers, and no transforms; a mesh has positions in
 //! single precision. Georeferenced coordinates lose what matters in it: northings of 4,650 km are rounded to half a metre.
@@ -169,7 +169,7 @@ impl Part {
     }
 }
 
-/// Which groups of a mesh lie together, as a number for each: the same on both sides of every gap that is not much wider
+/// Groups of a mesh that lie together, as a number for each: the same on both sides of every gap that is not much wider
 /// than what is on either side. Each group has its part of the indices; all are 0 where single precision loses nothing.
 pub(crate) fn apart<'a>(groups: impl Iterator<Item = &'a [u32]>, wide: &[DVec3]) -> Vec<u32> {
     let boxes: Vec<Option<Part>> =

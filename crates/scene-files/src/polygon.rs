@@ -108,7 +108,7 @@ fn whole(flat: &[[f64; 2]], cut: &[u32]) -> Option<Vec<[u32; 3]>> {
             triangle
         });
     }
-    // Which triangle has a side, and the corner opposite of it.
+    // The triangle that has a side, and the corner opposite of it.
     let mut sides: HashMap<(u32, u32), usize> = HashMap::with_capacity(3 * triangles.len());
     let mut is_used = vec![false; flat.len()];
     for (number, [a, b, c]) in triangles.iter().copied().enumerate() {

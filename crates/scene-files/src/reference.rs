@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rasray_scene::remarks::Remarks;
 
-/// Where a reference leads.
+/// Target of a reference.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// A file below the folder; it may be missing.
@@ -18,7 +18,7 @@ pub(crate) enum Place {
     },
 }
 
-/// Where `name` leads from `folder`; backslashes separate folders too. It leads outside if it is absolute (with a root, a
+/// Target of `name` from `folder`; backslashes separate folders too. It leads outside if it is absolute (with a root, a
 /// drive or a scheme), has `..` as a part, or holds a zero byte.
 pub(crate) fn place(folder: &Path, name: &str) -> Place {
     let forward = name.replace('\\', "/");

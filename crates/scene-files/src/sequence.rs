@@ -160,7 +160,7 @@ struct Frames {
     templates: Vec<Mesh>,
     /// Names of its materials.
     materials: Vec<String>,
-    /// Where its meshes are placed, metres, world; instance by instance, of which each mesh has one.
+    /// Positions of its meshes, metres, world; instance by instance, of which each mesh has one.
     origins: Vec<DVec3>,
 }
 

@@ -1,4 +1,4 @@
-//! Which camera looks at a scene.
+//! Choice of the camera that looks at a scene.
 
 use crate::error::LoadError;
 use glam::DVec3;

@@ -167,7 +167,7 @@ pub struct MorphTarget {
     pub tangents: Option<Vec<[f32; 3]>>,
 }
 
-/// Which joints move each vertex, and how much.
+/// Joints that move each vertex, and their weights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SkinBinding {
     /// Index into [`Rig::skins`].

@@ -83,7 +83,7 @@ pub struct Material {
     pub metallic_roughness_texture: Option<TextureRef>,
     /// Excess roughness of facets along one direction, in [0, 1].
     pub anisotropy: f32,
-    /// Where that direction lies, radians from the tangent to the bitangent.
+    /// Angle of that direction, radians from the tangent to the bitangent.
     pub anisotropy_rotation: f32,
     /// Direction in RG, from -1 to 1, before the rotation, and factor of the strength in B, linear.
     pub anisotropy_texture: Option<TextureRef>,

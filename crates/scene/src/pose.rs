@@ -39,7 +39,7 @@ impl Rig {
     }
 }
 
-/// Where all nodes of a rig are, and how much of each morph target they show.
+/// Transforms of all nodes of a rig, and their weights of morph targets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pose {
     /// Map from each node's space to the world.
@@ -86,7 +86,7 @@ impl Pose {
         animated.unwrap_or_else(|| deformed.weights.iter().copied().map(f64::from).collect())
     }
 
-    /// Where cameras of that rig's scene are: world, metres, rigid. One without a node, or whose node degenerates, stays.
+    /// Poses of the cameras of that rig's scene: world, metres, rigid. One without a node, or whose node degenerates, stays.
     pub fn cameras(&self, rig: &Rig, at_rest: &[Camera]) -> Vec<DAffine3> {
         let nodes = rig.cameras.iter().map(|&node| Some(node)).chain(std::iter::repeat(None));
         let placed = |node: Option<usize>| node.and_then(|node| rigid(self.world(node)));

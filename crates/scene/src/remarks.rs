@@ -24,9 +24,9 @@ pub struct Remarks {
 #[derive(Debug)]
 struct Remark {
     kind: &'static str,
-    /// Where it was first made; empty for the file as a whole.
+    /// Place at which it was first made; empty for the file as a whole.
     place: String,
-    /// Where it was last made.
+    /// Place at which it was last made.
     last: String,
     /// Places after the first.
     more: usize,

@@ -1,4 +1,4 @@
-/// Where shadow rays of smooth surfaces start.
+/// Origin of shadow rays of smooth surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShadowTerminator {
     /// On the triangle: its edges show where light grazes a coarse mesh.

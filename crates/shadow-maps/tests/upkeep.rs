@@ -8,7 +8,7 @@ use rasray_shadow_maps::{Config, Lights, ShadowMaps, bytes, views_of};
 
 use crate::lit::{Lit, cluttered_room, device, expect_silence, lights, lights_of, scene_of};
 
-/// Which slots are answered by maps: these have no triangle.
+/// Slots that maps answer: these have no triangle.
 fn is_of_maps(hit: &Hit) -> bool {
     !hit.is_hit() || hit.primitive == PRIMITIVE_UNKNOWN
 }

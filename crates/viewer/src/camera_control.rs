@@ -12,7 +12,7 @@ const STEEPEST: f64 = 89.0 * std::f64::consts::PI / 180.0;
 /// Numbers of a camera as the command line has them: eye and target in metres, the full vertical angle of view in degrees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounded {
-    /// Where it stands.
+    /// Position of the eye.
     pub eye: String,
     /// Point that it looks at.
     pub target: String,
@@ -81,7 +81,7 @@ impl Side {
     }
 }
 
-/// Where a camera stands and what it turns around, world, metres. It stays upright: y is up.
+/// Position of a camera and the point that it turns around, world, metres. It stays upright: y is up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraControl {
     eye: DVec3,

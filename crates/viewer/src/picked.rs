@@ -112,7 +112,7 @@ impl PickedTriangle {
     }
 }
 
-/// Where a ray hits something.
+/// Hit of a ray.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PickedHit {
     /// World, metres.

@@ -1,4 +1,4 @@
-//! Where a picture lies in a window, and how large: fitted, or at a scale and moved by hand.
+//! Place and size of a picture in a window: fitted, or at a scale and moved by hand.
 
 /// Window pixels that a zoomed picture keeps in sight, along each side.
 const IN_SIGHT: f32 = 32.0;
@@ -112,7 +112,7 @@ impl PictureView {
         self.scale(area, picture) >= SQUARES
     }
 
-    /// Where a picture of this size lies; its corner is on a whole pixel of the window.
+    /// Rectangle of a picture of this size; its corner is on a whole pixel of the window.
     pub fn place(&self, area: Area, picture: [u32; 2]) -> Area {
         let scale = self.scale(area, picture);
         let size = picture.map(|side| side as f32 * scale);

@@ -58,7 +58,7 @@ impl SceneAtTime {
         Ok(())
     }
 
-    /// Where the camera is that nobody moves.
+    /// Pose of the camera that nobody moves.
     ///
     /// # Errors
     /// The scene has no such camera.

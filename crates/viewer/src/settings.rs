@@ -68,7 +68,7 @@ pub enum Standpoint {
 /// Everything that a picture depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Which of the scenes that were opened one after the other, from 0.
+    /// Number of the scene among those that were opened one after the other, from 0.
     pub scene: u32,
     /// From where.
     pub standpoint: Standpoint,

@@ -75,7 +75,7 @@ pub enum Accept {
 
 words! { Accept { Parity "parity", Plane "plane" } }
 
-/// Which fragments decide whether a point is inside. Needs [`Accept::Parity`].
+/// Fragments that decide whether a point is inside. Needs [`Accept::Parity`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inside {
     /// All that lie before it in its cell: of closed objects an even number ends before the voxel.
@@ -86,7 +86,7 @@ pub enum Inside {
 
 words! { Inside { Column "column", Voxel "voxel" } }
 
-/// Which cells keep a triangle.
+/// Cells that keep a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
     /// Those whose centre the rasterizer covers, with its sub-pixel grid.
@@ -147,7 +147,7 @@ pub struct Config {
     pub leaves: Leaves,
     /// Stepping of rays from voxel to voxel. Changes no hit.
     pub traversal: Traversal,
-    /// Which views keep a fragment.
+    /// Views that keep a fragment.
     pub axes: Axes,
     /// Test of which voxels are occupied; fragments where absent and all views keep all, else triangles.
     pub voxels: Option<Marking>,
@@ -157,11 +157,11 @@ pub struct Config {
     pub samples: u32,
     /// When a fragment counts.
     pub accept: Accept,
-    /// Which fragments decide whether a point is inside; only for [`Accept::Parity`].
+    /// Fragments that decide whether a point is inside; only for [`Accept::Parity`].
     pub inside: Inside,
     /// Hits at the ends of rays; only for [`Accept::Parity`] and [`Leaves::Voxels`].
     pub ends: Ends,
-    /// Which cells keep a triangle.
+    /// Cells that keep a triangle.
     pub coverage: Coverage,
     /// Builder that bins triangles into cells. Changes no hit.
     pub builder: Builder,

@@ -43,7 +43,7 @@ pub enum Fault {
     Dangling {
         /// The list: view, row and column as one number.
         list: usize,
-        /// Where it ends, or what it leads to: a fragment or a page.
+        /// Its end, or its target: a fragment or a page.
         place: u32,
     },
     /// A word that leads to a page has no used slot, or more than a page has.
@@ -147,7 +147,7 @@ impl Contents {
         place as usize * entry
     }
 
-    /// Where the fragments of a list are, in the order in which they are read.
+    /// Places of the fragments of a list, in the order in which they are read.
     ///
     /// # Errors
     /// The list leaves the pool or is a cycle.

@@ -26,7 +26,7 @@ pub struct Prepared {
     pub viewpoint: Viewpoint,
     /// Only what the camera sees is evaluated.
     pub only_camera: bool,
-    /// Which triangles these are.
+    /// Numbers of these triangles.
     pub placed: Placed,
 }
 

@@ -36,7 +36,7 @@ pub enum Demand {
 }
 
 impl Demand {
-    /// Which structures it is made of.
+    /// Structures that it is made of.
     pub fn kind(&self) -> StructureKind {
         match self {
             Self::Exact { .. } => StructureKind::Primitive,
@@ -93,7 +93,7 @@ pub struct Deviation {
     pub at_most_rate: f64,
 }
 
-/// Which cases a row is held against.
+/// Cases that a row is held against.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cases {
     /// All of them.

@@ -8,7 +8,7 @@ use crate::rays::along_axis;
 use crate::shapes::{Triangle, layers_and_sphere, with_twins};
 use crate::tier::is_full;
 
-/// Where views are centred.
+/// Centre of views.
 pub const EYE: [f32; 3] = [0.125, -0.25, 0.375];
 
 /// Rays per comparison: in the full tier, and in every run.

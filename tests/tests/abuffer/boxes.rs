@@ -49,7 +49,7 @@ fn built(bench: &Bench, config: Config, objects: &[Vec<Triangle>], eye: [f32; 3]
     assert_eq!(structure.status(0).expect("the status is readable").corrupted, 0, "{config:?}");
     let report = structure.report().expect("the header is readable");
     assert_eq!(report.bytes() - report.slack(), report.formula_bytes, "{config:?}");
-    // Where a fragment lies in the pool is not part of a hit.
+    // The place of a fragment in the pool is not part of a hit.
     let place = !config.accept.needs_triangles();
     let key =
         |[t, primitive, a, b]: [u32; 4]| if place { [t, primitive, 0, 0] } else { [t, primitive, a, b] };

@@ -29,7 +29,7 @@ fn scene() -> Vec<Triangle> {
     triangles
 }
 
-/// Where the triangles are at a step: bent and stretched, step 0 as they are.
+/// Positions of the triangles at a step: bent and stretched, step 0 as they are.
 fn moved(triangles: &[Triangle], step: usize) -> Vec<Triangle> {
     let s = step as f32;
     let place = |[x, y, z]: [f32; 3]| [x + 0.7 * s * y, y * (1.0 + 0.4 * s), z - s * x * x * 0.3];

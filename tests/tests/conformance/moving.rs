@@ -26,7 +26,7 @@ use rasray_tracer::build_until_complete;
 /// Rays at a time.
 const RAYS: Counts<usize> = Counts { quick: 120, software: 4000, full: 40_000 };
 
-/// Where a scene comes from.
+/// Source of a scene.
 enum Source {
     /// Below `RASRAY_SCENES`.
     File(&'static str),

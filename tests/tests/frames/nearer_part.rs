@@ -223,8 +223,8 @@ fn built(
     structure
 }
 
-/// Where rays start and what of a surface is the same in every build: where hits are triangles it is known as well as the
-/// coarser part says.
+/// Values of a surface that are the same in every build: where hits are triangles it is known as well as the coarser
+/// part says.
 fn shaded(surface: &Surface, is_stored: bool) -> Vec<u8> {
     let error = if is_stored { surface.position_error } else { 0.0 };
     bytemuck::bytes_of(&Surface { position_error: error, ..*surface }).to_vec()

@@ -56,7 +56,7 @@ fn run(ids: Range<u32>) -> Vec<Range<u32>> {
     std::iter::once(ids).collect()
 }
 
-/// Which triangles move: all, none, one run in the middle, and every third one and some more.
+/// Triangles that move: all, none, one run in the middle, and every third one and some more.
 pub fn divisions(count: u32) -> Vec<(&'static str, Vec<Range<u32>>)> {
     let scattered =
         (0..count).filter(|id| id % 3 == 0 || id % 5 == 1 || id % 5 == 3).map(|id| id..id + 1).collect();

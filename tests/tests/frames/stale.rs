@@ -1,4 +1,4 @@
-//! Which frames build: those for which something changed that the structure depends on.
+//! Frames that build: those for which something changed that the structure depends on.
 
 use rasray_ads::{CameraView, Structure, Viewpoint};
 use rasray_gpu::Timing;

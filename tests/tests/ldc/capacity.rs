@@ -71,7 +71,7 @@ fn every_edge_capacity(config: Config) {
         let fits = fragment_capacity >= fragments && conservative_capacity >= conservative;
         assert_eq!(status.complete, fits, "capacity for {fragment_capacity} and {conservative_capacity}");
         assert_eq!(demand(&status, "fragments"), fragments, "capacity for {fragment_capacity}");
-        // Which fragments represent a triangle is known only where all fragments fit.
+        // The fragments that represent a triangle are known only where all fragments fit.
         let counted = if fragment_capacity >= fragments { conservative } else { 0 };
         assert_eq!(
             demand(&status, "conservative"),

@@ -18,7 +18,7 @@ fn room(bench: &Bench) -> (GpuScene, Vec<Ray>) {
     (scene, rays)
 }
 
-/// Where rays hit something, and what is shaded there, to the bit. Fragments without ids are identified by
+/// Hits of rays, and their surfaces, to the bit. Fragments without ids are identified by
 /// their payload: their place in a pool follows the order of threads.
 fn shaded(bench: &Bench, structure: &dyn Structure, rays: &[Ray]) -> Vec<Option<[u32; 10]>> {
     let shaded: Vec<_> = bench

@@ -1,4 +1,4 @@
-//! Which cell centres a triangle covers: held against the oracle, on the test kernel and in what a build
+//! Cell centres that a triangle covers: held against the oracle, on the test kernel and in what a build
 //! stores. Centres that single precision cannot decide are left out.
 
 use std::collections::HashMap;

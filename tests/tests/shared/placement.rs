@@ -1,4 +1,4 @@
-//! Where header passes place views and cells (`ads/placement.glsl`), on the device and held against arithmetic in f64.
+//! Placement of views and cells by header passes (`ads/placement.glsl`), on the device and held against arithmetic in f64.
 
 use bytemuck::cast_slice;
 use rasray_shaders_glsl::ADS_TEST_PLACEMENT;

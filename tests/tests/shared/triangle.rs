@@ -20,7 +20,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|axis| a[axis] * b[axis]).sum()
 }
 
-/// Where the ray hits the triangle's plane, within the range of its corners along the ray's longest axis, and how far
+/// Hit of the ray on the triangle's plane, within the range of its corners along the ray's longest axis, and how far
 /// double precision may be off.
 fn truth(case: &Case) -> (f64, f64) {
     let wide = |p: [f32; 3]| p.map(f64::from);

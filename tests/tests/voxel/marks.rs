@@ -1,4 +1,4 @@
-//! Which voxels are occupied, and along which axes they are searched.
+//! Occupied voxels, and the axes along which they are searched.
 
 use rasray_shaders_glsl::constants::voxel::VOXEL_OCCUPIED;
 use rasray_tests::harness::Bench;

@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 /// A campaign that is to be made.
 pub(super) struct Campaign<'a> {
     pub(super) plan: &'a Plan,
-    /// Where the plan is from, for messages.
+    /// Origin of the plan, for messages.
     pub(super) about: &'a str,
     pub(super) given: &'a CampaignArguments,
     /// The command as it was typed.
@@ -340,7 +340,7 @@ impl<'a> Campaign<'a> {
     }
 }
 
-/// Where the picture of a run is.
+/// File of the picture of a run.
 pub(super) fn picture_place(folder: &Path, key: &str) -> PathBuf {
     folder.join("pictures").join(format!("{key}.png"))
 }

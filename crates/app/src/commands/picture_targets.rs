@@ -1,4 +1,4 @@
-//! Where a picture and its report go.
+//! Destinations of a picture and its report.
 
 use super::steps::{destination, keep_inputs};
 use crate::arguments::{RenderArguments, ToneArguments};
@@ -8,7 +8,7 @@ use rasray_experiment::{AovSelection, Shard};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-/// Where a picture and its report go.
+/// Destinations of a picture and its report.
 pub(super) struct Targets {
     pub(super) image: Option<(Destination, ImageFormat)>,
     pub(super) report: Option<Destination>,
@@ -87,7 +87,7 @@ fn numbered(path: &Path, number: u32) -> Option<PathBuf> {
     Some(path.with_file_name(format!("{}{number:0width$}{}", &name[..begin], &name[end..])))
 }
 
-/// Where and how the image is written; refuses images that the format cannot hold.
+/// File and format of the image; refuses images that the format cannot hold.
 fn image_target(
     given: &RenderArguments,
     path: Option<&Path>,

@@ -24,7 +24,7 @@ pub(super) struct Pictures<'a> {
     pub(super) line: &'a str,
     pub(super) interrupt: &'a Interrupt,
     pub(super) frame: Frame,
-    /// Which samples are made; absent: all.
+    /// Samples to make; absent: all.
     pub(super) shard: Option<Shard>,
     pub(super) aovs: AovSelection,
     pub(super) system: SystemConfig,

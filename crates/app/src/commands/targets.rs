@@ -1,4 +1,4 @@
-//! Where the results of a comparison go.
+//! Destinations of the results of a comparison.
 
 use super::steps::{destination, keep_inputs};
 use crate::arguments::CompareArguments;
@@ -11,7 +11,7 @@ use rasray_report::{Campaign, Report, campaign_markdown, json_shown, markdown};
 use std::ffi::OsStr;
 use std::path::Path;
 
-/// Where results go.
+/// Destinations of results.
 pub(super) struct Targets {
     report: Option<Destination>,
     /// A report that takes a line for each cell.
@@ -71,7 +71,7 @@ impl Targets {
         [&self.report, &self.html, &self.markdown].into_iter().flatten().any(Destination::is_stdout)
     }
 
-    /// Where rays and hits go.
+    /// Destinations of rays and hits.
     pub(super) fn save(&self) -> &SaveTargets {
         &self.save
     }

@@ -223,7 +223,7 @@ impl Cells {
         Some(Report { command: self.origin.command.clone(), ..report })
     }
 
-    /// Where the run of the cell at a place is in [`Self::report`].
+    /// Place in [`Self::report`] of the run of the cell at a place.
     pub(crate) fn run(&self, place: usize) -> usize {
         self.made.range(..place).count()
     }

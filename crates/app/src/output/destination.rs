@@ -15,7 +15,7 @@ const UNFINISHED: &str = ".rasray-tmp";
 /// Random letters and digits in their names.
 const RANDOM: usize = 6;
 
-/// Where a file will be put. Checked when it is made, before any work is done for the file.
+/// Destination of a file. Checked when it is made, before any work is done for the file.
 #[derive(Clone, Debug)]
 pub struct Destination {
     /// As the user wrote it, for messages.
@@ -218,7 +218,7 @@ impl Destination {
     }
 }
 
-/// Where a name leads: the end of its links, whether or not there is a file yet.
+/// Target of a name: the end of its links, whether or not there is a file yet.
 fn followed(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
     for _ in 0..LINKS {

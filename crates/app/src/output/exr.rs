@@ -34,7 +34,7 @@ pub struct Metadata {
     pub key: Option<String>,
     /// Name and version of its denoiser; absent without one.
     pub denoised: Option<String>,
-    /// Which share of the samples of which picture it holds; absent: all.
+    /// Picture, and share of its samples, that it holds; absent: all.
     pub part: Option<PartOf>,
 }
 
@@ -43,7 +43,7 @@ pub struct Metadata {
 pub struct PartOf {
     /// The key of the picture, which all its parts have.
     pub picture: String,
-    /// Which share.
+    /// The share.
     pub shard: Shard,
 }
 

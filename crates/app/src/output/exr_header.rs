@@ -10,7 +10,7 @@ pub(super) const CHECKSUM: &str = "rasrayChecksum";
 /// The checksum before it is known, as long as it will be.
 pub(super) const NO_CHECKSUM: &str = "0000000000000000000000000000000000000000000000000000000000000000";
 
-/// Where a header begins: behind magic number and version.
+/// Start of a header, bytes: behind magic number and version.
 const FIRST: usize = 8;
 
 const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];

@@ -13,7 +13,7 @@ pub(crate) struct PartFile {
     bytes: Vec<u8>,
     /// As in the file.
     pub(crate) metadata: Metadata,
-    /// Which share it is.
+    /// The share that it is.
     pub(crate) part: PartOf,
 }
 

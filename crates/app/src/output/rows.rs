@@ -102,7 +102,7 @@ impl Rows {
         Ok(Self { place, rows, is_changed: false })
     }
 
-    /// Where they are written.
+    /// Their destination.
     pub(crate) fn place(&self) -> &Destination {
         &self.place
     }

@@ -16,7 +16,7 @@ fn accuracy(report: &Report, run: usize) -> &Accuracy {
     report.runs[run].accuracy.as_ref().expect("rays are judged")
 }
 
-/// Where the records of a `.npy` file of version 1 begin.
+/// Start of the records of a `.npy` file of version 1.
 fn records(bytes: &[u8]) -> usize {
     10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]))
 }

@@ -1,4 +1,4 @@
-//! Where results go and how much is said beside them: standard output, quiet and verbose runs, names that a terminal
+//! Destinations of results, and messages beside them: standard output, quiet and verbose runs, names that a terminal
 //! would obey, completions and pages.
 
 use crate::scripted::{HARNESS, command, entries, scripted, stderr, stdout};

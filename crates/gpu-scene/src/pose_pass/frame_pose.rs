@@ -14,7 +14,8 @@ use super::sources::{DrawPlace, JointPlace, SkinPlace};
 use crate::attributes::normal_matrix;
 use crate::layout::{EmissiveTriangle, Light};
 
-/// Where everything that moves is in one frame: plain data, rounded to f32 once, for [`PosePass::record`](super::PosePass::record).
+/// Poses of everything that moves in one frame: plain data, rounded to f32 once, for
+/// [`PosePass::record`](super::PosePass::record).
 #[derive(Clone, Debug, PartialEq)]
 pub struct FramePose {
     pub(super) placements: Vec<PosePlacement>,
@@ -32,7 +33,7 @@ pub struct FramePose {
 }
 
 impl FramePose {
-    /// Where the cameras of the scene are, in their order: world, metres, rigid.
+    /// Poses of the cameras of the scene, in their order: world, metres, rigid.
     pub fn cameras(&self) -> &[DAffine3] {
         &self.cameras
     }
@@ -131,7 +132,7 @@ impl Placer<'_> {
         }
     }
 
-    /// Where an instance without joints is.
+    /// Placement of an instance without joints.
     pub fn world_from_mesh(&self, instance: usize) -> DAffine3 {
         if !self.is_placed {
             return self.scene.instances[instance].world_from_mesh;

@@ -1,4 +1,4 @@
-//! Which triangles move, together with what, and where all others are.
+//! Triangles that move, the parts that they move in, and the triangles that stay.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

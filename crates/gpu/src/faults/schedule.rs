@@ -1,11 +1,11 @@
-//! Which call fails and how, and what has been made and not destroyed.
+//! Schedule of failing calls, and account of what has been made and not destroyed.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use ash::vk;
 
-/// Which call fails.
+/// The failing call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum At {
     /// The call of this index among all that can fail, from 0.

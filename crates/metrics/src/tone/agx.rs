@@ -57,7 +57,7 @@ pub(super) fn agx(linear: [f32; 3]) -> [f32; 3] {
     inside_screen(transform(&REC_709_FROM_2020, outset))
 }
 
-/// Where light lies between the darkest and the brightest that are shown, in stops: 0 to 1.
+/// Place of light between the darkest and the brightest that are shown, in stops: 0 to 1.
 fn position(light: f32) -> f32 {
     // The smallest normal number, for what has no logarithm.
     let stops = (light.max(f32::MIN_POSITIVE) / MIDDLE_GREY).log2();

@@ -27,7 +27,7 @@ pub struct PathOptions {
     /// True if light goes straight through smooth thin panes and takes their tint, unless there are no bounces; else
     /// panes stop shadow rays, and going through is a scattering.
     pub passes_panes: bool,
-    /// Where shadow rays of smooth surfaces start.
+    /// Origin of shadow rays of smooth surfaces.
     pub shadow_terminator: ShadowTerminator,
     /// True if surfaces reflect by Ward's lobe ([`Surface::is_ward`]).
     pub is_ward: bool,
@@ -76,7 +76,7 @@ pub(super) struct PathState {
     choices: u32,
     /// Surfaces that the ray has passed in a straight line.
     passed: u32,
-    /// Where the last scattering was.
+    /// Point of the last scattering.
     pub origin: Vec3,
     shadow_terminator: ShadowTerminator,
 }

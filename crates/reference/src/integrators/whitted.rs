@@ -17,7 +17,7 @@ pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
     render: |posed, view, values| posed.render_whitted(view, Rules::of(values)),
 };
 
-/// Which rays are followed.
+/// Rays that are followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rules {
     pub ray_depth: u32,
@@ -72,7 +72,7 @@ pub(super) struct Node {
     medium: Option<usize>,
     /// Reflections and refractions so far.
     depth: u32,
-    /// Which refractions and surfaces passed led here.
+    /// Refractions and passed surfaces that led here.
     branch: u32,
 }
 

@@ -1,4 +1,4 @@
-//! Which triangle a ray truly hits: decided exactly on the single-precision data that the device got.
+//! The triangle that a ray truly hits: decided exactly on the single-precision data that the device got.
 //!
 //! A ray is inside a triangle iff no two of its three edge determinants have strictly different
 //! signs (edges and vertices count as inside); if all three are zero the ray lies in the triangle's

@@ -110,8 +110,8 @@ impl Terms {
     }
 }
 
-/// Where the direction leads, `cosine` being its cosine at a normal; `None` if that normal and the geometric one disagree or
-/// the direction grazes.
+/// Side that the direction leads to, `cosine` being its cosine at a normal; `None` if that normal and the geometric one
+/// disagree or the direction grazes.
 fn side_of(surface: &Surface, world_i: Vec3, cosine: f32) -> Option<Side> {
     let geometric = surface.geometric_normal.dot(world_i);
     if cosine > 0.0 && geometric > 0.0 {

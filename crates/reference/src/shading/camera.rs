@@ -21,7 +21,7 @@ pub struct View {
     pub samples: u32,
     /// Seed of all random numbers.
     pub seed: u32,
-    /// Where random numbers come from.
+    /// Source of random numbers.
     pub sampler: Sampler,
 }
 

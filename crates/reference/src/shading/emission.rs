@@ -20,7 +20,7 @@ const DISK_MARGIN: f32 = 1.001;
 /// A photon as it leaves a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
-    /// Where it goes.
+    /// Its ray.
     pub ray: Ray,
     /// W, over the probability of its choice.
     pub flux: Vec3,

@@ -105,7 +105,7 @@ impl<'a> PosedScene<'a> {
         Self { back_faces, ..self }
     }
 
-    /// Which rays pass the backs of single-sided surfaces.
+    /// Rays that pass the backs of single-sided surfaces.
     pub fn back_faces(&self) -> BackFaces {
         self.back_faces
     }

@@ -35,7 +35,7 @@ pub const RANDOM_ROULETTE: u32 = 8;
 /// Dimension of the first blended surface that a path hits; the n-th adds n.
 pub const RANDOM_OPACITY_FIRST: u32 = 65536;
 
-/// Which stream of random numbers is drawn from.
+/// Stream of random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RandomStream {
     /// Seed of the image.
@@ -66,9 +66,9 @@ impl RandomStream {
 /// The numbers of one sample of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Numbers {
-    /// Where they come from.
+    /// Their source.
     pub sampler: Sampler,
-    /// Which they are.
+    /// Their stream.
     pub stream: RandomStream,
 }
 

@@ -208,7 +208,7 @@ fn bars_of_passes_are_as_long_as_the_figures_of_the_table() {
     }
 }
 
-/// Which part of a build is the host's is no pass of a device, however many passes there are.
+/// The host's part of a build is no pass of a device, however many passes there are.
 #[test]
 fn what_the_host_does_has_a_bar_of_its_own() {
     let (report, figures) = everything("spheres:10k");

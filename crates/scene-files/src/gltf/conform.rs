@@ -31,7 +31,7 @@ pub(super) fn conform(path: &Path, tree: &mut Value) -> Result<Found, SceneError
     Ok(found)
 }
 
-/// Where a value is; written out only for messages. The depth is bounded by that of the JSON parser.
+/// Place of a value; written out only for messages. The depth is bounded by that of the JSON parser.
 struct Place<'a> {
     above: Option<&'a Place<'a>>,
     step: Step<'a>,

@@ -1,4 +1,4 @@
-//! Which extensions are understood, and what is said of the others.
+//! Extensions that are understood, and remarks on the others.
 
 use std::collections::BTreeSet;
 use std::path::Path;

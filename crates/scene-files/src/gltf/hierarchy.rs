@@ -6,7 +6,7 @@ use super::document::Document;
 use crate::{Limits, SceneChoice};
 use rasray_scene::SceneError;
 
-/// Where every node is.
+/// Transforms of all nodes.
 pub(super) struct Hierarchy {
     /// Map from each node's space to the world.
     pub world: Vec<DAffine3>,

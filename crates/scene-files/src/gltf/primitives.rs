@@ -74,7 +74,7 @@ pub(super) struct Read {
     pub mesh: Mesh,
     /// The mesh before morph targets and joints moved it, if any do.
     pub deformed: Option<DeformedMesh>,
-    /// Where a skinned mesh is; other meshes are where their node is.
+    /// Transform of a skinned mesh; other meshes have that of their node.
     pub world_from_mesh: Option<DAffine3>,
 }
 

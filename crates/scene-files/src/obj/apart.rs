@@ -12,7 +12,7 @@ use rasray_scene::Mesh;
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     pub name: String,
-    /// Where its faces begin in the indices of the mesh.
+    /// Start of its faces in the indices of the mesh.
     pub first: usize,
 }
 

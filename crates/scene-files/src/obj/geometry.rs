@@ -114,7 +114,7 @@ struct Corner {
     normal: Option<u32>,
 }
 
-/// Where the normals of a face come from.
+/// Source of the normals of a face.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Normals {
     /// The face is flat.

@@ -45,7 +45,7 @@ pub(super) struct MtlMaterial {
 /// A texture reference with the options that are understood.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Map {
-    /// Where the name leads, from the folder of the MTL file.
+    /// Path that the name leads to, from the folder of the MTL file.
     pub place: Place,
     /// As written, for names and messages.
     pub name: String,

@@ -70,7 +70,7 @@ impl Statement<'_> {
         String::from_utf8_lossy(&self.rest).into_owned()
     }
 
-    /// Where this is, for messages.
+    /// Place of this, for messages.
     pub fn place(&self) -> String {
         format!("line {}", self.line)
     }

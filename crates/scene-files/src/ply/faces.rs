@@ -71,7 +71,7 @@ pub(super) struct Faces {
     triangles: u64,
 }
 
-/// Where the properties of faces are that are shown.
+/// Places of the properties of faces that are shown.
 struct Columns {
     indices: usize,
     /// By property: channel of the colour.
@@ -280,7 +280,7 @@ impl Group {
     }
 }
 
-/// Which property of faces or strips lists the indices of vertices.
+/// Property of faces or strips that lists the indices of vertices.
 fn index_list(path: &Path, element: &Element) -> Result<usize, SceneError> {
     let is_list = |property: &Property| {
         property.length.is_some() && matches!(property.name.as_str(), "vertex_indices" | "vertex_index")

@@ -81,7 +81,7 @@ pub(super) struct Header {
     pub elements: Vec<Element>,
     /// Names of image files, from comments `TextureFile` as MeshLab and others write them.
     pub textures: Vec<String>,
-    /// Where the body begins, in bytes from the start of the file.
+    /// Start of the body, in bytes from the start of the file.
     pub body: usize,
     /// Lines of the header.
     pub lines: usize,

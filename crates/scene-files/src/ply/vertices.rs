@@ -40,10 +40,10 @@ const COLUMNS: [(&str, usize); 14] = [
     ("texture_t", 7),
 ];
 
-/// Where colours begin in such a row.
+/// Start of the colours in such a row.
 const COLOR: usize = 8;
 
-/// Which channel of a colour a property is, 3 for alpha.
+/// Channel of a colour that a property is, 3 for alpha.
 pub(super) fn channel(property: &Property) -> Option<usize> {
     let names: [[&str; 3]; 4] = [
         ["red", "diffuse_red", "r"],

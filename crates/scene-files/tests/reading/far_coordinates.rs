@@ -8,7 +8,7 @@ use glam::{DAffine3, DVec3};
 use rasray_scene::{Moment, Scene};
 use rasray_scene_files::{LoadOptions, load};
 
-/// Where the plate is: UTM zone 33N.
+/// Position of the plate: UTM zone 33N.
 const UTM: [f64; 3] = [500_123.0, 4_649_776.0, 112.0];
 /// Vertices of the plate along a side.
 const SIDE: usize = 11;

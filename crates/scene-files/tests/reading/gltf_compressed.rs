@@ -26,7 +26,7 @@ fn read(file: &str) -> Scene {
 struct Corner {
     position: DVec3,
     normal: Option<Vec3>,
-    /// Where the texture is read.
+    /// Place at which the texture is read.
     texture: Option<[f32; 2]>,
     color: Option<[f32; 4]>,
 }

@@ -43,7 +43,7 @@ fn long_chains_are_multiplied_in_f64() {
     let world = scene.instances[0].world_from_mesh;
     assert!(world.translation.length() < 1e-10, "{}", world.translation);
     assert!((world.matrix3.x_axis - DVec3::X).length() < 1e-12, "{}", world.matrix3);
-    // The same steps as matrices.
+    // The steps as matrices.
     let (sin, cos) = (2.0 * half).sin_cos();
     let transform =
         format!(r#""matrix":[{cos:.17},{sin:.17},0,0,{:.17},{cos:.17},0,0,0,0,1,0,1,0,0,1]"#, -sin);

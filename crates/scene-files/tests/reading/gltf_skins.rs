@@ -28,7 +28,7 @@ fn skinned(places: &[[f32; 3]], joints: [u8; 4], weights: [f32; 4], mesh_node: &
     ))
 }
 
-/// Where a joint is that moves nothing, and which joint comes first, does not cost a digit.
+/// The place of a joint that moves nothing, and the order of joints, do not cost a digit.
 #[test]
 fn a_far_joint_without_weight_costs_no_digits() {
     let (far, near, beside) = ([1.0e5, -3.0e6, 7.0], [0.25, 0.5, 0.125], [-0.5, 0.75, 0.3]);

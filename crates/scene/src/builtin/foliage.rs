@@ -37,7 +37,7 @@ impl Default for Foliage {
 
 /// Half the side of the ground, metres: near its border it rises over the horizon of the camera.
 const GROUND: f64 = 20.0;
-/// Where the ground begins to rise, metres from the middle, and how high its border is.
+/// Distance from the middle at which the ground begins to rise, and height of its border, metres.
 const RISE: (f64, f64) = (12.5, 2.4);
 /// Seed of everything that grows.
 const SEED: u64 = 0x5EED_0008;
@@ -46,7 +46,7 @@ const DURATION: f64 = 8.0;
 /// Foot and height of each tree, metres.
 const TREES: [(f64, f64, f64); 5] =
     [(0.3, 0.0, 6.2), (-3.9, -2.6, 5.0), (4.2, -3.4, 5.6), (-7.6, -7.5, 6.8), (9.0, -9.0, 6.4)];
-/// Where grass grows: middle and half the extent, metres.
+/// Area of the grass: middle and half the extent, metres.
 const MEADOW: (f64, f64, f64, f64) = (0.0, 1.2, 7.0, 5.2);
 /// One of so many is a blade of grass.
 const GRASS_SHARE: u64 = 3;
@@ -152,7 +152,7 @@ struct Blade {
     wide: DVec3,
     /// Distances that the wind moves its foot and its tip, metres.
     give: [f64; 2],
-    /// Where it is in its own flutter, as a share of a turn.
+    /// Phase of its flutter, as a share of a turn.
     phase: f64,
 }
 

@@ -97,7 +97,7 @@ pub fn mirror_hall(parameters: MirrorHall) -> Scene {
     }
 }
 
-/// Which candidates are mirrors: in order, up to the first that shows more pixels than are still wanted; then those that
+/// Candidates that are mirrors: in order, up to the first that shows more pixels than are still wanted; then those that
 /// fill the rest. What the camera does not see is so as what comes before it.
 fn choose(candidates: &[Shapes], fixed: &[Shapes], camera: &Camera, share: f64) -> Vec<bool> {
     let meshes: Vec<Mesh> = candidates.iter().chain(fixed).cloned().map(Shapes::finish).collect();
@@ -162,7 +162,7 @@ fn bays() -> impl Iterator<Item = f64> {
     (0..10).map(|bay| ENDS.0 + (f64::from(bay) + 0.5) * BAY)
 }
 
-/// Where columns stand along z.
+/// Places of columns along z.
 fn column_places() -> impl Iterator<Item = f64> {
     (1..9).map(|bay| ENDS.0 + f64::from(bay) * BAY)
 }

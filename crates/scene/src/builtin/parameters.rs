@@ -114,7 +114,7 @@ impl Parameters {
         Ok(())
     }
 
-    /// Which parameters the scene has.
+    /// Parameters that the scene has.
     fn what_there_is(&self) -> String {
         match self.known.as_slice() {
             [] => "the scene takes none".to_owned(),

@@ -278,7 +278,7 @@ fn glass(meshes: &mut Vec<Mesh>, fineness: Fineness) {
     turned("bowl", GLASS, BOWL, &bowl_out);
 }
 
-/// Where the bowl stands.
+/// Position of the bowl.
 const BOWL: DVec3 = DVec3::new(0.02, 0.0, -0.02);
 
 /// The jug with its handle, a plate, the candlestick with its candle.
@@ -344,7 +344,7 @@ fn metal(meshes: &mut Vec<Mesh>, fineness: Fineness) {
     meshes.push(wick.finish());
 }
 
-/// Where the plate stands, on the cloth.
+/// Position of the plate, on the cloth.
 const PLATE: DVec3 = DVec3::new(0.14, 0.0, 0.27);
 
 /// A fruit: its profile about its axis, from blossom to stalk, around its middle.

@@ -62,7 +62,7 @@ impl Default for Teapots {
     }
 }
 
-/// Where a pot stands: a spiral of golden angles, as much room for each.
+/// Position of a pot: a spiral of golden angles, as much room for each.
 fn place(index: u64) -> (f64, f64) {
     let (sin, cos) = turn(index as f64 * 0.381_966_011_250_105);
     let distance = SPACING * (index as f64 + 0.5).sqrt();

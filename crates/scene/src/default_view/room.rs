@@ -9,7 +9,7 @@ use super::looking::camera_looking_at;
 use super::sight::Sight;
 use crate::{Camera, Scene};
 
-/// Where a room is looked for, in the middle of the bounds, and where the eye may be: shares of the
+/// Region that is searched for a room, in the middle of the bounds, and region of the eye: shares of the
 /// height of the bounds, preferred ones first.
 const HEIGHTS: [f64; 5] = [0.35, 0.25, 0.5, 0.15, 0.7];
 /// Directions, over the whole sphere, in which one looks around.

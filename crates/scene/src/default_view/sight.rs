@@ -21,7 +21,7 @@ const ENTRIES_FREE: usize = 1 << 20;
 /// Tests of a ray against a triangle, over all rays: about a second's worth.
 const MAX_TESTS: usize = 50_000_000;
 
-/// Where a ray hits a surface.
+/// Hit of a ray on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hit {
     /// Distance in lengths of the direction.
@@ -216,7 +216,7 @@ impl<'a> Sight<'a> {
         (cell.z * cells.y + cell.y) * cells.x + cell.x
     }
 
-    /// Where the ray intersects the triangle's plane within its three edges.
+    /// Intersection of the ray with the triangle's plane within its three edges.
     fn meet(&self, triangle: [u32; 2], origin: DVec3, direction: DVec3) -> Option<Hit> {
         let ([a, b, c], mirrored) = corners(self.scene, triangle)?;
         let (to_b, to_c, from_a) = (b - a, c - a, origin - a);

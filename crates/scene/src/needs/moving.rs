@@ -1,4 +1,4 @@
-//! Which instances change with time.
+//! Instances that change with time.
 
 use crate::Scene;
 use crate::animation::{ChannelValues, Rig};

@@ -1,4 +1,4 @@
-//! Which textures of a material a workload reads.
+//! Textures of a material that a workload reads.
 
 use super::workload::Workload;
 use crate::{AlphaMode, Material, TextureRef};

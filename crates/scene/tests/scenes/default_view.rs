@@ -1,4 +1,4 @@
-//! Where the default camera stands in rooms and around solids, and what counts as light.
+//! Position of the default camera in rooms and around solids, and emission that counts as light.
 
 use glam::{DAffine3, DVec3};
 use rasray_scene::default_view::{bounds, default_camera, default_light, ensure_lit, is_lit};

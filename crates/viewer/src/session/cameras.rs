@@ -86,7 +86,7 @@ impl Session {
         }
     }
 
-    /// Which of [`Session::cameras`] is looked through.
+    /// The one of [`Session::cameras`] that is looked through.
     pub fn chosen_camera(&self) -> Option<usize> {
         let Stand::Camera(chosen) = self.stand else { return None };
         self.opening.cameras.iter().position(|(index, _)| *index == chosen)

@@ -39,7 +39,7 @@ pub struct Opening {
     pub duration: f64,
     /// The least and greatest corner of the scene, world, metres.
     pub bounds: (DVec3, DVec3),
-    /// Where pictures are saved: a run of # stands for a number.
+    /// File that pictures are saved as: a run of # stands for a number.
     pub output: PathBuf,
 }
 

@@ -40,7 +40,7 @@ pub(super) struct PictureArea {
     pub(super) view: PictureView,
     /// Pixels of the area in the last frame.
     pub(super) pixels: [u32; 2],
-    /// Where the pointer is on the picture, shares of width and height.
+    /// Position of the pointer on the picture, shares of width and height.
     pointed: Option<[f32; 2]>,
 }
 

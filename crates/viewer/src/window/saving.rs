@@ -7,7 +7,7 @@ use rasray_metrics::Tone;
 /// A picture to be saved.
 #[derive(Clone, Debug)]
 pub struct SavedPicture<'a> {
-    /// Where.
+    /// The file.
     pub place: &'a Path,
     /// Pixels a row and rows.
     pub size: [u32; 2],

@@ -182,7 +182,7 @@ fn every_edge_capacity_of_the_conservative_lists() {
         assert!(ample.complete && grown.is_none());
         let (nodes, conservative) = (demand(&ample, "nodes"), demand(&ample, "conservative"));
         assert!(conservative > 100, "{ample:?}");
-        // Which pages are begun depends on which threads collide.
+        // The pages that are begun depend on the threads that collide.
         let spread = spread_of_pages(bench.device(), nodes).max(nodes / 8);
         let all = if storage == Storage::Paged { nodes + spread } else { nodes };
         for capacity in [0, 1, conservative / 2, conservative - 1, conservative] {

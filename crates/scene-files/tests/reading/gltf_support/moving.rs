@@ -64,7 +64,7 @@ pub fn messages(scene: &Scene, kind: &str) -> Vec<String> {
     of.map(|warning| warning.message.clone()).collect()
 }
 
-/// Where the corners of an instance are at a time, with all clips.
+/// Corners of an instance at a time, with all clips.
 pub fn corners(scene: &Scene, instance: usize, seconds: f64) -> Vec<DVec3> {
     let clips = (0..scene.animation.clips.len()).collect();
     let posed = scene.at(&Moment { seconds, clips }).expect("a rig");

@@ -16,7 +16,7 @@ pub(super) const MIDDLE: DVec3 = DVec3::new(0.0, RADIUS + 0.002, 0.0);
 pub(super) const SIDE: f64 = 2.3;
 /// Height from which it falls, metres.
 const START: f64 = 1.12;
-/// Where its middle is above the ground, metres: not quite over the ball.
+/// Place of its middle over the ground, metres: not quite over the ball.
 const OFFSET: (f64, f64) = (0.06, -0.04);
 /// Cosine and sine of the angle that it is turned by.
 const TURN: (f64, f64) = (0.96, 0.28);

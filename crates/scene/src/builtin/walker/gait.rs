@@ -77,7 +77,7 @@ fn arm(side: Side, swing: f64, rotations: &mut [DQuat; COUNT]) {
     rotations[side.hand()] = DQuat::from_axis_angle(axis, -0.12);
 }
 
-/// Where a foot is and how it is turned.
+/// Position and rotation of a foot.
 struct Foot {
     /// Of the ankle, metres, world.
     ankle: DVec3,

@@ -36,7 +36,7 @@ pub(super) enum Side {
 impl Side {
     pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
-    /// Where it is along x: the figure looks along +z, its left hand is at +x.
+    /// Its place along x: the figure looks along +z, its left hand is at +x.
     pub fn sign(self) -> f64 {
         if self == Self::Left { 1.0 } else { -1.0 }
     }
