@@ -20,14 +20,17 @@ use rasray_metrics::median;
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Camera, Moment, default_view};
 use rasray_scene_source::{LoadedScene, load};
-use rasray_systems::Spec;
+use rasray_systems::{SYSTEMS, Spec};
 use rasray_tracer::{FrameStructure, Keeping, Refresh, refresh_until_complete};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Systems, an option of some, and whether what moves is a part by itself, the only one that is built with every frame; the
-/// first is what the others are divided by.
-const SYSTEMS: [(&str, Option<[&str; 2]>, bool); 13] = [
+/// A system, an option of it, and true if what moves is a part by itself, the only one that is built with every frame.
+type Variant = (&'static str, Option<[&'static str; 2]>, bool);
+
+/// Systems with several rows; all other systems of the registry have one, without options. The first row is what the others
+/// are divided by.
+const VARIANTS: [Variant; 8] = [
     ("bvh", Some(["builder", "lbvh"]), false),
     ("bvh", Some(["builder", "lbvh"]), true),
     ("bvh", Some(["builder", "ploc"]), false),
@@ -36,12 +39,10 @@ const SYSTEMS: [(&str, Option<[&str; 2]>, bool); 13] = [
     ("bricks", None, false),
     ("bricks", Some(["divisions", "1"]), false),
     ("bricks", None, true),
-    ("dirt", None, false),
-    ("hu", None, false),
-    ("mmrt", None, false),
-    ("selective", None, false),
-    ("ldc", None, false),
 ];
+
+/// The system that has no row: it tests every triangle against every ray of every frame.
+const LEFT_OUT: &str = "brute-force";
 
 /// Rays per pixel of the frames in the table.
 const RAYS: [u32; 3] = [1, 4, 16];
@@ -98,13 +99,18 @@ fn main() -> Result<()> {
     );
     let wanted: Vec<&str> = more.iter().flat_map(|names| names.split(',')).collect();
     let mut measured = Vec::new();
-    for (system, option, in_parts) in SYSTEMS {
+    for (system, option, in_parts) in variants() {
         // The baseline is always there.
         if !(wanted.is_empty() || measured.is_empty() || wanted.contains(&system)) {
             continue;
         }
         let given = option.map(|[name, value]| (name.to_owned(), value.to_owned()));
         let spec = Spec::new(system, "robust", given)?;
+        let missing = device.lacks(&spec.requirements()?);
+        if !missing.is_empty() {
+            println!("{system} is left out: the device lacks {}\n", missing.join(", "));
+            continue;
+        }
         let option = option.map(|words| words.join("="));
         let words = [Some(system), option.as_deref(), in_parts.then_some("in parts")];
         let title = words.into_iter().flatten().collect::<Vec<_>>().join(" ");
@@ -113,6 +119,13 @@ fn main() -> Result<()> {
     }
     print(&measured);
     Ok(())
+}
+
+/// Rows of the table, in its order.
+fn variants() -> impl Iterator<Item = Variant> {
+    let is_single = |name: &str| name != LEFT_OUT && VARIANTS.iter().all(|(system, ..)| *system != name);
+    let single = SYSTEMS.iter().map(|system| system.name).filter(move |name| is_single(name));
+    VARIANTS.into_iter().chain(single.map(|system| (system, None, false)))
 }
 
 fn print(measured: &[Measured]) {

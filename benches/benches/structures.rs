@@ -1,8 +1,8 @@
 //! Build and trace times of every registered system: `cargo bench --bench structures -- [SCENE] [RAYS]`.
 //!
-//! Prints, for every registered system and preset, the median build time and the median trace time of random rays,
-//! alternated between systems in one process. Times of software devices are for ratios on that device. For errors
-//! beside speed use `rasray compare`.
+//! Prints, for every registered system and preset that the device can run, the median build time and the median trace time
+//! of random rays, alternated between systems in one process. Times of software devices are for ratios on that device. For
+//! errors beside speed use `rasray compare`.
 
 use std::ops::ControlFlow;
 
@@ -17,11 +17,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let Setting { name, rays, device, stage, .. } =
         Setting::read("cargo bench --bench structures", "spheres:10k", 4096)?;
     println!("{}, {name}, {rays} incoherent rays, medians of {REPETITIONS}", device.name());
-    let systems: Vec<SystemConfig> = SYSTEMS
-        .iter()
-        .flat_map(|system| system.presets.iter().map(move |preset| (system, *preset)))
-        .map(|(system, preset)| SystemConfig::new(system, preset, OptionValues::default()))
-        .collect();
+    let mut systems = Vec::new();
+    for (system, preset) in
+        SYSTEMS.iter().flat_map(|system| system.presets.iter().map(move |preset| (system, *preset)))
+    {
+        let config = SystemConfig::new(system, preset, OptionValues::default());
+        let missing = device.lacks(&config.spec()?.requirements()?);
+        if missing.is_empty() {
+            systems.push(config);
+        } else {
+            println!("{} is left out: the device lacks {}", system.name, missing.join(", "));
+        }
+    }
     let contestants =
         Contestant::all(&device, &stage, &systems, stage.scene.eye(), REPETITIONS, &mut |_| {
             ControlFlow::Continue(())
