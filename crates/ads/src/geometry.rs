@@ -31,7 +31,10 @@ const READERS: Access = Access::COMPUTE
     .union(Access::INDIRECT_READ)
     .union(Access::TRANSFER_READ);
 
-/// Posed triangles on the device, with the binding set that shaders read them through. Cheap to clone.
+/// Triangles on the device that structures build from, at their positions of one moment, with the binding set that shaders
+/// read them through. [`Geometry::new`] makes it from buffers of a host, which it reads in place where their layout allows.
+///
+/// Clones are cheap handles to the same buffers.
 #[derive(Clone, Debug)]
 pub struct Geometry {
     desc: GeometryDesc,
@@ -375,6 +378,8 @@ impl Geometry {
     /// Takes the buffers handed in over from the queue family that wrote them, for the one of the device: the second half
     /// of a transfer of ownership, after a semaphore that the first half signals. Families that are equal need none, and
     /// nothing is recorded. What is written of a buffer by the same family later needs no other transfer.
+    ///
+    /// Not tested on a device with two queue families: tests check the recorded barriers alone.
     pub fn record_acquire(&self, recorder: &mut Recorder<'_>, from_family: u32) {
         let ranges = self.ranges(recorder.device());
         recorder.acquire(&ranges, from_family, READERS);
@@ -383,6 +388,8 @@ impl Geometry {
     /// Hands the buffers over to a queue family that writes them next: the first half of a transfer of ownership. The
     /// other family records the second one, over [`Geometry::ranges`]. Families that are equal need none, and nothing is
     /// recorded.
+    ///
+    /// Not tested on a device with two queue families, as [`Geometry::record_acquire`].
     pub fn record_release(&self, recorder: &mut Recorder<'_>, to_family: u32) {
         let ranges = self.ranges(recorder.device());
         recorder.release(&ranges, to_family, READERS);

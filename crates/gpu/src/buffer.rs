@@ -100,7 +100,8 @@ pub struct RawBuffer<'a> {
     pub usage: BufferUsage,
 }
 
-/// A buffer. Clones are handles to the same buffer.
+/// Memory of a device, made by [`Device::create_buffer`] or wrapped by [`Device::buffer_from_raw`]. Clones are handles to the
+/// same buffer.
 #[derive(Clone)]
 pub struct Buffer {
     pub(crate) inner: Arc<BufferInner>,
@@ -270,7 +271,8 @@ impl Buffer {
         self.inner.mapped.is_some()
     }
 
-    /// Writes bytes from the host. The device must not be using the range.
+    /// Writes bytes from the host. The device must not be using the range: see
+    /// [ranges of buffers](crate#ranges-of-buffers) for the rule, and for what a race can do.
     ///
     /// # Errors
     /// [`GpuError::InvalidUse`] for a device-local buffer, [`GpuError::OutOfRange`] beyond its end.
@@ -287,7 +289,8 @@ impl Buffer {
     }
 
     /// Reads bytes to the host. The device must not be writing the range, and must have made its writes
-    /// visible to the host (every submission of [`Device::submit`] ends so).
+    /// visible to the host (every submission of [`Device::submit`] ends so): see
+    /// [ranges of buffers](crate#ranges-of-buffers).
     ///
     /// # Errors
     /// As [`Buffer::write`].

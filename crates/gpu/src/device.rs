@@ -44,8 +44,10 @@ impl Default for DeviceDesc {
     }
 }
 
-/// A Vulkan device with one queue. Clones are handles to the same device, which lives as long as any of them
-/// or any object made from it.
+/// A Vulkan device with one queue. It makes buffers and pipelines, and submits recorded commands. [`Device::create`] makes a
+/// device, [`Device::from_raw`] takes that of a host.
+///
+/// Clones are handles to the same device, which lives as long as any of them or any object made from it.
 #[derive(Clone)]
 pub struct Device {
     pub(crate) core: Arc<Core>,

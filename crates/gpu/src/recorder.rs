@@ -29,14 +29,15 @@ use self::bound::Bound;
 pub use self::commands_of_pass::PassCommands;
 pub use self::render_area::RenderArea;
 
-/// Records commands into a command buffer. It never submits, waits or allocates device memory, but for a submission of this
-/// crate whose passes the host times one by one.
+/// Recorder of commands into one command buffer: of [`Device::submit`], of [`Flights`](crate::Flights), or of a host
+/// ([`Recorder::from_raw`]). It never submits, waits or allocates device memory, except in a submission of this crate whose
+/// passes the host times one by one.
 ///
-/// Mistakes (a range beyond a buffer, a dispatch without a pipeline …) do not end the program: the first one
-/// is kept, nothing more is recorded, and [`Recorder::finish`] or the submission returns it.
+/// Mistakes (a range beyond a buffer, a dispatch without a pipeline …) do not end the program: the recorder keeps the first
+/// one and records nothing more, and [`Recorder::finish`] or the submission returns it.
 ///
-/// Resources recorded stay alive until the device is done, even if their owner drops or replaces them meanwhile: a
-/// submission of this crate sees to it, and for command buffers of a host [`Recorded`] does.
+/// Recorded resources stay alive until the device is done with them, even if their owner drops or replaces them before: a
+/// submission of this crate keeps them, and [`Recorded`] keeps them for command buffers of a host.
 pub struct Recorder<'a> {
     device: &'a Device,
     command: vk::CommandBuffer,
