@@ -1,6 +1,7 @@
 //! Builds in pools of every edge capacity.
 
-use rasray_ads::{Check, Hit, Ray, Sizes, Structure, VARYING_SHARE, Viewpoint};
+use rasray_ads::kit::VARYING_SHARE;
+use rasray_ads::{Check, Hit, Ray, Sizes, Structure, Viewpoint};
 use rasray_gpu::{Device, Timing};
 use rasray_tracer::build_until_complete;
 

@@ -2,10 +2,10 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Pyramid, SceneBinding, ViewDraw,
-    Visit, Visits,
+use rasray_ads::kit::{
+    BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Pyramid, ViewDraw, Visit, Visits,
 };
+use rasray_ads::{AdsError, SceneBinding};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
 

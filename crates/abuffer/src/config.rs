@@ -1,6 +1,7 @@
 //! Options of the A-buffer and the two presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
+use rasray_ads::kit::{check_range, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Builder, Counters};
 use rasray_shaders_glsl::constant_ids::abuffer as ids;
 
 use crate::{Accept, Bounds, Coverage, March, Payload, Storage, ViewSwitching, Views};

@@ -1,6 +1,7 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, ListCounts, Pyramid, Scan, Scratch, Sizes, ViewDraw};
+use rasray_ads::kit::{Pyramid, Scan, Scratch, ViewDraw};
+use rasray_ads::{AdsError, ListCounts, Sizes};
 use rasray_shaders_glsl::constants::abuffer::{ABUFFER_BOX_WORDS, ABUFFER_BOXES, ABUFFER_CAMERA};
 
 use crate::{Accept, Bounds, Builder, Config, Coverage, March, Payload, Pool, Storage, Views};

@@ -2,9 +2,10 @@
 
 use std::mem::offset_of;
 
+use rasray_ads::kit::{BuildPipelines, Design, Parts, Pooled, bin_groups};
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, ListCounts, Parts, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, Dependencies, GeometryExtent, ListCounts, RecordLayout, SceneBinding, Sizes, StructureKind,
+    StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_NEAR_BOX;
@@ -87,7 +88,7 @@ fn mark_words(config: &Config, sizes: &Sizes) -> u64 {
     (sizes.elements_of(Pool::Bounds) - bounds_and_blocks(config)) / config.mark_sets()
 }
 
-impl rasray_ads::Demand for Demand {
+impl rasray_ads::kit::Demand for Demand {
     fn zip(self, other: Self, mut with: impl FnMut(&'static str, u64, u64) -> u64) -> Self {
         Self {
             nodes: with("nodes", self.nodes, other.nodes),

@@ -2,11 +2,11 @@
 
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
+use crate::kit::{Modules, TraceKernels, TraceKernelsDesc, default_work_budget};
 use crate::slots::{check_read, check_recorded};
 use crate::{
-    Addressing, AdsError, BuildStatus, Check, Counters, Dependencies, Description, Domain, Geometry, Modules,
-    RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, Trace, TraceKernels,
-    TraceKernelsDesc, TracedPart, Viewpoint, default_work_budget,
+    Addressing, AdsError, BuildStatus, Check, Counters, Dependencies, Description, Domain, Geometry,
+    RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, Trace, TracedPart, Viewpoint,
 };
 
 /// Tests every triangle: O(rays x triangles), no memory of its own.

@@ -11,7 +11,7 @@ pub struct Common {
     pub addressing: Addressing,
     /// Counters that rays record of their work.
     pub counters: Counters,
-    /// Work units per dispatch; [`default_work_budget`](crate::default_work_budget) where absent.
+    /// Work units per dispatch; [`default_work_budget`](crate::kit::default_work_budget) where absent.
     pub work_budget: Option<u32>,
 }
 
@@ -54,10 +54,10 @@ pub fn check_work_budget(work_budget: Option<u32>, counts_cells_again: bool) -> 
 #[macro_export]
 macro_rules! configured {
     ($config:ty) => {
-        impl $crate::Configured for $config {
-            fn common(&self) -> $crate::Common {
+        impl $crate::kit::Configured for $config {
+            fn common(&self) -> $crate::kit::Common {
                 let Self { addressing, counters, work_budget, .. } = *self;
-                $crate::Common { addressing, counters, work_budget }
+                $crate::kit::Common { addressing, counters, work_budget }
             }
         }
     };

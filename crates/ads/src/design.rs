@@ -6,10 +6,10 @@ use bytemuck::Pod;
 use rasray_gpu::{BindingSet, ComputePipeline, Device, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
+use crate::kit::{BuildPipelines, BuildTarget, Configured, PoolContents, PoolName, Pools};
 use crate::{
-    AdsError, BuildPipelines, BuildTarget, Configured, Dependencies, Geometry, GeometryExtent, ListCounts,
-    PoolContents, PoolName, Pools, RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport,
-    Viewpoint,
+    AdsError, Dependencies, Geometry, GeometryExtent, ListCounts, RecordLayout, SceneBinding, Sizes,
+    StructureKind, StructureReport, Viewpoint,
 };
 
 /// Work units that a ray may spend in a dispatch where the device is not a CPU: nearly every ray needs one dispatch
@@ -86,8 +86,8 @@ fn usual_rounds(work_budget: u32) -> u32 {
     ((SMALL * TRACE_WORK_BUDGET).div_ceil(work_budget) + 1).min(SMALL)
 }
 
-/// Definition of one structure; [`Pooled`](crate::Pooled) does the rest. A value holds the pipelines of the build,
-/// and data that a build keeps on the host.
+/// Definition of one structure: its options, pools, constants and passes. [`Pooled`](crate::kit::Pooled) makes a
+/// [`Structure`](crate::Structure) of it. A value holds the pipelines of the build, and data that a build keeps on the host.
 pub trait Design: fmt::Debug + Sized {
     /// Options.
     type Config: Configured + fmt::Debug + Copy;
@@ -252,7 +252,7 @@ pub trait Design: fmt::Debug + Sized {
     fn capacity(config: &Self::Config, sizes: &Sizes, extent: &GeometryExtent) -> Self::Demand;
 
     /// True if the demand of that name varies slightly with the order in which threads run: by one in
-    /// [`VARYING_SHARE`](crate::VARYING_SHARE).
+    /// [`VARYING_SHARE`](crate::kit::VARYING_SHARE).
     fn varies(_config: &Self::Config, _name: &str) -> bool {
         false
     }

@@ -9,9 +9,9 @@ use rasray_shaders_glsl::records::{NextRoundConstants, TraceConstants};
 use rasray_shaders_glsl::{Shader, constant_ids::contract::COUNTERS};
 
 use crate::addressing::halves;
+use crate::kit::TraceModules;
 use crate::{
     AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, SceneBinding, Start, Trace, TraceMode,
-    TraceModules,
 };
 
 /// Part of a geometry: surfaces are looked up for hits on its triangles.

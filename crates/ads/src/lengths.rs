@@ -2,7 +2,8 @@
 
 use rasray_gpu::{Access, Recorder};
 
-use crate::{AdsError, BuildPipelines, BuildTarget, Scan, ViewDraw, Visit};
+use crate::AdsError;
+use crate::kit::{BuildPipelines, BuildTarget, Scan, ViewDraw, Visit};
 
 /// The passes before contiguous lists are stored: a visit that counts the elements of each list, and a scan that turns
 /// these lengths into places.

@@ -1,19 +1,31 @@
-//! The shared core of all acceleration data structures of rasray: the contract, geometry, ray queues and the kernels
-//! that trace them, and a brute-force structure that every other one is compared with.
+//! The contract of all acceleration data structures of rasray, and the geometry, the ray queues and the trace kernels that
+//! they share. Hosts record builds and traces with it; structure crates such as `rasray-bvh` implement it.
 //!
-//! # The contract
-//! A [`Structure`] owns three things: how it is built from a [`Geometry`], how rays are traced through
-//! it, and what surface a hit stands for. It knows nothing of integrators.
+//! - [`Structure`] is the contract: it builds itself from a [`Geometry`], traces rays through itself, and finds the surfaces
+//!   of hits. It knows nothing of integrators.
+//! - [`Geometry`] binds the triangles in the buffers of a host ([`GeometryDesc`]); [`GeometryParts`] and [`Combined`] are
+//!   for triangles of which some move.
+//! - [`RayQueue`] holds rays, hits and surfaces on the device; [`Trace`] says which of its rays are traced, and how.
+//! - [`Occluder`] answers shadow rays in place of a structure.
+//! - [`BruteForce`] tests every triangle against every ray: all other structures are compared with it.
+//! - [`Counters`] and [`TraceStep`] measure and log the work of rays; [`Inspect`] reads pools for tests and tools.
+//! - [`kit`] has the parts that structures are made of. Hosts do not need it.
 //!
-//! Building is resumed by its caller, because the exact demand for memory is known only after the GPU
-//! ran: record a build, submit and wait as you like, read the [`BuildStatus`], and on [`Check::Grow`]
-//! resize and record again. Until a build of the triangles that a structure has is complete, traces answer "not ready" and
-//! count it; they never give a partial answer, nor one for triangles that it had before.
+//! # Building
+//! The exact demand for memory is known only after the GPU ran, so the caller resumes a build:
 //!
-//! This crate records commands. What is recorded never submits, waits or allocates. Memory is allocated by constructors,
-//! [`Structure::resize`], [`Structure::set_slots`], and [`Structure::set_geometry`] where there are more triangles than before.
-//! These submit and wait: [`Structure::prepare_build`] of a structure that is built on the host, a [`RayQueue`] that is made on
-//! a device with a queue, through which it is cleared, and whatever reads pools or writes them for tests and reports.
+//! 1. Record a build ([`Structure::record_build`]), submit it, and wait.
+//! 2. Read the [`BuildStatus`] ([`Structure::status`]), and check it ([`Structure::check`]).
+//! 3. On [`Check::Grow`] resize and record again; [`Check::Complete`] ends the build.
+//!
+//! Until a build of the triangles that a structure has is complete, traces answer "not ready" and count it. They never give
+//! a partial answer, nor one for triangles that the structure had before.
+//!
+//! # Memory and waits
+//! Functions that record never submit, wait or allocate. Constructors, [`Structure::resize`], [`Structure::set_slots`], and
+//! [`Structure::set_geometry`] with more triangles than before allocate. These submit and wait:
+//! [`Structure::prepare_build`] of a structure that is built on the host; a [`RayQueue`] that is made on a device with a
+//! queue, through which it is cleared; and functions that read pools, or write them for tests and reports.
 //!
 //! # Synchronisation
 //! [`Structure::record_build`], [`Structure::record_trace`] and [`Structure::record_surfaces`] end with
@@ -38,6 +50,7 @@ mod geometry_parts;
 mod groups;
 mod inspect;
 mod kernels;
+pub mod kit;
 mod lengths;
 mod list_counts;
 mod list_sort;
@@ -62,48 +75,49 @@ mod viewpoint;
 mod visit;
 mod words;
 
-pub use addressing::{Addressing, Modules, TraceModules};
-pub use bounds_pass::BoundsPass;
-pub use brute_force::BruteForce;
-pub use combined::Combined;
-pub use configured::{Common, Configured, check_range, check_work_budget};
+// The contract.
+pub use error::AdsError;
+pub use inspect::Inspect;
+pub use occluder::Occluder;
+pub use scene_binding::SceneBinding;
+pub use structure::{InlineTrace, Structure, StructureReport};
+pub use viewpoint::{CameraView, Viewpoint};
+
+// Options that several structures have, and facts about a structure.
+pub use addressing::Addressing;
 pub use counters::Counters;
 pub use description::{Dependencies, Description, StructureKind};
-pub use design::{Demand, Design, Parts, default_work_budget};
 pub use ends::Ends;
-pub use error::AdsError;
+pub use visit::Builder;
+
+// Builds and their outcome.
+pub use list_counts::ListCounts;
+pub use sizes::{PoolSize, Sizes};
+pub use status::{BuildStatus, Check, Growth, PoolStatus};
+
+// Triangles.
+pub use bounds_pass::BoundsPass;
 pub use geometry::{Geometry, NO_MAP};
 pub use geometry_desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
 pub use geometry_extent::GeometryExtent;
 pub use geometry_parts::{GeometryParts, MovingPart, PartRays, Rest};
-pub use groups::folded;
-pub use inspect::Inspect;
-pub use kernels::{Lookup, TraceKernels, TraceKernelsDesc, TracedPart};
-pub use lengths::Lengths;
-pub use list_counts::ListCounts;
-pub use list_sort::ListSort;
-pub use occluder::Occluder;
-pub use passes::{BuildPipelines, BuildTarget, ViewDraw};
-pub use pool_name::{HEADER_POOL, PoolBytes, PoolContents, PoolName, bytes_of_words};
-pub use pooled::{Pooled, VARYING_SHARE};
-pub use pools::Pools;
-pub use pyramid::Pyramid;
+
+// Rays and traces.
+pub use kernels::TracedPart;
 pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
 pub use queue_buffers::QueueBuffers;
 pub use rasray_gpu::TraceMode;
+pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
+pub use trace::{Start, Trace};
+
+// Structures of this crate.
+pub use brute_force::BruteForce;
+pub use combined::Combined;
+
+// Records that shaders share.
 pub use rasray_shaders_glsl::records::{
     Draw, GeometryHeader, GeometryRigid, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
 };
-pub use scan::Scan;
-pub use scene_binding::SceneBinding;
-pub use scratch::Scratch;
-pub use sizes::{PoolSize, Sizes};
-pub use status::{BuildStatus, Check, Growth, PoolStatus};
-pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
-pub use structure::{InlineTrace, Structure, StructureReport};
-pub use trace::{Start, Trace};
-pub use viewpoint::{CameraView, Viewpoint, box_is_same};
-pub use visit::{Builder, LargePass, Visit, Visits, bin_groups};
 
 /// "No primitive": a miss.
 pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_NONE;

@@ -3,7 +3,8 @@
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS, SORT_GROUP_SIZE};
 
-use crate::{AdsError, BuildPipelines, BuildTarget};
+use crate::AdsError;
+use crate::kit::{BuildPipelines, BuildTarget};
 
 /// Sorts each list of a structure in place: `ads/build_sort.comp` and `ads/build_sort_long.comp` as compiled for it, whose
 /// `sorted.glsl` says what its lists are. A first pass sorts short lists and stores the others in a table; a second

@@ -9,7 +9,8 @@ use rasray_shaders_glsl::records::BuildConstants;
 
 use crate::addressing::halves;
 use crate::groups::folded;
-use crate::{AdsError, Geometry, Modules, PoolName, Pools, SceneBinding};
+use crate::kit::{Modules, PoolName, Pools};
+use crate::{AdsError, Geometry, SceneBinding};
 
 /// Makes the pipelines of a build. Sets are geometry, structure and, where given, scene.
 #[derive(Clone, Debug)]

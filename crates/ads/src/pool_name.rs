@@ -5,7 +5,7 @@ use std::fmt;
 use bytemuck::Pod;
 use rasray_gpu::{Device, GpuError};
 
-use crate::Parts;
+use crate::kit::Parts;
 
 /// The header's name among the pools.
 pub const HEADER_POOL: &str = "header";
@@ -74,14 +74,14 @@ macro_rules! pools {
             $($(#[$what])* $variant,)+
         }
 
-        impl $crate::PoolName for $pool {
+        impl $crate::kit::PoolName for $pool {
             type Header = $header;
 
             const ALL: &'static [Self] = &[Self::Header, $(Self::$variant),+];
 
             fn name(self) -> &'static str {
                 match self {
-                    Self::Header => $crate::HEADER_POOL,
+                    Self::Header => $crate::kit::HEADER_POOL,
                     $(Self::$variant => $name,)+
                 }
             }
@@ -104,9 +104,9 @@ macro_rules! pools {
             }
         }
 
-        impl $crate::PoolContents<$config, $pool> for $contents {
+        impl $crate::kit::PoolContents<$config, $pool> for $contents {
             fn download(
-                parts: &$crate::Parts<$config>,
+                parts: &$crate::kit::Parts<$config>,
                 device: &rasray_gpu::Device,
                 header: $header,
             ) -> Result<Self, rasray_gpu::GpuError> {
@@ -117,8 +117,8 @@ macro_rules! pools {
                 })
             }
 
-            fn pools(&self) -> ($header, $crate::PoolBytes<'_, $pool>) {
-                let pools = vec![$($(($pool::$variant, $crate::bytes_of_words(&self.$field)),)?)+];
+            fn pools(&self) -> ($header, $crate::kit::PoolBytes<'_, $pool>) {
+                let pools = vec![$($(($pool::$variant, $crate::kit::bytes_of_words(&self.$field)),)?)+];
                 (self.header, pools)
             }
         }

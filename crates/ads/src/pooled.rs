@@ -6,12 +6,14 @@ use bytemuck::{bytes_of, pod_read_unaligned};
 use rasray_gpu::{Access, BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
+use crate::kit::{
+    BuildPipelines, Common, Configured, Demand, Design, Modules, Parts, PoolContents, PoolName, Pools,
+    TraceKernels, TraceKernelsDesc, default_work_budget,
+};
 use crate::{
-    AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Demand, Description, Design, Domain,
-    Geometry, GeometryRigid, InlineTrace, Inspect, ListCounts, Modules, Parts, PoolContents, PoolName,
-    PoolSize, PoolStatus, Pools, RayQueue, RecordLayout, SceneBinding, Sizes, Start, Structure,
-    StructureKind, StructureReport, Trace, TraceKernels, TraceKernelsDesc, TracedPart, Viewpoint,
-    default_work_budget,
+    AdsError, BuildStatus, Check, Description, Domain, Geometry, GeometryRigid, InlineTrace, Inspect,
+    ListCounts, PoolSize, PoolStatus, RayQueue, RecordLayout, SceneBinding, Sizes, Start, Structure,
+    StructureKind, StructureReport, Trace, TracedPart, Viewpoint,
 };
 
 /// A demand that [varies](Design::varies) is met with capacity for one in so many more. Pages of a small scene differ by up to
@@ -21,7 +23,8 @@ pub const VARYING_SHARE: u64 = 16;
 /// The linear part of a [`GeometryRigid`], which begins with it.
 const LINEAR_BYTES: u64 = std::mem::offset_of!(GeometryRigid, centre) as u64;
 
-/// A structure of a header, pools and the passes of its design.
+/// Structure of a [`Design`]: it implements [`Structure`] with a header, pools and the passes of the design. Every structure
+/// but brute force and structures in parts is one; `rasray_bvh::Bvh`, for example, is `Pooled<rasray_bvh::Passes>`.
 #[derive(Debug)]
 pub struct Pooled<D: Design> {
     description: Description,

@@ -10,10 +10,10 @@ use rasray_gpu::{
 };
 
 use crate::addressing::halves;
+use crate::kit::{HEADER_POOL, Lookup, PoolName, TraceKernels};
 use crate::slots::Slots;
 use crate::{
-    Addressing, AdsError, Domain, Geometry, HEADER_POOL, InlineTrace, Lookup, PoolName, PoolSize,
-    QueueHeader, RayQueue, Sizes, Trace, TraceKernels,
+    Addressing, AdsError, Domain, Geometry, InlineTrace, PoolSize, QueueHeader, RayQueue, Sizes, Trace,
 };
 
 /// Place in the header of a queue of the number of list entries with an invalid index that a structure met.

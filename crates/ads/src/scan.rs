@@ -3,7 +3,8 @@
 use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::ads::SCAN_BLOCK;
 
-use crate::{AdsError, BuildPipelines, BuildTarget};
+use crate::AdsError;
+use crate::kit::{BuildPipelines, BuildTarget};
 
 /// Replaces numbers by the sum of all before them: the pipelines of `ads/scan_*.comp` as compiled for a structure,
 /// whose `scanned.glsl` says which numbers. Three dispatches; O(n) work.

@@ -1,6 +1,7 @@
 //! Layout of the one pool of words that is shared by scanning, binning and sorting.
 
-use crate::{Builder, PoolName, Sizes};
+use crate::kit::PoolName;
+use crate::{Builder, Sizes};
 
 /// Contents of the scratch pool of a configuration: the sums of a scan, and behind them what passes use one after the
 /// other, the large-triangle queue while triangles are binned, and two words of each long list once they are sorted.

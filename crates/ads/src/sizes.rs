@@ -2,7 +2,8 @@
 
 use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
-use crate::{AdsError, HEADER_POOL, PoolName};
+use crate::AdsError;
+use crate::kit::{HEADER_POOL, PoolName};
 
 /// One pool of a structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,8 @@ use crate::words;
 use rasray_gpu::{Access, ComputePipeline, Feature, RasterPipeline, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{BIN_GROUP_SIZE, BIN_TURNS};
 
-use crate::{AdsError, BuildPipelines, BuildTarget, ViewDraw};
+use crate::AdsError;
+use crate::kit::{BuildPipelines, BuildTarget, ViewDraw};
 
 /// Way in which triangles are binned into cells. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

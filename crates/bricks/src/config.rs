@@ -1,6 +1,7 @@
 //! Options of bricks.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters, GeometryExtent, check_range, check_work_budget};
+use rasray_ads::kit::{check_range, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, GeometryExtent};
 use rasray_shaders_glsl::constant_ids::bricks as ids;
 use rasray_shaders_glsl::constants::bricks as numbers;
 

@@ -1,6 +1,7 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, GeometryExtent, Scan, Sizes};
+use rasray_ads::kit::Scan;
+use rasray_ads::{AdsError, GeometryExtent, Sizes};
 use rasray_shaders_glsl::constants::bricks as numbers;
 
 use crate::grid::BRICK_SIDE;

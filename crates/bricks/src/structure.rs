@@ -2,9 +2,10 @@
 
 use std::mem::offset_of;
 
+use rasray_ads::kit::{BuildPipelines, Design, Parts, Pooled, box_is_same};
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, Parts, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, box_is_same,
+    AdsError, Dependencies, GeometryExtent, RecordLayout, SceneBinding, Sizes, StructureKind,
+    StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
@@ -65,7 +66,7 @@ fn first_header(config: &Config, sizes: &Sizes, extent: &GeometryExtent, eye: [f
     }
 }
 
-impl rasray_ads::Demand for Demand {
+impl rasray_ads::kit::Demand for Demand {
     fn zip(self, other: Self, mut with: impl FnMut(&'static str, u64, u64) -> u64) -> Self {
         Self {
             entries: with("entries", self.entries, other.entries),

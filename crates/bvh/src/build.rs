@@ -1,6 +1,7 @@
 //! The build on the device: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan};
+use rasray_ads::AdsError;
+use rasray_ads::kit::{BuildPipelines, BuildTarget, Scan};
 use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::bvh::{
     BVH_CLUSTERS, BVH_DIGIT_VALUES, BVH_DIGITS, BVH_GROUP_SIZE, BVH_SORT_CHUNK, BVH_TREELET,

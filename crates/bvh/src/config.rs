@@ -1,7 +1,8 @@
 //! Options of the BVH.
 
+use rasray_ads::kit::{check_range, check_work_budget};
 use rasray_ads::words;
-use rasray_ads::{Addressing, AdsError, Counters, check_range, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Counters};
 use rasray_shaders_glsl::constants::bvh::{BVH_FOUR, BVH_LEAF_LIMIT};
 
 use crate::{Node, NodeOfFour};

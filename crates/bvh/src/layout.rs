@@ -1,6 +1,7 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Scan, Sizes};
+use rasray_ads::kit::Scan;
+use rasray_ads::{AdsError, Sizes};
 use rasray_shaders_glsl::constants::bvh::{
     BVH_CLUSTER_WORDS, BVH_CLUSTERS, BVH_CLUSTERS_KEPT, BVH_DIGIT_VALUES, BVH_GROUP_SIZE, BVH_LEAF_SHIFT,
     BVH_SORT_CHUNK, BVH_TREELET, BVH_TREELET_CLASSES, BVH_TREELET_ROUNDS, BVH_UNION,

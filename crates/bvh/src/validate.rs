@@ -1,7 +1,7 @@
 //! Checks the contents of a built tree.
 
 use bytemuck::cast_slice;
-use rasray_ads::{Parts, PoolBytes, PoolContents};
+use rasray_ads::kit::{Parts, PoolBytes, PoolContents};
 use rasray_gpu::{Device, GpuError};
 use rasray_shaders_glsl::constants::bvh::{BVH_FOUR, BVH_LEAF, BVH_LEAF_SHIFT, BVH_NONE};
 

@@ -1,6 +1,7 @@
 //! Options of the driver's tree.
 
-use rasray_ads::{Addressing, AdsError, Common, Configured, Counters, check_work_budget, words};
+use rasray_ads::kit::{Common, Configured, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Counters, words};
 use rasray_gpu::DriverTreeGoal;
 
 /// Goal of the tree: a hint that a driver may ignore.

@@ -2,9 +2,10 @@
 
 use std::mem::offset_of;
 
+use rasray_ads::kit::{BuildPipelines, Design, Parts, Pooled, box_is_same};
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, Parts, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, box_is_same,
+    AdsError, Dependencies, GeometryExtent, RecordLayout, SceneBinding, Sizes, StructureKind,
+    StructureReport, Viewpoint,
 };
 use rasray_gpu::{
     Access, BindingSet, ComputePipeline, Device, DriverTree, DriverTreeDesc, Feature, Recorder, Requirements,
@@ -27,7 +28,7 @@ pub struct Passes {
     tree: Option<DriverTree>,
 }
 
-impl rasray_ads::Demand for Demand {
+impl rasray_ads::kit::Demand for Demand {
     fn zip(self, other: Self, mut with: impl FnMut(&'static str, u64, u64) -> u64) -> Self {
         Self { triangles: with("boxes", self.triangles, other.triangles) }
     }

@@ -14,7 +14,8 @@ use std::mem::offset_of;
 
 use bytemuck::{NoUninit, bytes_of, cast_slice};
 use glam::DVec3;
-use rasray_ads::{BoundsPass, Geometry, GeometryParts, NO_MAP, Rest, folded};
+use rasray_ads::kit::folded;
+use rasray_ads::{BoundsPass, Geometry, GeometryParts, NO_MAP, Rest};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
     MemoryLocation, Recorder, Stage,

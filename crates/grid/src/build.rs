@@ -2,7 +2,8 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Builder, LargePass, Lengths, Visit, Visits};
+use rasray_ads::kit::{BuildPipelines, BuildTarget, LargePass, Lengths, Visit, Visits};
+use rasray_ads::{AdsError, Builder};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 
 use crate::{Header, Pool};

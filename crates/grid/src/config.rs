@@ -1,6 +1,7 @@
 //! Options of a grid.
 
-use rasray_ads::{Addressing, AdsError, Counters, GeometryExtent, check_range, check_work_budget};
+use rasray_ads::kit::{check_range, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Counters, GeometryExtent};
 use rasray_shaders_glsl::constants::grid::GRID_SIDE_LIMIT;
 
 /// Cells per triangle where the rule chooses their number.

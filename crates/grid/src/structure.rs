@@ -2,9 +2,10 @@
 
 use std::mem::offset_of;
 
+use rasray_ads::kit::{BuildPipelines, Design, Parts, Pooled, Scan, bin_groups, box_is_same};
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, ListCounts, Parts, Pooled, RecordLayout,
-    Scan, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, box_is_same,
+    AdsError, Dependencies, GeometryExtent, ListCounts, RecordLayout, SceneBinding, Sizes, StructureKind,
+    StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
@@ -52,7 +53,7 @@ fn queue_capacity(sizes: &Sizes, cells: [u32; 3]) -> u32 {
     sizes.elements_of(Pool::Scratch).saturating_sub(Scan::sums(cell_count(cells))) as u32
 }
 
-impl rasray_ads::Demand for Demand {
+impl rasray_ads::kit::Demand for Demand {
     fn zip(self, other: Self, mut with: impl FnMut(&'static str, u64, u64) -> u64) -> Self {
         Self { entries: with("entries", self.entries, other.entries), ..self }
     }

@@ -2,10 +2,8 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, SceneBinding, ViewDraw, Visit,
-    Visits,
-};
+use rasray_ads::kit::{BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, ViewDraw, Visit, Visits};
+use rasray_ads::{AdsError, SceneBinding};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 

@@ -1,7 +1,8 @@
 //! Options of the layered depth cube and the two presets.
 
+use rasray_ads::kit::{check_range, check_work_budget};
 use rasray_ads::words;
-use rasray_ads::{Addressing, AdsError, Builder, Counters, Ends, check_range, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, Ends};
 use rasray_shaders_glsl::constant_ids::ldc as ids;
 use rasray_shaders_glsl::constants::ldc as numbers;
 

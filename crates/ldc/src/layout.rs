@@ -1,6 +1,7 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Scan, Scratch, Sizes};
+use rasray_ads::kit::{Scan, Scratch};
+use rasray_ads::{AdsError, Sizes};
 
 use rasray_shaders_glsl::constants::ldc::LDC_LEVEL_BLOCKS;
 

@@ -2,9 +2,10 @@
 
 use std::mem::offset_of;
 
+use rasray_ads::kit::{BuildPipelines, Design, Parts, Pooled, bin_groups};
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, GeometryExtent, ListCounts, Parts, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, Dependencies, GeometryExtent, ListCounts, RecordLayout, SceneBinding, Sizes, StructureKind,
+    StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constant_ids::ldc::LDC_RIGID;
@@ -36,7 +37,7 @@ fn first_header(parts: &Parts<Config>) -> Header {
     }
 }
 
-impl rasray_ads::Demand for Demand {
+impl rasray_ads::kit::Demand for Demand {
     fn zip(self, other: Self, mut with: impl FnMut(&'static str, u64, u64) -> u64) -> Self {
         Self {
             fragments: with("fragments", self.fragments, other.fragments),

@@ -2,7 +2,8 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Lengths, Pyramid, Visit, Visits};
+use rasray_ads::AdsError;
+use rasray_ads::kit::{BuildPipelines, BuildTarget, Lengths, Pyramid, Visit, Visits};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 

@@ -1,7 +1,8 @@
 //! Options of primitive lists and the presets.
 
+use rasray_ads::kit::{check_range, check_work_budget};
 use rasray_ads::words;
-use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Builder, Counters};
 use rasray_shaders_glsl::constant_ids::primitive as ids;
 use rasray_shaders_glsl::constants::primitive as numbers;
 

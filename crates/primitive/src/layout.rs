@@ -1,6 +1,7 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Pyramid, Scan, Sizes, ViewDraw};
+use rasray_ads::kit::{Pyramid, Scan, ViewDraw};
+use rasray_ads::{AdsError, Sizes};
 use rasray_shaders_glsl::constants::ads::BIN_BLOCK;
 use rasray_shaders_glsl::constants::primitive as numbers;
 
@@ -52,7 +53,7 @@ pub(crate) fn bin_groups(config: &Config) -> u32 {
     let blocks = u64::from(config.tiles() + 2).div_ceil(block).pow(2);
     // Each block, its rows and columns, and the buckets of each column.
     let turns = blocks * (1 + block + block * block * u64::from(1 + config.buckets));
-    rasray_ads::bin_groups(turns)
+    rasray_ads::kit::bin_groups(turns)
 }
 
 /// The faces, whose cells and blocks are built together.

@@ -2,9 +2,10 @@
 
 use std::mem::offset_of;
 
+use rasray_ads::kit::{BuildPipelines, Design, Parts, Pooled};
 use rasray_ads::{
-    AdsError, BuildPipelines, CameraView, Dependencies, Design, GeometryExtent, ListCounts, Parts, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
+    AdsError, CameraView, Dependencies, GeometryExtent, ListCounts, RecordLayout, SceneBinding, Sizes,
+    StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Feature, Recorder, Requirements};
 
@@ -56,7 +57,7 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
     })
 }
 
-impl rasray_ads::Demand for Demand {
+impl rasray_ads::kit::Demand for Demand {
     fn zip(self, other: Self, mut with: impl FnMut(&'static str, u64, u64) -> u64) -> Self {
         Self {
             entries: with("entries", self.entries, other.entries),

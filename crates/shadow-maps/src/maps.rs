@@ -1,8 +1,9 @@
 //! The maps on the device.
 
 use bytemuck::{bytes_of, cast_slice};
+use rasray_ads::kit::Modules;
 use rasray_ads::{
-    Addressing, AdsError, Domain, Geometry, Modules, Occluder, RayQueue, SceneBinding, Structure, Trace,
+    Addressing, AdsError, Domain, Geometry, Occluder, RayQueue, SceneBinding, Structure, Trace,
 };
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,

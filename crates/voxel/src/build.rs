@@ -2,10 +2,10 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Scan, SceneBinding, ViewDraw, Visit,
-    Visits,
+use rasray_ads::kit::{
+    BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Scan, ViewDraw, Visit, Visits,
 };
+use rasray_ads::{AdsError, SceneBinding};
 use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::voxel::{VOXEL_GROUP_SIZE, VOXEL_SCAN_OCTANTS};
 

@@ -1,7 +1,8 @@
 //! Options of voxels with axis A-buffers, and the presets.
 
+use rasray_ads::kit::{check_range, check_work_budget};
 use rasray_ads::words;
-use rasray_ads::{Addressing, AdsError, Builder, Counters, Ends, check_range, check_work_budget};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, Ends};
 use rasray_shaders_glsl::constant_ids::voxel as ids;
 use rasray_shaders_glsl::constants::voxel as numbers;
 

@@ -1,6 +1,7 @@
 //! Sizes of the pools, and the cube they divide: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Scan, Scratch, Sizes};
+use rasray_ads::kit::{Scan, Scratch};
+use rasray_ads::{AdsError, Sizes};
 use rasray_shaders_glsl::constants::voxel::VOXEL_NODE_LIMIT;
 
 use crate::{Axes, Builder, Config, Leaves, Payload, Pool, Storage, Traversal};

@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
+use rasray_ads::kit::HEADER_POOL;
 use rasray_ads::{
-    AdsError, Combined, Domain, Geometry, GeometryParts, HEADER_POOL, Hit, MovingPart, Ray, RayQueue,
-    Structure, StructureKind, Trace, TraceMode,
+    AdsError, Combined, Domain, Geometry, GeometryParts, Hit, MovingPart, Ray, RayQueue, Structure,
+    StructureKind, Trace, TraceMode,
 };
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::invariance::{Subject, first_difference};

@@ -6,7 +6,8 @@ mod geometry;
 mod queues;
 mod unbuilt;
 
-use rasray_ads::{Addressing, Check, Domain, Hit, Pools, Ray, RayQueue, Sizes, Trace, TraceMode};
+use rasray_ads::kit::Pools;
+use rasray_ads::{Addressing, Check, Domain, Hit, Ray, RayQueue, Sizes, Trace, TraceMode};
 use rasray_bvh::{Header, Pool};
 use rasray_gpu::{BufferDesc, BufferUsage, GpuError, MemoryLocation, Timing};
 use rasray_tests::harness::Bench;

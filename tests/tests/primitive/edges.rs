@@ -1,7 +1,8 @@
 //! Shared parts of tests of pools of either structure: the scene, the rays, and every edge capacity of entries and of
 //! the near-region list.
 
-use rasray_ads::{BuildStatus, Check, Design, Geometry, Hit, Pooled, Ray, Structure, TraceMode};
+use rasray_ads::kit::{Design, Pooled};
+use rasray_ads::{BuildStatus, Check, Geometry, Hit, Ray, Structure, TraceMode};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::Bench;
 use rasray_tests::rays::around_the_eye;

@@ -1,7 +1,8 @@
 //! Pools of every edge capacity: exact demands, no partial answers, bytes as the formula says, lists well
 //! formed; and the check of lists notices every fault.
 
-use rasray_ads::{Check, Hit, Ray, Structure, TraceMode, VARYING_SHARE};
+use rasray_ads::kit::VARYING_SHARE;
+use rasray_ads::{Check, Hit, Ray, Structure, TraceMode};
 use rasray_tests::capacity::{complete_grown, spread_of_pages};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::Bench;

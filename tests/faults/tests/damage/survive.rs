@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use rasray_ads::{Design, Geometry, Hit, Pooled, SceneBinding, TraceMode};
+use rasray_ads::kit::{Design, Pooled};
+use rasray_ads::{Geometry, Hit, SceneBinding, TraceMode};
 use rasray_faults::{device, finish, rays, stage};
 use rasray_gpu::{Device, Timing};
 use rasray_tests::harness::bits_of_any_build;

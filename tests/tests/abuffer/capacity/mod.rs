@@ -7,7 +7,8 @@ use rasray_abuffer::{
     ABuffer, Accept, Addressing, Config, Contents, Coverage, Demand, March, Payload, Storage, formula_bytes,
     plan, well_formed,
 };
-use rasray_ads::{BuildStatus, Check, Ray, Structure, TraceMode, VARYING_SHARE};
+use rasray_ads::kit::VARYING_SHARE;
+use rasray_ads::{BuildStatus, Check, Ray, Structure, TraceMode};
 use rasray_tests::capacity::{complete_grown, spread_of_pages};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits_of_any_build};
