@@ -1,13 +1,17 @@
-//! Multiview, multilayer A-buffers: the rasterizer stores every fragment of the six faces of a cube around
-//! the eye, or of what a camera there sees, in per-cell, per-bucket lists, and rays are traced through the
-//! cells.
+//! Multiview, multilayer A-buffers: a structure of fragments for rays near the eye, after MMRT. Hosts make one from their
+//! triangles and trace it as any [`rasray_ads::Structure`].
+//!
+//! The rasterizer stores every fragment of the six faces of a cube around the eye, of the camera's view there, or of both,
+//! in lists per cell and depth bucket. Rays step through the cells and search their lists.
+//!
+//! - [`ABuffer`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to resize.
+//! - [`Config`] holds its options: [`Views`], [`Storage`] (those that the paper compares), [`Payload`], [`March`],
+//!   [`Coverage`], [`Accept`] and more.
+//! - [`plan`] and [`formula_bytes`] compute its memory without a device.
+//! - [`Contents`] and [`well_formed`] check its lists on the host, for tests.
 //!
 //! Source: Vardis, Vasilakis, Papaioannou, "A multiview and multilayer approach for interactive ray
-//! tracing", I3D 2016 (MMRT). Lists are kept in one of the storages the paper compares ([`Storage`]), with payload
-//! in a pool of its own or within the nodes. See `docs/systems/mmrt.md` for passes, bytes, options, limits
-//! and departures.
-//!
-//! [`ABuffer`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
+//! tracing", I3D 2016 (MMRT). `docs/systems/mmrt.md` has passes, bytes, options, limits and departures.
 
 mod build;
 mod choices;

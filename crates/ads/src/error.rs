@@ -2,7 +2,7 @@
 
 use rasray_gpu::GpuError;
 
-/// Why something could not be created or resized.
+/// Error of a structure, a geometry or a queue that could not be made, resized, built or traced.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum AdsError {

@@ -47,7 +47,8 @@ pub struct QueueParts {
     pub steps: u32,
 }
 
-/// Rays, hits, surfaces and traversal states of `capacity` slots, and lists of slots. Cheap to clone.
+/// Queue of rays on the device: rays, hits, surfaces and traversal states of `capacity` slots, and lists of slots. A
+/// structure traces the rays of a queue and writes their hits. Clones are cheap handles to the same buffers.
 ///
 /// A queue that is made here is as [`RayQueue::record_reset`] leaves it, and no slot is selected. Its other buffers are
 /// zero, rays included, which miss; on a device without a queue to clear them through they are undefined until something

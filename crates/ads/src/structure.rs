@@ -53,11 +53,12 @@ pub struct InlineTrace<'a> {
     pub constants: Vec<(u32, u32)>,
 }
 
-/// A structure that rays are traced through.
+/// Acceleration structure that rays are traced through. A host records its build ([`Structure::record_build`]), checks the
+/// outcome ([`Structure::check`]), and records traces ([`Structure::record_trace`]).
 ///
-/// One value is one set of pools, whose builds and traces follow each other on the device's queue. Outcomes of builds
-/// are kept per slot: a host with n frames in flight records the build of frame k for slot k mod n, and reads the
-/// status of a slot after that frame's fence.
+/// One value has one set of pools, so its builds and traces follow each other on the device's queue. It keeps the outcomes
+/// of builds per slot: a host with n frames in flight records the build of frame k for slot k mod n, and reads the status of
+/// a slot after that frame's fence.
 pub trait Structure {
     /// Facts that do not change while it lives.
     fn description(&self) -> &Description;

@@ -4,7 +4,8 @@ use rasray_gpu::TraceMode;
 
 use crate::{Domain, PartRays};
 
-/// Rays of a queue that are traced, and for what ([`Structure::record_trace`](crate::Structure::record_trace)).
+/// Arguments of [`Structure::record_trace`](crate::Structure::record_trace): the rays of a queue that are traced, and the
+/// answer that they get. [`Trace::closest`] and [`Trace::occluded`] make the usual ones.
 #[derive(Clone, Copy, Debug)]
 pub struct Trace<'a> {
     /// Slots of the queue whose rays are traced.

@@ -1,5 +1,12 @@
-//! The `rasray` command as a library: the command line, scenes, images, reports, signals and exit
-//! codes. What renders and compares is behind [`rasray_experiment::Backend`].
+//! The command `rasray` as a library: command line, scenes, images, reports, signals and exit codes. The program and its
+//! tests call [`run`].
+//!
+//! - [`run`] runs a command line and returns its exit code.
+//! - [`arguments`] has the options of each command.
+//! - [`output`] writes images and reports.
+//! - [`AppError`] is an error with advice and an exit code.
+//!
+//! Rendering and comparing are behind [`rasray_experiment::Backend`].
 
 pub mod arguments;
 mod commands;

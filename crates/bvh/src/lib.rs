@@ -1,16 +1,23 @@
-//! Bounding volume hierarchies: the baseline that structures in image space are compared with, behind the
-//! same contract and with the same triangle test, so that hits are identical and only speed differs.
+//! Bounding volume hierarchies: the baseline that structures in image space are compared with. Hosts make one from their
+//! triangles and trace it as any [`rasray_ads::Structure`].
 //!
-//! Builders make trees of one format, which one traversal reads: [`Builder::Sah`] lowers the expected
-//! cost by surface area on the host, [`Builder::Lbvh`] sorts triangles along a Morton curve on the device
-//! (Karras, "Maximizing parallelism in the construction of BVHs, octrees, and k-d trees", HPG 2012),
-//! [`Builder::Ploc`] merges clusters in that order by surface area (Meister and Bittner, "Parallel locally-ordered clustering for
-//! bounding volume hierarchy construction", TVCG 24(3), 2018), [`Builder::Trbvh`] restructures treelets of the tree by Morton
-//! codes by surface area (Karras and Aila, "Fast parallel construction of high-quality bounding volume hierarchies", HPG 2013),
-//! and [`Builder::Refit`] does that once and then only finds boxes anew. See `docs/systems/bvh.md` for passes, bytes, options,
-//! limits and departures.
+//! The triangle test is that of all structures, so hits are identical and only speed differs. All builders make trees of one
+//! format, which one traversal reads.
 //!
-//! [`Bvh`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
+//! - [`Bvh`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to resize.
+//! - [`Config`] holds its options: [`Builder`], [`Children`] per node, [`Chunks`] and more.
+//! - [`plan`] and [`formula_bytes`] compute its memory without a device.
+//! - [`Contents`] and [`well_formed`] check its nodes on the host, for tests.
+//!
+//! | builder | algorithm |
+//! |---|---|
+//! | [`Builder::Sah`] | least expected cost by surface area, on the host |
+//! | [`Builder::Lbvh`] | triangles sorted along a Morton curve, on the device: Karras, "Maximizing parallelism in the construction of BVHs, octrees, and k-d trees", HPG 2012 |
+//! | [`Builder::Ploc`] | clusters in that order merged by surface area: Meister and Bittner, "Parallel locally-ordered clustering for bounding volume hierarchy construction", TVCG 24(3), 2018 |
+//! | [`Builder::Trbvh`] | treelets of the tree by Morton codes restructured by surface area: Karras and Aila, "Fast parallel construction of high-quality bounding volume hierarchies", HPG 2013 |
+//! | [`Builder::Refit`] | the tree of [`Builder::Trbvh`], of which later builds find the boxes anew |
+//!
+//! `docs/systems/bvh.md` has passes, bytes, options, limits and departures.
 
 mod build;
 mod config;

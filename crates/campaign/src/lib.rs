@@ -1,6 +1,12 @@
-//! Plans of many comparisons as data: lists of options, of which every combination is compared; tables of what came of
-//! them; and plans of the papers' tables and figures, with what was published. No Vulkan, no command line: a plan's
-//! comparisons are words as `rasray compare` takes them.
+//! Plans of many comparisons of systems, and the tables of their results, as data. The commands `rasray ablate` and
+//! `rasray replicate` read plans with it and write its pages.
+//!
+//! - [`Plan`] is a plan of a `.toml` file: lists of options, of which every combination is compared.
+//! - [`PAPERS`] has a plan for each table and figure of the papers ([`Paper`], [`Item`]), with the published numbers.
+//! - [`Claim`] holds a result against a published number; [`paper_page`], [`csv_table`] and [`Sheet`] are the tables.
+//! - [`estimate()`] predicts how long a plan takes from runs that were made.
+//!
+//! The crate needs no Vulkan and no command line: the comparisons of a plan are words as `rasray compare` takes them.
 
 mod brief;
 mod claim;

@@ -1,5 +1,9 @@
-//! Takes the noise out of pictures with [Open Image Denoise](https://www.openimagedenoise.org), a library that is found
-//! when it is asked for: nothing is linked, and programs run without it.
+//! Denoising of pictures by [Open Image Denoise](https://www.openimagedenoise.org), for `rasray render --denoise` and the
+//! viewer.
+//!
+//! - [`Denoiser`] loads the library at run time: nothing is linked, and programs run where it is not installed.
+//! - [`NoisyPicture`] is its input.
+//! - [`DenoiseError`] names the library that is missing or the image that has the wrong size.
 
 mod library;
 

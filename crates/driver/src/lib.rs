@@ -1,10 +1,14 @@
-//! The driver's own tree, traced by ray queries (`VK_KHR_acceleration_structure`, `VK_KHR_ray_query`): what hardware for ray
-//! tracing has to be compared with. The driver finds boxes around triangles; whether a triangle is hit is decided by the test
-//! that all structures share, so hits are exact and the same on every driver.
+//! The driver's own tree, traced by ray queries (`VK_KHR_acceleration_structure`, `VK_KHR_ray_query`): the structure that
+//! hardware for ray tracing accelerates. Hosts make one from their triangles and trace it as any [`rasray_ads::Structure`].
 //!
-//! Passes, bytes, options and limits are on `docs/systems/driver-rt.md`.
+//! The driver finds boxes around triangles, and the test that all structures share decides whether a triangle is hit. Hits
+//! are exact, and the same on every driver.
 //!
-//! [`Driver`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
+//! - [`Driver`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to resize.
+//! - [`Config`] holds its options; [`Goal`] is the work that the tree is to be fast for.
+//! - [`plan`] and [`formula_bytes`] compute its memory without a device.
+//!
+//! `docs/systems/driver-rt.md` has passes, bytes, options and limits.
 
 mod config;
 mod layout;

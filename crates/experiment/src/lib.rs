@@ -1,8 +1,11 @@
-//! Experiments on the systems of the registry, as the command, the tests and the benchmarks run them: rays from a
-//! scene, systems traced in turns, hits and images held against an exact oracle, hard cases, replays of single rays.
+//! Experiments on the systems of the registry: comparisons of hits and images with an exact oracle, hard cases, renders and
+//! replays of single rays. The command, the tests and the benches run them.
 //!
-//! Jobs and results are plain data ([`CompareJob`], [`HardJob`], [`RenderJob`]; [`Comparison`], [`RenderOutput`]).
-//! [`open`] gives a [`Backend`] that carries them out on a device:
+//! - [`Backend`] carries out jobs on a device; [`open`] makes one.
+//! - [`CompareJob`], [`HardJob`] and [`RenderJob`] are the jobs, as plain data; [`Comparison`] and [`RenderOutput`] are their
+//!   results.
+//! - [`SystemConfig`] is a system with its preset and options; [`Frame`] is an image, [`RaySet`] a set of rays.
+//! - [`ExperimentError`] has every reason for which a job gives no result.
 //!
 //! ```no_run
 //! use rasray_experiment::{DeviceChoice, open};

@@ -1,17 +1,19 @@
-//! The frame loop: pose → build → trace, surfaces, shade → film, recorded in one go, several frames in flight.
+//! Frames and images of a scene: pose, build, trace, surfaces, shade, film. The command, the viewer and the benches make all
+//! pictures with it.
 //!
-//! [`FrameRenderer`] submits a frame with a view and a pose of its own, and hands out finished pictures in order. A frame
-//! records a build only where something changed that the structure depends on; one whose build was not complete, or whose
-//! rays did not all finish, is never a picture. [`render_in_order`] repeats such frames: for images that are written.
-//! Interactive programs leave them out, and keep showing the last picture.
+//! - [`FrameRenderer`] renders frames that move, several in flight: it submits each with a view and a pose of its own, and
+//!   returns finished pictures in order.
+//! - [`render_in_order`] drives it for images that are written: it repeats frames that are incomplete.
+//! - [`ImageRenderer`] makes one image wave by wave, with the same passes ([`ImagePasses`]): for images that are too long for
+//!   one submission, or that somebody watches.
+//! - [`Adaptive`] takes more samples where there is more noise.
+//! - [`FrameScene`] is a scene of frames. A frame whose triangles change in number brings another one.
 //!
-//! [`ImageRenderer`] makes an image wave by wave, with the same passes ([`ImagePasses`]): where a submission must not last as
-//! long as an image, or somebody wants to look at it in between. It can take more samples where there is more noise
-//! ([`Adaptive`]).
+//! A frame records a build only if something changed that the structure depends on. A frame is incomplete if its build did
+//! not complete or its rays did not all finish; it never becomes a picture. Interactive programs skip incomplete frames and
+//! keep showing the last picture.
 //!
-//! Where triangles change in number, a frame brings another [`FrameScene`].
-//!
-//! Structures alone, with a host's own frames: `rasray_tracer::FrameStructure`.
+//! Hosts that have frames of their own and want structures alone use `rasray_tracer::FrameStructure`.
 
 mod adaptive;
 mod error;

@@ -1,23 +1,18 @@
-//! Scenes on a Vulkan device: posed geometry, materials, texels and lights.
+//! Scenes on a Vulkan device: posed geometry, materials, texels and lights. Structures build from it, and integrators shade
+//! with it.
 //!
-//! [`SceneTables`] packs a scene into plain arrays, byte for byte what the shaders read (see
-//! `docs/shading.md`). It needs no device, so its contents can be checked anywhere. Only the
-//! [`Parts`] that a render can observe are packed.
+//! - [`SceneTables`] packs a scene into plain arrays, byte for byte as shaders read them (`docs/shading.md`). It needs no
+//!   device, so that its contents can be checked anywhere.
+//! - [`Parts`] chooses what is packed: the parts that a render can observe.
+//! - [`GpuScene`] uploads the tables and binds them: a `rasray_ads::Geometry` for structures, and a set for shading.
+//!   [`GpuScene::staged`] uploads them with a frame of the caller, without waiting.
+//! - [`PosePass`] poses moving draws on the device, frame by frame: [`PosePass::frame`] computes where nodes are,
+//!   [`PosePass::record`] records the rest. An oracle reads the positions back from the device.
+//! - [`TexelRuns`] spreads texels over several buffers, so that they may exceed one binding of a device. [`TexelDemand`]
+//!   tells before an upload whether they fit, and makes the largest images smaller.
 //!
-//! [`GpuScene`] uploads the tables and binds them: a `rasray_ads::Geometry` for structures, a set for
-//! everything that shades.
-//!
-//! [`GpuScene::staged`] does the same without waiting: the tables go to the device with a frame of the caller's.
-//!
-//! Texels are spread over several buffers ([`TexelRuns`]), and may exceed what one binding of a device holds. What
-//! exceeds these too is known before ([`TexelDemand`]): the scene's largest images can be made smaller.
-//!
-//! Geometry is posed in f64 when the tables are made: `world_from_mesh * position`, minus the frame
-//! origin, rounded to f32. What structures build from and what an oracle should read is
-//! [`Posed::positions`].
-//!
-//! [`PosePass`] poses moving draws on the device, frame by frame: [`PosePass::frame`] says where nodes are,
-//! [`PosePass::record`] records the rest. An oracle reads positions back from the device then.
+//! Positions in the tables are posed in f64 (`world_from_mesh * position`, minus the frame origin) and then rounded to f32.
+//! Structures and oracles read these: [`Posed::positions`].
 
 mod attributes;
 mod distribution;

@@ -42,7 +42,7 @@ pub struct PosedBuffers {
     pub emissive: Buffer,
 }
 
-/// A scene on the device: the geometry that structures build from, and the set that shading reads.
+/// Scene on the device: the geometry that structures build from, and the binding set that shading reads.
 ///
 /// Uploaded buffers stay until the value is dropped. The view changes by [`GpuScene::update_camera`] or
 /// [`GpuScene::record_frame`], what moves by a [`PosePass`](crate::PosePass).

@@ -1,14 +1,16 @@
-//! The hard cases of ray tracing: scenes and rays that break tracers, as data with their truth.
+//! The hard cases of ray tracing: scenes and rays that break tracers, as data with their truth. `rasray compare hard:ID` and
+//! the conformance tests run them.
 //!
-//! Every case has a short id (G triangle shape, E edges and vertices, V views, Z depth, X voxels,
-//! C capacity and bad input, T transforms, P light transport; variants append a parameter). Coordinates are
-//! single precision, in metres, and the camera looks along +z. [`CATALOGUE`] says of each number what is looked at
-//! and what is demanded of each kind of structure. Bad input that never becomes triangles is a [`HardFile`].
-//! The truth comes from the oracle at run time; where a case's answer is known by
-//! construction it is stated as well, and a test holds the oracle against it.
+//! - [`HardCase`] is a case: triangles, rays, an eye, and the answers that are known by construction. [`case()`] makes the case
+//!   of an id, [`cases`] makes all of them.
+//! - [`CATALOGUE`] has a row per id: its subject, and the [`Targets`] of each kind of structure.
+//! - [`HardFile`] is bad input that never becomes triangles.
+//! - [`replay`] makes one ray again. A ray depends on case, seed and index alone, never on the number of rays.
 //!
-//! A ray depends on (case, seed, index) alone, never on the number of rays, so that a failure
-//! is replayed with [`replay`].
+//! Ids begin with a letter: G triangle shape, E edges and vertices, V views, Z depth, X voxels, C capacity and bad input,
+//! T transforms, P light transport; variants append a parameter. Coordinates are single precision, in metres, and the camera
+//! looks along +z. The truth comes from the oracle at run time. Where a case states its answer, a test holds the oracle
+//! against it.
 
 mod capacity;
 mod case;

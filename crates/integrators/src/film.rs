@@ -8,7 +8,7 @@ use rasray_shaders_glsl::records::{FilmFaults, FilmPixel};
 use crate::kernels::device_buffer;
 use crate::{Bands, IntegratorError};
 
-/// The image that integrators add to. Cheap to clone; clones share the image.
+/// Image on the device that integrators add samples to. Clones are cheap and share the image.
 ///
 /// Sums are f32: after n samples their relative error is about n * 2^-24 at most, less than the noise
 /// of any picture up to millions of samples.

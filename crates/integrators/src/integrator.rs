@@ -75,11 +75,10 @@ pub(crate) fn submit_with_rest(
     Ok(timings)
 }
 
-/// Turns rays through a structure into radiance on a film, wave by wave. It depends on no particular structure.
+/// Integrator: it turns rays through any structure into radiance on a film, wave by wave.
 ///
-/// Recording only records: it never submits, waits or allocates. What is traced must be complete and
-/// built from the scene's geometry; film and queues must have been reset once with
-/// [`Integrator::record_reset`]. The results of a wave are visible to compute shaders and transfers
+/// Functions that record never submit, wait or allocate. The traced structure must be complete and built from the scene's
+/// geometry; film and queues must have been reset once with [`Integrator::record_reset`]. The results of a wave are visible to compute shaders and transfers
 /// recorded after it. The labels of passes are the paths of their shaders.
 pub trait Integrator {
     /// Name, as the command and reports use it.

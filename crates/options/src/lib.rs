@@ -1,7 +1,10 @@
-//! Options as data. An [`OptionRow`] says what an option is called, what it takes and what it is for; it is the only place
-//! where a range stands, and where text becomes a [`Value`]. Systems and integrators list rows; command line, help, pages,
-//! sweeps and controls are made from them. [`OptionValues`] is what was given of them. [`text`] reads the numbers of both
-//! options and other arguments.
+//! Options as data. Systems and integrators list their options as rows; the command line, its help, the pages, the sweeps and
+//! the viewer's controls are made from these rows.
+//!
+//! - [`OptionRow`] is an option: its name, the [`Values`] that it takes, its help. It is the only place that states a range,
+//!   and the only one that turns text into a [`Value`].
+//! - [`OptionValues`] are the values that were given for some options.
+//! - [`text`] reads numbers, for options and other arguments.
 
 mod row;
 pub mod text;

@@ -1,4 +1,10 @@
-//! The truth: exact hits, and images computed naively on the CPU from the scene model.
+//! The truth of a scene, computed on the processor: exact hits, and images computed naively. Comparisons and tests hold
+//! structures and integrators against it.
+//!
+//! - [`oracle`] decides which triangle a ray hits, exactly on the single-precision data of the device.
+//! - [`integrators`] computes an image as each integrator of the registry should, from the scene model.
+//! - [`shading`] has the surfaces, lights, cameras and random numbers of these.
+//! - [`views`] follows a ray through the cells of views.
 
 pub mod integrators;
 pub mod oracle;

@@ -1,7 +1,11 @@
-//! A report as one page that needs nothing else: no other file, no server, no network.
+//! Pages of reports: `rasray compare --html` and campaigns write a report as one file that needs no other file, no server and
+//! no network.
 //!
-//! Every part stands in a module of its own and is absent where its data was not measured. Figures are
-//! computed here; the page's script only draws, sorts and slides.
+//! - [`page()`] makes the page of a [`Report`].
+//! - [`campaign_page`] makes the page of a campaign.
+//!
+//! Each section of a page is made by a module of its own, and is absent where its data was not measured. Figures are computed
+//! here; the script of the page only draws, sorts and slides.
 
 mod axes;
 mod bars;

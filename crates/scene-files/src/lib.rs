@@ -1,7 +1,12 @@
-//! Scenes from files: glTF, OBJ and PLY, numbered files that are one scene over time, and environment maps.
+//! Scenes from files: glTF, OBJ, PLY, numbered files that are one scene over time, and environment maps. `rasray-scene-source`
+//! loads scenes with it; a host can use it alone.
 //!
-//! [`load`] makes a [`rasray_scene::Scene`] of a file. What of a file is read, refused and remarked on is in
-//! `docs/scene-files.md` of the repository.
+//! - [`load()`] makes a [`rasray_scene::Scene`] of a file; [`LoadOptions`] has limits, the scene of a file with several, and
+//!   frames per second.
+//! - [`load_environment`] reads an environment map, [`decode_image`] an image.
+//! - [`sequence`] reads numbered files.
+//!
+//! `docs/scene-files.md` of the repository says what of a file is read, refused and remarked on.
 
 mod basis;
 mod decode;

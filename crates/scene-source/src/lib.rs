@@ -1,5 +1,9 @@
-//! From a name to a scene that can be shown: the file or the built-in scene of that name, its moment, its light and the
-//! camera that looks at it, with a hash of everything that it was made from. No device is needed.
+//! Scenes by name: a file or a built-in scene, at a moment, lit, and with a camera that looks at it. The command, the viewer
+//! and the benches load scenes with it. No device is needed.
+//!
+//! - [`load()`] and [`load_with`] make a [`LoadedScene`]: the scene, its light and its default view, with a hash of everything
+//!   that it was made from ([`KeyHash`]).
+//! - [`default_view`], [`named_view`] and [`placed_view`] choose the camera.
 //!
 //! ```
 //! let mut loaded = rasray_scene_source::load("cornell".as_ref())?;

@@ -1,7 +1,14 @@
-//! Scenes: what is in them, those that are built in, and what of them a render can observe.
+//! Scenes as data: meshes, instances, materials, lights, cameras and their animation. Loaders make them, and everything that
+//! renders or checks reads them.
 //!
-//! Nothing here knows of Vulkan, or reads a file: `rasray-scene-files` does. Transforms are kept in f64 until the pose;
-//! positions are metres, angles radians, times seconds, radiance W/(sr m^2).
+//! - [`Scene`] is a scene; [`model`] has its parts.
+//! - [`builtin`] has the scenes that need no file.
+//! - [`pose`], [`animation`] and [`deforming`] give the scene at a [`Moment`].
+//! - [`needs`] says which parts of a scene a render can observe.
+//! - [`default_view`] finds a camera, and [`check`] checks and repairs meshes.
+//!
+//! The crate knows no Vulkan and reads no file: `rasray-scene-files` does. Transforms are f64 until the pose; positions are
+//! metres, angles radians, times seconds, radiance W/(sr m^2).
 
 pub mod animation;
 mod back_faces;

@@ -7,9 +7,10 @@ use glam::{DAffine3, DVec3};
 pub use crate::mesh::Mesh;
 pub use crate::warning::Warning;
 
-/// Everything that can be rendered, in one world. Instances are in *scene order*: the order that
-/// global triangle ids follow (glTF: depth-first over scene nodes, primitives in order, instances
-/// in order; OBJ and PLY: file order).
+/// Scene in one world: meshes and their instances, materials, lights, cameras and animation.
+///
+/// Instances are in *scene order*, which global triangle ids follow (glTF: depth-first over scene nodes, primitives in
+/// order, instances in order; OBJ and PLY: file order).
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// File stem or built-in name with its parameters.

@@ -1,10 +1,15 @@
-//! Shadow maps: what each light without extent sees, and points on triangles that emit, as depths, which answer shadow rays in place of traces (Williams
-//! 1978). Drawn by the rasterizer each frame in which lights or triangles have moved.
+//! Shadow maps: an occluder, which answers shadow rays in place of traces (Williams 1978). Images use it with
+//! `--occluder shadow-maps`; hosts can use it beside any structure.
 //!
-//! A map has an error that traces do not have: it knows one depth per texel. Passes, bytes, options and how often answers
-//! differ are on `docs/shadow-maps.md`.
+//! A map holds the depths that a light without extent sees, or that a point on an emitting triangle sees. The rasterizer draws
+//! it in each frame in which lights or triangles have moved. A map knows one depth per texel, and so has an error that traces
+//! do not have.
 //!
-//! [`ShadowMaps`] is an [`rasray_ads::Occluder`]: rays that lead to no light with a map are traced through a structure.
+//! - [`ShadowMaps`] is the [`rasray_ads::Occluder`]. Rays that lead to no light with a map are traced through a structure.
+//! - [`Config`] has the texels of a map and the points of an emitting triangle.
+//! - [`Lights`] and [`Emitters`] are the lights with maps; [`bytes`] computes the memory without a device.
+//!
+//! `docs/shadow-maps.md` has passes, bytes, options and measured errors.
 
 mod config;
 mod layout;

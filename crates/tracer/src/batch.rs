@@ -10,9 +10,10 @@ use rasray_gpu::{Device, PassTiming, Timing};
 use crate::share::Shares;
 use crate::{Replay, TracerError};
 
-/// Traces batches of rays of any length through a queue of fixed capacity. A submission to a structure that
-/// has not been traced yet is small, and later ones hold as many rays as fit into a second; which rays share
-/// a submission changes no hit.
+/// Tracer of batches of rays of any length, through a queue of fixed capacity. It submits and waits.
+///
+/// The first submission to a structure is small, and later ones hold as many rays as are traced in a second. The division
+/// into submissions changes no hit.
 #[derive(Debug)]
 pub struct BatchTracer {
     device: Device,

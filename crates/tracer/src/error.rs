@@ -3,7 +3,7 @@
 use rasray_ads::{AdsError, PoolStatus};
 use rasray_gpu::GpuError;
 
-/// Why a build or a trace has no result.
+/// Error of a build or a trace that has no result.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TracerError {

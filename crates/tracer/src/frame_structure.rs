@@ -97,13 +97,16 @@ struct Used {
     made: bool,
 }
 
-/// A structure over frames in flight: it is built where its last build is stale, its status is read when a frame has
-/// ended, and it grows between frames. Nothing here submits or waits, but for the part of structures that the host
-/// builds ([`FrameStructure::prepare`]), so that a host's own frames can be recorded with it.
+/// Structure over frames in flight, for hosts that record and submit their own frames. It records a build if the last one is
+/// stale, reads the status when a frame has ended, and grows between frames. It never submits or waits, except in
+/// [`FrameStructure::prepare`] for structures that the host builds.
 ///
-/// The order of calls: per frame [`FrameStructure::record`] with a slot, in the order of submission; after the fence
-/// of a slot [`FrameStructure::finish`], in the same order, before the slot is recorded again; anything else is an error. Other triangles
-/// are handed over between frames.
+/// Order of calls; any other is an error:
+///
+/// 1. per frame, in the order of submission: [`FrameStructure::record`] with a slot;
+/// 2. after the fence of the slot, in the same order, and before the slot is recorded again: [`FrameStructure::finish`].
+///
+/// Other triangles are handed over between frames.
 pub struct FrameStructure {
     structure: Refresh,
     headroom: u32,

@@ -1,8 +1,12 @@
-//! Runs structures from the host: the loop that builds until complete, batches of rays traced through a queue, and frames
-//! in flight.
+//! Drivers of structures on the host: builds until complete, batches of rays, frames in flight. Embedders record frames with
+//! it; comparisons, benches and tests build and trace with it.
 //!
-//! [`FrameStructure`] neither submits nor waits: embedders with frames of their own record with it. Everything else
-//! submits for itself.
+//! - [`FrameStructure`] builds a structure over frames in flight. It neither submits nor waits, so a host records its own
+//!   frames with it.
+//! - [`Frames`] is the whole loop of a structure over frames, with its submissions.
+//! - [`build_until_complete`] submits builds and resizes until one is complete.
+//! - [`BatchTracer`] traces any number of rays and returns their hits.
+//! - [`Replay`] logs the steps of single rays.
 
 mod batch;
 mod build;

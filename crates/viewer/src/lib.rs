@@ -1,11 +1,12 @@
-//! A window for scenes: the same structures and integrators as `rasray render`, live.
+//! A viewer of scenes: the structures and integrators of `rasray render`, live. The command `rasray view` opens it.
 //!
-//! A viewer works here without a window: a [`Session`] holds what was chosen and turns keys, drags and widgets into
-//! [`Settings`]; an [`Engine`] makes pictures of settings on a device, step by step, and repeats only what a change makes
-//! necessary ([`Redo`]); a [`Worker`] runs it in a thread, so that a window never waits for a build. The picture that
-//! refinement ends at is the one that `rasray render` writes for the session's command line, bit by bit.
+//! - [`Session`] holds the choices of a user, and turns keys, drags and widgets into [`Settings`].
+//! - [`Engine`] makes pictures of settings on a device, step by step, and repeats only what a change makes necessary
+//!   ([`Redo`]).
+//! - [`Worker`] runs an engine in a thread, so that a window never waits for a build.
+//! - `run`, with the feature `window`, opens the window. All other types work without one.
 //!
-//! With the feature `window`, `run` opens the window.
+//! The picture that refinement ends at is the one that `rasray render` writes for the session's command line, bit by bit.
 
 mod camera_control;
 mod command_line;
