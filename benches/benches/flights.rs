@@ -20,7 +20,7 @@ use rasray_scene::needs::Needs;
 use rasray_scene::{Moment, default_view};
 use rasray_scene_source::{LoadedScene, load};
 use rasray_systems::Spec;
-use rasray_tracer::{FrameStructure, Keeping, refresh_until_complete};
+use rasray_tracer::{FrameSettings, FrameStructure, refresh_until_complete};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -108,8 +108,8 @@ impl<'a> Setting<'a> {
     fn step_by_step(self, count: u32) -> Result<Rendered> {
         let Self { device, loaded, spec, view, scene, pose, path } = self;
         let structure = spec.create(device, scene.geometry(), Some(scene.binding()))?;
-        let keeping = Keeping { slots: 1, ..Keeping::default() };
-        let mut structure = FrameStructure::new(device, structure, keeping)?;
+        let settings = FrameSettings { slots: 1, ..FrameSettings::default() };
+        let mut structure = FrameStructure::new(device, structure, settings)?;
         let mut image = ImageRenderer::new(device, path, 0..1)?;
         let (mut started, mut pictures) = (Instant::now(), Vec::new());
         for number in 0..=count {
@@ -131,7 +131,7 @@ impl<'a> Setting<'a> {
     fn in_flight(self, count: u32, slots: u32) -> Result<Rendered> {
         let Self { device, loaded, spec, view, scene, pose, path } = self;
         let structure = spec.create(device, scene.geometry(), Some(scene.binding()))?;
-        let rest = (Keeping { slots, ..Keeping::default() }, Timing::None, true);
+        let rest = (FrameSettings { slots, ..FrameSettings::default() }, Timing::None, true);
         let mut renderer = FrameRenderer::new(device, (scene, Some(pose)), structure, path, rest)?;
         let shown = renderer.scene().clone();
         let pose = shown.pose().ok_or("the scene does not move")?;

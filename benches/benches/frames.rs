@@ -21,7 +21,7 @@ use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Camera, Moment, default_view};
 use rasray_scene_source::{LoadedScene, load};
 use rasray_systems::{SYSTEMS, Spec};
-use rasray_tracer::{FrameStructure, Keeping, Refresh, refresh_until_complete};
+use rasray_tracer::{FrameSettings, FrameStructure, Refresh, refresh_until_complete};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -48,7 +48,7 @@ const LEFT_OUT: &str = "brute-force";
 const RAYS: [u32; 3] = [1, 4, 16];
 
 /// One frame after the other, in pools with half as much again as they have to hold.
-const KEEPING: Keeping = Keeping { slots: 1, headroom: 50 };
+const SETTINGS: FrameSettings = FrameSettings { slots: 1, headroom: 50 };
 
 /// Medians over frames, milliseconds.
 #[derive(Clone, Copy)]
@@ -238,7 +238,7 @@ impl Setting<'_> {
             None => create(scene.geometry())?.into(),
             Some(parts) => Combined::new(&parts, create)?.into(),
         };
-        Ok(FrameStructure::new(self.device, structure, KEEPING)?)
+        Ok(FrameStructure::new(self.device, structure, SETTINGS)?)
     }
 
     /// Poses the scene for a frame: milliseconds.

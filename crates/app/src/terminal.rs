@@ -1,8 +1,8 @@
-//! Text for people: results on stdout, everything else on stderr. Whatever is shown passes through [`shown`], so
+//! Text for people: results on stdout, everything else on stderr. Whatever is shown passes through [`escaped`], so
 //! that no name in a file can steer a terminal: nothing before this layer escapes them.
 
 use crate::error::AppError;
-use rasray_report::{one_line, shown, shown_but};
+use rasray_report::{escaped, escaped_but, one_line};
 use rasray_scene::{Scene, Warning};
 use std::ffi::OsStr;
 use std::io::{self, IsTerminal, Write};
@@ -78,7 +78,7 @@ pub(crate) fn write_out(bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// [`AppError::Refused`] when stdout takes no more.
 pub(crate) fn print(text: &str) -> Result<(), AppError> {
-    match write_out(shown(text).as_bytes()) {
+    match write_out(escaped(text).as_bytes()) {
         Err(_) if HUNG_UP.load(Ordering::Relaxed) => Ok(()),
         other => other.map_err(|error| {
             AppError::refused(format!("stdout: {error}"), "send the output somewhere with space for it")
@@ -103,7 +103,7 @@ pub(crate) fn summarize(text: &str, stdout_is_taken: bool) -> Result<(), AppErro
 
 /// Shows a text on stderr; there is nowhere left to complain when that fails.
 pub(crate) fn complain(text: &str) {
-    _ = io::stderr().lock().write_all(shown(text).as_bytes());
+    _ = io::stderr().lock().write_all(escaped(text).as_bytes());
 }
 
 /// One line that is neither result nor error, unless quiet was asked for.
@@ -170,7 +170,7 @@ impl Write for Log {
     fn write(&mut self, line: &[u8]) -> io::Result<usize> {
         let text = String::from_utf8_lossy(line);
         // Colours begin with an escape character; the formatter writes out those of the values itself.
-        let text = if self.colors { shown_but(&text, &['\u{1b}']) } else { shown(&text) };
+        let text = if self.colors { escaped_but(&text, &['\u{1b}']) } else { escaped(&text) };
         _ = io::stderr().lock().write_all(text.as_bytes());
         Ok(line.len())
     }

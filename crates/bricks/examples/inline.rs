@@ -7,7 +7,7 @@ use rasray_ads::{BruteForce, Domain, Geometry, Hit, InlineTrace, Ray, RayQueue, 
 use rasray_bricks::{Bricks, Config, Views};
 use rasray_gpu::{Access, Device, Recorded, Recorder, vk};
 use rasray_shader_compiler::{Module, compile};
-use rasray_tracer::{FrameOutcome, FrameStructure, Keeping};
+use rasray_tracer::{FrameOutcome, FrameSettings, FrameStructure};
 
 #[path = "../../ads/examples/host/mod.rs"]
 mod host;
@@ -53,7 +53,8 @@ pub fn main() -> Result<()> {
     let first = host.geometry(&device, &mesh, host.buffer(&mesh.positions)?)?;
     let bricks = Box::new(Bricks::new(&device, config, &first, None)?);
     // With half as much again as a frame needs, since the next ones may need a little more.
-    let mut bricks = FrameStructure::new(&device, bricks, Keeping { slots: FRAMES as u32, headroom: 50 })?;
+    let mut bricks =
+        FrameStructure::new(&device, bricks, FrameSettings { slots: FRAMES as u32, headroom: 50 })?;
     let mut slots = Vec::new();
     for _ in 0..FRAMES {
         slots.push(Slot::new(&host, &device, &mesh, &bricks, &spirv)?);

@@ -24,12 +24,12 @@ const DECIDING: [&str; 4] = ["integrator", "system", "scene", "preset"];
 
 /// Settings that need no column: what all rows have in common, and what follows from another setting.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Said {
+pub(crate) struct SharedSettings {
     names: BTreeSet<String>,
     words: Vec<String>,
 }
 
-impl Said {
+impl SharedSettings {
     /// Settings that need no column for these rows, where `before` has been said of them and of others.
     pub(crate) fn of(rows: &[&Row], before: &Self) -> Self {
         let all = Experiment { name: String::new(), rows: rows.iter().copied().cloned().collect() };

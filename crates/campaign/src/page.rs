@@ -1,6 +1,6 @@
 //! The page of a paper: what was published beside ours, and what was measured, in short.
 
-use crate::brief::{Said, merged, shown, take_alike};
+use crate::brief::{SharedSettings, merged, shown, take_alike};
 use crate::claim::{Claim, Finding};
 use crate::paper::{Item, Paper, word};
 use crate::plan::{ExperimentPlan, Plan};
@@ -19,10 +19,10 @@ pub fn paper_page(paper: &Paper, items: &[(&Item, Plan)], campaign: &Campaign) -
     };
     let all = items.iter().flat_map(|(item, plan)| plan.experiments.iter().filter_map(|one| made(item, one)));
     let rows: Vec<_> = all.flat_map(|made| &made.rows).collect();
-    let of_all = Said::of(&rows, &Said::default());
+    let of_all = SharedSettings::of(&rows, &SharedSettings::default());
     let of_kinds = [true, false].map(|is_rays| {
         let rows: Vec<_> = rows.iter().copied().filter(|row| is_of_rays(row) == is_rays).collect();
-        Said::of(&rows, &of_all)
+        SharedSettings::of(&rows, &of_all)
     });
     let names: Vec<_> = items.iter().map(|(item, _)| item.name).collect();
     let mut text = head(paper, &names, campaign, &of_all, &of_kinds);
@@ -57,7 +57,13 @@ fn is_of_rays(row: &Row) -> bool {
     row.run().ray_set.is_some()
 }
 
-fn head(paper: &Paper, items: &[&str], campaign: &Campaign, of_all: &Said, of_kinds: &[Said; 2]) -> String {
+fn head(
+    paper: &Paper,
+    items: &[&str],
+    campaign: &Campaign,
+    of_all: &SharedSettings,
+    of_kinds: &[SharedSettings; 2],
+) -> String {
     let device = &campaign.device;
     let software = if device.software { ", a software driver" } else { "" };
     let mut text = format!("# Replication of {}\n\n{}.\n\n", paper.name, paper.cited);
@@ -81,7 +87,7 @@ fn head(paper: &Paper, items: &[&str], campaign: &Campaign, of_all: &Said, of_ki
 struct Page<'a> {
     paper: &'a Paper,
     /// Of rays, and of images.
-    of_kinds: [Said; 2],
+    of_kinds: [SharedSettings; 2],
     /// Of each table where it stands, and the keys of its runs.
     tables: Vec<(String, BTreeSet<String>)>,
     sheets: Vec<Sheet>,
@@ -106,7 +112,7 @@ impl Page<'_> {
             [one] => self.of_kind(one).clone(),
             _ => self.of_kinds[0].shared(&self.of_kinds[1]),
         };
-        let of_both = Said::of(&made.rows.iter().collect::<Vec<_>>(), &before);
+        let of_both = SharedSettings::of(&made.rows.iter().collect::<Vec<_>>(), &before);
         let mut words = of_both.words().to_vec();
         let (mut sheet, mut tables) = (String::new(), String::new());
         for (index, part) in parts.iter().enumerate() {
@@ -116,8 +122,10 @@ impl Page<'_> {
                 _ = writeln!(tables, "{name}: those of {place}.\n");
                 continue;
             }
-            let said =
-                Said::of(&part.rows.iter().collect::<Vec<_>>(), &of_both.clone().and(self.of_kind(part)));
+            let said = SharedSettings::of(
+                &part.rows.iter().collect::<Vec<_>>(),
+                &of_both.clone().and(self.of_kind(part)),
+            );
             if !is_rays {
                 let of_images = Sheet::of(self.paper, item, number, part);
                 sheet = of_images.markdown();
@@ -142,7 +150,7 @@ impl Page<'_> {
         sheet + &held_against(&plan.claims, made) + &words + &tables
     }
 
-    fn of_kind(&self, part: &Experiment) -> &Said {
+    fn of_kind(&self, part: &Experiment) -> &SharedSettings {
         let [of_rays, of_images] = &self.of_kinds;
         if part.rows.iter().all(is_of_rays) { of_rays } else { of_images }
     }

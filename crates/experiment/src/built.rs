@@ -8,7 +8,7 @@ use rasray_gpu::{Device, Feature, GpuError, Stage, Timing};
 use rasray_gpu_scene::{GpuScene, GpuSceneError};
 use rasray_scene::Scene;
 use rasray_systems::Spec;
-use rasray_tracer::{BuildOutcome, FrameStructure, Keeping, refresh_until_complete};
+use rasray_tracer::{BuildOutcome, FrameSettings, FrameStructure, refresh_until_complete};
 use serde_json::Value;
 
 use crate::device_scene::DeviceScene;
@@ -24,7 +24,7 @@ fn may_use_addresses(device: &Device, spec: &Spec) -> bool {
 }
 
 /// Frames are made one after the other, and each waits for its build: pools are as large as they have to be.
-const KEEPING: Keeping = Keeping { slots: 1, headroom: 0 };
+const SETTINGS: FrameSettings = FrameSettings { slots: 1, headroom: 0 };
 
 /// Makes a structure, in parts where these are given, and builds it until complete.
 fn first_build(
@@ -45,7 +45,7 @@ fn first_build(
     }
     .map_err(|error| too_large(error.into(), spec))?;
     let mut structure =
-        FrameStructure::new(device, made, KEEPING).map_err(|error| too_large(error.into(), spec))?;
+        FrameStructure::new(device, made, SETTINGS).map_err(|error| too_large(error.into(), spec))?;
     let outcome = refresh_until_complete(device, &mut structure, viewpoint, timing)
         .map_err(|error| too_large(error.into(), spec))?;
     Ok((structure, outcome))
@@ -82,7 +82,7 @@ fn is_pool(name: &str, spec: &Spec) -> bool {
 }
 
 /// Options and paths by name.
-pub type Resolved = (BTreeMap<String, Value>, BTreeMap<String, String>);
+pub type ResolvedOptions = (BTreeMap<String, Value>, BTreeMap<String, String>);
 
 /// A structure, built, with what the building cost.
 pub struct Built {
@@ -268,7 +268,7 @@ impl Built {
     ///
     /// # Errors
     /// The device fails.
-    pub fn resolved(&self) -> Result<Resolved, ExperimentError> {
+    pub fn resolved(&self) -> Result<ResolvedOptions, ExperimentError> {
         let report = self.structure().report()?;
         let paths = report.paths.into_iter().map(|(name, value)| (name.to_owned(), value));
         Ok((rasray_report::options(report.options), paths.collect()))

@@ -175,7 +175,7 @@ pub struct Comparison {
     /// Pictures and maps; empty unless [`CompareJob::figures`] asked for them.
     pub figures: Figures,
     /// Rays and answers; empty unless [`CompareJob::keep`] asked for them.
-    pub kept: Kept,
+    pub kept: SavedRays,
     /// The replay of one ray in words, where [`CompareJob::replay`] asked for it.
     pub replay: Option<String>,
 }
@@ -193,7 +193,7 @@ pub const FILE_SET: &str = "file";
 
 /// Rays that were traced and their answers.
 #[derive(Clone, Debug, Default)]
-pub struct Kept {
+pub struct SavedRays {
     /// The hard case that this is about.
     pub case: Option<String>,
     /// World, metres; rays and triangles are relative to it.
@@ -204,12 +204,12 @@ pub struct Kept {
     /// counter-clockwise one is. Empty for a hard case.
     pub backs: Vec<u32>,
     /// One entry a ray set.
-    pub sets: Vec<KeptSet>,
+    pub sets: Vec<SavedSet>,
 }
 
 /// A ray set with all answers to it.
 #[derive(Clone, Debug)]
-pub struct KeptSet {
+pub struct SavedSet {
     /// Such as `camera`.
     pub name: String,
     /// As they were traced.

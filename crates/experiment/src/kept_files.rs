@@ -1,13 +1,13 @@
 //! Traced rays and their answers as files with names.
 
-use crate::jobs::Kept;
+use crate::jobs::SavedRays;
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_ray_files::{hits_to_npy, rays_to_npy, triangles_to_npy, truth_to_npy, words_to_npy, write_rays};
 
 /// A name within a folder, and the bytes of the file.
 pub type NamedBytes = (String, Vec<u8>);
 
-impl Kept {
+impl SavedRays {
     /// Rays and triangles as files: `<set>.rays` and `<set>.npy`, `<set>.exclude.npy` where a ray excludes a triangle,
     /// `<set>.flags.npy` where a ray passes backs, and `triangles.npy`, which the hard case that this is about precedes;
     /// `triangles.backs.npy` where a triangle has a back. They are encoded one by one as they are asked for.

@@ -65,7 +65,7 @@ pub use backend::{
     Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, FinishedRun, OnProgress, OnRun,
     OpenBackend, Progress, TexelCapacity,
 };
-pub use built::{Built, Resolved};
+pub use built::{Built, ResolvedOptions};
 pub use campaign::{CampaignCells, ExperimentCells};
 pub use cell::{CellList, HardSubject, cell_key, compare_cells, hard_cells};
 pub use contestant::Contestant;
@@ -77,7 +77,7 @@ pub use evaluate::device_hits;
 pub use hard_file::compare_file;
 pub use jobs::{
     Answers, Aov, AovImage, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, FrameBefore,
-    HardJob, Kept, KeptSet, OccluderKind, Primary, RaySet, Refresh, RenderJob, RenderOutput,
+    HardJob, OccluderKind, Primary, RaySet, Refresh, RenderJob, RenderOutput, SavedRays, SavedSet,
 };
 pub use kept_files::NamedBytes;
 pub use key::picture_key;

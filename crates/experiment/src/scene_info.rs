@@ -10,7 +10,7 @@ use rasray_report::{CameraRecord, PoseRecord};
 use rasray_scene::facing::Facing;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Environment, Motion, Scene, default_view};
-use rasray_scene_source::{Chosen, LoadedScene};
+use rasray_scene_source::{ChosenCamera, LoadedScene};
 use serde_json::{Value, json};
 
 /// Counts the bytes of a scene that are not uploaded where `needs` are those of an image from `camera`.
@@ -48,7 +48,7 @@ pub struct SceneInfo {
     /// Its cameras.
     pub cameras: Vec<CameraRecord>,
     /// From where it is seen.
-    pub view: Chosen,
+    pub view: ChosenCamera,
     /// The integrator whose needs these are.
     pub integrator: &'static str,
     /// Data of it that an image can show.
@@ -67,7 +67,7 @@ impl SceneInfo {
     /// The scene names what it does not have, or has more texels than the device can make fit.
     pub fn of(
         loaded: &mut LoadedScene,
-        view: &Chosen,
+        view: &ChosenCamera,
         frame: &Frame,
         capacity: impl FnOnce() -> Option<TexelCapacity>,
     ) -> Result<Self, ExperimentError> {
@@ -78,7 +78,7 @@ impl SceneInfo {
         count_not_uploaded(loaded, &view.camera, &needs);
         let scene = &loaded.scene;
         let camera = |(index, camera): (usize, &Camera)| {
-            Chosen { camera: camera.clone(), index: Some(index) }.record()
+            ChosenCamera { camera: camera.clone(), index: Some(index) }.record()
         };
         let texels = TexelInfo::of(scene, &needs, capacity)?;
         Ok(Self {

@@ -11,7 +11,7 @@ use rasray_tracer::BatchTracer;
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
 use crate::evaluate::{accuracy, depth_errors, device_hits};
-use crate::jobs::{Answers, Comparison, KeptSet};
+use crate::jobs::{Answers, Comparison, SavedSet};
 use crate::passes::{Passes, median, spread};
 use rasray_ray_files::{HitsFile, TrueHit};
 use rasray_report::{PassOf, Run, Times};
@@ -139,7 +139,7 @@ pub(super) fn compare_set(
     });
     let evaluated = answers.iter().cloned().chain(others).collect();
     if wanted.keep {
-        comparison.kept.sets.push(KeptSet {
+        comparison.kept.sets.push(SavedSet {
             name: set.name.clone(),
             rays: set.rays.clone(),
             truth: set.verdicts.iter().map(true_hit).collect(),

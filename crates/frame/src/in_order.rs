@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use rasray_gpu_scene::FramePose;
 
-use crate::{FrameError, FrameInput, FrameRenderer, FrameScene, Picture, Taken};
+use crate::{FrameError, FrameInput, FrameRenderer, FrameResult, FrameScene, Picture};
 
 /// Repeats after which a frame counts as unstable: as many as a build may grow, one for rounds of traces, and as often as
 /// the rounds of paths that pass surfaces can double.
@@ -90,13 +90,13 @@ fn in_order(
         let Some(shown) = renderer.take()? else { return Ok(done) };
         let Some((input, repeats)) = in_flight.pop_front() else { return Ok(done) };
         match shown {
-            Taken::Picture(picture) => {
+            FrameResult::Picture(picture) => {
                 done.pictures += 1;
                 if sink(picture).is_break() {
                     return Ok(done);
                 }
             }
-            Taken::Nothing { pool } => {
+            FrameResult::Nothing { pool } => {
                 if repeats >= REPEATS {
                     let structure = renderer.structure().structure().description().name;
                     return Err(FrameError::Unstable { structure, repeats, pool });

@@ -32,7 +32,7 @@ pub use image_passes::ImagePasses;
 pub use image_renderer::{Advance, ImageRenderer};
 pub use in_order::{InOrder, render_in_order};
 pub use readback::FilmCopy;
-pub use renderer::{FrameInput, FrameRenderer, Picture, Taken};
+pub use renderer::{FrameInput, FrameRenderer, FrameResult, Picture};
 pub use samples::Samples;
 pub use scene::FrameScene;
 

@@ -6,7 +6,7 @@ use rasray_ads::{AdsError, PoolStatus, QueueCounters, Structure};
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, ShadingFeatures, View};
 use rasray_integrators::{Integrator, IntegratorError, Visibility, check_faults, check_features};
-use rasray_tracer::{FrameOutcome, FrameStructure, Frames, Keeping, Refresh, TracerError};
+use rasray_tracer::{FrameOutcome, FrameSettings, FrameStructure, Frames, Refresh, TracerError};
 
 use crate::image_passes::{ImagePasses, unanswered};
 use crate::readback::{FilmCopy, Readback};
@@ -32,7 +32,7 @@ pub struct FrameInput {
 
 /// Outcome of a frame.
 #[derive(Clone, Debug)]
-pub enum Taken {
+pub enum FrameResult {
     /// A picture.
     Picture(Picture),
     /// Its build was not complete, or its rays needed more rounds or passed more surfaces than were recorded, all of which the
@@ -111,9 +111,9 @@ impl FrameRenderer {
         (scene, pose): (GpuScene, Option<PosePass>),
         structure: impl Into<Refresh>,
         image: impl Into<ImagePasses>,
-        (keeping, timing, reads_films): (Keeping, Timing, bool),
+        (settings, timing, reads_films): (FrameSettings, Timing, bool),
     ) -> Result<Self, FrameError> {
-        let frames = Frames::new(device, structure, keeping, timing)?;
+        let frames = Frames::new(device, structure, settings, timing)?;
         let features = scene.features();
         let scene = FrameScene::new(device, scene, pose, frames.slots())?;
         let image = image.into();
@@ -283,7 +283,7 @@ impl FrameRenderer {
     /// The device failed, no sizes suffice for the structure, rays did not finish in as many rounds as there can be
     /// ([`FrameError::Unfinished`]), lists are damaged, or surfaces have too many photons around them
     /// ([`IntegratorError::Crowded`]).
-    pub fn take(&mut self) -> Result<Option<Taken>, FrameError> {
+    pub fn take(&mut self) -> Result<Option<FrameResult>, FrameError> {
         let ended = self.frames.take()?;
         ended.map(|ended| self.shown(ended)).transpose()
     }
@@ -292,12 +292,12 @@ impl FrameRenderer {
     ///
     /// # Errors
     /// As [`FrameRenderer::take`].
-    pub fn take_ended(&mut self) -> Result<Option<Taken>, FrameError> {
+    pub fn take_ended(&mut self) -> Result<Option<FrameResult>, FrameError> {
         let ended = self.frames.take_ended()?;
         ended.map(|ended| self.shown(ended)).transpose()
     }
 
-    fn shown(&mut self, ended: rasray_tracer::Ended) -> Result<Taken, FrameError> {
+    fn shown(&mut self, ended: rasray_tracer::EndedFrame) -> Result<FrameResult, FrameError> {
         // A new image does not depend on the film before it.
         let none = Pending { continues: false, rounds: 0, traces: 0, drew_maps: false };
         let pending = self.pending.pop_front().unwrap_or(none);
@@ -326,10 +326,17 @@ impl FrameRenderer {
                 FrameOutcome::Complete => None,
                 FrameOutcome::Incomplete { pool } => pool,
             };
-            return Ok(Taken::Nothing { pool });
+            return Ok(FrameResult::Nothing { pool });
         }
-        let rasray_tracer::Ended { number, built, passes, .. } = ended;
-        Ok(Taken::Picture(Picture { number, film, built, drew_maps: pending.drew_maps, counters, passes }))
+        let rasray_tracer::EndedFrame { number, built, passes, .. } = ended;
+        Ok(FrameResult::Picture(Picture {
+            number,
+            film,
+            built,
+            drew_maps: pending.drew_maps,
+            counters,
+            passes,
+        }))
     }
 }
 

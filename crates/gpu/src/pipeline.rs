@@ -9,7 +9,7 @@ use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 use crate::features::Feature;
 use crate::pipeline_desc::{ComputePipelineDesc, RasterPipelineDesc};
-use crate::pipeline_store::{Made, Recipe};
+use crate::pipeline_store::{PipelineObjects, Recipe};
 use crate::raster_options::RasterOptions;
 use crate::set_layout::SetLayout;
 use crate::set_parts::Mask;
@@ -81,7 +81,7 @@ impl Device {
     /// [`GpuError::InvalidShader`] for words that are no module, [`GpuError::LimitExceeded`] for too many
     /// sets, buffers or push constants, or what the driver reports, with the name of the pipeline.
     pub fn create_compute_pipeline(&self, desc: &ComputePipelineDesc<'_>) -> Result<ComputePipeline> {
-        let asked = Asked {
+        let asked = PipelineRequest {
             name: desc.name,
             sets: desc.sets,
             push_constant_bytes: desc.push_constant_bytes,
@@ -131,7 +131,7 @@ impl Device {
         if options.view_mask != 0 {
             core.require(Feature::Multiview, desc.name)?;
         }
-        let asked = Asked {
+        let asked = PipelineRequest {
             name: desc.name,
             sets: desc.sets,
             push_constant_bytes: desc.push_constant_bytes,
@@ -198,7 +198,7 @@ impl Device {
     /// Finds what was made by the recipe before, or makes it by `compile` now.
     fn shared_pipeline(
         &self,
-        asked: &Asked<'_>,
+        asked: &PipelineRequest<'_>,
         recipe: Recipe,
         compile: impl FnOnce(vk::PipelineLayout) -> Result<vk::Pipeline>,
     ) -> Result<Arc<PipelineInner>> {
@@ -212,7 +212,7 @@ impl Device {
                 let layout = Layout::create(core, asked, &used)?;
                 let raw = compile(layout.raw)?;
                 core.name_object(raw, asked.name);
-                let made = Made { raw, layout: layout.into_raw(), used };
+                let made = PipelineObjects { raw, layout: layout.into_raw(), used };
                 core.pipelines.insert(&core.device, recipe, made)
             }
         };
@@ -232,7 +232,7 @@ impl Device {
     }
 
     /// Masks of the bindings of each set that the modules of a pipeline use.
-    fn used_bindings(&self, asked: &Asked<'_>, recipe: &Recipe) -> Result<Arc<[Mask]>> {
+    fn used_bindings(&self, asked: &PipelineRequest<'_>, recipe: &Recipe) -> Result<Arc<[Mask]>> {
         let name = asked.name;
         let mut used = vec![0; asked.sets.len()];
         for module in &recipe.modules {
@@ -258,8 +258,8 @@ impl Device {
     }
 
     /// Checks what both kinds share.
-    fn check_pipeline(&self, asked: &Asked<'_>) -> Result<()> {
-        let Asked { name, sets, push_constant_bytes, .. } = *asked;
+    fn check_pipeline(&self, asked: &PipelineRequest<'_>) -> Result<()> {
+        let PipelineRequest { name, sets, push_constant_bytes, .. } = *asked;
         let core = &self.core;
         let limits = &core.limits;
         let checks: [(&'static str, u64, u64); 2] = [
@@ -282,7 +282,7 @@ impl Device {
 }
 
 /// Request for a pipeline of either kind.
-struct Asked<'a> {
+struct PipelineRequest<'a> {
     name: &'a str,
     sets: &'a [&'a SetLayout],
     push_constant_bytes: u32,
@@ -290,7 +290,7 @@ struct Asked<'a> {
     bind_point: vk::PipelineBindPoint,
 }
 
-impl Asked<'_> {
+impl PipelineRequest<'_> {
     fn recipe(&self, modules: &[&[u32]], constants: &[(u32, u32)], options: RasterOptions) -> Recipe {
         Recipe {
             modules: modules.iter().map(|words| Box::from(*words)).collect(),
@@ -310,7 +310,7 @@ struct Layout<'a> {
 
 impl<'a> Layout<'a> {
     /// The layout of the bindings that are used.
-    fn create(core: &'a Core, asked: &Asked<'_>, used: &[Mask]) -> Result<Self> {
+    fn create(core: &'a Core, asked: &PipelineRequest<'_>, used: &[Mask]) -> Result<Self> {
         let parts = asked.sets.iter().zip(used).map(|(set, used)| set.part(*used));
         let layouts = parts.collect::<Result<Vec<_>>>()?;
         let range =

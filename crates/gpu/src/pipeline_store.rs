@@ -25,14 +25,14 @@ pub(crate) struct Recipe {
 
 /// Vulkan objects of a pipeline.
 #[derive(Clone, Debug)]
-pub(crate) struct Made {
+pub(crate) struct PipelineObjects {
     pub(crate) raw: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
     /// The bindings of each set that its layout has.
     pub(crate) used: Arc<[Mask]>,
 }
 
-impl Made {
+impl PipelineObjects {
     /// # Safety
     /// Nothing uses the pipeline any more, and it is destroyed once.
     unsafe fn destroy(&self, device: &ash::Device) {
@@ -45,7 +45,7 @@ impl Made {
 }
 
 struct Entry {
-    made: Made,
+    made: PipelineObjects,
     /// Handles that are out; idle at 0.
     handles: usize,
     /// When it became idle; a key of [`Books::idle`] while it is.
@@ -77,13 +77,18 @@ impl PipelineStore {
     }
 
     /// A handle to what was made by this recipe, if anything was.
-    pub(crate) fn find(&self, recipe: &Recipe) -> Option<(Arc<Recipe>, Made)> {
+    pub(crate) fn find(&self, recipe: &Recipe) -> Option<(Arc<Recipe>, PipelineObjects)> {
         self.books().find(recipe)
     }
 
     /// The first handle to what was just made. Where another thread was faster, its pipeline is given out and this one
     /// destroyed.
-    pub(crate) fn insert(&self, device: &ash::Device, recipe: Recipe, made: Made) -> (Arc<Recipe>, Made) {
+    pub(crate) fn insert(
+        &self,
+        device: &ash::Device,
+        recipe: Recipe,
+        made: PipelineObjects,
+    ) -> (Arc<Recipe>, PipelineObjects) {
         let mut books = self.books();
         if let Some(found) = books.find(&recipe) {
             // SAFETY: it was made for this call and given to nobody.
@@ -123,7 +128,7 @@ impl PipelineStore {
 }
 
 impl Books {
-    fn find(&mut self, recipe: &Recipe) -> Option<(Arc<Recipe>, Made)> {
+    fn find(&mut self, recipe: &Recipe) -> Option<(Arc<Recipe>, PipelineObjects)> {
         let recipe = self.entries.get_key_value(recipe)?.0.clone();
         let entry = self.entries.get_mut(&recipe)?;
         if entry.handles == 0 {

@@ -1,6 +1,6 @@
 //! HTML text in which everything that does not come from this program's source is escaped.
 
-use rasray_report::{json_shown, shown};
+use rasray_report::{escaped, json_escaped};
 use serde_json::Value;
 use std::fmt::{Display, Write};
 
@@ -66,7 +66,7 @@ impl Markup {
         _ = write!(self.text, "<script type=\"application/json\" id=\"{id}\">");
         // In JSON these characters stand only in strings, where this escape means the same; without
         // them no end tag and no comment can begin.
-        for character in json_shown(&value.to_string()).chars() {
+        for character in json_escaped(&value.to_string()).chars() {
             match character {
                 '<' => self.text += "\\u003c",
                 '>' => self.text += "\\u003e",
@@ -102,7 +102,7 @@ impl Markup {
 }
 
 fn escape_into(target: &mut String, text: &str) {
-    for character in shown(text).chars() {
+    for character in escaped(text).chars() {
         match character {
             '&' => *target += "&amp;",
             '<' => *target += "&lt;",
@@ -116,7 +116,7 @@ fn escape_into(target: &mut String, text: &str) {
 
 /// Text for labels of plots, whose library reads a few tags in them.
 pub(super) fn plot_text(text: &str) -> String {
-    shown(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+    escaped(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

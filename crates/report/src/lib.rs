@@ -35,7 +35,7 @@ pub use schema::{
 pub use markdown::markdown;
 pub use run_text::list_rows;
 pub use table::{table, table_within};
-pub use text::{in_line, json_shown, one_line, shown, shown_but};
+pub use text::{escaped, escaped_but, in_line, json_escaped, one_line};
 pub use words::{bytes, columns, columns_within, duration, grouped, wrapped};
 
 use rasray_metrics::confidence_of_each;

@@ -4,16 +4,16 @@ use std::borrow::Cow;
 
 /// Text of one or several lines with every character that a terminal obeys written out, such as `\u{1b}`: controls but
 /// line breaks and tabs, and those that turn the direction of what follows.
-pub fn shown(text: &str) -> Cow<'_, str> {
+pub fn escaped(text: &str) -> Cow<'_, str> {
     written_out(text, &['\n', '\t'])
 }
 
-/// [`shown`], but `kept` are not written out either.
-pub fn shown_but<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
+/// [`escaped`], but `kept` are not written out either.
+pub fn escaped_but<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
     written_out(text, &[&['\n', '\t'], kept].concat())
 }
 
-/// [`shown`] for a name within a line, whose line breaks and tabs are written out as well.
+/// [`escaped`] for a name within a line, whose line breaks and tabs are written out as well.
 pub fn in_line(text: &str) -> Cow<'_, str> {
     written_out(text, &[])
 }
@@ -45,9 +45,9 @@ fn is_obeyed(character: char) -> bool {
     character.is_control() || turns || separates
 }
 
-/// JSON text in which every such character is escaped as JSON does it, so that nothing is left for [`shown`]; in
+/// JSON text in which every such character is escaped as JSON does it, so that nothing is left for [`escaped`]; in
 /// valid JSON they stand in strings only, but for the line breaks between them.
-pub fn json_shown(text: &str) -> String {
+pub fn json_escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
         if is_obeyed(character) && character != '\n' {
@@ -67,10 +67,10 @@ mod tests {
     #[test]
     fn nothing_that_a_terminal_obeys_is_shown_as_it_is() {
         let text = "wall\u{1b}[2J\r\u{7}\u{9b}31m\u{202e}x\0";
-        assert_eq!(shown(text), r"wall\u{1b}[2J\r\u{7}\u{9b}31m\u{202e}x\u{0}");
-        assert_eq!(shown_but("a\u{1b}b\u{7}\n", &['\u{1b}']), "a\u{1b}b\\u{7}\n");
+        assert_eq!(escaped(text), r"wall\u{1b}[2J\r\u{7}\u{9b}31m\u{202e}x\u{0}");
+        assert_eq!(escaped_but("a\u{1b}b\u{7}\n", &['\u{1b}']), "a\u{1b}b\\u{7}\n");
         let plain = "Wände, 壁\n\tand 🧱";
-        assert!(matches!(shown(plain), Cow::Borrowed(text) if text == plain));
+        assert!(matches!(escaped(plain), Cow::Borrowed(text) if text == plain));
         assert_eq!(in_line("a\nb\tc\u{2028}d"), r"a\nb\tc\u{2028}d");
         assert_eq!(one_line(" a\n  b\u{7} "), r"a b\u{7}");
     }
@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn json_stays_json() {
         let name = "a\u{1b}\u{9b}\u{202e}\n\"b\"";
-        let text = json_shown(&serde_json::to_string(name).expect("a string"));
+        let text = json_escaped(&serde_json::to_string(name).expect("a string"));
         assert!(!text.contains(is_obeyed), "{text}");
         assert_eq!(serde_json::from_str::<String>(&text).expect("a string"), name);
     }

@@ -11,14 +11,14 @@ const DEFAULT_FOV: f64 = 45.0;
 
 /// A camera, and whose it is.
 #[derive(Clone, Debug)]
-pub struct Chosen {
+pub struct ChosenCamera {
     /// The camera.
     pub camera: Camera,
     /// Its position among the scene's cameras, if it is one of them.
     pub index: Option<usize>,
 }
 
-impl Chosen {
+impl ChosenCamera {
     /// This camera with a lens: the diameter of its opening, metres (0: a pinhole), and the distance of the plane in
     /// focus, metres along the view.
     ///
@@ -79,16 +79,16 @@ impl Chosen {
 
 /// The view where nothing is said of it: the scene's first camera; else one that stands in the room that the scene
 /// is, or outside and sees all of it.
-pub fn default_view(scene: &Scene) -> Chosen {
-    let first = scene.cameras.first().cloned().map(|camera| Chosen { camera, index: Some(0) });
-    first.unwrap_or_else(|| Chosen { camera: default_camera(scene), index: None })
+pub fn default_view(scene: &Scene) -> ChosenCamera {
+    let first = scene.cameras.first().cloned().map(|camera| ChosenCamera { camera, index: Some(0) });
+    first.unwrap_or_else(|| ChosenCamera { camera: default_camera(scene), index: None })
 }
 
 /// The camera of a scene by name, else by position from 0.
 ///
 /// # Errors
 /// The scene has no such camera.
-pub fn named_view(scene: &Scene, name: &str) -> Result<Chosen, LoadError> {
+pub fn named_view(scene: &Scene, name: &str) -> Result<ChosenCamera, LoadError> {
     let by_name = scene.cameras.iter().position(|camera| camera.name == name);
     let by_position = || name.parse::<usize>().ok().filter(|position| *position < scene.cameras.len());
     let index = by_name.or_else(by_position).ok_or_else(|| LoadError::NoSuchCamera {
@@ -96,21 +96,21 @@ pub fn named_view(scene: &Scene, name: &str) -> Result<Chosen, LoadError> {
         wanted: name.to_owned(),
         cameras: scene.cameras.iter().map(|camera| camera.name.clone()).collect(),
     })?;
-    Ok(Chosen { camera: scene.cameras[index].clone(), index: Some(index) })
+    Ok(ChosenCamera { camera: scene.cameras[index].clone(), index: Some(index) })
 }
 
 /// A camera at `eye` that looks at `target` (metres), upright; `fov` is the full vertical angle of view in degrees.
 ///
 /// # Errors
 /// Both at one place, or not finite.
-pub fn placed_view(eye: [f64; 3], target: [f64; 3], fov: Option<f64>) -> Result<Chosen, LoadError> {
+pub fn placed_view(eye: [f64; 3], target: [f64; 3], fov: Option<f64>) -> Result<ChosenCamera, LoadError> {
     let (eye, target) = (DVec3::from_array(eye), DVec3::from_array(target));
     let distance = (target - eye).length();
     if !(distance > 0.0 && distance.is_finite()) {
         return Err(LoadError::NoDirection);
     }
     let fov = fov.unwrap_or(DEFAULT_FOV).to_radians() as f32;
-    Ok(Chosen { camera: camera_looking_at("command line", eye, target, fov), index: None })
+    Ok(ChosenCamera { camera: camera_looking_at("command line", eye, target, fov), index: None })
 }
 
 /// Projection and place of a camera; of a perspective as the options that make the same one, unless it is rolled.

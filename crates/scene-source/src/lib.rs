@@ -19,7 +19,7 @@ mod key_hash;
 mod lighting;
 mod loaded;
 
-pub use camera::{Chosen, default_view, named_view, placed_view};
+pub use camera::{ChosenCamera, default_view, named_view, placed_view};
 pub use error::LoadError;
 pub use key_hash::KeyHash;
 pub use loaded::{LoadedScene, load, load_with};

@@ -1,6 +1,6 @@
 //! From a name to a scene that can be rendered.
 
-use crate::camera::{Chosen, default_view, named_view};
+use crate::camera::{ChosenCamera, default_view, named_view};
 use crate::error::LoadError;
 use crate::key_hash::KeyHash;
 use crate::lighting::Lighting;
@@ -163,16 +163,16 @@ impl LoadedScene {
         Some(Camera { world_from_camera, ..camera })
     }
 
-    fn moved(&self, chosen: Chosen) -> Chosen {
+    fn moved(&self, chosen: ChosenCamera) -> ChosenCamera {
         let camera = chosen.index.and_then(|index| self.camera(index));
-        Chosen { camera: camera.unwrap_or(chosen.camera), ..chosen }
+        ChosenCamera { camera: camera.unwrap_or(chosen.camera), ..chosen }
     }
 
     /// As [`default_view()`], of the scene as it is shown.
     ///
     /// # Errors
     /// Those of the deformer, where the scene has no camera.
-    pub fn default_view(&mut self) -> Result<Chosen, LoadError> {
+    pub fn default_view(&mut self) -> Result<ChosenCamera, LoadError> {
         if self.scene.cameras.is_empty() {
             return Ok(default_view(self.shown()?.as_ref()));
         }
@@ -183,7 +183,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// The scene has no such camera.
-    pub fn named_view(&self, name: &str) -> Result<Chosen, LoadError> {
+    pub fn named_view(&self, name: &str) -> Result<ChosenCamera, LoadError> {
         Ok(self.moved(named_view(&self.scene, name)?))
     }
 

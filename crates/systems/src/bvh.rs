@@ -2,7 +2,7 @@
 
 use rasray_bvh::{Addressing, Builder, Bvh, Children, Config};
 
-use crate::given::{Given, Setter, names};
+use crate::option_value::{OptionValue, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
 
 /// The registry's row.
@@ -34,7 +34,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config = Config::new(Builder::Sah);
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
-    Given::apply_all(spec, OPTIONS, &mut config)?;
+    OptionValue::apply_all(spec, OPTIONS, &mut config)?;
     config.validate()?;
     Ok(config)
 }

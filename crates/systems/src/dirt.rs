@@ -5,7 +5,7 @@ use rasray_primitive::{
     Storage, Views,
 };
 
-use crate::given::{Given, Setter, names};
+use crate::option_value::{OptionValue, Setter, names};
 use crate::{PaperFrame, Preset, Spec, System, SystemsError};
 
 /// The registry's row.
@@ -63,7 +63,7 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     };
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
-    Given::apply_all(spec, OPTIONS, &mut config)?;
+    OptionValue::apply_all(spec, OPTIONS, &mut config)?;
     // Other coverages are drawn.
     if spec.options().get("builder").is_none() && config.coverage != Coverage::Conservative {
         config.builder = Builder::Raster;

@@ -2,7 +2,7 @@
 
 use rasray_driver::{Config, Driver, Goal};
 
-use crate::given::{Given, Setter, names};
+use crate::option_value::{OptionValue, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
 
 /// The registry's row.
@@ -31,7 +31,7 @@ const OPTIONS: &[Setter<Config>] =
 fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config =
         Config { counters: spec.counters(), work_budget: spec.work_budget(), ..Config::default() };
-    Given::apply_all(spec, OPTIONS, &mut config)?;
+    OptionValue::apply_all(spec, OPTIONS, &mut config)?;
     config.validate()?;
     Ok(config)
 }

@@ -4,7 +4,7 @@ use rasray_ldc::{
     Accept, Addressing, Builder, Config, Coverage, Depth, Ends, LayeredDepthCube, Making, Occupancy, Payload,
 };
 
-use crate::given::{Given, Setter, names};
+use crate::option_value::{OptionValue, Setter, names};
 use crate::{PaperFrame, Preset, Spec, System, SystemsError};
 
 /// The registry's row.
@@ -69,7 +69,7 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     };
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
-    Given::apply_all(spec, OPTIONS, &mut config)?;
+    OptionValue::apply_all(spec, OPTIONS, &mut config)?;
     // A coverage that triangles do not go with asks for planes.
     let is_default = spec.options().get("accept").is_none();
     if is_default && config.accept == Accept::Triangle && config.coverage != Coverage::Conservative {

@@ -5,7 +5,7 @@ use rasray_abuffer::{
     Views,
 };
 
-use crate::given::{Given, Setter, names};
+use crate::option_value::{OptionValue, Setter, names};
 use crate::{PaperFrame, Preset, Spec, System, SystemsError};
 
 /// The registry's row.
@@ -71,7 +71,7 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     };
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
-    Given::apply_all(spec, OPTIONS, &mut config)?;
+    OptionValue::apply_all(spec, OPTIONS, &mut config)?;
     let given = |option| spec.options().get(option).is_some();
     if spec.preset() == Preset::Robust {
         // Options that conservative coverage does not go with ask for another, as buckets do for lists that have them,

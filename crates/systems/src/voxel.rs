@@ -5,7 +5,7 @@ use rasray_voxel::{
     Storage, Traversal,
 };
 
-use crate::given::{Given, Setter};
+use crate::option_value::{OptionValue, Setter};
 use crate::{Spec, SystemsError};
 
 /// Options, each with what it sets.
@@ -39,7 +39,7 @@ const OPTIONS: &[Setter<Config>] = &[
 
 /// Their names.
 pub(crate) fn names() -> Vec<&'static str> {
-    crate::given::names(OPTIONS)
+    crate::option_value::names(OPTIONS)
 }
 
 /// Default number of cells along a side of a view of the repaired structure.
@@ -59,7 +59,7 @@ pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result
     let mut config = preset;
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
-    Given::apply_all(spec, OPTIONS, &mut config)?;
+    OptionValue::apply_all(spec, OPTIONS, &mut config)?;
     // Options that conservative coverage does not go with ask for another.
     let is_default = spec.options().get("coverage").is_none();
     if is_default && config.coverage == Coverage::Conservative && !config.may_test_triangles() {

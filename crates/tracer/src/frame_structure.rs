@@ -7,16 +7,16 @@ use rasray_gpu::{Device, Recorder};
 
 use crate::Refresh;
 
-/// Settings of a structure kept over frames.
+/// Settings of a structure over frames in flight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Keeping {
+pub struct FrameSettings {
     /// Frames in flight, at least 1.
     pub slots: u32,
     /// Percent that pools grow beyond a demand, so that a frame with a little more is complete at once.
     pub headroom: u32,
 }
 
-impl Default for Keeping {
+impl Default for FrameSettings {
     /// Two frames in flight, half as much again.
     fn default() -> Self {
         Self { slots: 2, headroom: 50 }
@@ -123,14 +123,18 @@ impl FrameStructure {
     ///
     /// # Errors
     /// Out of memory.
-    pub fn new(device: &Device, structure: impl Into<Refresh>, keeping: Keeping) -> Result<Self, AdsError> {
+    pub fn new(
+        device: &Device,
+        structure: impl Into<Refresh>,
+        settings: FrameSettings,
+    ) -> Result<Self, AdsError> {
         let mut structure = structure.into();
-        let slots = keeping.slots.max(1);
+        let slots = settings.slots.max(1);
         structure.structure_mut().set_slots(device, slots)?;
         let part = |_| Part { used: vec![None; slots as usize], ..Part::default() };
         let parts = (0..structure.count()).map(part).collect();
         let (pending, counts) = (VecDeque::new(), StructureCounts::default());
-        Ok(Self { structure, headroom: keeping.headroom, slots, parts, pending, counts })
+        Ok(Self { structure, headroom: settings.headroom, slots, parts, pending, counts })
     }
 
     /// The structure.

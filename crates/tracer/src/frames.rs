@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use rasray_ads::{AdsError, Geometry, GeometryParts, SceneBinding, Structure, Viewpoint};
 use rasray_gpu::{Device, Flights, PassTiming, Recorder, Timing};
 
-use crate::{FrameOutcome, FrameStructure, Keeping, Refresh, TracerError};
+use crate::{FrameOutcome, FrameSettings, FrameStructure, Refresh, TracerError};
 
 /// Frames of a structure in flight: each records what moves its vertices, the build if that is stale, and what traces
 /// through it, in one submission that nothing waits for until the frame is taken.
@@ -28,7 +28,7 @@ struct Pending {
 
 /// A frame that has ended.
 #[derive(Clone, Debug)]
-pub struct Ended {
+pub struct EndedFrame {
     /// Its number, from 0 in the order of submission.
     pub number: u64,
     /// Its slot: what its recording wrote for the host is there until the slot is used again.
@@ -49,11 +49,11 @@ impl Frames {
     pub fn new(
         device: &Device,
         structure: impl Into<Refresh>,
-        keeping: Keeping,
+        settings: FrameSettings,
         timing: Timing,
     ) -> Result<Self, TracerError> {
-        let flights = Flights::new(device, keeping.slots, timing)?;
-        let structure = FrameStructure::new(device, structure, keeping)?;
+        let flights = Flights::new(device, settings.slots, timing)?;
+        let structure = FrameStructure::new(device, structure, settings)?;
         Ok(Self { device: device.clone(), flights, structure, pending: VecDeque::new(), next: 0 })
     }
 
@@ -164,18 +164,18 @@ impl Frames {
     ///
     /// # Errors
     /// The device failed, or no sizes suffice ([`FrameStructure::finish`]).
-    pub fn take(&mut self) -> Result<Option<Ended>, TracerError> {
+    pub fn take(&mut self) -> Result<Option<EndedFrame>, TracerError> {
         let Some(Pending { number, slot, built }) = self.pending.pop_front() else { return Ok(None) };
         let passes = self.flights.wait(slot)?.unwrap_or_default();
         let outcome = self.structure.finish(&self.device, slot)?;
-        Ok(Some(Ended { number, slot, outcome, built, passes }))
+        Ok(Some(EndedFrame { number, slot, outcome, built, passes }))
     }
 
     /// As [`Frames::take`], without waiting: absent while the oldest frame has not ended.
     ///
     /// # Errors
     /// As [`Frames::take`].
-    pub fn take_ended(&mut self) -> Result<Option<Ended>, TracerError> {
+    pub fn take_ended(&mut self) -> Result<Option<EndedFrame>, TracerError> {
         match self.pending.front() {
             Some(oldest) if self.flights.is_done(oldest.slot)? => self.take(),
             _ => Ok(None),

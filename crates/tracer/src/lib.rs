@@ -20,8 +20,8 @@ mod share;
 pub use batch::{BatchTracer, TraceOutcome};
 pub use build::{BuildOutcome, build_until_complete, refresh_until_complete};
 pub use error::TracerError;
-pub use frame_structure::{FrameOutcome, FrameStructure, Keeping, StructureCounts};
-pub use frames::{Ended, Frames};
+pub use frame_structure::{FrameOutcome, FrameSettings, FrameStructure, StructureCounts};
+pub use frames::{EndedFrame, Frames};
 pub use refresh::Refresh;
 pub use replay::Replay;
 

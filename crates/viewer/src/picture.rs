@@ -1,7 +1,7 @@
 //! Pictures and maps that an engine shows.
 
 use crate::settings::Settings;
-use rasray_experiment::Resolved;
+use rasray_experiment::ResolvedOptions;
 use rasray_metrics::{Tone, tone_map};
 use rasray_report::colour_scale::{MAGMA, Scale, VIRIDIS, colour, place};
 use rasray_report::{Memory, Pass, grouped};
@@ -118,7 +118,7 @@ pub struct Picture {
     /// Bytes of the structure and the scene, by part.
     pub memory: Memory,
     /// Options and paths as the structure resolved them.
-    pub resolved: Resolved,
+    pub resolved: ResolvedOptions,
 }
 
 impl Picture {

@@ -1,10 +1,10 @@
 //! A scene at times of its animation.
 
 use rasray_scene::{Camera, Motion, Scene};
-use rasray_scene_source::{Chosen, LoadError, LoadedScene};
+use rasray_scene_source::{ChosenCamera, LoadError, LoadedScene};
 
 /// Chooses the camera of a scene as the command line said.
-pub type ChooseCamera = dyn Fn(&mut LoadedScene) -> Result<Chosen, LoadError> + Send;
+pub type ChooseCamera = dyn Fn(&mut LoadedScene) -> Result<ChosenCamera, LoadError> + Send;
 
 /// A scene that can be shown at any time, and at rest again. [`SceneAtTime::show`] is the one place that steps a scene: it
 /// stays at rest, and the device poses it. Scenes whose triangles may be others at every time are posed here.

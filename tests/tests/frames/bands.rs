@@ -12,7 +12,7 @@ use rasray_integrators::{
 use rasray_scene::{Light, Scene};
 use rasray_shadow_maps::Config;
 use rasray_tests::harness::Bench;
-use rasray_tracer::Keeping;
+use rasray_tracer::FrameSettings;
 
 use super::adaptive::{SIZE, Stage, cornell, glazed, rule};
 use super::pictures::{input, pictures, spec, tables, view};
@@ -155,7 +155,7 @@ fn frames_are_those_of_one_band() {
         let path = Path::new(&IntegratorDesc::new(device, &gpu, &film), 1).expect("it fits");
         let spec = spec("bvh", &[("builder", "lbvh")]);
         let structure = spec.create(device, gpu.geometry(), Some(gpu.binding())).expect("valid");
-        let rest = (Keeping { slots: 2, ..Keeping::default() }, Timing::None, true);
+        let rest = (FrameSettings { slots: 2, ..FrameSettings::default() }, Timing::None, true);
         let renderer = FrameRenderer::new(device, (gpu, Some(pose)), structure, Box::new(path), rest);
         let mut renderer = renderer.expect("the device works");
         let inputs = [0.0, 0.01, 0.02].map(|moved| input(view(&scene, moved), None, 0..2, false));

@@ -12,7 +12,7 @@ use rasray_scene::{AlphaMode, Camera, Mesh, Moment, Projection, Scene, builtin};
 use rasray_scene_files::LoadOptions;
 use rasray_systems::Spec;
 use rasray_tests::harness::Bench;
-use rasray_tracer::{Keeping, Refresh};
+use rasray_tracer::{FrameSettings, Refresh};
 
 use crate::frames::pictures::{SIZE, assert_shown, input, pictures, spec, still, swinging, tables, view};
 
@@ -78,7 +78,7 @@ fn beginning(
         (gpu, None),
         structure,
         Box::new(path),
-        (Keeping::default(), Timing::None, true),
+        (FrameSettings::default(), Timing::None, true),
     )
     .expect("the device works")
 }
@@ -226,7 +226,7 @@ fn what_moves_in_a_scene_moves_in_the_next() {
                     .into(),
                 None => spec.create(device, gpu.geometry(), binding).expect("the options are valid").into(),
             };
-            let rest = (Keeping::default(), Timing::None, true);
+            let rest = (FrameSettings::default(), Timing::None, true);
             let mut renderer = FrameRenderer::new(device, (gpu, Some(pose)), structure, Box::new(path), rest)
                 .expect("the device works");
             let (mut inputs, mut singles) = (Vec::new(), Vec::new());
@@ -352,7 +352,7 @@ fn numbered_files_are_frames() {
         let raycast = Raycast::new(&IntegratorDesc::new(device, &gpu, &film)).expect("it fits");
         let structure = spec("bricks", &[]).create(device, gpu.geometry(), Some(gpu.binding()));
         let structure = structure.expect("the options are valid");
-        let rest = (Keeping::default(), Timing::None, true);
+        let rest = (FrameSettings::default(), Timing::None, true);
         FrameRenderer::new(device, (gpu, None), structure, Box::new(raycast), rest).expect("the device works")
     };
     let inputs = (0..5).map(|number| {

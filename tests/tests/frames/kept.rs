@@ -3,7 +3,7 @@
 use rasray_ads::{Ray, Viewpoint};
 use rasray_gpu::PassCommands;
 use rasray_tests::harness::{Bench, bits, processor_seconds};
-use rasray_tracer::{FrameOutcome, FrameStructure, Keeping, Refresh};
+use rasray_tracer::{FrameOutcome, FrameSettings, FrameStructure, Refresh};
 
 /// Work of a frame recorded in passes that structures label.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,7 +31,8 @@ pub struct Kept {
 
 impl Kept {
     pub fn new(bench: &Bench, structure: impl Into<Refresh>) -> Self {
-        let frames = FrameStructure::new(bench.device(), structure, Keeping::default()).expect("it fits");
+        let frames =
+            FrameStructure::new(bench.device(), structure, FrameSettings::default()).expect("it fits");
         Self { frames }
     }
 

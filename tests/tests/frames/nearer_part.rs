@@ -20,7 +20,7 @@ use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::Triangle;
 use rasray_tests::tier::{first, is_full};
-use rasray_tracer::{Keeping, build_until_complete};
+use rasray_tracer::{FrameSettings, build_until_complete};
 
 use crate::frames::kept::{Kept, Recorded};
 use crate::frames::parts::{bounds, divisions, doubled, many, rays};
@@ -424,7 +424,7 @@ fn pictures_in_flight_are_those_of_one_at_a_time() {
             }
         };
         let inputs: Vec<FrameInput> = (0..4).map(input).collect();
-        let rest = (Keeping { slots, ..Keeping::default() }, Timing::None, true);
+        let rest = (FrameSettings { slots, ..FrameSettings::default() }, Timing::None, true);
         let mut renderer = FrameRenderer::new(device, (gpu, Some(pass)), structure, Box::new(path), rest)
             .expect("the device works");
         let mut found = Vec::new();

@@ -4,7 +4,9 @@ use std::fmt::Display;
 use std::ops::{ControlFlow, Range};
 
 use glam::{DAffine3, DQuat, DVec3};
-use rasray_frame::{FrameInput, FrameRenderer, ImagePasses, ImageRenderer, Picture, Taken, render_in_order};
+use rasray_frame::{
+    FrameInput, FrameRenderer, FrameResult, ImagePasses, ImageRenderer, Picture, render_in_order,
+};
 use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, Parts, PosePass, Sampling, SceneTables, View};
 use rasray_integrators::{Film, IntegratorDesc, Path, Visibility};
@@ -16,7 +18,7 @@ use rasray_scene::{Moment, Scene, builtin};
 use rasray_shadow_maps::Config;
 use rasray_systems::Spec;
 use rasray_tests::harness::Bench;
-use rasray_tracer::{Keeping, build_until_complete};
+use rasray_tracer::{FrameSettings, build_until_complete};
 
 use crate::kept_pictures::Compared;
 
@@ -91,8 +93,8 @@ pub fn spec(system: &str, options: &[(&str, &str)]) -> Spec {
 fn renderer(device: &Device, scene: &Scene, spec: &Spec, slots: u32) -> FrameRenderer {
     let Set { gpu, pose, path } = set(device, scene, &tables(scene));
     let structure = spec.create(device, gpu.geometry(), Some(gpu.binding())).expect("the options are valid");
-    let keeping = Keeping { slots, ..Keeping::default() };
-    FrameRenderer::new(device, (gpu, Some(pose)), structure, Box::new(path), (keeping, Timing::None, true))
+    let settings = FrameSettings { slots, ..FrameSettings::default() };
+    FrameRenderer::new(device, (gpu, Some(pose)), structure, Box::new(path), (settings, Timing::None, true))
         .expect("the device works")
 }
 
@@ -271,8 +273,8 @@ fn what_continues_adds_its_samples() {
             .submit(&input(at.view.clone(), at.pose.clone(), samples, continues))
             .expect("a slot is free");
         match renderer.take().expect("the device works").expect("one is in flight") {
-            Taken::Picture(picture) => picture.film.pixels,
-            Taken::Nothing { pool } => panic!("a tree is complete at once, but {pool:?}"),
+            FrameResult::Picture(picture) => picture.film.pixels,
+            FrameResult::Nothing { pool } => panic!("a tree is complete at once, but {pool:?}"),
         }
     };
     let whole = submit(0..4, false);
@@ -297,17 +299,17 @@ fn a_frame_that_is_not_complete_is_no_picture() {
     let mut lacking = Vec::new();
     while let Some(one) = renderer.take().expect("the device works") {
         match one {
-            Taken::Picture(_) => {
+            FrameResult::Picture(_) => {
                 panic!("100 fragments are not enough, and nothing can be added to what is not there")
             }
-            Taken::Nothing { pool } => lacking.push(pool),
+            FrameResult::Nothing { pool } => lacking.push(pool),
         }
     }
     assert_eq!(lacking.len(), 2);
     assert!(lacking[0].is_some_and(|pool| pool.lacking() > 0), "{lacking:?}");
     // The film still is what an incomplete build left, although the pools suffice now.
     renderer.submit(&continued).expect("a slot is free");
-    assert!(matches!(renderer.take(), Ok(Some(Taken::Nothing { pool: None }))));
+    assert!(matches!(renderer.take(), Ok(Some(FrameResult::Nothing { pool: None }))));
     let (found, _) = pictures(&mut renderer, all);
     assert_eq!(found.len(), 2);
 }

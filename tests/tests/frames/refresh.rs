@@ -18,7 +18,7 @@ use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::rays::towards;
 use rasray_tests::tier::{first, is_full};
-use rasray_tracer::{BatchTracer, FrameOutcome, Frames, Keeping, Refresh, TracerError};
+use rasray_tracer::{BatchTracer, FrameOutcome, FrameSettings, Frames, Refresh, TracerError};
 
 use crate::frames::crowd::{Crowd, Shown};
 use crate::frames::kept::{Kept, Recorded};
@@ -259,8 +259,8 @@ fn pictures_are_the_same() {
             }
         };
         let inputs: Vec<FrameInput> = (0..7).map(input).collect();
-        let keeping = Keeping { slots: 3, ..Keeping::default() };
-        let rest = (keeping, Timing::None, true);
+        let settings = FrameSettings { slots: 3, ..FrameSettings::default() };
+        let rest = (settings, Timing::None, true);
         let mut renderer = FrameRenderer::new(device, (gpu, Some(pass)), structure, Box::new(path), rest)
             .expect("the device works");
         let mut found = Vec::new();
@@ -302,8 +302,8 @@ fn what_moves_outgrows_its_pools() {
     let device = bench.device();
     for subject in that_find_all() {
         let name = subject.name();
-        let keeping = Keeping { slots: 2, headroom: 0 };
-        let crowd = Crowd::new(device, keeping.slots, 200, 64);
+        let settings = FrameSettings { slots: 2, headroom: 0 };
+        let crowd = Crowd::new(device, settings.slots, 200, 64);
         let mut shown = Shown::random(&mut Random::new(23), 200, 64);
         // Every other ten move.
         let moving: Vec<_> = (10..200).step_by(20).map(|first| first..first + 10).collect();
@@ -313,7 +313,7 @@ fn what_moves_outgrows_its_pools() {
         let parts = whole.parts(device, &moving, everywhere).expect("they are parts");
         let combined =
             Combined::new(&parts, |part| subject.spec.create(device, part, None)).expect("it finds all");
-        let mut frames = Frames::new(device, combined, keeping, Timing::None).expect("the device works");
+        let mut frames = Frames::new(device, combined, settings, Timing::None).expect("the device works");
         let mut static_builds = None;
         let mut static_bytes = None;
         for factor in [1.0_f32, 1.0, 2.0, 4.0, 8.0] {

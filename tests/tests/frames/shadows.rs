@@ -12,7 +12,7 @@ use rasray_scene::animation::{
 use rasray_scene::{Light, Moment, Scene, builtin};
 use rasray_shadow_maps::Config;
 use rasray_tests::harness::Bench;
-use rasray_tracer::Keeping;
+use rasray_tracer::FrameSettings;
 
 use crate::frames::pictures::{SIZE, assert_shown, input, pictures, spec, still, still_with, tables, view};
 
@@ -67,7 +67,7 @@ fn renderer(device: &Device, scene: &Scene) -> FrameRenderer {
     let path = Path::new(&IntegratorDesc::new(device, &gpu, &film), 1).expect("it fits");
     let spec = spec("bvh", &[("builder", "lbvh")]);
     let structure = spec.create(device, gpu.geometry(), Some(gpu.binding())).expect("valid");
-    let rest = (Keeping { slots: 3, ..Keeping::default() }, Timing::None, true);
+    let rest = (FrameSettings { slots: 3, ..FrameSettings::default() }, Timing::None, true);
     let renderer = FrameRenderer::new(device, (gpu, Some(pose)), structure, Box::new(path), rest);
     renderer.expect("the device works").with_shadow_maps(MAPS).expect("the device draws")
 }

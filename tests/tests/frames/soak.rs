@@ -10,7 +10,7 @@ use rasray_tests::harness::{Bench, bits, oracle_of, oracle_ray};
 use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
 use rasray_tests::tier::Counts;
-use rasray_tracer::{FrameOutcome, Frames, Keeping, TracerError};
+use rasray_tracer::{FrameOutcome, FrameSettings, Frames, TracerError};
 
 use crate::frames::crowd::{Crowd, Shown};
 
@@ -67,18 +67,18 @@ fn soak(
     let (device, name) = (bench.device(), subject.name());
     let before = device.allocated_bytes();
     let mut random = Random::new(0x0066_7261_6D65);
-    let keeping = Keeping::default();
+    let settings = FrameSettings::default();
     let timing = if label.is_empty() { Timing::None } else { Timing::Device };
     let mut labelled = 0;
-    let crowd = Crowd::new(device, keeping.slots, MOST, RAYS);
+    let crowd = Crowd::new(device, settings.slots, MOST, RAYS);
     let mut shown = Shown::random(&mut random, MOST / 8, RAYS);
     let mut geometry = crowd.geometry(&shown);
     let structure = subject.structure(bench, &geometry);
-    let mut frames = Frames::new(device, structure, keeping, timing).expect("the device works");
+    let mut frames = Frames::new(device, structure, settings, timing).expect("the device works");
     let mut in_flight = VecDeque::new();
     let (mut right, mut found, mut ambiguous, mut incomplete) = (0, 0, 0, 0);
     let mut halfway = None;
-    for frame in 0..count_of_frames + keeping.slots as usize {
+    for frame in 0..count_of_frames + settings.slots as usize {
         let is_over = frame >= count_of_frames;
         if is_over || frames.free_slot().is_none() {
             let ended = frames.take().expect("the device works").expect("a frame is in flight");

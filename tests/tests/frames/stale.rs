@@ -5,7 +5,7 @@ use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
-use rasray_tracer::{FrameOutcome, Frames, Keeping, TracerError};
+use rasray_tracer::{FrameOutcome, FrameSettings, Frames, TracerError};
 
 use crate::frames::crowd::{Crowd, Shown};
 
@@ -28,15 +28,15 @@ fn only_what_a_structure_depends_on_makes_it_build() {
     let away = looking([x + 0.01, y, z], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
     for subject in Subject::all() {
         let name = subject.name();
-        let keeping = Keeping::default();
-        let crowd = Crowd::new(device, keeping.slots, 120, RAYS);
+        let settings = FrameSettings::default();
+        let crowd = Crowd::new(device, settings.slots, 120, RAYS);
         let geometry = crowd.geometry(&shown);
         let structure = subject.structure(&bench, &geometry);
         let depends_on = structure.description().depends_on;
         // Cells along the axes are the same for every eye that is not far away.
         let eye_matters = structure.is_stale(turned, away);
         assert!(!eye_matters || depends_on.are_stale(turned, away), "{name}");
-        let mut frames = Frames::new(device, structure, keeping, Timing::None).expect("the device works");
+        let mut frames = Frames::new(device, structure, settings, Timing::None).expect("the device works");
         let show = |frames: &mut Frames, viewpoint: Viewpoint| {
             let slot = frames.free_slot().expect("none is in flight");
             crowd.write(slot, &shown);
@@ -84,7 +84,7 @@ fn a_ring_is_used_in_turn() {
     let subject = Subject::all().into_iter().find(|subject| subject.name() == "bricks robust");
     let structure = subject.expect("the registry has bricks").structure(&bench, &geometry);
     let mut frames =
-        Frames::new(device, structure, Keeping::default(), Timing::None).expect("the device works");
+        Frames::new(device, structure, FrameSettings::default(), Timing::None).expect("the device works");
     assert!(frames.take().expect("nothing failed").is_none(), "none is in flight");
     let submit = |frames: &mut Frames, refuses: bool| {
         frames.submit(

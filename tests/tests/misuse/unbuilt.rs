@@ -12,7 +12,9 @@ use rasray_scene::needs::Needs;
 use rasray_tests::harness::{Bench, bits_of_any_build};
 use rasray_tests::invariance::Subject;
 use rasray_tests::shapes::{closed_box, sphere};
-use rasray_tracer::{BatchTracer, FrameOutcome, FrameStructure, Keeping, TracerError, build_until_complete};
+use rasray_tracer::{
+    BatchTracer, FrameOutcome, FrameSettings, FrameStructure, TracerError, build_until_complete,
+};
 
 use crate::misuse::dirty_memory;
 
@@ -319,7 +321,7 @@ fn frames_are_finished_in_the_slots_that_they_were_recorded_for() {
         let subject = Subject::all().into_iter().find(|subject| subject.name() == name).expect("a system");
         let structure = subject.spec.create(device, &geometry, None).expect("it can be made");
         let mut frames =
-            FrameStructure::new(device, structure, Keeping { slots: 3, headroom: 0 }).expect("it fits");
+            FrameStructure::new(device, structure, FrameSettings { slots: 3, headroom: 0 }).expect("it fits");
         let record = |frames: &mut FrameStructure, slot| {
             device
                 .submit(|recorder| frames.record(recorder, slot, EYE.into()))

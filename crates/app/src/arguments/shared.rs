@@ -14,7 +14,7 @@ use rasray_experiment::{
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{BackFaces, Environment, Scene, SceneError};
 use rasray_scene_files::{LoadOptions, load_environment};
-use rasray_scene_source::{Chosen, LoadError, LoadedScene, placed_view};
+use rasray_scene_source::{ChosenCamera, LoadError, LoadedScene, placed_view};
 use std::path::Path;
 
 /// Pixels of an image unless told.
@@ -147,7 +147,7 @@ impl ViewArguments {
     ///
     /// # Errors
     /// A camera that the scene lacks, an eye at its own target, and a lens that the camera cannot have.
-    pub fn choose(&self, loaded: &mut LoadedScene) -> Result<Chosen, LoadError> {
+    pub fn choose(&self, loaded: &mut LoadedScene) -> Result<ChosenCamera, LoadError> {
         let chosen = match (self.eye, self.target, &self.camera) {
             (Some(eye), Some(target), _) => placed_view(eye, target, self.fov),
             (_, _, Some(name)) => loaded.named_view(name),

@@ -3,7 +3,7 @@
 use super::compare::note_resumed;
 use super::hard;
 use super::steps::{open_device, stop_if_requested, with_progress};
-use super::subject::{Asked, Subject};
+use super::subject::{ComparisonRequest, Subject};
 use super::targets::Form;
 use crate::arguments::{CampaignArguments, CompareArguments, comparison};
 use crate::error::AppError;
@@ -43,7 +43,7 @@ struct Worded<'a> {
 struct Planned<'a> {
     place: usize,
     plan: &'a ComparisonPlan,
-    asked: Asked<'a>,
+    asked: ComparisonRequest<'a>,
 }
 
 /// Reads a plan.
@@ -70,7 +70,7 @@ impl<'a> Campaign<'a> {
     ) -> Result<Vec<Report>, AppError> {
         let worded = self.worded()?;
         let planned = worded.iter().map(|Worded { place, plan, given }| {
-            let asked = Asked::of(given).map_err(|error| error.about(&self.name(*place)))?;
+            let asked = ComparisonRequest::of(given).map_err(|error| error.about(&self.name(*place)))?;
             Ok(Planned { place: *place, plan, asked })
         });
         let planned = planned.collect::<Result<Vec<_>, AppError>>()?;

@@ -2,7 +2,7 @@
 
 use super::hard;
 use super::steps::{open_device, stop_if_requested, with_progress};
-use super::subject::Asked;
+use super::subject::ComparisonRequest;
 use super::targets::Targets;
 use crate::arguments::CompareArguments;
 use crate::error::AppError;
@@ -28,7 +28,7 @@ pub(crate) fn compare(
     if let Some(id) = hard::asked_for(&given.scene) {
         return hard::compare(given, id, line, open, interrupt);
     }
-    let asked = Asked::of(given)?;
+    let asked = ComparisonRequest::of(given)?;
     let targets = Targets::check(given, &given.scene)?;
     let mut subject = asked.read()?;
     subject.warn();

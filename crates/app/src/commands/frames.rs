@@ -3,7 +3,7 @@
 use super::picture_targets::Targets;
 use super::pictures::Pictures;
 use crate::error::AppError;
-use crate::output::Standing;
+use crate::output::ImageState;
 use crate::terminal;
 use rasray_experiment::{Aov, FrameBefore, Shard};
 use std::ops::RangeInclusive;
@@ -63,7 +63,7 @@ impl Pictures<'_> {
     }
 
     /// Renders a frame, unless it is there. Returns what there was of it.
-    fn render_frame(&mut self, number: u32) -> Result<Standing, AppError> {
+    fn render_frame(&mut self, number: u32) -> Result<ImageState, AppError> {
         let targets = Targets::of(self.given, self.aovs, Some(number))?;
         if let (Some((image, _)), Some(rows)) = (&targets.image, &self.rows)
             && image.same_as(rows.place())
@@ -83,16 +83,16 @@ impl Pictures<'_> {
             self.chosen.camera = camera;
         }
         let key = self.key();
-        let mut found = Standing::Missing;
+        let mut found = ImageState::Missing;
         if self.given.resume {
             found = targets.standing(self.given, &key)?;
             let has_row = self.rows.as_ref().is_none_or(|rows| rows.has(number, &key));
             match found {
-                Standing::Same if has_row => {
+                ImageState::Same if has_row => {
                     self.rows.iter_mut().for_each(|rows| rows.keep(number, self.frames.as_ref()));
                     return Ok(found);
                 }
-                Standing::Same => found = Standing::Unreported,
+                ImageState::Same => found = ImageState::Unreported,
                 _ => {}
             }
         }
@@ -103,14 +103,14 @@ impl Pictures<'_> {
 
 /// Number of frames of each standing.
 #[derive(Default)]
-struct Tally([u32; Standing::ALL.len()]);
+struct Tally([u32; ImageState::ALL.len()]);
 
 impl Tally {
     fn text(&self) -> String {
-        let counted = |standing: Standing| Some(self.0[standing as usize]).filter(|count| *count > 0);
-        let kept = counted(Standing::Same).unwrap_or(0);
+        let counted = |standing: ImageState| Some(self.0[standing as usize]).filter(|count| *count > 0);
+        let kept = counted(ImageState::Same).unwrap_or(0);
         let made = self.0.iter().sum::<u32>() - kept;
-        let reasons: Vec<_> = Standing::ALL
+        let reasons: Vec<_> = ImageState::ALL
             .into_iter()
             .filter_map(|standing| Some(format!("{} {}", counted(standing)?, standing.reason()?)))
             .collect();
@@ -134,9 +134,9 @@ mod tests {
     fn a_tally_says_why_frames_were_rendered() {
         let mut tally = Tally::default();
         assert_eq!(tally.text(), "0 frames were rendered, 0 were there already");
-        tally.0[Standing::Same as usize] = 9;
-        tally.0[Standing::Missing as usize] = 2;
-        tally.0[Standing::Damaged as usize] = 1;
+        tally.0[ImageState::Same as usize] = 9;
+        tally.0[ImageState::Missing as usize] = 2;
+        tally.0[ImageState::Damaged as usize] = 1;
         assert_eq!(tally.text(), "3 frames were rendered (2 missing, 1 damaged), 9 were there already");
     }
 }

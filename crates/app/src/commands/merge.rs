@@ -197,7 +197,7 @@ fn merge_rows(given: &MergeArguments, place: &Destination, interrupt: &Interrupt
 const SAME: &str = "merge reports of the same scene, options and program";
 
 /// Frames that commands make, from the first to the last.
-struct Asked<'a> {
+struct FrameRequest<'a> {
     /// The row that says so first, and its file.
     by: (&'a Row, &'a Path),
     key: &'a str,
@@ -208,7 +208,7 @@ struct Asked<'a> {
 /// Refuses rows of different commands, and rows that are not all that one of these commands and its other shares make.
 fn check_rows(rows: &BTreeMap<u32, (Row, &Path)>) -> Result<(), AppError> {
     let Some((first, from)) = rows.values().next() else { return Ok(()) };
-    let mut asked: BTreeMap<(u32, u32), Asked<'_>> = BTreeMap::new();
+    let mut asked: BTreeMap<(u32, u32), FrameRequest<'_>> = BTreeMap::new();
     for (row, path) in rows.values() {
         let differs = |other: &Row, file: &Path| {
             let of = format!("of frame {} in {}", other.frame, file.display());
@@ -219,7 +219,7 @@ fn check_rows(rows: &BTreeMap<u32, (Row, &Path)>) -> Result<(), AppError> {
         }
         let Some(frames) = &row.frames else { continue };
         let of = frames.shard.as_deref().and_then(Shard::parse).map(Shard::count);
-        let known = asked.entry((frames.first, frames.last)).or_insert(Asked {
+        let known = asked.entry((frames.first, frames.last)).or_insert(FrameRequest {
             by: (row, path),
             key: &frames.key,
             of,
@@ -236,7 +236,7 @@ fn check_rows(rows: &BTreeMap<u32, (Row, &Path)>) -> Result<(), AppError> {
 fn check_complete(
     rows: &BTreeMap<u32, (Row, &Path)>,
     (first, last): (u32, u32),
-    asked: &Asked<'_>,
+    asked: &FrameRequest<'_>,
 ) -> Result<(), AppError> {
     let mut missing: Vec<(u32, u32)> = Vec::new();
     let mut next = u64::from(first);

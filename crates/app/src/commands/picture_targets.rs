@@ -3,7 +3,7 @@
 use super::steps::{destination, keep_inputs};
 use crate::arguments::{RenderArguments, ToneArguments};
 use crate::error::AppError;
-use crate::output::{Destination, ImageFormat, Rows, Standing, image_key, key_of_report, standing};
+use crate::output::{Destination, ImageFormat, ImageState, Rows, image_key, key_of_report, standing};
 use rasray_experiment::{AovSelection, Shard};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -48,15 +48,15 @@ impl Targets {
     }
 
     /// Standing of the picture with this key: its image, and its report as well, where one is wanted here.
-    pub(super) fn standing(&self, given: &RenderArguments, key: &str) -> Result<Standing, AppError> {
+    pub(super) fn standing(&self, given: &RenderArguments, key: &str) -> Result<ImageState, AppError> {
         let Some((place, format)) = self.image.as_ref().filter(|(place, _)| !place.is_stdout()) else {
-            return Ok(Standing::Missing);
+            return Ok(ImageState::Missing);
         };
         let shard = given.shard.filter(|_| given.frames.is_none());
         let found = standing(place.named(), *format, &image_key(key, *format, given.tone.tone(), shard))?;
         let reported = |place: &Destination| key_of_report(place.named()).as_deref() == Some(key);
         Ok(match found {
-            Standing::Same if !self.report.as_ref().is_none_or(reported) => Standing::Unreported,
+            ImageState::Same if !self.report.as_ref().is_none_or(reported) => ImageState::Unreported,
             found => found,
         })
     }

@@ -15,8 +15,8 @@ use rasray_experiment::{
     Aov, AovSelection, Backend, Frame, FrameBefore, KeptScene, Progress, RenderJob, RenderOutput, Shard,
     SystemConfig, check_run, count_not_uploaded, picture_key,
 };
-use rasray_report::{FramesRecord, Report, json_shown, table_within};
-use rasray_scene_source::{Chosen, LoadedScene};
+use rasray_report::{FramesRecord, Report, json_escaped, table_within};
+use rasray_scene_source::{ChosenCamera, LoadedScene};
 
 /// Inputs that the pictures of a command have in common.
 pub(super) struct Pictures<'a> {
@@ -33,7 +33,7 @@ pub(super) struct Pictures<'a> {
     /// The report that takes a row per frame.
     pub(super) rows: Option<Rows>,
     pub(super) loaded: LoadedScene,
-    pub(super) chosen: Chosen,
+    pub(super) chosen: ChosenCamera,
     pub(super) backend: Box<dyn Backend>,
     /// Scene on the device, as left by the picture at another time.
     pub(super) kept: KeptScene,
@@ -182,5 +182,5 @@ fn check_samples(output: &RenderOutput, samples: u32, keeps_part: bool) -> Resul
 /// A report as its file holds it: one line where others may follow.
 fn report_text(place: &Destination, report: &Report) -> String {
     let text = if Rows::are_in(place.named()) { report.to_json_line() + "\n" } else { report.to_json() };
-    json_shown(&text)
+    json_escaped(&text)
 }

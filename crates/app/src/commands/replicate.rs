@@ -9,7 +9,7 @@ use crate::output::Destination;
 use crate::terminal;
 use rasray_campaign::{Item, PAPERS, Paper, Plan, paper_page, word};
 use rasray_experiment::OpenBackend;
-use rasray_report::{columns, json_shown};
+use rasray_report::{columns, json_escaped};
 
 /// The items of a paper that are made, with their plans.
 type Chosen = (&'static Paper, Vec<(&'static Item, Plan)>);
@@ -44,7 +44,7 @@ pub(crate) fn replicate(
         let (page, sheets) = paper_page(paper, items, &made);
         sheets.iter().try_for_each(|sheet| write_sheet(sheet, campaign.folder(), interrupt))?;
         let place = Destination::check(&campaign.folder().join(format!("{}.md", paper.name)))?;
-        place.write(json_shown(&page).as_bytes(), interrupt)?;
+        place.write(json_escaped(&page).as_bytes(), interrupt)?;
     }
     Ok(())
 }

@@ -11,7 +11,7 @@ use rasray_experiment::{Backend, ExperimentError, OpenBackend, Progress, texels}
 use rasray_scene::needs::Needs;
 use rasray_scene_files::LoadOptions;
 use rasray_scene_files::sequence::{Sequence, is_pattern};
-use rasray_scene_source::{Chosen, LoadError, LoadedScene, load_with};
+use rasray_scene_source::{ChosenCamera, LoadError, LoadedScene, load_with};
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -79,7 +79,7 @@ pub(super) fn read_scene(
     reading: &SceneArguments,
     shown: Option<&Shown>,
     view: &ViewArguments,
-) -> Result<(LoadedScene, Chosen), AppError> {
+) -> Result<(LoadedScene, ChosenCamera), AppError> {
     if shown.is_none() && reading.clip.is_some() {
         return Err(AppError::usage(
             "--clip says what moves the scene, and nothing says when",

@@ -13,7 +13,7 @@ use rasray_experiment::{
 use rasray_ray_files::{HitsFile, RaysFile, load_hits, load_rays};
 use rasray_report::{CameraRecord, SceneRecord};
 use rasray_scene::needs::Needs;
-use rasray_scene_source::{Chosen, LoadedScene};
+use rasray_scene_source::{ChosenCamera, LoadedScene};
 
 /// Rays per set unless told.
 const DEFAULT_RAYS: u32 = 200_000;
@@ -23,7 +23,7 @@ const DEFAULT_SETS: [RaySet; 2] = [RaySet::Incoherent, RaySet::Camera];
 
 /// Options of a comparison, checked as far as that goes without the scene.
 #[derive(Clone)]
-pub(super) struct Asked<'a> {
+pub(super) struct ComparisonRequest<'a> {
     given: &'a CompareArguments,
     frame: Frame,
     systems: Vec<SystemConfig>,
@@ -34,13 +34,13 @@ pub(super) struct Asked<'a> {
 
 /// A comparison whose scene is read.
 pub(super) struct Subject<'a> {
-    asked: Asked<'a>,
+    asked: ComparisonRequest<'a>,
     loaded: LoadedScene,
-    chosen: Chosen,
+    chosen: ChosenCamera,
     needs: Needs,
 }
 
-impl<'a> Asked<'a> {
+impl<'a> ComparisonRequest<'a> {
     /// # Errors
     /// Options that are of hard cases or that systems do not have, and files that cannot be read.
     pub(super) fn of(given: &'a CompareArguments) -> Result<Self, AppError> {
@@ -80,7 +80,7 @@ impl<'a> Asked<'a> {
 impl Subject<'_> {
     /// Warns of what systems cannot show of the image.
     pub(super) fn warn(&self) {
-        let Asked { systems, frame, given, .. } = &self.asked;
+        let ComparisonRequest { systems, frame, given, .. } = &self.asked;
         let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));
         shortcomings.filter(|_| given.image).for_each(|text| terminal::warn(&with_flags(&text)));
     }
@@ -94,7 +94,7 @@ impl Subject<'_> {
 
     /// The job of all its cells, which keeps nothing but its runs.
     pub(super) fn job(&self) -> CompareJob<'_> {
-        let Asked { given, frame, systems, ray_sets, rays_file, hits_files } = &self.asked;
+        let ComparisonRequest { given, frame, systems, ray_sets, rays_file, hits_files } = &self.asked;
         CompareJob {
             scene: &self.loaded.scene,
             camera: self.chosen.camera.clone(),

@@ -7,7 +7,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{Destination, Rows, SaveTargets};
 use rasray_campaign::csv_table;
 use rasray_report::figures::Figures;
-use rasray_report::{Campaign, Report, campaign_markdown, json_shown, markdown};
+use rasray_report::{Campaign, Report, campaign_markdown, json_escaped, markdown};
 use std::ffi::OsStr;
 use std::path::Path;
 
@@ -131,7 +131,7 @@ impl Form {
                 "a campaign has no report of one comparison",
                 "name a .jsonl, .csv, .md or .html",
             )),
-            Self::Markdown => Ok(json_shown(&campaign_markdown(campaign)).into()),
+            Self::Markdown => Ok(json_escaped(&campaign_markdown(campaign)).into()),
             Self::Page => Ok(rasray_report_html::campaign_page(campaign)),
             Self::Csv => Ok(csv_table(campaign)),
         }
@@ -140,7 +140,7 @@ impl Form {
     /// The bytes of the file.
     pub(super) fn of(self, report: &Report, figures: &Figures) -> Result<Vec<u8>, AppError> {
         Ok(match self {
-            Self::Json => json_shown(&report.to_json()).into(),
+            Self::Json => json_escaped(&report.to_json()).into(),
             Self::Markdown => markdown(report).into(),
             Self::Csv => {
                 return Err(AppError::usage("a .csv is of campaigns", "name a .json, .md, .html or .jsonl"));

@@ -5,7 +5,9 @@ use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::terminal;
 use rasray_experiment::{CellList, Shard, check_run};
-use rasray_report::{CameraRecord, CellRecord, Device, Origin, Report, Run, SCHEMA, SceneRecord, json_shown};
+use rasray_report::{
+    CameraRecord, CellRecord, Device, Origin, Report, Run, SCHEMA, SceneRecord, json_escaped,
+};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
@@ -239,7 +241,7 @@ impl Cells {
 
 /// A line of the file.
 pub(crate) fn text_of(line: &Report) -> String {
-    json_shown(&format!("{}\n", line.to_json_line()))
+    json_escaped(&format!("{}\n", line.to_json_line()))
 }
 
 impl CellFile {

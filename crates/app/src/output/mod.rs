@@ -25,7 +25,7 @@ pub(crate) use png::encode_picture;
 pub(crate) use png::encode_shown;
 pub(crate) use rows::{Row, Rows, key_of_report, lines, read_rows};
 pub(crate) use save_rays::{SaveTargets, save};
-pub use stamp::{KEY, Standing, image_key, standing};
+pub use stamp::{ImageState, KEY, image_key, standing};
 
 #[cfg(test)]
 mod tests {

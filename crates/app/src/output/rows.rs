@@ -3,7 +3,7 @@
 use super::destination::Destination;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use rasray_report::{FramesRecord, Report, SCHEMA, json_shown};
+use rasray_report::{FramesRecord, Report, SCHEMA, json_escaped};
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -150,7 +150,7 @@ impl Rows {
 
 /// The text of a file with these rows.
 pub(crate) fn lines<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
-    json_shown(&rows.into_iter().flat_map(|row| [row.line.as_str(), "\n"]).collect::<String>())
+    json_escaped(&rows.into_iter().flat_map(|row| [row.line.as_str(), "\n"]).collect::<String>())
 }
 
 #[cfg(test)]

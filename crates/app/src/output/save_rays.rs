@@ -3,7 +3,7 @@
 use super::destination::Destination;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use rasray_experiment::{Kept, NamedBytes};
+use rasray_experiment::{NamedBytes, SavedRays};
 use std::path::{Path, PathBuf};
 
 /// Folders that were named, and seen to take files.
@@ -35,7 +35,7 @@ impl SaveTargets {
 ///
 /// # Errors
 /// A file cannot be written.
-pub(crate) fn save(targets: &SaveTargets, kept: &Kept, interrupt: &Interrupt) -> Result<(), AppError> {
+pub(crate) fn save(targets: &SaveTargets, kept: &SavedRays, interrupt: &Interrupt) -> Result<(), AppError> {
     let write = |folder: &Path, (name, bytes): NamedBytes| {
         Destination::check(&folder.join(name))?.write(&bytes, interrupt)
     };

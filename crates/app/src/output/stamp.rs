@@ -48,7 +48,7 @@ pub fn image_key(picture: &str, format: ImageFormat, tone: Tone, shard: Option<S
 
 /// State of a place where an image with a certain key is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
+pub enum ImageState {
     /// The wanted image, whole.
     Same,
     /// Nothing.
@@ -61,7 +61,7 @@ pub enum Standing {
     Unreported,
 }
 
-impl Standing {
+impl ImageState {
     /// All of them, in their order.
     pub const ALL: [Self; 5] = [Self::Same, Self::Missing, Self::Other, Self::Damaged, Self::Unreported];
 
@@ -81,10 +81,10 @@ impl Standing {
 ///
 /// # Errors
 /// There is a file that cannot be read.
-pub fn standing(path: &Path, format: ImageFormat, key: &str) -> Result<Standing, AppError> {
+pub fn standing(path: &Path, format: ImageFormat, key: &str) -> Result<ImageState, AppError> {
     let bytes = match std::fs::read(path) {
         Ok(bytes) => bytes,
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Standing::Missing),
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(ImageState::Missing),
         Err(error) => {
             let help = "leave --resume out to replace it, or see that you may read it";
             return Err(AppError::input(path, format!("cannot be read: {error}"), help));
@@ -100,16 +100,16 @@ pub fn standing(path: &Path, format: ImageFormat, key: &str) -> Result<Standing,
         },
     };
     if !readable {
-        return Ok(Standing::Damaged);
+        return Ok(ImageState::Damaged);
     }
     if found.as_deref() != Some(key) {
-        return Ok(Standing::Other);
+        return Ok(ImageState::Other);
     }
     let whole = match format {
         ImageFormat::Exr => exr_header::is_whole(&bytes),
         ImageFormat::Png => png_is_whole(&bytes),
     };
-    Ok(if whole { Standing::Same } else { Standing::Damaged })
+    Ok(if whole { ImageState::Same } else { ImageState::Damaged })
 }
 
 /// The key of a PNG, from what precedes its pixels.
@@ -172,19 +172,19 @@ mod tests {
                 standing(&path, format, &key).expect("it can be read")
             };
             _ = std::fs::remove_file(&path);
-            assert_eq!(standing(&path, format, &key).expect("no file"), Standing::Missing);
+            assert_eq!(standing(&path, format, &key).expect("no file"), ImageState::Missing);
             let whole = encode(Some(&key)).expect("a small image");
-            assert_eq!(put(&whole), Standing::Same);
-            assert_eq!(put(&encode(None).expect("a small image")), Standing::Other);
-            assert_eq!(put(&encode(Some(&"0".repeat(64))).expect("a small image")), Standing::Other);
+            assert_eq!(put(&whole), ImageState::Same);
+            assert_eq!(put(&encode(None).expect("a small image")), ImageState::Other);
+            assert_eq!(put(&encode(Some(&"0".repeat(64))).expect("a small image")), ImageState::Other);
             for cut in (0..whole.len()).step_by(7).chain([whole.len() - 1]) {
-                assert_ne!(put(&whole[..cut]), Standing::Same, "{format:?} cut at {cut}");
+                assert_ne!(put(&whole[..cut]), ImageState::Same, "{format:?} cut at {cut}");
             }
-            assert_eq!(put(&whole[..whole.len() - 1]), Standing::Damaged);
+            assert_eq!(put(&whole[..whole.len() - 1]), ImageState::Damaged);
             for place in 0..whole.len() {
                 let mut changed = whole.clone();
                 changed[place] ^= 0x10;
-                assert_ne!(put(&changed), Standing::Same, "{format:?} changed at {place}");
+                assert_ne!(put(&changed), ImageState::Same, "{format:?} changed at {place}");
             }
         }
         assert!(standing(folder.path(), ImageFormat::Png, "key").is_err(), "a folder");

@@ -13,7 +13,7 @@ use crate::terminal;
 use rasray_experiment::{
     AovSelection, Frame, OccluderKind, OpenBackend, Primary, Refresh, RenderJob, Sampler, SceneInfo,
 };
-use rasray_report::json_shown;
+use rasray_report::json_escaped;
 use rasray_scene::BackFaces;
 use rasray_scene::needs::Needs;
 use rasray_scene_source::default_view;
@@ -104,5 +104,5 @@ fn show(as_json: bool, json: impl Fn() -> Value, text: impl Fn() -> String) -> R
         whole.extend(fields);
     }
     let text = serde_json::to_string_pretty(&whole).expect("names and numbers");
-    terminal::print(&format!("{}\n", json_shown(&text)))
+    terminal::print(&format!("{}\n", json_escaped(&text)))
 }

@@ -12,7 +12,7 @@ use crate::terminal;
 use rasray_experiment::{Frame, SystemConfig, open_device};
 use rasray_metrics::Tone;
 use rasray_scene::default_view;
-use rasray_scene_source::{Chosen, LoadError, LoadedScene};
+use rasray_scene_source::{ChosenCamera, LoadError, LoadedScene};
 use rasray_viewer::{
     End, Engine, Failure, Opened, Opening, SavedPicture, SceneSource, Session, Settings, Shown, Standpoint,
     ViewerError, Viewing, camera_names, check_display, run,
@@ -147,7 +147,7 @@ impl Opener {
 
     /// Refuses a camera, a time or a clip that the scene does not have before it is shown, and says what there is to remark on
     /// what is shown first.
-    fn check_view(&self, loaded: &mut LoadedScene) -> Result<Chosen, LoadError> {
+    fn check_view(&self, loaded: &mut LoadedScene) -> Result<ChosenCamera, LoadError> {
         let SceneArguments { time, clip, .. } = &self.reading;
         if time.is_none() && clip.is_none() {
             let chosen = self.view.choose(loaded)?;

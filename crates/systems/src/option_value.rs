@@ -5,7 +5,7 @@ use rasray_options::{Value, ValueError};
 use crate::{Spec, SystemsError};
 
 /// An option by its name, and what a value of it sets in a configuration.
-pub(crate) type Setter<C> = (&'static str, fn(&mut C, &Given) -> Result<(), SystemsError>);
+pub(crate) type Setter<C> = (&'static str, fn(&mut C, &OptionValue) -> Result<(), SystemsError>);
 
 /// Names of options.
 pub(crate) fn names<C>(setters: &[Setter<C>]) -> Vec<&'static str> {
@@ -14,14 +14,14 @@ pub(crate) fn names<C>(setters: &[Setter<C>]) -> Vec<&'static str> {
 
 /// An option of a spec with its value, which its row takes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Given {
+pub(crate) struct OptionValue {
     system: &'static str,
     /// Name of the option.
     name: &'static str,
     value: Value,
 }
 
-impl Given {
+impl OptionValue {
     /// Sets what the options of a spec stand for.
     pub(crate) fn apply_all<C>(
         spec: &Spec,
@@ -32,7 +32,7 @@ impl Given {
         spec.options().iter().try_for_each(|(name, value)| {
             let unknown = || SystemsError::UnknownOption { system, option: name.to_owned() };
             let setter = setters.iter().find(|(known, _)| *known == name).ok_or_else(unknown)?;
-            (setter.1)(config, &Given { system, name, value })
+            (setter.1)(config, &OptionValue { system, name, value })
         })
     }
 
