@@ -1,9 +1,9 @@
-//! Takes every module of `permutations.txt` whose features are on, and writes the Rust side: one `Shader` per module, the
-//! GLSL itself, and what Rust has from its text, whatever features are on: numbers, records, ids of specialisation
-//! constants.
+//! Takes every module of `permutations.txt` whose features are on, and writes the Rust side: one `Shader` per
+//! module, the GLSL itself, and what Rust has from its text, whatever features are on: numbers, records, ids
+//! of specialisation constants.
 //!
-//! Modules come from the folder `prebuilt` where it is, as in packages (`tools/package` makes it), so that users of
-//! a package need no C++ toolchain. Without it they are compiled, with the feature `compile`.
+//! Modules come from the folder `prebuilt` where it is, as in packages (`tools/package` makes it), so that
+//! users of a package need no C++ toolchain. Without it they are compiled, with the feature `compile`.
 //! `RASRAY_PREBUILT` names a folder to make such a folder of what was compiled.
 
 use std::collections::BTreeMap;
@@ -33,8 +33,8 @@ use modules::{Built, Index, file_of, hash, write_prebuilt};
 /// Endings of files that hold GLSL.
 const GLSL: [&str; 4] = ["glsl", "comp", "vert", "frag"];
 
-/// Files of which each `#define NAME number` becomes a Rust constant, with the module it lands in: `constants.glsl` of
-/// every folder, and one more.
+/// Files of which each `#define NAME number` becomes a Rust constant, with the module it lands in:
+/// `constants.glsl` of every folder, and one more.
 fn number_files(root: &Path) -> Result<Vec<(String, String)>, String> {
     let mut files: Vec<_> = shader_folders(root)?
         .into_iter()
@@ -224,8 +224,8 @@ fn shader_folders(root: &Path) -> Result<Vec<String>, String> {
     Ok(folders)
 }
 
-/// Turns `#define NAME number` into constants and hands the comment above on as documentation. Whole numbers are added to
-/// `numbers`.
+/// Turns `#define NAME number` into constants and hands the comment above on as documentation. Whole numbers
+/// are added to `numbers`.
 fn constants_of(file: &str, text: &str, numbers: &mut BTreeMap<String, u32>) -> Result<String, String> {
     let mut code = String::new();
     let mut comment: Vec<&str> = Vec::new();

@@ -1,8 +1,9 @@
 //! Gains of frames in flight: `cargo bench --bench flights -- [SCENE] [WIDTHxHEIGHT] [FRAMES] [SYSTEM]`.
 //!
-//! Pictures of a scene that moves, of one path of four bounces per pixel: made step by step, each waited for, and in
-//! frames with one to three in flight. Ways take turns; medians over rounds of the milliseconds per frame, with
-//! quartiles. Pictures of all ways must be equal bit for bit. Times of software devices are for ratios on that device.
+//! Pictures of a scene that moves, of one path of four bounces per pixel: made step by step, each waited for,
+//! and in frames with one to three in flight. Ways take turns; medians over rounds of the milliseconds per
+//! frame, with quartiles. Pictures of all ways must be equal bit for bit. Times of software devices are for
+//! ratios on that device.
 
 use std::error::Error;
 use std::ffi::OsStr;

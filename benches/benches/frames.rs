@@ -1,10 +1,11 @@
-//! Costs of frames of a scene that moves: `cargo bench --bench frames -- [SCENE] [WIDTHxHEIGHT] [FRAMES] [SYSTEM,...]`.
+//! Costs of frames of a scene that moves: `cargo bench --bench frames -- [SCENE] [WIDTHxHEIGHT] [FRAMES]
+//! [SYSTEM,...]`.
 //!
-//! Per system the medians over frames of pose, build, trace, surfaces and shade, each timed by itself, and from these
-//! the time of a frame at 1, 4 and 16 rays per pixel, divided by that of a tree rebuilt by Morton codes. `crossover` is the
-//! number of rays per pixel up to which the system is faster than that tree, or from which on. Rays are those of the
-//! camera; `cells`, `entries` and `tests` are what one of them reads on average, counted in a trace that is not timed. Times
-//! of software devices are for ratios on that device.
+//! Per system the medians over frames of pose, build, trace, surfaces and shade, each timed by itself, and
+//! from these the time of a frame at 1, 4 and 16 rays per pixel, divided by that of a tree rebuilt by Morton
+//! codes. `crossover` is the number of rays per pixel up to which the system is faster than that tree, or
+//! from which on. Rays are those of the camera; `cells`, `entries` and `tests` are what one of them reads on
+//! average, counted in a trace that is not timed. Times of software devices are for ratios on that device.
 
 use std::error::Error;
 use std::ffi::OsStr;
@@ -25,11 +26,12 @@ use rasray_tracer::{FrameSettings, FrameStructure, Refresh, refresh_until_comple
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// A system, an option of it, and true if what moves is a part by itself, the only one that is built with every frame.
+/// A system, an option of it, and true if what moves is a part by itself, the only one that is built with
+/// every frame.
 type Variant = (&'static str, Option<[&'static str; 2]>, bool);
 
-/// Systems with several rows; all other systems of the registry have one, without options. The first row is what the others
-/// are divided by.
+/// Systems with several rows; all other systems of the registry have one, without options. The first row is
+/// what the others are divided by.
 const VARIANTS: [Variant; 8] = [
     ("bvh", Some(["builder", "lbvh"]), false),
     ("bvh", Some(["builder", "lbvh"]), true),
@@ -205,8 +207,8 @@ fn frames(
         surfaces: middle(|frame| frame.surfaces),
         shade: middle(|frame| frame.shade),
     };
-    // Kernels that count are others. A tree that is refitted has to keep the order of the first frame, as the one that was
-    // timed did.
+    // Kernels that count are others. A tree that is refitted has to keep the order of the first frame, as the
+    // one that was timed did.
     let mut counting = setting.create(&spec.clone().with_counters(Counters::Sums), in_parts)?;
     for number in [0, count] {
         setting.show(number)?;
@@ -249,8 +251,8 @@ impl Setting<'_> {
         Ok(shown.host_milliseconds + total(&shown.passes, |_| true))
     }
 
-    /// Builds what has moved, milliseconds: the build that is complete; those before it, in which pools grew, are not
-    /// counted. The camera stands still.
+    /// Builds what has moved, milliseconds: the build that is complete; those before it, in which pools grew,
+    /// are not counted. The camera stands still.
     fn build(&self, structure: &mut FrameStructure) -> Result<f64> {
         let (device, viewpoint) = (self.device, self.stage.scene.viewpoint());
         structure.geometry_moved();

@@ -1,8 +1,9 @@
 //! Costs of layouts of an engine's buffers: `cargo bench --bench geometry -- [SCENE] [RAYS]`.
 //!
-//! Prints, for each layout of vertices and indices, the medians of the builds and of the traces of random rays through the
-//! default systems of triangles, alternated between layouts in one process, and their ratios to packed buffers. Hits are the
-//! same for all layouts, and are compared. Times of software devices are for ratios on that device.
+//! Prints, for each layout of vertices and indices, the medians of the builds and of the traces of random
+//! rays through the default systems of triangles, alternated between layouts in one process, and their ratios
+//! to packed buffers. Hits are the same for all layouts, and are compared. Times of software devices are for
+//! ratios on that device.
 
 use std::collections::HashMap;
 use std::error::Error;
@@ -31,7 +32,8 @@ struct Layout {
     name: &'static str,
     /// Bytes from one position to the next.
     stride: u32,
-    /// Indices of each draw from its own first vertex, of this format; absent: u32, from the first vertex of all.
+    /// Indices of each draw from its own first vertex, of this format; absent: u32, from the first vertex of
+    /// all.
     per_draw: Option<IndexFormat>,
 }
 

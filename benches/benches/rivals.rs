@@ -1,9 +1,10 @@
 //! Trees of ours next to Embree's: `cargo bench --bench rivals -- [SCENE] [RAYS]`.
 //!
-//! Prints builds and traces of the same triangles and rays, alternated between tracers in one process: medians on the wall and
-//! of the processor, and what of the answers is wrong by the exact oracle. Embree is loaded where `RASRAY_EMBREE` or the
-//! system has it; else its rows say how to get it. Both trace on as many threads as llvmpipe has: those of `LP_NUM_THREADS`, or
-//! one a processor. Alpha masks and backs are hit as all else is. Times of software devices are for ratios on that device.
+//! Prints builds and traces of the same triangles and rays, alternated between tracers in one process:
+//! medians on the wall and of the processor, and what of the answers is wrong by the exact oracle. Embree is
+//! loaded where `RASRAY_EMBREE` or the system has it; else its rows say how to get it. Both trace on as many
+//! threads as llvmpipe has: those of `LP_NUM_THREADS`, or one a processor. Alpha masks and backs are hit as
+//! all else is. Times of software devices are for ratios on that device.
 
 use rasray_scene::Sampler;
 use std::error::Error;
@@ -68,7 +69,8 @@ struct Rays {
 }
 
 impl Tracer<'_> {
-    /// Hits and what they took: on the wall the traces alone, of the processor also what hands rays over and hits back.
+    /// Hits and what they took: on the wall the traces alone, of the processor also what hands rays over and
+    /// hits back.
     fn trace(&self, device: &Device, set: &Rays) -> Result<(Vec<Option<DeviceHit>>, Spent)> {
         let (traced, spent) = match self {
             Self::Ours { structure, batch } => {
@@ -161,8 +163,8 @@ fn sets(source: &RaySource<'_>, count: u32) -> Vec<Rays> {
     sets.into_iter().map(with_truth).collect()
 }
 
-/// Rays from the eye towards points on edges of triangles, as near as rounding lets them be: where meshes are closed, a test that
-/// does not treat both sides of an edge alike loses some.
+/// Rays from the eye towards points on edges of triangles, as near as rounding lets them be: where meshes are
+/// closed, a test that does not treat both sides of an edge alike loses some.
 fn edge_rays(source: &RaySource<'_>, count: u32) -> Vec<Ray> {
     let triangles = source.indices.as_chunks::<3>().0;
     let ray = |index| {

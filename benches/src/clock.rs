@@ -7,7 +7,8 @@ use std::time::Instant;
 pub struct Spent {
     /// Milliseconds on the wall.
     pub wall: f64,
-    /// Milliseconds of all threads of this process, a software driver's too; absent where the system has no such clock.
+    /// Milliseconds of all threads of this process, a software driver's too; absent where the system has no
+    /// such clock.
     pub processor: Option<f64>,
 }
 

@@ -1,4 +1,5 @@
-//! Shared parts of benches: the words of their command lines, tracers of others to be measured beside, clocks.
+//! Shared parts of benches: the words of their command lines, tracers of others to be measured beside,
+//! clocks.
 
 pub mod clock;
 pub mod embree;

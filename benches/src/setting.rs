@@ -28,7 +28,8 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// Reads `[SCENE] [RAYS]` behind the words of the command, with what stands for them where they are left out.
+    /// Reads `[SCENE] [RAYS]` behind the words of the command, with what stands for them where they are left
+    /// out.
     ///
     /// # Errors
     /// There is no such scene, no device, or RAYS is no number above 0.

@@ -1,7 +1,7 @@
 //! Comments of GLSL as documentation of Rust.
 
-/// A comment's text for rustdoc: names in code marks, and nothing that Markdown takes for markup. What is in code marks
-/// already stays as it is.
+/// A comment's text for rustdoc: names in code marks, and nothing that Markdown takes for markup. What is in
+/// code marks already stays as it is.
 pub(crate) fn documentation(comment: &str) -> String {
     let mut text = String::new();
     for (place, part) in comment.split('`').enumerate() {

@@ -1,8 +1,8 @@
 //! Compiles the modules of `permutations.txt`.
 //!
-//! Names and source text stay in the modules with the feature `debug-shaders`, and are left out without it: they are
-//! more than half of all bytes. `RASRAY_SHADER_CACHE` names a folder that builds of several profiles share, so that a
-//! module is compiled once for all of them.
+//! Names and source text stay in the modules with the feature `debug-shaders`, and are left out without it:
+//! they are more than half of all bytes. `RASRAY_SHADER_CACHE` names a folder that builds of several profiles
+//! share, so that a module is compiled once for all of them.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -87,7 +87,8 @@ fn read_kept(kept: &Path, text: &str) -> Option<Vec<u32>> {
     rest.is_empty().then(|| words.iter().map(|word| u32::from_le_bytes(*word)).collect())
 }
 
-/// Keeps words for a text. Files appear whole, as other builds may look for them; the text last, as it vouches for both.
+/// Keeps words for a text. Files appear whole, as other builds may look for them; the text last, as it
+/// vouches for both.
 fn keep(kept: &Path, text: &str, words: &[u32]) -> Result<(), String> {
     let put = |extension: &str, bytes: &[u8]| {
         let path = kept.with_extension(extension);

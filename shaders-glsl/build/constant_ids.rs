@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 /// Ids from here on are those of hosts.
 const END: u32 = 200;
 
-/// Code of the ids of all files, given as name and text, with a module per folder. A module may include any two folders,
-/// so that no two constants have one id.
+/// Code of the ids of all files, given as name and text, with a module per folder. A module may include any
+/// two folders, so that no two constants have one id.
 pub(crate) fn code_of_constant_ids(files: &[(String, String)]) -> Result<String, String> {
     let mut folders: BTreeMap<&str, String> = BTreeMap::new();
     let mut known: BTreeMap<u32, (&str, &str)> = BTreeMap::new();

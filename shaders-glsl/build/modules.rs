@@ -1,7 +1,7 @@
 //! Compiled modules in a folder: `prebuilt`, as packages have it.
 //!
-//! `modules.txt` next to the modules says of which GLSL and with which features they were made, and lists each with a
-//! hash of its bytes.
+//! `modules.txt` next to the modules says of which GLSL and with which features they were made, and lists
+//! each with a hash of its bytes.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;

@@ -1,9 +1,10 @@
 //! Structs and push constants of GLSL as structs of Rust.
 //!
-//! A record is a block of push constants, whose comment says its size ("12 bytes."), or a struct whose comment says that
-//! the host has it, too, and its size ("Shared, 336 bytes."). Everything is read from the text of the GLSL, and no compiled module is: modules are what tests hold
-//! the result against. Offsets follow scalar block layout, in which a member has the alignment of its scalars; those are
-//! words of 4 bytes.
+//! A record is a block of push constants, whose comment says its size ("12 bytes."), or a struct whose
+//! comment says that the host has it, too, and its size ("Shared, 336 bytes."). Everything is read from the
+//! text of the GLSL, and no compiled module is: modules are what tests hold the result against. Offsets
+//! follow scalar block layout, in which a member has the alignment of its scalars; those are words of 4
+//! bytes.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -56,8 +57,8 @@ struct Type {
     has_eq: bool,
 }
 
-/// Code of all records of files, given as name and text. `numbers` are what lengths of arrays may name. A record may
-/// hold others of the same files.
+/// Code of all records of files, given as name and text. `numbers` are what lengths of arrays may name. A
+/// record may hold others of the same files.
 pub(crate) fn code_of_records(
     files: &[&(String, String)],
     numbers: &BTreeMap<String, u32>,

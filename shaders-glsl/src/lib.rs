@@ -1,15 +1,15 @@
-//! All GLSL of rasray, the same as SPIR-V, and what shaders and Rust share, generated from the GLSL: [numbers](constants),
-//! [records] of buffers, and [ids of specialisation constants](constant_ids).
+//! All GLSL of rasray, the same as SPIR-V, and what shaders and Rust share, generated from the GLSL:
+//! [numbers](constants), [records] of buffers, and [ids of specialisation constants](constant_ids).
 //!
 //! A module is there iff it is listed in `permutations.txt` and the features of its section are
-//! on, so an embedder of one structure has the modules of that structure alone. Packages hold the modules ready made;
-//! with the feature `compile`, and in the repository, they are compiled when this crate is built. No compiler is needed
-//! at run time.
+//! on, so an embedder of one structure has the modules of that structure alone. Packages hold the modules
+//! ready made; with the feature `compile`, and in the repository, they are compiled when this crate is built.
+//! No compiler is needed at run time.
 //!
-//! A shader of one's own includes files of this crate (`bricks/trace.glsl`): its compiler is told [`ROOT`], which the
-//! build script of a crate that names this one as a dependency finds in `DEP_RASRAY_SHADERS_GLSL_ROOT`; the crate
-//! `rasray-shader-compiler` has an example. [`layout`] reads names, offsets and sizes of buffer members back out of a
-//! module; tests hold [records] against them.
+//! A shader of one's own includes files of this crate (`bricks/trace.glsl`): its compiler is told [`ROOT`],
+//! which the build script of a crate that names this one as a dependency finds in
+//! `DEP_RASRAY_SHADERS_GLSL_ROOT`; the crate `rasray-shader-compiler` has an example. [`layout`] reads names,
+//! offsets and sizes of buffer members back out of a module; tests hold [records] against them.
 
 pub mod layout;
 mod packed;
@@ -28,8 +28,8 @@ pub mod constants {
 include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
 include!(concat!(env!("OUT_DIR"), "/files.rs"));
 
-/// The folder that all includes are relative to, on the machine where this crate was built; elsewhere, and later, there
-/// is [`files`].
+/// The folder that all includes are relative to, on the machine where this crate was built; elsewhere, and
+/// later, there is [`files`].
 pub const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// A file with GLSL.
@@ -56,7 +56,8 @@ pub struct Shader {
 }
 
 impl Shader {
-    /// The module's words, which programs hold packed into a quarter of their bytes: a few milliseconds for the largest.
+    /// The module's words, which programs hold packed into a quarter of their bytes: a few milliseconds for
+    /// the largest.
     pub fn words(&self) -> Vec<u32> {
         packed::unpack(self.packed).expect("the build script unpacks every module once")
     }
@@ -121,7 +122,8 @@ mod tests {
         assert!(pack::pack(&words[..8]).is_none());
     }
 
-    /// Instructions of a module's entry point once every call stands for what is called, as drivers compile it.
+    /// Instructions of a module's entry point once every call stands for what is called, as drivers compile
+    /// it.
     fn expanded_length(words: &[u32]) -> usize {
         // Contents of a function: its own instructions, and the functions that it calls.
         let mut functions: std::collections::HashMap<u32, (usize, Vec<u32>)> =
@@ -159,8 +161,8 @@ mod tests {
         sum
     }
 
-    /// A function that is called at several places is compiled as often, which takes most of the time to a first picture
-    /// and of the tests on drivers that compile on the processor.
+    /// A function that is called at several places is compiled as often, which takes most of the time to a
+    /// first picture and of the tests on drivers that compile on the processor.
     #[test]
     fn no_module_holds_many_copies_of_a_long_function() {
         let mut longer = Vec::new();

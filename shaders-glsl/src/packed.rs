@@ -1,8 +1,8 @@
-//! Modules as programs and packages hold them: a form of SPIR-V that compression, which knows bytes alone, makes a quarter
-//! smaller, and that compressed.
+//! Modules as programs and packages hold them: a form of SPIR-V that compression, which knows bytes alone,
+//! makes a quarter smaller, and that compressed.
 //!
-//! Opcodes and lengths of instructions come first, then their operands, all as numbers of one to five bytes. Most
-//! operands are ids of what came just before, and are kept as their distance to the highest id so far.
+//! Opcodes and lengths of instructions come first, then their operands, all as numbers of one to five bytes.
+//! Most operands are ids of what came just before, and are kept as their distance to the highest id so far.
 
 /// Words of a module before its instructions.
 pub(crate) const HEADER: usize = 5;

@@ -1,7 +1,8 @@
-//! The records that buffers of shaders hold, and their push constants, generated from the GLSL that declares them, with its comments and as it
-//! lays them out: scalar block layout.
+//! The records that buffers of shaders hold, and their push constants, generated from the GLSL that declares
+//! them, with its comments and as it lays them out: scalar block layout.
 //!
-//! `Default` is zeros, as in a buffer that was filled with them; a record of which zeros are no sensible value has none.
+//! `Default` is zeros, as in a buffer that was filled with them; a record of which zeros are no sensible
+//! value has none.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -124,8 +125,9 @@ impl Ray {
         }
     }
 
-    /// This ray as a shadow ray that leads to the light of that number: lights without extent come first, then emitting
-    /// triangles. A number beyond `RAY_LIGHT_MOST - 1` has no room: the ray counts as one to a light without a map.
+    /// This ray as a shadow ray that leads to the light of that number: lights without extent come first,
+    /// then emitting triangles. A number beyond `RAY_LIGHT_MOST - 1` has no room: the ray counts as one to a
+    /// light without a map.
     #[must_use]
     pub fn with_light(self, light: u32) -> Self {
         let below = (1 << RAY_LIGHT_SHIFT) - 1;
@@ -135,7 +137,8 @@ impl Ray {
         }
     }
 
-    /// The number of the light that a shadow ray leads to, as of [`Ray::with_light`]; nothing for every other ray.
+    /// The number of the light that a shadow ray leads to, as of [`Ray::with_light`]; nothing for every other
+    /// ray.
     pub fn light(&self) -> Option<u32> {
         (self.flags >> RAY_LIGHT_SHIFT).checked_sub(1)
     }

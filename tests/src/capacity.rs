@@ -22,8 +22,8 @@ pub struct Counted {
 /// The share of pages by which builds of larger scenes may differ on any device.
 const SPREAD_OF_PAGES: u64 = 64;
 
-/// Largest difference between the demands of two builds in pages: the number of begun pages depends on which threads
-/// collide. On a processor so few run at a time that small scenes have the same pages in every build.
+/// Largest difference between the demands of two builds in pages: the number of begun pages depends on which
+/// threads collide. On a processor so few run at a time that small scenes have the same pages in every build.
 pub fn spread_of_pages(device: &Device, demand: u64) -> u64 {
     if device.is_software() { 0 } else { demand / 4 }
 }
@@ -62,10 +62,10 @@ pub fn check_capacities_of(
     check_capacities(bench, structure, [0.0; 3].into(), counted, sizes, hits)
 }
 
-/// Builds a structure in capacity for none, one, half, all but one and all of what is counted, `sizes` being its
-/// pools with capacity for that many. What has no capacity is counted and grown, no build is complete until it
-/// has, and its demand is enough; the answers of complete builds are those of one in ample capacity. Returns
-/// how many there are, which is more than ten.
+/// Builds a structure in capacity for none, one, half, all but one and all of what is counted, `sizes` being
+/// its pools with capacity for that many. What has no capacity is counted and grown, no build is complete
+/// until it has, and its demand is enough; the answers of complete builds are those of one in ample capacity.
+/// Returns how many there are, which is more than ten.
 ///
 /// # Panics
 /// If the device fails, or any of that does not hold.

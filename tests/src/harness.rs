@@ -48,7 +48,8 @@ fn shared_device() -> &'static Device {
     })
 }
 
-/// True if the device of the tests can have a structure. Where it cannot, that is said once, as a test that is skipped.
+/// True if the device of the tests can have a structure. Where it cannot, that is said once, as a test that
+/// is skipped.
 ///
 /// # Panics
 /// If there is no suitable device, or an option has an impossible value.
@@ -223,10 +224,11 @@ impl Drop for Bench {
     }
 }
 
-/// Processor time of all threads of this process so far, in seconds; absent where the system does not tell it in
-/// `/proc`. Tests take turns, so what passes between two calls within a turn is that test's.
+/// Processor time of all threads of this process so far, in seconds; absent where the system does not tell it
+/// in `/proc`. Tests take turns, so what passes between two calls within a turn is that test's.
 pub fn processor_seconds() -> Option<f64> {
-    // Ticks of user and system time are fields 14 and 15; the name before them may hold spaces. Linux counts 100 a second.
+    // Ticks of user and system time are fields 14 and 15; the name before them may hold spaces. Linux counts
+    // 100 a second.
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
     let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
     let ticks = |field: usize| fields.get(field - 3)?.parse::<f64>().ok();
@@ -238,8 +240,8 @@ pub fn bits(hit: &Hit) -> [u32; 4] {
     [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
 }
 
-/// The bits of a hit that are the same in every build. For fragments without an id, a and b refer to a node, whose number
-/// follows the order of threads.
+/// The bits of a hit that are the same in every build. For fragments without an id, a and b refer to a node,
+/// whose number follows the order of threads.
 pub fn bits_of_any_build(hit: &Hit) -> [u32; 4] {
     let [t, primitive, a, b] = bits(hit);
     if primitive == PRIMITIVE_UNKNOWN { [t, primitive, 0, 0] } else { [t, primitive, a, b] }

@@ -100,8 +100,8 @@ pub fn ball_in_a_room() -> Vec<Triangle> {
     triangles
 }
 
-/// Triangles of all sizes within 10 of the origin: scattered layers, spheres of small and of tiny triangles, slivers
-/// that are long and thin and often pass close to the eye, and a room around them.
+/// Triangles of all sizes within 10 of the origin: scattered layers, spheres of small and of tiny triangles,
+/// slivers that are long and thin and often pass close to the eye, and a room around them.
 pub fn all_sizes() -> Vec<Triangle> {
     let mut triangles = layers();
     triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 10));
@@ -115,8 +115,8 @@ pub fn all_sizes() -> Vec<Triangle> {
     triangles
 }
 
-/// Needles of any direction within 12 of the origin, so thin that rounding turns the planes of many, and a few as wide as
-/// cells.
+/// Needles of any direction within 12 of the origin, so thin that rounding turns the planes of many, and a
+/// few as wide as cells.
 pub fn needles() -> Vec<Triangle> {
     let mut random = Random::new(77);
     (0..400)

@@ -1,8 +1,9 @@
 //! Tiers of tests.
 //!
-//! The quick tier is what every change must pass; the full tier (`RASRAY_FULL=1`, `tools/test --full`) has the large
-//! counts. A program on the processor traces far fewer rays than a GPU does, so a count of the full tier may be
-//! smaller there. Counts follow tier and kind of device alone, never the clock, and each run prints its own.
+//! The quick tier is what every change must pass; the full tier (`RASRAY_FULL=1`, `tools/test --full`) has
+//! the large counts. A program on the processor traces far fewer rays than a GPU does, so a count of the full
+//! tier may be smaller there. Counts follow tier and kind of device alone, never the clock, and each run
+//! prints its own.
 
 use std::fmt::Debug;
 
@@ -13,9 +14,9 @@ pub fn is_full() -> bool {
     std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
 }
 
-/// All of them in the full tier; in the quick one one of them, by `turn`: where one option changes in an outer loop
-/// and others in an inner one, every value is tried, but not with every other. Each is a kernel of its own, which a
-/// driver on the processor compiles for seconds.
+/// All of them in the full tier; in the quick one one of them, by `turn`: where one option changes in an
+/// outer loop and others in an inner one, every value is tried, but not with every other. Each is a kernel of
+/// its own, which a driver on the processor compiles for seconds.
 pub fn in_turn<T>(all: &[T], turn: usize) -> &[T] {
     let place = turn % all.len();
     if is_full() { all } else { &all[place..=place] }
@@ -26,8 +27,9 @@ pub fn first<T>(all: &[T], quick: usize) -> &[T] {
     if is_full() { all } else { &all[..quick] }
 }
 
-/// True if this run tries a pair of two lists, by the places of both: every pair in the full tier, one of `share` in
-/// the quick one. Each place of either list then occurs in some pair, where the other list has `share` places or more.
+/// True if this run tries a pair of two lists, by the places of both: every pair in the full tier, one of
+/// `share` in the quick one. Each place of either list then occurs in some pair, where the other list has
+/// `share` places or more.
 pub fn is_pair(one: usize, other: usize, share: usize) -> bool {
     is_full() || (one + other).is_multiple_of(share)
 }

@@ -1,5 +1,5 @@
-//! The driver's tree: what the host and the driver hold, rays that the driver cannot be asked about, and hits. Whatever loops
-//! over the registry holds it to the demands of all structures.
+//! The driver's tree: what the host and the driver hold, rays that the driver cannot be asked about, and
+//! hits. Whatever loops over the registry holds it to the demands of all structures.
 
 use rasray_ads::{BruteForce, Geometry, Hit, Inspect, Ray, Structure};
 use rasray_driver::{Config, Demand, Driver, Goal, plan};
@@ -19,8 +19,8 @@ fn bench() -> Option<Bench> {
     is_offered(&spec).then(Bench::new)
 }
 
-/// Random rays, rays along axes and at corners of triangles, and rays that the driver is not asked about: from far outside, of
-/// subnormal directions, and of no direction.
+/// Random rays, rays along axes and at corners of triangles, and rays that the driver is not asked about:
+/// from far outside, of subnormal directions, and of no direction.
 fn rays(triangles: &[Triangle]) -> Vec<Ray> {
     let mut random = Random::new(0x6472_6976);
     (0..RAYS)

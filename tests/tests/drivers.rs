@@ -1,5 +1,5 @@
-//! Equal hits on every driver: one small scene through every robust preset. The test programs run on one driver;
-//! this one runs on each of the others as well.
+//! Equal hits on every driver: one small scene through every robust preset. The test programs run on one
+//! driver; this one runs on each of the others as well.
 
 use rasray_ads::{Hit, Ray};
 use rasray_systems::Preset;
@@ -11,8 +11,8 @@ use rasray_tests::tier::is_full;
 
 const RAYS: usize = 400;
 
-/// FNV-1a of all bits of the nearest hits by brute force. Software drivers round as IEEE 754 says, so that these are one
-/// number; the quotients of hardware may be off by 2.5 ulp.
+/// FNV-1a of all bits of the nearest hits by brute force. Software drivers round as IEEE 754 says, so that
+/// these are one number; the quotients of hardware may be off by 2.5 ulp.
 const HITS: u64 = 0x856d_cc03_a334_339a;
 
 fn fnv(hits: &[Hit]) -> u64 {

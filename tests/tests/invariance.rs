@@ -1,5 +1,6 @@
 //! Options that may change a hit: every system of the registry, one option at a time, in pairs, and in other
-//! processes with other numbers of driver threads; which slots of a queue are traced. Hits are compared bit for bit.
+//! processes with other numbers of driver threads; which slots of a queue are traced. Hits are compared bit
+//! for bit.
 
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -18,7 +19,8 @@ use rasray_tests::tier::is_full;
 #[path = "invariance/selection.rs"]
 mod selection;
 
-/// Rays for each value and each pair of values of options: structures that promise every hit are held to it on more.
+/// Rays for each value and each pair of values of options: structures that promise every hit are held to it
+/// on more.
 fn option_rays(kind: StructureKind) -> usize {
     if is_full() && kind == StructureKind::Primitive { 100_000 } else { ray_count() }
 }
@@ -73,7 +75,8 @@ fn one_option_at_a_time_changes_no_hit() {
         let what = format!("{}: counters", subject.name());
         assert_same(&what, &rays, &expected, &counted.answers(&bench, EYE, &triangles, &rays));
         let options = speed_options(&subject);
-        // A value in company is a value tried: the quick tier tries them together, and the full tier says which it is.
+        // A value in company is a value tried: the quick tier tries them together, and the full tier says
+        // which it is.
         if options.len() > 1 && !is_full() {
             continue;
         }
@@ -88,9 +91,9 @@ fn one_option_at_a_time_changes_no_hit() {
     }
 }
 
-/// Number of pairs of a subject's options that exclude each other: cells along the axes have no slices, those of a
-/// cube's faces are not divided; layers are peeled by drawing, and several passes draw; trees by codes and treelets
-/// have one triangle per leaf; boxes give bounds to three of six storages, and are drawn.
+/// Number of pairs of a subject's options that exclude each other: cells along the axes have no slices, those
+/// of a cube's faces are not divided; layers are peeled by drawing, and several passes draw; trees by codes
+/// and treelets have one triangle per leaf; boxes give bounds to three of six storages, and are drawn.
 const REFUSED: &[(&str, usize)] = &[
     ("bricks robust", 10),
     ("bricks robust with views=cube", 10),

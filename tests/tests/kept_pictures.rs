@@ -1,5 +1,5 @@
-//! Comparisons of pictures that keep them as files where they fail, in the folder `rasray-failed-pictures` of cargo's
-//! folder for tests (`target/tmp`). The tests of `rasray-integrators` use this file too.
+//! Comparisons of pictures that keep them as files where they fail, in the folder `rasray-failed-pictures` of
+//! cargo's folder for tests (`target/tmp`). The tests of `rasray-integrators` use this file too.
 
 use std::error::Error;
 use std::fmt::Display;
@@ -18,9 +18,9 @@ pub struct Compared<'a> {
 }
 
 impl Compared<'_> {
-    /// Fails the running test unless `holds`. The message is `why` and the paths of three EXR files, which are named
-    /// after the test: the picture, the reference, and their absolute difference. Those of an earlier failure are
-    /// replaced.
+    /// Fails the running test unless `holds`. The message is `why` and the paths of three EXR files, which
+    /// are named after the test: the picture, the reference, and their absolute difference. Those of an
+    /// earlier failure are replaced.
     #[track_caller]
     pub fn assert(self, holds: bool, why: impl Display) {
         assert!(holds, "{why}\n{}", self.kept());

@@ -1,5 +1,5 @@
-//! Tools that nobody sees fail, since they do without: the cache of clones, and drivers that are unpacked. Each runs in a
-//! project of a few empty files, against archives that are made here.
+//! Tools that nobody sees fail, since they do without: the cache of clones, and drivers that are unpacked.
+//! Each runs in a project of a few empty files, against archives that are made here.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;

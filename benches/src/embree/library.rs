@@ -1,4 +1,5 @@
-//! The C interface of Embree 4 as far as it is used, by the names and types of its headers `embree4/rtcore*.h`.
+//! The C interface of Embree 4 as far as it is used, by the names and types of its headers
+//! `embree4/rtcore*.h`.
 
 use super::packet::{Arguments, Packet};
 use super::{EmbreeError, Quality, TreeOptions};
@@ -70,8 +71,8 @@ pub(super) struct Functions {
 impl Functions {
     /// Loads a library by file or by name.
     pub fn load(name: &OsStr) -> Result<Self, EmbreeError> {
-        // SAFETY: what a library does when it is loaded is its own. The user named it, or it is the one that is installed
-        // under this name; its initialisers have no conditions.
+        // SAFETY: what a library does when it is loaded is its own. The user named it, or it is the one that
+        // is installed under this name; its initialisers have no conditions.
         let library = unsafe { Library::new(name) }
             .map_err(|error| EmbreeError::Missing { reason: error.to_string() })?;
         let lacks = |error: libloading::Error| EmbreeError::Unsuitable {
@@ -81,10 +82,11 @@ impl Functions {
         /// A function by its name in the header, with the type that it has there.
         macro_rules! function {
             ($name:literal) => {
-                // SAFETY: the headers of version 4 declare the function with the type of the field that it goes to (enums are
-                // ints, pointers to rays are untyped here), and functions keep their types within a version. Version 3 has
-                // the names too; its devices and their properties are the same, and it is refused by its version before
-                // any function that differs is called. A library with all of the functions is never closed.
+                // SAFETY: the headers of version 4 declare the function with the type of the field that it
+                // goes to (enums are ints, pointers to rays are untyped here), and functions keep their types
+                // within a version. Version 3 has the names too; its devices and their properties are the
+                // same, and it is refused by its version before any function that differs is called. A
+                // library with all of the functions is never closed.
                 *unsafe { library.get($name) }.map_err(lacks)?
             };
         }
@@ -112,7 +114,8 @@ impl Functions {
                 [function!(b"rtcIntersect16\0"), function!(b"rtcOccluded16\0")],
             ],
         };
-        // Its threads still run when its last device is gone, and would run in code that is not there any more.
+        // Its threads still run when its last device is gone, and would run in code that is not there any
+        // more.
         std::mem::forget(library);
         Ok(functions)
     }
@@ -122,15 +125,17 @@ impl Functions {
 #[derive(Debug)]
 pub(super) struct Device(Arc<Owned>);
 
-/// A device with the functions that reach it. Scenes share it, since the library counts what refers to a device.
+/// A device with the functions that reach it. Scenes share it, since the library counts what refers to a
+/// device.
 #[derive(Debug)]
 struct Owned {
     functions: Functions,
     handle: Handle,
 }
 
-// SAFETY: the handle is a pointer that only the library looks behind, and the functions of it that take a device by a shared
-// reference here (errors, properties, new scenes) may be called from any thread (the library's manual, "Embree API").
+// SAFETY: the handle is a pointer that only the library looks behind, and the functions of it that take a
+// device by a shared reference here (errors, properties, new scenes) may be called from any thread (the
+// library's manual, "Embree API").
 unsafe impl Send for Owned {}
 // SAFETY: as above.
 unsafe impl Sync for Owned {}
@@ -211,7 +216,8 @@ impl Device {
             return Err(self.failed());
         }
         let mut scene = Scene { device: Arc::clone(&self.0), handle, geometry: null_mut() };
-        // SAFETY: the scene is live and not committed, the flags and the quality are values of the header; the device is.
+        // SAFETY: the scene is live and not committed, the flags and the quality are values of the header;
+        // the device is.
         scene.geometry = unsafe {
             (functions.set_scene_flags)(handle, if robust { ROBUST } else { 0 } | TAKES_FILTERS);
             (functions.set_scene_quality)(handle, quality);
@@ -246,9 +252,9 @@ pub(super) struct Scene {
     geometry: Handle,
 }
 
-// SAFETY: the handles are pointers that only the library looks behind. `commit` is called before rays are traced, by the one
-// thread that has the scene then, and traces of a committed scene may be called from any number of threads at a time (the
-// library's manual, `rtcIntersect1`).
+// SAFETY: the handles are pointers that only the library looks behind. `commit` is called before rays are
+// traced, by the one thread that has the scene then, and traces of a committed scene may be called from any
+// number of threads at a time (the library's manual, `rtcIntersect1`).
 unsafe impl Send for Scene {}
 // SAFETY: as above.
 unsafe impl Sync for Scene {}
@@ -256,8 +262,8 @@ unsafe impl Sync for Scene {}
 impl Drop for Scene {
     fn drop(&mut self) {
         let functions = &self.device.functions;
-        // SAFETY: the handles are live, and each is the only reference that is counted here; the scene counts its own of the
-        // geometry.
+        // SAFETY: the handles are live, and each is the only reference that is counted here; the scene counts
+        // its own of the geometry.
         unsafe {
             if !self.geometry.is_null() {
                 (functions.release_geometry)(self.geometry);
@@ -271,8 +277,8 @@ impl Scene {
     /// Copies elements of three words each into a new buffer of the geometry.
     fn fill<T: Copy>(&self, kind: c_int, format: c_int, elements: &[[T; 3]]) -> Result<(), EmbreeError> {
         let stride = size_of::<[T; 3]>();
-        // SAFETY: the geometry is live and not committed; kind and format are of the header, and the library makes room for
-        // what it reads beyond the last element.
+        // SAFETY: the geometry is live and not committed; kind and format are of the header, and the library
+        // makes room for what it reads beyond the last element.
         let place = unsafe {
             (self.device.functions.new_buffer)(self.geometry, kind, 0, format, stride, elements.len())
         };
@@ -281,8 +287,8 @@ impl Scene {
             return Err(EmbreeError::Failed("it gave no memory and does not say why".to_owned()));
         }
         if !elements.is_empty() {
-            // SAFETY: the library gave memory of its own for as many elements of that stride, aligned to 16 bytes, which
-            // nothing else refers to.
+            // SAFETY: the library gave memory of its own for as many elements of that stride, aligned to 16
+            // bytes, which nothing else refers to.
             unsafe { place.cast::<[T; 3]>().copy_from_nonoverlapping(elements.as_ptr(), elements.len()) };
         }
         Ok(())
@@ -322,9 +328,10 @@ impl Scene {
         // SAFETY: the pointer is to a packet, of which this is a member.
         let valid: *const c_int = unsafe { (&raw const (*rays).valid).cast() };
         let (rays, arguments) = (rays.cast::<c_void>(), &raw mut arguments);
-        // SAFETY: the scene is committed; the packet is one of the header's for N rays, at least as long and as aligned, and
-        // no other thread has it. The flags of lanes are in it at 108 N bytes, a multiple of the 4 N that the header asks
-        // them to be aligned to, behind what the library writes. Arguments live until the call returns.
+        // SAFETY: the scene is committed; the packet is one of the header's for N rays, at least as long and
+        // as aligned, and no other thread has it. The flags of lanes are in it at 108 N bytes, a multiple of
+        // the 4 N that the header asks them to be aligned to, behind what the library writes. Arguments live
+        // until the call returns.
         unsafe {
             match N {
                 1 => [functions.intersect, functions.occluded][occlusion](self.handle, rays, arguments),

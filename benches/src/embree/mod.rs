@@ -1,5 +1,5 @@
-//! [Embree](https://www.embree.org) 4 over the triangles of a scene: what a user without a GPU would take. The library is
-//! found when it is asked for: nothing is linked, and benches run without it.
+//! [Embree](https://www.embree.org) 4 over the triangles of a scene: what a user without a GPU would take.
+//! The library is found when it is asked for: nothing is linked, and benches run without it.
 
 mod library;
 mod packet;
@@ -17,8 +17,8 @@ use std::time::Instant;
 /// Names a file of the library, or the folder that it is in.
 pub const LIBRARY_VARIABLE: &str = "RASRAY_EMBREE";
 
-/// Beginning of its files' names, a part that they hold, and the name to look it up by as all libraries are, on this
-/// system.
+/// Beginning of its files' names, a part that they hold, and the name to look it up by as all libraries are,
+/// on this system.
 const FILE: (&str, &str, &str) = if cfg!(target_os = "windows") {
     ("embree4", ".dll", "embree4.dll")
 } else if cfg!(target_os = "macos") {
@@ -27,7 +27,8 @@ const FILE: (&str, &str, &str) = if cfg!(target_os = "windows") {
     ("libembree4", ".so", "libembree4.so.4")
 };
 
-/// Packets that a thread takes at a time: enough that taking them costs nothing, few enough that threads end together.
+/// Packets that a thread takes at a time: enough that taking them costs nothing, few enough that threads end
+/// together.
 const TURN: usize = 128;
 
 /// Why there is no Embree.
@@ -84,8 +85,8 @@ pub struct Embree {
     version: String,
 }
 
-/// A tree over triangles. Rays exclude a triangle each through a filter function, which is given to the library only where
-/// one of the rays at hand excludes any; backs and alpha masks are hit as fronts are.
+/// A tree over triangles. Rays exclude a triangle each through a filter function, which is given to the
+/// library only where one of the rays at hand excludes any; backs and alpha masks are hit as fronts are.
 #[derive(Debug)]
 pub struct Tree<'a> {
     embree: &'a Embree,
@@ -98,16 +99,18 @@ pub struct Tree<'a> {
 pub struct Traced {
     /// One a ray; of occlusion t is 0 and the triangle unknown.
     pub hits: Vec<Option<DeviceHit>>,
-    /// Milliseconds of the traces on the wall, without those of putting rays into the library's form and hits out of it.
+    /// Milliseconds of the traces on the wall, without those of putting rays into the library's form and hits
+    /// out of it.
     pub milliseconds: f64,
 }
 
 impl Embree {
-    /// Loads the library that [`LIBRARY_VARIABLE`] names, or else the one that is installed. It builds and traces on that
-    /// many threads.
+    /// Loads the library that [`LIBRARY_VARIABLE`] names, or else the one that is installed. It builds and
+    /// traces on that many threads.
     ///
     /// # Errors
-    /// [`EmbreeError::Missing`], [`EmbreeError::Unsuitable`], or [`EmbreeError::Failed`] on a processor that it does not run on.
+    /// [`EmbreeError::Missing`], [`EmbreeError::Unsuitable`], or [`EmbreeError::Failed`] on a processor that
+    /// it does not run on.
     pub fn find(threads: usize) -> Result<Self, EmbreeError> {
         match std::env::var_os(LIBRARY_VARIABLE).filter(|name| !name.is_empty()) {
             Some(name) => Self::load(Path::new(&name), threads),
@@ -115,7 +118,8 @@ impl Embree {
         }
     }
 
-    /// Loads a library by its file, by the folder that it is in, or by its name where it is looked up as all libraries are.
+    /// Loads a library by its file, by the folder that it is in, or by its name where it is looked up as all
+    /// libraries are.
     ///
     /// # Errors
     /// As [`Embree::find`].
@@ -176,7 +180,8 @@ impl Tree<'_> {
         self.build_milliseconds
     }
 
-    /// Traces rays in packets of 1, 4, 8 or 16 on all threads. Rays are valid: finite, with a direction that is not zero.
+    /// Traces rays in packets of 1, 4, 8 or 16 on all threads. Rays are valid: finite, with a direction that
+    /// is not zero.
     ///
     /// # Errors
     /// [`EmbreeError::Failed`]: there are no packets of that width, or what the library says.
@@ -215,7 +220,8 @@ impl Tree<'_> {
     }
 }
 
-/// The library in a folder, whatever is in its name behind `libembree4`: packages put a version or a hash there.
+/// The library in a folder, whatever is in its name behind `libembree4`: packages put a version or a hash
+/// there.
 fn file_in(folder: &Path) -> Result<PathBuf, EmbreeError> {
     let (beginning, ending, _) = FILE;
     let is_library = |name: &str| name.starts_with(beginning) && name.contains(ending);

@@ -29,7 +29,8 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    /// Of triangles without a context; with the filter that refuses what rays exclude, where any of them does.
+    /// Of triangles without a context; with the filter that refuses what rays exclude, where any of them
+    /// does.
     pub fn new(excludes: bool) -> Self {
         let filter: Filter = refuse_excluded;
         Self {
@@ -54,8 +55,8 @@ pub(super) struct FilterArguments {
     count: c_uint,
 }
 
-/// `RTCRayHitN` for N rays and, of which it is the beginning, `RTCRayN`; then which lanes are rays. The members are those of the
-/// header, which aligns packets to up to 64 bytes.
+/// `RTCRayHitN` for N rays and, of which it is the beginning, `RTCRayN`; then which lanes are rays. The
+/// members are those of the header, which aligns packets to up to 64 bytes.
 #[repr(C, align(64))]
 pub(super) struct Packet<const N: usize> {
     origin: [[f32; N]; 3],
@@ -71,8 +72,9 @@ pub(super) struct Packet<const N: usize> {
     barycentrics: [[f32; N]; 2],
     primitive: [u32; N],
     geometry: [u32; N],
-    /// Ids that the library fills in but nobody looks at: two a level of instances where it has arrays of them, else one. It is
-    /// built for one level unless somebody chose another number (`RTC_MAX_INSTANCE_LEVEL_COUNT`); there is room for four.
+    /// Ids that the library fills in but nobody looks at: two a level of instances where it has arrays of
+    /// them, else one. It is built for one level unless somebody chose another number
+    /// (`RTC_MAX_INSTANCE_LEVEL_COUNT`); there is room for four.
     instances: [[u32; N]; 8],
     /// All ones where a lane is a ray.
     pub valid: [c_int; N],
@@ -122,8 +124,8 @@ impl<const N: usize> Packet<N> {
 
 /// Refuses the triangle that a ray excludes.
 unsafe extern "C" fn refuse_excluded(arguments: *const FilterArguments) {
-    // SAFETY: the library calls this with its arguments, which live until it returns: arrays of `count` flags, and packets of
-    // `count` rays and hits, each member of which is an array of `count` words.
+    // SAFETY: the library calls this with its arguments, which live until it returns: arrays of `count`
+    // flags, and packets of `count` rays and hits, each member of which is an array of `count` words.
     unsafe {
         let FilterArguments { valid, ray, hit, count, .. } = *arguments;
         let count = count as usize;

@@ -51,7 +51,8 @@ fn hits_are_the_oracles_in_packets_of_every_width() {
     assert!([1, 4, 8, 16].contains(&embree.packet_width()));
     let (positions, indices) = sheets(12);
     let oracle = Oracle::new(&positions, &indices, None).expect("indices are in range");
-    // From above and from between the sheets, down, 1,001 of them so that the last packets are not full; some end early.
+    // From above and from between the sheets, down, 1,001 of them so that the last packets are not full; some
+    // end early.
     let ray = |index: u32| {
         let [x, z] = [2_654_435_761_u32, 2_246_822_519]
             .map(|factor| (index.wrapping_mul(factor) >> 8) as f32 / 16_777_216.0);

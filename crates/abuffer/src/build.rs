@@ -113,7 +113,8 @@ impl Build {
         let draws = draws(config);
         let shaders = Access::COMPUTE | Access::FRAGMENT;
 
-        // Backward links of new nodes and depths of unused slots are zero; everything else of a node is written.
+        // Backward links of new nodes and depths of unused slots are zero; everything else of a node is
+        // written.
         let paged = config.storage == Storage::Paged;
         let cleared: &[Pool] = if config.storage.is_doubly_linked() || paged {
             &[Pool::Bounds, Pool::Lists, Pool::Nodes]

@@ -6,8 +6,8 @@ use rasray_shaders_glsl::constants::abuffer as numbers;
 /// Method of stepping a ray through cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
-    /// Steps of equal length on the screen, at most [`Config::samples`](crate::Config::samples) per face. Cells
-    /// between are not visited.
+    /// Steps of equal length on the screen, at most [`Config::samples`](crate::Config::samples) per face.
+    /// Cells between are not visited.
     Samples,
     /// As many steps as keep each to a cell of the longer axis, as the paper's march without its limit.
     Dda,
@@ -40,7 +40,8 @@ pub enum Accept {
     Thickness,
     /// The depths that its triangle takes within the cell overlap those of the ray. Needs [`Payload::Index`].
     Slope,
-    /// The ray intersects the plane of its triangle within the cell. Needs [`Payload::Index`] or [`Payload::Plane`].
+    /// The ray intersects the plane of its triangle within the cell. Needs [`Payload::Index`] or
+    /// [`Payload::Plane`].
     Plane,
 }
 
@@ -73,8 +74,8 @@ pub enum Payload {
     /// The paper's payload for ambient occlusion: the quantised normal that is shaded by, alone, 4 bytes.
     /// Needs a scene.
     Normal,
-    /// The triangle's plane in full, 16 bytes: rays intersect it without reading the triangle, and know nothing
-    /// else of it.
+    /// The triangle's plane in full, 16 bytes: rays intersect it without reading the triangle, and know
+    /// nothing else of it.
     Plane,
 }
 
@@ -103,15 +104,15 @@ pub enum Coverage {
     Hardware,
     /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
     Exact,
-    /// As [`Coverage::Exact`], and a triangle that reaches into a cell outside of its centre is kept in the cell's
-    /// conservative list: edge-on ones, silhouettes, and what is smaller than a cell. Rays then test triangles, not
-    /// their planes, and find what brute force finds ([`Config::is_exact`](crate::Config::is_exact)). Needs
-    /// [`Accept::Plane`].
+    /// As [`Coverage::Exact`], and a triangle that reaches into a cell outside of its centre is kept in the
+    /// cell's conservative list: edge-on ones, silhouettes, and what is smaller than a cell. Rays then test
+    /// triangles, not their planes, and find what brute force finds
+    /// ([`Config::is_exact`](crate::Config::is_exact)). Needs [`Accept::Plane`].
     Conservative,
-    /// As [`Coverage::Exact`], and of the triangles that reach into a cell outside of its centre, those are kept
-    /// that have no fragment in any view, or whose planes are seen edge-on there: what the paper mentions as its
-    /// open limitation. Rays intersect the planes of fragments, and the triangles of conservative lists. Needs
-    /// [`Accept::Plane`].
+    /// As [`Coverage::Exact`], and of the triangles that reach into a cell outside of its centre, those are
+    /// kept that have no fragment in any view, or whose planes are seen edge-on there: what the paper
+    /// mentions as its open limitation. Rays intersect the planes of fragments, and the triangles of
+    /// conservative lists. Needs [`Accept::Plane`].
     EdgeOn,
 }
 
@@ -133,8 +134,8 @@ impl Coverage {
 pub enum Bounds {
     /// The fragments that it will have: all triangles are drawn once more.
     Geometry,
-    /// The boxes around objects that are over it: looser, and a box is drawn in place of its triangles. An object is a
-    /// draw of the geometry; of more than 4096 draws several in a row share a box.
+    /// The boxes around objects that are over it: looser, and a box is drawn in place of its triangles. An
+    /// object is a draw of the geometry; of more than 4096 draws several in a row share a box.
     Boxes,
 }
 
@@ -183,12 +184,12 @@ impl Views {
 /// Method by which a ray passes from one view to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ViewSwitching {
-    /// At the sides of the views' pyramids, which leave nothing out; every view that sees a part of the ray is searched
-    /// over it.
+    /// At the sides of the views' pyramids, which leave nothing out; every view that sees a part of the ray
+    /// is searched over it.
     Exact,
-    /// The paper's: each part of a ray is searched in one view at most. A view ends half a cell before its side, and the
-    /// ray goes on half a cell behind it, in the face that it is in there. The camera's view is searched only from the
-    /// start of a ray that it sees.
+    /// The paper's: each part of a ray is searched in one view at most. A view ends half a cell before its
+    /// side, and the ray goes on half a cell behind it, in the face that it is in there. The camera's view is
+    /// searched only from the start of a ray that it sees.
     Snap,
 }
 

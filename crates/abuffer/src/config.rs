@@ -13,9 +13,9 @@ pub struct Config {
     pub resolution: u32,
     /// Views that are drawn. A view of the camera needs a [`rasray_ads::Viewpoint`] with one.
     pub views: Views,
-    /// Columns and rows of the camera's view, 1 to 8192 each; only for views with a camera. If one is even and the
-    /// other odd, the smaller one is increased by one ([`Config::camera_cells`]), so that the cells lie evenly around
-    /// the axis.
+    /// Columns and rows of the camera's view, 1 to 8192 each; only for views with a camera. If one is even
+    /// and the other odd, the smaller one is increased by one ([`Config::camera_cells`]), so that the cells
+    /// lie evenly around the axis.
     pub camera_resolution: [u32; 2],
     /// Method by which rays pass from view to view.
     pub view_switching: ViewSwitching,
@@ -25,8 +25,8 @@ pub struct Config {
     pub inline: bool,
     /// Fragments per page: 1, 2, 4 or 8; only for [`Storage::Paged`]. Changes no hit.
     pub page: u32,
-    /// Depth buckets per cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with all
-    /// layers. Changes no hit.
+    /// Depth buckets per cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with
+    /// all layers. Changes no hit.
     pub buckets: u32,
     /// Keep only the nearest fragments of each cell, as the paper's single-layer variant does; not with
     /// [`Coverage::Conservative`] and [`Coverage::EdgeOn`]. Rays then hit nothing that is behind something
@@ -36,14 +36,14 @@ pub struct Config {
     pub march: March,
     /// Maximum of samples per face, 1 to 65535; only for [`March::Samples`].
     pub samples: u32,
-    /// Where steps are longer than a cell, each ray places its samples at an offset of its own within them, not in the
-    /// middle; only for [`March::Samples`].
+    /// Where steps are longer than a cell, each ray places its samples at an offset of its own within them,
+    /// not in the middle; only for [`March::Samples`].
     pub jitter: bool,
     /// When a fragment counts.
     pub accept: Accept,
     /// Metres; only for [`Accept::Thickness`]. Default: half the width of a step of the march at the farthest
-    /// geometry: `f / n` for `n` cells along a side, or samples per face where these are fewer, and `f` the largest
-    /// coordinate of the geometry relative to the eye; more for a camera's view with wider cells.
+    /// geometry: `f / n` for `n` cells along a side, or samples per face where these are fewer, and `f` the
+    /// largest coordinate of the geometry relative to the eye; more for a camera's view with wider cells.
     pub thickness: Option<f32>,
     /// Data that a fragment carries.
     pub payload: Payload,
@@ -75,8 +75,8 @@ pub struct Config {
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The repaired structure: cells keep every triangle that reaches into them, rays test triangles and skip blocks of
-    /// cells. Hits are those of brute force.
+    /// The repaired structure: cells keep every triangle that reaches into them, rays test triangles and skip
+    /// blocks of cells. Hits are those of brute force.
     pub fn robust(resolution: u32) -> Self {
         Self {
             storage: Storage::Ll,
@@ -86,7 +86,8 @@ impl Config {
         }
     }
 
-    /// Fragments alone: cells keep the triangles that cover their centres, rays visit every cell and meet planes.
+    /// Fragments alone: cells keep the triangles that cover their centres, rays visit every cell and meet
+    /// planes.
     pub fn at_centres(resolution: u32) -> Self {
         Self {
             resolution,
@@ -117,9 +118,10 @@ impl Config {
         }
     }
 
-    /// The paper's approximations: 100 samples per face with a jitter per ray, fragments as voxels of one thickness,
-    /// quantised attributes, the rasterizer's own coverage, rays that are snapped from view to view. The paper has a view of its camera as well: [`Views::CubeCamera`] with
-    /// the columns and rows of the image, where builds are told of a camera.
+    /// The paper's approximations: 100 samples per face with a jitter per ray, fragments as voxels of one
+    /// thickness, quantised attributes, the rasterizer's own coverage, rays that are snapped from view to
+    /// view. The paper has a view of its camera as well: [`Views::CubeCamera`] with the columns and rows of
+    /// the image, where builds are told of a camera.
     pub fn published(resolution: u32) -> Self {
         Self {
             view_switching: ViewSwitching::Snap,
@@ -218,8 +220,8 @@ impl Config {
         Err(AdsError::Option { option: "bounds", value: self.bounds.name().to_owned(), expected })
     }
 
-    /// True if every hit equals that of brute force: cells keep every triangle that reaches into them, and rays visit
-    /// every cell that they cross, all around the eye.
+    /// True if every hit equals that of brute force: cells keep every triangle that reaches into them, and
+    /// rays visit every cell that they cross, all around the eye.
     pub fn is_exact(&self) -> bool {
         self.tests_triangles()
             && matches!(self.march, March::Exact | March::Pyramid)
@@ -254,8 +256,8 @@ impl Config {
         self.coverage == Coverage::Conservative
     }
 
-    /// Sets of marks of triangles: those with a fragment, and where these decide what conservative lists keep, those
-    /// that it does.
+    /// Sets of marks of triangles: those with a fragment, and where these decide what conservative lists
+    /// keep, those that it does.
     pub(crate) fn mark_sets(&self) -> u64 {
         if self.coverage == Coverage::EdgeOn { 2 } else { 1 }
     }
@@ -270,8 +272,8 @@ impl Config {
         self.storage.is_bucketed() || self.single_layer
     }
 
-    /// True if the fragments of a cell are kept by depth in several lists: a single layer has one list, whatever the
-    /// storage.
+    /// True if the fragments of a cell are kept by depth in several lists: a single layer has one list,
+    /// whatever the storage.
     pub(crate) fn has_buckets(&self) -> bool {
         self.storage.is_bucketed() && !self.single_layer
     }

@@ -69,8 +69,8 @@ pub(crate) fn data_words(config: &Config) -> u64 {
     payload + u64::from(config.ids)
 }
 
-/// Words of a fragment's node: depth, links, and the payload where it is inline; a contiguous node refers to it where
-/// it is not.
+/// Words of a fragment's node: depth, links, and the payload where it is inline; a contiguous node refers to
+/// it where it is not.
 pub(crate) fn fragment_words(config: &Config) -> u64 {
     let links = match config.storage {
         Storage::Paged => 0,
@@ -138,7 +138,8 @@ pub(crate) fn bounds_and_blocks(config: &Config) -> u64 {
     cell_count(config) * bounds_words(config) + pyramid_words(config) + box_words(config)
 }
 
-/// Contents of the scratch pool: the sums of the scan of contiguous lists, and the words that binning and sorting use.
+/// Contents of the scratch pool: the sums of the scan of contiguous lists, and the words that binning and
+/// sorting use.
 pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
     let lists = cell_count(config) * u64::from(config.lists());
     let sums = if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 };
@@ -170,7 +171,8 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     if config.storage == Storage::Paged { sizes.of_pages("abuffer", Pool::Nodes) } else { Ok(sizes) }
 }
 
-/// The first guess where nothing has been counted: a fragment per cell, and a triangle outside of every fourth centre.
+/// The first guess where nothing has been counted: a fragment per cell, and a triangle outside of every
+/// fourth centre.
 pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsError> {
     let cells = cell_count(config);
     let fragments = config.fragments.unwrap_or(cells);
@@ -194,18 +196,19 @@ pub struct FormulaBytes {
     pub cells: u64,
     /// Per cell with plane or slope acceptance: extent 4, and scale 4 where there are buckets.
     pub plane: u64,
-    /// March by pyramid: 8 per block of cells, and per cell where there are neither buckets nor a single layer.
+    /// March by pyramid: 8 per block of cells, and per cell where there are neither buckets nor a single
+    /// layer.
     pub pyramid: u64,
-    /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16. Paged:
-    /// per page 4, and per slot 4 and the payload.
+    /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16.
+    /// Paged: per page 4, and per slot 4 and the payload.
     pub fragments: u64,
-    /// With conservative and edge-on coverage: per cell 4, per triangle outside of a centre 12; with the latter
-    /// 4 per 32 triangles.
+    /// With conservative and edge-on coverage: per cell 4, per triangle outside of a centre 12; with the
+    /// latter 4 per 32 triangles.
     pub conservative: u64,
     /// With ids: 4 per fragment, or slot of a page.
     pub ids: u64,
-    /// Header, 4 per triangle of the near-region list, 8 per long list, or where that is more 4 per triangle with
-    /// many cells of a view where they are binned, 4 per 1024 cells for the scan of SB, 4 per 32
+    /// Header, 4 per triangle of the near-region list, 8 per long list, or where that is more 4 per triangle
+    /// with many cells of a view where they are binned, 4 per 1024 cells for the scan of SB, 4 per 32
     /// triangles for their marks, and 98,304 for boxes around objects.
     pub rest: u64,
 }
@@ -346,8 +349,8 @@ mod tests {
         }
     }
 
-    /// Bytes per cell with four buckets, and bytes per fragment without the payload, decoupled as in table 2 of
-    /// the paper, and inline, where only the S-buffer saves a word: the payload's index.
+    /// Bytes per cell with four buckets, and bytes per fragment without the payload, decoupled as in table 2
+    /// of the paper, and inline, where only the S-buffer saves a word: the payload's index.
     #[test]
     fn storages_have_the_papers_bytes() {
         let table = [

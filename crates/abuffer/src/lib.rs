@@ -1,12 +1,13 @@
-//! Multiview, multilayer A-buffers: a structure of fragments for rays near the eye, after MMRT. Hosts make one from their
-//! triangles and trace it as any [`rasray_ads::Structure`].
+//! Multiview, multilayer A-buffers: a structure of fragments for rays near the eye, after MMRT. Hosts make
+//! one from their triangles and trace it as any [`rasray_ads::Structure`].
 //!
-//! The rasterizer stores every fragment of the six faces of a cube around the eye, of the camera's view there, or of both,
-//! in lists per cell and depth bucket. Rays step through the cells and search their lists.
+//! The rasterizer stores every fragment of the six faces of a cube around the eye, of the camera's view
+//! there, or of both, in lists per cell and depth bucket. Rays step through the cells and search their lists.
 //!
-//! - [`ABuffer`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to resize.
-//! - [`Config`] holds its options: [`Views`], [`Storage`] (those that the paper compares), [`Payload`], [`March`],
-//!   [`Coverage`], [`Accept`] and more.
+//! - [`ABuffer`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to
+//!   resize.
+//! - [`Config`] holds its options: [`Views`], [`Storage`] (those that the paper compares), [`Payload`],
+//!   [`March`], [`Coverage`], [`Accept`] and more.
 //! - [`plan`] and [`formula_bytes`] compute its memory without a device.
 //! - [`Contents`] and [`well_formed`] check its lists on the host, for tests.
 //!

@@ -16,11 +16,11 @@ pub struct Contents {
     pub header: Header,
     /// Bounds of each cell, and of the blocks of the pyramid; marks of triangles; boxes around objects.
     pub bounds: Vec<u32>,
-    /// Head (and tail) of each list; of contiguous lists all first places, then all counts; of paged ones the word that
-    /// leads to the first page.
+    /// Head (and tail) of each list; of contiguous lists all first places, then all counts; of paged ones the
+    /// word that leads to the first page.
     pub lists: Vec<u32>,
-    /// Depth, inline payload, and next, previous or place of the payload, of each node. For a page, the word that leads
-    /// to the next one, and nodes without links.
+    /// Depth, inline payload, and next, previous or place of the payload, of each node. For a page, the word
+    /// that leads to the next one, and nodes without links.
     pub nodes: Vec<u32>,
     /// Payload of each fragment, where it is not inline.
     pub data: Vec<u32>,
@@ -117,7 +117,8 @@ impl Contents {
         Ok(found)
     }
 
-    /// The fragment to which a hit without an id refers by the bits of its `a`; absent if none is stored there.
+    /// The fragment to which a hit without an id refers by the bits of its `a`; absent if none is stored
+    /// there.
     pub fn fragment(&self, link: u32) -> Option<Fragment<'_>> {
         let is_stored = link != 0 && link as usize <= self.stored();
         is_stored.then(|| Fragment { z: self.z(link), payload: self.payload(link) })
@@ -178,8 +179,8 @@ impl Contents {
 }
 
 /// Checks that every allocated node is in exactly one list, that links agree in both directions, that
-/// depths lie within bounds, that lists are sorted where they should be, and that every node of the conservative
-/// lists is in exactly one.
+/// depths lie within bounds, that lists are sorted where they should be, and that every node of the
+/// conservative lists is in exactly one.
 ///
 /// # Errors
 /// The first fault found.

@@ -118,8 +118,8 @@ impl Modules {
         self.trace_variant("", scene)
     }
 
-    /// Modules of [`Modules::trace`] for a structure whose trace modules are compiled once per option value: `variant`
-    /// is the suffix of their names, such as `.cells`.
+    /// Modules of [`Modules::trace`] for a structure whose trace modules are compiled once per option value:
+    /// `variant` is the suffix of their names, such as `.cells`.
     ///
     /// # Errors
     /// As [`Modules::trace`].

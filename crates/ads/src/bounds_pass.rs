@@ -43,9 +43,9 @@ impl BoundsPass {
         })
     }
 
-    /// Records the bounds of a geometry of which only parts moved: those of each part that moves, by reading its triangles
-    /// alone, and from these and the bounds that the header of the static part states, those of the whole. Otherwise as
-    /// [`BoundsPass::record`].
+    /// Records the bounds of a geometry of which only parts moved: those of each part that moves, by reading
+    /// its triangles alone, and from these and the bounds that the header of the static part states, those of
+    /// the whole. Otherwise as [`BoundsPass::record`].
     pub fn record_parts(&self, recorder: &mut Recorder<'_>, parts: &GeometryParts) {
         for part in &parts.parts()[1..] {
             self.record(recorder, part);
@@ -55,10 +55,12 @@ impl BoundsPass {
         recorder.end_pass();
     }
 
-    /// Records the computation of the bounds of all triangles, in two dispatches that read every triangle once, into
-    /// the header on the device; one more counts the triangles where only the device knows their number. Positions and
-    /// indices are visible to compute shaders; the bounds are visible to all that follows. Indices that builds gather
-    /// are read where they are, since the build that follows gathers them. Corners that are not finite are ignored; the check of a build counts triangles with infinite ones.
+    /// Records the computation of the bounds of all triangles, in two dispatches that read every triangle
+    /// once, into the header on the device; one more counts the triangles where only the device knows their
+    /// number. Positions and indices are visible to compute shaders; the bounds are visible to all that
+    /// follows. Indices that builds gather are read where they are, since the build that follows gathers
+    /// them. Corners that are not finite are ignored; the check of a build counts triangles with infinite
+    /// ones.
     pub fn record(&self, recorder: &mut Recorder<'_>, geometry: &Geometry) {
         let [lower, upper] = [offset_of!(GeometryHeader, lower_keys), offset_of!(GeometryHeader, upper_keys)]
             .map(|at| at as u64);

@@ -11,8 +11,8 @@ use crate::{
 
 /// Tests every triangle: O(rays x triangles), no memory of its own.
 ///
-/// Triangles that are read in place need no build. A build gathers the indices of all others, and counts triangles whose
-/// number only the device knows; until then traces answer *not ready*.
+/// Triangles that are read in place need no build. A build gathers the indices of all others, and counts
+/// triangles whose number only the device knows; until then traces answer *not ready*.
 #[derive(Debug)]
 pub struct BruteForce {
     description: Description,

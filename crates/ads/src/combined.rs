@@ -7,15 +7,15 @@ use crate::{
     RayQueue, SceneBinding, Sizes, Start, Structure, StructureReport, Trace, TracedPart, Viewpoint,
 };
 
-/// Structures of a kind over the parts of a geometry. A ray is traced through the static part and then through those
-/// that move, one after the other: the nearest of the hits that each alone gives wins, and at the same t the lower id,
-/// as within one structure; of stored fragments that of the part before. So hits are those of one structure over all
-/// triangles, bit for bit, where it finds every triangle
-/// ([`StructureKind::Primitive`](crate::StructureKind::Primitive)). Others have the errors of several structures, each
-/// with views and cells around its own part.
+/// Structures of a kind over the parts of a geometry. A ray is traced through the static part and then
+/// through those that move, one after the other: the nearest of the hits that each alone gives wins, and at
+/// the same t the lower id, as within one structure; of stored fragments that of the part before. So hits are
+/// those of one structure over all triangles, bit for bit, where it finds every triangle
+/// ([`StructureKind::Primitive`](crate::StructureKind::Primitive)). Others have the errors of several
+/// structures, each with views and cells around its own part.
 ///
-/// As a [`Structure`] it builds all parts. What builds only the parts that moved is a loop over frames that keeps each
-/// part by itself (`rasray_tracer::FrameStructure`), through [`Combined::change_part`].
+/// As a [`Structure`] it builds all parts. What builds only the parts that moved is a loop over frames that
+/// keeps each part by itself (`rasray_tracer::FrameStructure`), through [`Combined::change_part`].
 pub struct Combined {
     description: Description,
     geometry: GeometryParts,
@@ -58,7 +58,8 @@ impl Combined {
         self.parts.len()
     }
 
-    /// The structure of a part: 0 is the static one, then those that move in the order of [`GeometryParts::moving`].
+    /// The structure of a part: 0 is the static one, then those that move in the order of
+    /// [`GeometryParts::moving`].
     ///
     /// # Panics
     /// There is no such part.
@@ -83,7 +84,8 @@ impl Combined {
         changed
     }
 
-    /// Takes other triangles, of which others may move, in as many parts; the next build of each part reads them.
+    /// Takes other triangles, of which others may move, in as many parts; the next build of each part reads
+    /// them.
     ///
     /// # Errors
     /// [`AdsError::InParts`] where there are more or fewer parts; out of memory.
@@ -121,8 +123,8 @@ impl Structure for Combined {
         Ok(())
     }
 
-    /// As many triangles as before, in the same parts, within the bounds that are stated for all of them; for others
-    /// [`Combined::set_parts`].
+    /// As many triangles as before, in the same parts, within the bounds that are stated for all of them; for
+    /// others [`Combined::set_parts`].
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
         if geometry.triangle_count() != self.geometry.whole().triangle_count() {
             let reason = "for another number of triangles `set_parts` says which of them move";

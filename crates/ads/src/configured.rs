@@ -37,8 +37,8 @@ pub fn check_range(
     Err(AdsError::Option { option, value: value.to_string(), expected })
 }
 
-/// Checks that a work budget lets every dispatch make progress: it has at least one unit, or two where a dispatch that
-/// resumes a search counts the cell again before it reads an entry (`counts_cells_again`).
+/// Checks that a work budget lets every dispatch make progress: it has at least one unit, or two where a
+/// dispatch that resumes a search counts the cell again before it reads an entry (`counts_cells_again`).
 ///
 /// # Errors
 /// [`AdsError::Option`]: it does not.

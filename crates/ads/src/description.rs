@@ -23,8 +23,8 @@ impl StructureKind {
     }
 }
 
-/// Changes that make a build stale, in addition to those of the triangles, which always do. Where none of them
-/// happened, a new build would be the same as the last.
+/// Changes that make a build stale, in addition to those of the triangles, which always do. Where none of
+/// them happened, a new build would be the same as the last.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dependencies {
     /// The eye moved.
@@ -52,14 +52,15 @@ pub struct Description {
     pub requirements: Requirements,
     /// Amount of work that its rays record.
     pub counters: Counters,
-    /// Changes of the viewpoint that make a build stale ([`Structure::is_stale`](crate::Structure::is_stale)).
+    /// Changes of the viewpoint that make a build stale
+    /// ([`Structure::is_stale`](crate::Structure::is_stale)).
     pub depends_on: Dependencies,
-    /// True where the surface of every hit is that of its triangle at its barycentrics (`scene_surface`), which needs
-    /// nothing of the structure: kernels that shade may look it up in place of
+    /// True where the surface of every hit is that of its triangle at its barycentrics (`scene_surface`),
+    /// which needs nothing of the structure: kernels that shade may look it up in place of
     /// [`Structure::record_surfaces`](crate::Structure::record_surfaces). False without a scene.
     pub surfaces_of_triangles: bool,
-    /// True where [`Structure::prepare_build`](crate::Structure::prepare_build) works on the triangles, so that these
-    /// must be where they are to be built before it is called.
+    /// True where [`Structure::prepare_build`](crate::Structure::prepare_build) works on the triangles, so
+    /// that these must be where they are to be built before it is called.
     pub builds_on_host: bool,
     /// True where a build stays while its triangles are moved by a map
     /// ([`Geometry::record_map`](crate::Geometry::record_map)), because it is in a space of its own.

@@ -12,20 +12,21 @@ use crate::{
     StructureKind, StructureReport, Viewpoint,
 };
 
-/// Work units that a ray may spend in a dispatch where the device is not a CPU: nearly every ray needs one dispatch
-/// then, and those that follow find no ray. A dispatch still ends long before a driver gives the device up.
+/// Work units that a ray may spend in a dispatch where the device is not a CPU: nearly every ray needs one
+/// dispatch then, and those that follow find no ray. A dispatch still ends long before a driver gives the
+/// device up.
 const HARDWARE_WORK_BUDGET: u32 = 16 * TRACE_WORK_BUDGET;
 
-/// The work budget that structures have on a device unless told otherwise. Software drivers end all loops of a group after
-/// 65,535 iterations, others have no such limit. No hit depends on it.
+/// The work budget that structures have on a device unless told otherwise. Software drivers end all loops of
+/// a group after 65,535 iterations, others have no such limit. No hit depends on it.
 pub fn default_work_budget(device: &Device) -> u32 {
     if device.is_software() { TRACE_WORK_BUDGET } else { HARDWARE_WORK_BUDGET }
 }
 
 /// Numbers of elements that only a build counts, and other inputs of planning.
 pub trait Demand: Copy {
-    /// Calls `with` per counted number: its name in statuses, this number and that of `other`. The result has what
-    /// `with` returns in their place.
+    /// Calls `with` per counted number: its name in statuses, this number and that of `other`. The result has
+    /// what `with` returns in their place.
     #[must_use]
     fn zip(self, other: Self, with: impl FnMut(&'static str, u64, u64) -> u64) -> Self;
 }
@@ -61,14 +62,14 @@ impl<C> Parts<C> {
         units.div_ceil(self.work_budget)
     }
 
-    /// Dispatches in which nearly every ray finishes, long lists apart: 16 with the budget of software drivers, 2 with
-    /// that of others.
+    /// Dispatches in which nearly every ray finishes, long lists apart: 16 with the budget of software
+    /// drivers, 2 with that of others.
     pub fn usual_rounds(&self) -> u32 {
         usual_rounds(self.work_budget)
     }
 
-    /// As [`Parts::usual_rounds`] for structures of triangles in cells, which test rays from far outside against every
-    /// triangle.
+    /// As [`Parts::usual_rounds`] for structures of triangles in cells, which test rays from far outside
+    /// against every triangle.
     pub fn rounds_with_distant_rays(&self) -> u32 {
         self.usual_rounds() + 2 * self.rounds(self.geometry.triangle_count())
     }
@@ -79,20 +80,21 @@ impl<C> Parts<C> {
     }
 }
 
-/// 16 dispatches of the smaller budget. With a larger budget: as many as do the same work, and one more for rays that
-/// pause at the end of the last.
+/// 16 dispatches of the smaller budget. With a larger budget: as many as do the same work, and one more for
+/// rays that pause at the end of the last.
 fn usual_rounds(work_budget: u32) -> u32 {
     const SMALL: u32 = 16;
     ((SMALL * TRACE_WORK_BUDGET).div_ceil(work_budget) + 1).min(SMALL)
 }
 
-/// Definition of one structure: its options, pools, constants and passes. [`Pooled`](crate::kit::Pooled) makes a
-/// [`Structure`](crate::Structure) of it. A value holds the pipelines of the build, and data that a build keeps on the host.
+/// Definition of one structure: its options, pools, constants and passes. [`Pooled`](crate::kit::Pooled)
+/// makes a [`Structure`](crate::Structure) of it. A value holds the pipelines of the build, and data that a
+/// build keeps on the host.
 pub trait Design: fmt::Debug + Sized {
     /// Options.
     type Config: Configured + fmt::Debug + Copy;
-    /// Header that shaders start from. Its first word is the status that the last pass of a build writes, bits
-    /// `STATUS_*`.
+    /// Header that shaders start from. Its first word is the status that the last pass of a build writes,
+    /// bits `STATUS_*`.
     type Header: Pod;
     /// The demand of builds.
     type Demand: Demand;
@@ -101,7 +103,8 @@ pub trait Design: fmt::Debug + Sized {
     /// Pools on the host, for checks.
     type Contents: PoolContents<Self::Config, Self::Pool>;
 
-    /// [`Description::name`](crate::Description::name); the folder of its shaders, and the prefix of what they declare.
+    /// [`Description::name`](crate::Description::name); the folder of its shaders, and the prefix of what
+    /// they declare.
     const NAME: &'static str;
     /// Name in errors: "the A-buffer".
     const TITLE: &'static str;
@@ -146,13 +149,13 @@ pub trait Design: fmt::Debug + Sized {
     /// Specialisation constants of a part that is built in a space of its own.
     const FOLLOWING: &'static [(u32, u32)] = &[];
 
-    /// Place in a header of the linear map of such a part, for surfaces of stored fragments: 36 bytes, the first of
-    /// [`GeometryRigid`](crate::GeometryRigid), which each lookup copies.
+    /// Place in a header of the linear map of such a part, for surfaces of stored fragments: 36 bytes, the
+    /// first of [`GeometryRigid`](crate::GeometryRigid), which each lookup copies.
     const RIGID: Option<usize> = None;
 
-    /// Changes a configuration for a part that is built in a space of its own, so that a build stays while an affine map moves
-    /// the part ([`Geometry::record_map`]): traces are those of the variant `.rigid`. False, and no change, where traces
-    /// cannot follow.
+    /// Changes a configuration for a part that is built in a space of its own, so that a build stays while an
+    /// affine map moves the part ([`Geometry::record_map`]): traces are those of the variant `.rigid`. False,
+    /// and no change, where traces cannot follow.
     fn follow(_config: &mut Self::Config, _part: &GeometryExtent) -> bool {
         false
     }
@@ -169,8 +172,8 @@ pub trait Design: fmt::Debug + Sized {
     /// As [`Design::first_plan`].
     fn plan(config: &Self::Config, demand: &Self::Demand) -> Result<Sizes, AdsError>;
 
-    /// The sizes that new triangles require before the first build, where a build cannot count them itself; `None`: those
-    /// that are allocated, `sizes`, suffice.
+    /// The sizes that new triangles require before the first build, where a build cannot count them itself;
+    /// `None`: those that are allocated, `sizes`, suffice.
     ///
     /// # Errors
     /// As [`Design::first_plan`].
@@ -222,9 +225,9 @@ pub trait Design: fmt::Debug + Sized {
     /// Pools were written from outside: nothing that an earlier build left in them can be relied on.
     fn overwritten(&self) {}
 
-    /// The header that the next build starts from: options, capacities, eye. [`Pools::begin`] adds the addresses. What
-    /// follows from the bounds of the geometry, which only the device knows, is worked out there: by the structure's
-    /// `from_bounds.glsl`.
+    /// The header that the next build starts from: options, capacities, eye. [`Pools::begin`] adds the
+    /// addresses. What follows from the bounds of the geometry, which only the device knows, is worked out
+    /// there: by the structure's `from_bounds.glsl`.
     ///
     /// # Errors
     /// The viewpoint lacks what the configuration needs, or the build was not prepared.
@@ -257,7 +260,8 @@ pub trait Design: fmt::Debug + Sized {
         false
     }
 
-    /// Rounds in which nearly every ray finishes; `header` is that of the last build, and zeros before the first.
+    /// Rounds in which nearly every ray finishes; `header` is that of the last build, and zeros before the
+    /// first.
     fn first_rounds(parts: &Parts<Self::Config>, header: &Self::Header) -> u32;
 
     /// Rounds in which every ray finishes; absent where a ray may have to read everything that is stored.
@@ -265,8 +269,8 @@ pub trait Design: fmt::Debug + Sized {
         None
     }
 
-    /// Elements of a pool that are in use: what is planned for the demand, unless a build uses less. Absent where nothing
-    /// can be planned for it.
+    /// Elements of a pool that are in use: what is planned for the demand, unless a build uses less. Absent
+    /// where nothing can be planned for it.
     fn used(parts: &Parts<Self::Config>, asked: &Self::Demand, pool: Self::Pool) -> Option<u64> {
         Some(Self::plan(&parts.config, asked).ok()?.elements_of(pool))
     }
@@ -279,7 +283,8 @@ pub trait Design: fmt::Debug + Sized {
     /// The report, but for [`StructureReport::bytes_by_part`].
     fn report(parts: &Parts<Self::Config>, header: &Self::Header, asked: &Self::Demand) -> StructureReport;
 
-    /// The first fault of the pools after a build over that number of triangles, in words; absent where they are whole.
+    /// The first fault of the pools after a build over that number of triangles, in words; absent where they
+    /// are whole.
     fn fault(contents: &Self::Contents, triangles: u32) -> Option<String>;
 
     /// [`Inspect::list_counts`](crate::Inspect::list_counts) of a complete build.

@@ -9,8 +9,9 @@ pub enum AdsError {
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// A build was recorded for a slot that does not exist; or of frames, one was recorded for a slot whose last one was not
-    /// finished, or finished in another order than they were recorded in, or without having been recorded.
+    /// A build was recorded for a slot that does not exist; or of frames, one was recorded for a slot whose
+    /// last one was not finished, or finished in another order than they were recorded in, or without having
+    /// been recorded.
     #[error(
         "{structure}: slot {slot} of {slots} cannot be used now: slots count from 0, `set_slots` sets how many there are, \
          and frames are finished once each, in the order in which they were recorded, before their slot is recorded again"
@@ -23,7 +24,8 @@ pub enum AdsError {
         /// Number of slots.
         slots: u32,
     },
-    /// First hits of camera rays were asked for, and the structure has no view of the camera to take them from.
+    /// First hits of camera rays were asked for, and the structure has no view of the camera to take them
+    /// from.
     #[error("{structure} has no view of the camera that first hits could be taken from: trace camera rays")]
     NoFirstHits {
         /// The structure.

@@ -31,8 +31,9 @@ const READERS: Access = Access::COMPUTE
     .union(Access::INDIRECT_READ)
     .union(Access::TRANSFER_READ);
 
-/// Triangles on the device that structures build from, at their positions of one moment, with the binding set that shaders
-/// read them through. [`Geometry::new`] makes it from buffers of a host, which it reads in place where their layout allows.
+/// Triangles on the device that structures build from, at their positions of one moment, with the binding set
+/// that shaders read them through. [`Geometry::new`] makes it from buffers of a host, which it reads in place
+/// where their layout allows.
 ///
 /// Clones are cheap handles to the same buffers.
 #[derive(Clone, Debug)]
@@ -42,8 +43,8 @@ pub struct Geometry {
     check: ComputePipeline,
     layout: SetLayout,
     set: BindingSet,
-    /// Number in the status of a structure built for these triangles; the first of several where only the device
-    /// knows their number.
+    /// Number in the status of a structure built for these triangles; the first of several where only the
+    /// device knows their number.
     stamp: u32,
     /// Count buffer of a geometry whose number of triangles only the device knows.
     count: Option<Count>,
@@ -120,18 +121,19 @@ pub(crate) struct Run {
 }
 
 impl Geometry {
-    /// Makes the header buffer ([`GeometryHeader`], 112 bytes, and 8 for each run of a part, at least one; 72 for a part with a
-    /// space of its own), where they are needed one for gathered indices (12 bytes
-    /// per triangle) and one for draws (96 bytes), and the binding set.
+    /// Makes the header buffer ([`GeometryHeader`], 112 bytes, and 8 for each run of a part, at least one; 72
+    /// for a part with a space of its own), where they are needed one for gathered indices (12 bytes per
+    /// triangle) and one for draws (96 bytes), and the binding set.
     ///
     /// # Errors
-    /// Ranges beyond their buffers, offsets or a stride that are not aligned, bounds that are not finite or the wrong way
-    /// round; out of memory, or a range exceeds what one binding can hold.
+    /// Ranges beyond their buffers, offsets or a stride that are not aligned, bounds that are not finite or
+    /// the wrong way round; out of memory, or a range exceeds what one binding can hold.
     pub fn new(device: &Device, desc: GeometryDesc) -> Result<Self, AdsError> {
         Self::made(device, desc, None, Space::World)
     }
 
-    /// The triangles of `runs` of `whole`, which reads absolute indices: in place where they are one run, else gathered.
+    /// The triangles of `runs` of `whole`, which reads absolute indices: in place where they are one run,
+    /// else gathered.
     pub(crate) fn part_of(
         device: &Device,
         whole: &Self,
@@ -239,7 +241,8 @@ impl Geometry {
         Ok(Self { desc, header, check, layout, set, stamp, count, gather, whole, space })
     }
 
-    /// The triangles in a space of their own, where they do not move: a structure of these is traced with the part.
+    /// The triangles in a space of their own, where they do not move: a structure of these is traced with the
+    /// part.
     pub(crate) fn rest(&self) -> Option<&Self> {
         match &self.space {
             Space::Mapped(rest) => Some(rest),
@@ -247,8 +250,8 @@ impl Geometry {
         }
     }
 
-    /// Records where a part with a space of its own is posed from here on; the caller sees to barriers around this write of a
-    /// transfer. Nothing for any other geometry.
+    /// Records where a part with a space of its own is posed from here on; the caller sees to barriers around
+    /// this write of a transfer. Nothing for any other geometry.
     pub fn record_map(&self, recorder: &mut Recorder<'_>, map: &GeometryRigid) {
         for (header, place) in [Some(self), self.rest()].into_iter().flatten().filter_map(Self::map_place) {
             recorder.update(header, place, bytes_of(map));
@@ -279,7 +282,8 @@ impl Geometry {
         }
     }
 
-    /// True if a structure with this status was built for these triangles, as far as the host knows their number.
+    /// True if a structure with this status was built for these triangles, as far as the host knows their
+    /// number.
     pub(crate) fn is_of(&self, status: u32) -> bool {
         let stamps = if self.count.is_some() { GEOMETRY_COUNT_STAMPS } else { 1 };
         (status & !STATUS_FLAGS).wrapping_sub(self.stamp) < stamps * STAMP_STEP
@@ -290,8 +294,8 @@ impl Geometry {
         self.count.is_some() || gathers(self.gather.as_ref(), self.whole.as_deref())
     }
 
-    /// Records the number of triangles where only the device knows it, and for a part the indices of the whole, from which
-    /// those of the part come, visible to all who read them.
+    /// Records the number of triangles where only the device knows it, and for a part the indices of the
+    /// whole, from which those of the part come, visible to all who read them.
     pub(crate) fn record_count(&self, recorder: &mut Recorder<'_>) {
         if let Some(whole) = &self.whole {
             whole.record_gather(recorder);
@@ -303,8 +307,8 @@ impl Geometry {
         }
     }
 
-    /// Records one pass over all triangles that reads indices where the host has them: `in_place`, or for those that are
-    /// gathered the other one, which sees their set and constants. False without triangles.
+    /// Records one pass over all triangles that reads indices where the host has them: `in_place`, or for
+    /// those that are gathered the other one, which sees their set and constants. False without triangles.
     pub(crate) fn record_measure(
         &self,
         recorder: &mut Recorder<'_>,
@@ -321,8 +325,8 @@ impl Geometry {
         true
     }
 
-    /// Records [`Geometry::record_gather`], the count of triangles that the bounds, the vertices and the maximum do not
-    /// allow for, visible to all who read it, and its copy to four bytes of `target`.
+    /// Records [`Geometry::record_gather`], the count of triangles that the bounds, the vertices and the
+    /// maximum do not allow for, visible to all who read it, and its copy to four bytes of `target`.
     pub(crate) fn record_check(&self, recorder: &mut Recorder<'_>, target: &Buffer, offset: u64) {
         let count = offset_of!(GeometryHeader, outside) as u64;
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
@@ -362,8 +366,8 @@ impl Geometry {
     }
 
     /// Draws all triangles onto that many views, at most
-    /// [`GEOMETRY_DRAW_VIEWS`](rasray_shaders_glsl::constants::ads::GEOMETRY_DRAW_VIEWS), within a rendering: three
-    /// vertices per triangle and one instance per view.
+    /// [`GEOMETRY_DRAW_VIEWS`](rasray_shaders_glsl::constants::ads::GEOMETRY_DRAW_VIEWS), within a rendering:
+    /// three vertices per triangle and one instance per view.
     pub fn record_draw(&self, recorder: &mut Recorder<'_>, views: u32) {
         match &self.count {
             // A place beyond the arguments is a mistake of the recording.
@@ -375,9 +379,10 @@ impl Geometry {
         }
     }
 
-    /// Takes the buffers handed in over from the queue family that wrote them, for the one of the device: the second half
-    /// of a transfer of ownership, after a semaphore that the first half signals. Families that are equal need none, and
-    /// nothing is recorded. What is written of a buffer by the same family later needs no other transfer.
+    /// Takes the buffers handed in over from the queue family that wrote them, for the one of the device: the
+    /// second half of a transfer of ownership, after a semaphore that the first half signals. Families that
+    /// are equal need none, and nothing is recorded. What is written of a buffer by the same family later
+    /// needs no other transfer.
     ///
     /// Not tested on a device with two queue families: tests check the recorded barriers alone.
     pub fn record_acquire(&self, recorder: &mut Recorder<'_>, from_family: u32) {
@@ -385,9 +390,9 @@ impl Geometry {
         recorder.acquire(&ranges, from_family, READERS);
     }
 
-    /// Hands the buffers over to a queue family that writes them next: the first half of a transfer of ownership. The
-    /// other family records the second one, over [`Geometry::ranges`]. Families that are equal need none, and nothing is
-    /// recorded.
+    /// Hands the buffers over to a queue family that writes them next: the first half of a transfer of
+    /// ownership. The other family records the second one, over [`Geometry::ranges`]. Families that are equal
+    /// need none, and nothing is recorded.
     ///
     /// Not tested on a device with two queue families, as [`Geometry::record_acquire`].
     pub fn record_release(&self, recorder: &mut Recorder<'_>, to_family: u32) {
@@ -395,14 +400,14 @@ impl Geometry {
         recorder.release(&ranges, to_family, READERS);
     }
 
-    /// Ranges read of the buffers handed in, in bytes: positions, indices, draws and count. No byte is in two ranges:
-    /// those that overlap or touch are joined.
+    /// Ranges read of the buffers handed in, in bytes: positions, indices, draws and count. No byte is in two
+    /// ranges: those that overlap or touch are joined.
     pub fn ranges(&self, device: &Device) -> Vec<BufferRange<'_>> {
         self.desc.ranges(device)
     }
 
-    /// Positions, metres relative to the frame origin, and absolute indices, three a triangle, as shaders read them.
-    /// Submits and waits.
+    /// Positions, metres relative to the frame origin, and absolute indices, three a triangle, as shaders
+    /// read them. Submits and waits.
     ///
     /// # Errors
     /// The device fails, or a buffer was not made for [`BufferUsage::TRANSFER_SRC`].
@@ -437,14 +442,15 @@ impl Geometry {
         Ok(device.download_as::<u32>(&self.header, place, 1)?[0])
     }
 
-    /// The header that shaders read: a [`GeometryHeader`]. A pass of the host that moves vertices writes `lower` and
-    /// `upper` there, in order with the builds that follow; [`Geometry::bounds`] stays what was stated.
+    /// The header that shaders read: a [`GeometryHeader`]. A pass of the host that moves vertices writes
+    /// `lower` and `upper` there, in order with the builds that follow; [`Geometry::bounds`] stays what was
+    /// stated.
     pub fn header(&self) -> &Buffer {
         &self.header
     }
 
-    /// True for a part of another geometry ([`Geometry::parts`]): its triangles are numbered from 0 in its indices,
-    /// hits on them have the ids of the whole.
+    /// True for a part of another geometry ([`Geometry::parts`]): its triangles are numbered from 0 in its
+    /// indices, hits on them have the ids of the whole.
     pub fn is_part(&self) -> bool {
         self.whole.is_some()
     }

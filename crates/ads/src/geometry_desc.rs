@@ -76,7 +76,8 @@ impl IndexFormat {
 pub enum Indexing {
     /// Triangle i has the indices from 3 i, and an index is the number of a vertex.
     Absolute,
-    /// The triangles of a draw have the indices from [`Draw::first_index`], and [`Draw::base_vertex`] is added to each.
+    /// The triangles of a draw have the indices from [`Draw::first_index`], and [`Draw::base_vertex`] is
+    /// added to each.
     PerDraw {
         /// Indices in the range.
         index_count: u32,
@@ -99,7 +100,8 @@ impl From<Buffer> for BufferOffset {
     }
 }
 
-/// Buffers and counts to make a [`crate::Geometry`] from. An embedder fills it from buffers that its engine has.
+/// Buffers and counts to make a [`crate::Geometry`] from. An embedder fills it from buffers that its engine
+/// has.
 #[derive(Clone, Debug)]
 pub struct GeometryDesc {
     /// Posed positions, metres relative to `frame_origin`.
@@ -113,16 +115,17 @@ pub struct GeometryDesc {
     pub vertex_count: u32,
     /// Triangles; with `count` their maximum, which pools and dispatches are sized by.
     pub triangle_count: u32,
-    /// A u32 that the device reads the number of triangles from in each build, at an offset that is a multiple of 4, for
-    /// geometry that is culled or made on the device. Triangles from it on do not exist. More than `triangle_count` is
-    /// an error of the build.
+    /// A u32 that the device reads the number of triangles from in each build, at an offset that is a
+    /// multiple of 4, for geometry that is culled or made on the device. Triangles from it on do not exist.
+    /// More than `triangle_count` is an error of the build.
     pub count: Option<BufferOffset>,
     /// Records in `draws`. With `count` those that are not used state a first triangle that does not exist.
     pub draw_count: u32,
-    /// Lower and upper corner of all posed positions, metres; any finite value where there is none. They are written to
-    /// the geometry's header on the device, where a pass of the host or [`BoundsPass`](crate::BoundsPass) may write others
-    /// before a build; structures are planned by these, and built by those on the device. A build that finds a corner
-    /// outside of those is not complete, and counts the triangles with one.
+    /// Lower and upper corner of all posed positions, metres; any finite value where there is none. They are
+    /// written to the geometry's header on the device, where a pass of the host or
+    /// [`BoundsPass`](crate::BoundsPass) may write others before a build; structures are planned by these,
+    /// and built by those on the device. A build that finds a corner outside of those is not complete, and
+    /// counts the triangles with one.
     pub bounds: [[f32; 3]; 2],
     /// Origin of positions, metres, world.
     pub frame_origin: [f64; 3],
@@ -140,7 +143,8 @@ struct Span<'a> {
 }
 
 impl<'a> Span<'a> {
-    /// Range to bind, and its bytes that come before this input, where bindings begin at multiples of `alignment`.
+    /// Range to bind, and its bytes that come before this input, where bindings begin at multiples of
+    /// `alignment`.
     fn binding(&self, alignment: u64) -> (BufferRange<'a>, u64) {
         let Self { buffer, offset, bytes, .. } = *self;
         if bytes == 0 {
@@ -254,8 +258,8 @@ impl GeometryDesc {
         spans
     }
 
-    /// Ranges bound of positions, indices, draws and count, in this order: from the last byte that a binding may begin
-    /// at before the first one read. With each the bytes that come before.
+    /// Ranges bound of positions, indices, draws and count, in this order: from the last byte that a binding
+    /// may begin at before the first one read. With each the bytes that come before.
     pub(crate) fn bindings(&self, device: &Device) -> Vec<(BufferRange<'_>, u64)> {
         let alignment = device.limits().min_storage_buffer_offset_alignment.max(4);
         self.spans(device).iter().map(|span| span.binding(alignment)).collect()

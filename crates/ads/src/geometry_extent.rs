@@ -1,7 +1,7 @@
 //! The part of a geometry that plans of structures need: numbers, no device.
 
-/// Number and bounds of the triangles of a geometry ([`Geometry::extent`](crate::Geometry::extent)). Sizes, cells and
-/// byte formulas of structures follow from it and their options.
+/// Number and bounds of the triangles of a geometry ([`Geometry::extent`](crate::Geometry::extent)). Sizes,
+/// cells and byte formulas of structures follow from it and their options.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GeometryExtent {
     /// Number of triangles, or their maximum where the device counts them.

@@ -1,5 +1,5 @@
-//! Inputs of a geometry that the device works out before shaders read them: a number of triangles that only the device
-//! knows, and indices that are not read in place.
+//! Inputs of a geometry that the device works out before shaders read them: a number of triangles that only
+//! the device knows, and indices that are not read in place.
 
 use rasray_gpu::{
     BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,

@@ -22,12 +22,13 @@ use crate::{
 /// Triangles that move together.
 #[derive(Clone, Debug)]
 pub struct MovingPart {
-    /// Their ids, in any order. Of what [`GeometryParts::moving`] answers: in order, no range empty, none that touch.
+    /// Their ids, in any order. Of what [`GeometryParts::moving`] answers: in order, no range empty, none
+    /// that touch.
     pub ids: Vec<Range<u32>>,
     /// Lower and upper corner of all their positions, metres relative to the frame origin.
     pub bounds: [[f32; 3]; 2],
-    /// Their corners in a space of their own, if an affine map takes them from there to where they are posed: each pose says
-    /// which ([`Geometry::record_map`]).
+    /// Their corners in a space of their own, if an affine map takes them from there to where they are posed:
+    /// each pose says which ([`Geometry::record_map`]).
     pub rest: Option<Rest>,
 }
 
@@ -40,8 +41,8 @@ pub struct Rest {
     pub bounds: [[f32; 3]; 2],
 }
 
-/// Geometries that share the buffers of another one, of which each triangle is in one of them: the static ones, and those
-/// that move, in one part or several. Hits on any have the ids of the whole.
+/// Geometries that share the buffers of another one, of which each triangle is in one of them: the static
+/// ones, and those that move, in one part or several. Hits on any have the ids of the whole.
 #[derive(Clone, Debug)]
 pub struct GeometryParts {
     moving: Vec<MovingPart>,
@@ -65,8 +66,9 @@ pub struct PartRays<'a> {
 }
 
 impl PartRays<'_> {
-    /// Records that the queue lists those of the slots of `domain` as paused, but for rays that are done in `mode`; all that have
-    /// an answer where the structure with this header was not built. What is recorded next is the trace of the part.
+    /// Records that the queue lists those of the slots of `domain` as paused, but for rays that are done in
+    /// `mode`; all that have an answer where the structure with this header was not built. What is recorded
+    /// next is the trace of the part.
     pub(crate) fn record(
         &self,
         recorder: &mut Recorder<'_>,
@@ -130,7 +132,8 @@ impl GeometryParts {
         geometry.in_parts(device, &moving, bounds)
     }
 
-    /// Records that the bounds of the whole are those of all parts, and that rays may start anywhere in them, with `unite`.
+    /// Records that the bounds of the whole are those of all parts, and that rays may start anywhere in them,
+    /// with `unite`.
     pub(crate) fn record_unite(&self, recorder: &mut Recorder<'_>, unite: &ComputePipeline) {
         let whole = self.whole();
         let header = size_of::<GeometryHeader>() as u64;
@@ -154,7 +157,8 @@ impl GeometryParts {
         PartRays { parts: self, part }
     }
 
-    /// Records that a queue adds the faults that part `part - 1` found to those of the parts before it, from 1 on.
+    /// Records that a queue adds the faults that part `part - 1` found to those of the parts before it, from
+    /// 1 on.
     pub(crate) fn record_note(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, part: usize) {
         let [noted, before] = [offset_of!(QueueHeader, corrupted), offset_of!(QueueHeader, corrupted_before)]
             .map(|at| at as u64);
@@ -173,8 +177,9 @@ impl GeometryParts {
 }
 
 impl Geometry {
-    /// The geometry in two parts: the triangles with ids in `moving`, in any order, and all others. `static_bounds` hold
-    /// all positions of the others, `moving_bounds` those that move. As [`Geometry::in_parts`].
+    /// The geometry in two parts: the triangles with ids in `moving`, in any order, and all others.
+    /// `static_bounds` hold all positions of the others, `moving_bounds` those that move. As
+    /// [`Geometry::in_parts`].
     ///
     /// # Errors
     /// As [`Geometry::in_parts`].
@@ -188,16 +193,18 @@ impl Geometry {
         self.in_parts(device, &[moving], static_bounds)
     }
 
-    /// The geometry in parts: one for each of `moving`, which may have no triangle, and the static part, all other triangles,
-    /// within `static_bounds`. A pass of the host or [`BoundsPass::record_parts`](crate::BoundsPass::record_parts) may
-    /// write other bounds for what moves, as for any geometry.
+    /// The geometry in parts: one for each of `moving`, which may have no triangle, and the static part, all
+    /// other triangles, within `static_bounds`. A pass of the host or
+    /// [`BoundsPass::record_parts`](crate::BoundsPass::record_parts) may write other bounds for what moves,
+    /// as for any geometry.
     ///
-    /// A part whose triangles follow one another reads the indices of the whole. Any other one takes 12 bytes per triangle
-    /// and 8 per run, and gathers its indices in each build.
+    /// A part whose triangles follow one another reads the indices of the whole. Any other one takes 12 bytes
+    /// per triangle and 8 per run, and gathers its indices in each build.
     ///
     /// # Errors
-    /// Ids beyond the triangles, or in two ranges; no part that moves, or 65,536; a number of triangles that only the device
-    /// knows; a geometry that is a part itself; bounds that are not finite or the wrong way round; out of memory.
+    /// Ids beyond the triangles, or in two ranges; no part that moves, or 65,536; a number of triangles that
+    /// only the device knows; a geometry that is a part itself; bounds that are not finite or the wrong way
+    /// round; out of memory.
     pub fn in_parts(
         &self,
         device: &Device,

@@ -4,8 +4,8 @@ use rasray_gpu::{Device, GpuError};
 
 use crate::{AdsError, ListCounts};
 
-/// A structure whose pools can be read and written from the host ([`Structure::inspect`](crate::Structure::inspect)).
-/// Everything here submits and waits.
+/// A structure whose pools can be read and written from the host
+/// ([`Structure::inspect`](crate::Structure::inspect)). Everything here submits and waits.
 pub trait Inspect {
     /// Header and pools as words, by name, the header first.
     ///
@@ -13,14 +13,16 @@ pub trait Inspect {
     /// The device failed, or it is a structure in parts, whose pools are those of its parts.
     fn download_pools(&self, device: &Device) -> Result<Vec<(&'static str, Vec<u32>)>, GpuError>;
 
-    /// Writes back pools that [`Inspect::download_pools`] returned, changed or not. Traces end within their bounds
-    /// whatever the pools behind the header say.
+    /// Writes back pools that [`Inspect::download_pools`] returned, changed or not. Traces end within their
+    /// bounds whatever the pools behind the header say.
     ///
     /// # Safety
-    /// Capacities and addresses in the header are those that were downloaded from this structure since its last resize.
+    /// Capacities and addresses in the header are those that were downloaded from this structure since its
+    /// last resize.
     ///
     /// # Errors
-    /// There is no such pool, one is larger than what was allocated, the device failed, or it is a structure in parts.
+    /// There is no such pool, one is larger than what was allocated, the device failed, or it is a structure
+    /// in parts.
     unsafe fn upload_pools(
         &self,
         device: &Device,

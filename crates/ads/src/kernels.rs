@@ -126,7 +126,8 @@ impl TraceKernels {
     /// Reads another scene from the next recording on. Nothing changes after an error.
     ///
     /// # Errors
-    /// The kernels of `structure` were made without a scene, or for one that differs in what they are compiled for.
+    /// The kernels of `structure` were made without a scene, or for one that differs in what they are
+    /// compiled for.
     pub fn set_scene(&mut self, structure: &'static str, scene: &SceneBinding) -> Result<(), AdsError> {
         let made_for = self.scene.as_mut().ok_or(AdsError::NoScene { structure })?;
         if let Some(what) = made_for.difference(scene) {
@@ -167,9 +168,9 @@ impl TraceKernels {
         recorder.push_constants(bytes_of(&constants));
     }
 
-    /// Records a trace: one dispatch for all rays, then up to `rounds - 1` for those that paused. Rays still paused
-    /// after that are counted as unfinished. `rounds` is taken in place of [`Trace::rounds`]. With [`Start::Part`] the
-    /// queue lists the rays as paused, with states.
+    /// Records a trace: one dispatch for all rays, then up to `rounds - 1` for those that paused. Rays still
+    /// paused after that are counted as unfinished. `rounds` is taken in place of [`Trace::rounds`]. With
+    /// [`Start::Part`] the queue lists the rays as paused, with states.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -213,8 +214,8 @@ impl TraceKernels {
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::INDIRECT_READ | Access::TRANSFER);
     }
 
-    /// The surfaces of hits of a part; absent where the kernels were made without a scene. Hits are on triangles by their
-    /// ids, so for a part of a geometry the whole of it is bound.
+    /// The surfaces of hits of a part; absent where the kernels were made without a scene. Hits are on
+    /// triangles by their ids, so for a part of a geometry the whole of it is bound.
     pub fn surfaces(&self, part: TracedPart) -> Option<Lookup<'_>> {
         let kernel = self.surfaces.as_ref()?;
         Some(Lookup { kernels: self, kernel, stage: Stage::Surfaces, part })

@@ -1,8 +1,8 @@
 //! Parts that pooled structures are made of: for authors of structures, not for hosts.
 //!
 //! A structure implements [`Design`]; [`Pooled`] makes a [`Structure`](crate::Structure) of it. The macros
-//! [`configured!`](crate::configured), [`pools!`](crate::pools) and [`words!`](crate::words) write the implementations that
-//! are the same for all; Rust exports them at the root of the crate.
+//! [`configured!`](crate::configured), [`pools!`](crate::pools) and [`words!`](crate::words) write the
+//! implementations that are the same for all; Rust exports them at the root of the crate.
 //!
 //! | job | parts |
 //! |---|---|

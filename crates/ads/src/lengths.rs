@@ -5,8 +5,8 @@ use rasray_gpu::{Access, Recorder};
 use crate::AdsError;
 use crate::kit::{BuildPipelines, BuildTarget, Scan, ViewDraw, Visit};
 
-/// The passes before contiguous lists are stored: a visit that counts the elements of each list, and a scan that turns
-/// these lengths into places.
+/// The passes before contiguous lists are stored: a visit that counts the elements of each list, and a scan
+/// that turns these lengths into places.
 #[derive(Debug)]
 pub struct Lengths {
     count: Visit,
@@ -23,8 +23,8 @@ impl Lengths {
         Ok(Self { count, scan: Scan::new(pipelines, scan)?, label: pipelines.label(scan) })
     }
 
-    /// Records both passes over `lists` lists, as many as `scan_count` of the structure says; places are visible to
-    /// `readers`.
+    /// Records both passes over `lists` lists, as many as `scan_count` of the structure says; places are
+    /// visible to `readers`.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,

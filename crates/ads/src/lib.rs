@@ -1,14 +1,17 @@
-//! The contract of all acceleration data structures of rasray, and the geometry, the ray queues and the trace kernels that
-//! they share. Hosts record builds and traces with it; structure crates such as `rasray-bvh` implement it.
+//! The contract of all acceleration data structures of rasray, and the geometry, the ray queues and the trace
+//! kernels that they share. Hosts record builds and traces with it; structure crates such as `rasray-bvh`
+//! implement it.
 //!
-//! - [`Structure`] is the contract: it builds itself from a [`Geometry`], traces rays through itself, and finds the surfaces
-//!   of hits. It knows nothing of integrators.
-//! - [`Geometry`] binds the triangles in the buffers of a host ([`GeometryDesc`]); [`GeometryParts`] and [`Combined`] are
-//!   for triangles of which some move.
-//! - [`RayQueue`] holds rays, hits and surfaces on the device; [`Trace`] says which of its rays are traced, and how.
+//! - [`Structure`] is the contract: it builds itself from a [`Geometry`], traces rays through itself, and
+//!   finds the surfaces of hits. It knows nothing of integrators.
+//! - [`Geometry`] binds the triangles in the buffers of a host ([`GeometryDesc`]); [`GeometryParts`] and
+//!   [`Combined`] are for triangles of which some move.
+//! - [`RayQueue`] holds rays, hits and surfaces on the device; [`Trace`] says which of its rays are traced,
+//!   and how.
 //! - [`Occluder`] answers shadow rays in place of a structure.
 //! - [`BruteForce`] tests every triangle against every ray: all other structures are compared with it.
-//! - [`Counters`] and [`TraceStep`] measure and log the work of rays; [`Inspect`] reads pools for tests and tools.
+//! - [`Counters`] and [`TraceStep`] measure and log the work of rays; [`Inspect`] reads pools for tests and
+//!   tools.
 //! - [`kit`] has the parts that structures are made of. Hosts do not need it.
 //!
 //! # Building
@@ -18,14 +21,15 @@
 //! 2. Read the [`BuildStatus`] ([`Structure::status`]), and check it ([`Structure::check`]).
 //! 3. On [`Check::Grow`] resize and record again; [`Check::Complete`] ends the build.
 //!
-//! Until a build of the triangles that a structure has is complete, traces answer "not ready" and count it. They never give
-//! a partial answer, nor one for triangles that the structure had before.
+//! Until a build of the triangles that a structure has is complete, traces answer "not ready" and count it.
+//! They never give a partial answer, nor one for triangles that the structure had before.
 //!
 //! # Memory and waits
-//! Functions that record never submit, wait or allocate. Constructors, [`Structure::resize`], [`Structure::set_slots`], and
-//! [`Structure::set_geometry`] with more triangles than before allocate. These submit and wait:
-//! [`Structure::prepare_build`] of a structure that is built on the host; a [`RayQueue`] that is made on a device with a
-//! queue, through which it is cleared; and functions that read pools, or write them for tests and reports.
+//! Functions that record never submit, wait or allocate. Constructors, [`Structure::resize`],
+//! [`Structure::set_slots`], and [`Structure::set_geometry`] with more triangles than before allocate. These
+//! submit and wait: [`Structure::prepare_build`] of a structure that is built on the host; a [`RayQueue`]
+//! that is made on a device with a queue, through which it is cleared; and functions that read pools, or
+//! write them for tests and reports.
 //!
 //! # Synchronisation
 //! [`Structure::record_build`], [`Structure::record_trace`] and [`Structure::record_surfaces`] end with

@@ -9,8 +9,8 @@ pub struct ListCounts {
     pub cells: u64,
     /// Those that hold something.
     pub occupied: u64,
-    /// Layers of all these cells together: the fragments or triangles that a cell holds, a triangle once however many of
-    /// the cell's buckets it is in.
+    /// Layers of all these cells together: the fragments or triangles that a cell holds, a triangle once
+    /// however many of the cell's buckets it is in.
     pub layers: u64,
     /// Layers of the cell that has most.
     pub most: u64,
@@ -29,7 +29,8 @@ impl ListCounts {
     /// The names of the views along the axes, in their order.
     pub const AXES: [&'static str; 3] = ["x", "y", "z"];
 
-    /// The name of a grid of voxels over those views: their fragments once more, by the voxel in which they lie.
+    /// The name of a grid of voxels over those views: their fragments once more, by the voxel in which they
+    /// lie.
     pub const VOXELS: &'static str = "voxels";
 
     /// Of no cells yet.

@@ -6,9 +6,9 @@ use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS, SOR
 use crate::AdsError;
 use crate::kit::{BuildPipelines, BuildTarget};
 
-/// Sorts each list of a structure in place: `ads/build_sort.comp` and `ads/build_sort_long.comp` as compiled for it, whose
-/// `sorted.glsl` says what its lists are. A first pass sorts short lists and stores the others in a table; a second
-/// one, of `LONG_LIST_ROUNDS` dispatches, sorts those.
+/// Sorts each list of a structure in place: `ads/build_sort.comp` and `ads/build_sort_long.comp` as compiled
+/// for it, whose `sorted.glsl` says what its lists are. A first pass sorts short lists and stores the others
+/// in a table; a second one, of `LONG_LIST_ROUNDS` dispatches, sorts those.
 #[derive(Debug)]
 pub struct ListSort {
     short: (String, ComputePipeline),
@@ -16,7 +16,8 @@ pub struct ListSort {
 }
 
 impl ListSort {
-    /// Makes the pipelines of two modules; the first may have a variant, which its label leaves out (`.pages`, or nothing).
+    /// Makes the pipelines of two modules; the first may have a variant, which its label leaves out
+    /// (`.pages`, or nothing).
     ///
     /// # Errors
     /// A module is not compiled in, or the device refuses it.
@@ -32,14 +33,15 @@ impl ListSort {
         })
     }
 
-    /// Workgroups of the first pass: a thread for each list, or where they are linked for [`NODE_SORT_LISTS`] of them.
+    /// Workgroups of the first pass: a thread for each list, or where they are linked for [`NODE_SORT_LISTS`]
+    /// of them.
     fn groups(lists: u64, linked: bool) -> u64 {
         let per_thread = if linked { NODE_SORT_LISTS } else { 1 };
         lists.div_ceil(u64::from(SORT_GROUP_SIZE) * u64::from(per_thread))
     }
 
-    /// Records both passes over `lists` lists, of which `long` fit into the table, visible to `readers`. The second
-    /// pass is left out where none does.
+    /// Records both passes over `lists` lists, of which `long` fit into the table, visible to `readers`. The
+    /// second pass is left out where none does.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,

@@ -126,9 +126,9 @@ impl BuildTarget<'_> {
         recorder.push_constants(bytes_of(&BuildConstants { structure, step }));
     }
 
-    /// Records the first pass of a build: the header as the host wrote it, zeros in the pools of `cleared`, what of the
-    /// header follows from bounds and eye, all visible to `readers`, and the check of the triangles, whose result the
-    /// pass of the status looks at.
+    /// Records the first pass of a build: the header as the host wrote it, zeros in the pools of `cleared`,
+    /// what of the header follows from bounds and eye, all visible to `readers`, and the check of the
+    /// triangles, whose result the pass of the status looks at.
     pub fn record_header(
         &self,
         recorder: &mut Recorder<'_>,
@@ -151,8 +151,8 @@ impl BuildTarget<'_> {
         recorder.dispatch(groups);
     }
 
-    /// A labelled indirect pass: its workgroups are three u32 of the header, at a byte that is a multiple of 4.
-    /// The pass before made the header visible to [`Access::INDIRECT_READ`].
+    /// A labelled indirect pass: its workgroups are three u32 of the header, at a byte that is a multiple of
+    /// 4. The pass before made the header visible to [`Access::INDIRECT_READ`].
     pub fn indirect_pass(
         &self,
         recorder: &mut Recorder<'_>,
@@ -208,7 +208,8 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// Draws every triangle once per view onto a square of `side` cells; nothing where there are no triangles.
+    /// Draws every triangle once per view onto a square of `side` cells; nothing where there are no
+    /// triangles.
     pub fn draw(
         &self,
         recorder: &mut Recorder<'_>,
@@ -221,7 +222,8 @@ impl BuildTarget<'_> {
         self.draw_onto(recorder, pipeline, draw, |recorder| self.geometry.record_draw(recorder, views));
     }
 
-    /// Draws that many vertices per view in place of those of all triangles; nothing where there are no triangles.
+    /// Draws that many vertices per view in place of those of all triangles; nothing where there are no
+    /// triangles.
     pub fn draw_vertices(
         &self,
         recorder: &mut Recorder<'_>,
@@ -249,9 +251,9 @@ impl BuildTarget<'_> {
         recorder.end_rendering();
     }
 
-    /// A labelled pass that draws every triangle once per view, onto squares of several sizes, visible to compute and
-    /// fragment shaders after it. The push constant that is the step in other passes is the number of a draw's first
-    /// view.
+    /// A labelled pass that draws every triangle once per view, onto squares of several sizes, visible to
+    /// compute and fragment shaders after it. The push constant that is the step in other passes is the
+    /// number of a draw's first view.
     pub fn raster_views(
         &self,
         recorder: &mut Recorder<'_>,
@@ -267,8 +269,8 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// The last pass of every build: one workgroup checks whether everything was stored, and the header is copied to
-    /// the host.
+    /// The last pass of every build: one workgroup checks whether everything was stored, and the header is
+    /// copied to the host.
     pub fn status_pass(&self, recorder: &mut Recorder<'_>, label: &str, pipeline: &ComputePipeline) {
         recorder.begin_pass(Stage::Build, label);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE);

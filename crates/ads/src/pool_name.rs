@@ -10,8 +10,8 @@ use crate::kit::Parts;
 /// The header's name among the pools.
 pub const HEADER_POOL: &str = "header";
 
-/// The pools of one structure, in the order of their bindings; the header is the first. [`pools!`](crate::pools)
-/// makes one.
+/// The pools of one structure, in the order of their bindings; the header is the first.
+/// [`pools!`](crate::pools) makes one.
 pub trait PoolName: Copy + fmt::Debug + PartialEq + 'static {
     /// Header that shaders start from: the only element of the first pool.
     type Header: Pod;
@@ -41,11 +41,13 @@ pub trait PoolContents<C, P: PoolName>: Sized {
     fn pools(&self) -> (P::Header, PoolBytes<'_, P>);
 }
 
-/// Makes the enum of a structure's pools. After the header, which is there by itself, each has a row in the order of
-/// bindings: the variant, its name in sizes, statuses and reports, and the header's field of its device address.
+/// Makes the enum of a structure's pools. After the header, which is there by itself, each has a row in the
+/// order of bindings: the variant, its name in sizes, statuses and reports, and the header's field of its
+/// device address.
 ///
-/// A last line names the configuration and the struct with the words to be checked on the host, and its field for the
-/// configuration where it has one; then a row ends with `=> field` where the struct has the words of its pool:
+/// A last line names the configuration and the struct with the words to be checked on the host, and its field
+/// for the configuration where it has one; then a row ends with `=> field` where the struct has the words of
+/// its pool:
 ///
 /// ```ignore
 /// rasray_ads::pools! {

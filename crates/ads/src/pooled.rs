@@ -16,29 +16,31 @@ use crate::{
     StructureKind, StructureReport, Trace, TracedPart, Viewpoint,
 };
 
-/// A demand that [varies](Design::varies) is met with capacity for one in so many more. Pages of a small scene differ by up to
-/// one in 33 from build to build where tens of thousands of threads run at a time.
+/// A demand that [varies](Design::varies) is met with capacity for one in so many more. Pages of a small
+/// scene differ by up to one in 33 from build to build where tens of thousands of threads run at a time.
 pub const VARYING_SHARE: u64 = 16;
 
 /// The linear part of a [`GeometryRigid`], which begins with it.
 const LINEAR_BYTES: u64 = std::mem::offset_of!(GeometryRigid, centre) as u64;
 
-/// Structure of a [`Design`]: it implements [`Structure`] with a header, pools and the passes of the design. Every structure
-/// but brute force and structures in parts is one; `rasray_bvh::Bvh`, for example, is `Pooled<rasray_bvh::Passes>`.
+/// Structure of a [`Design`]: it implements [`Structure`] with a header, pools and the passes of the design.
+/// Every structure but brute force and structures in parts is one; `rasray_bvh::Bvh`, for example, is
+/// `Pooled<rasray_bvh::Passes>`.
 #[derive(Debug)]
 pub struct Pooled<D: Design> {
     description: Description,
     design: D,
     parts: Parts<D::Config>,
-    /// Triangles traced: those that builds read, or where these are in a space of their own, the same as posed.
+    /// Triangles traced: those that builds read, or where these are in a space of their own, the same as
+    /// posed.
     traced: Geometry,
     kernels: TraceKernels,
     /// The scene's set, where passes of the build read it.
     scene: Option<BindingSet>,
     /// True if that is another one than the last build recorded read.
     is_scene_new: bool,
-    /// The header as [`Structure::status`] last read it; zeros until then. Reports and rounds are of this build, also where
-    /// triangles or pools have changed since: consecutive frames have much the same demand.
+    /// The header as [`Structure::status`] last read it; zeros until then. Reports and rounds are of this
+    /// build, also where triangles or pools have changed since: consecutive frames have much the same demand.
     known: Mutex<D::Header>,
 }
 
@@ -50,12 +52,12 @@ impl<D: Design> Pooled<D> {
     /// Records that it shares with its shaders, the header first.
     pub const RECORDS: &'static [RecordLayout] = D::RECORDS;
 
-    /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks, surfaces and payloads that keep
-    /// something of it.
+    /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks, surfaces and payloads
+    /// that keep something of it.
     ///
     /// # Errors
-    /// An option is out of range or needs what neither the device nor the caller provides; out of memory; a pool
-    /// exceeds what one binding can hold (then use device addresses).
+    /// An option is out of range or needs what neither the device nor the caller provides; out of memory; a
+    /// pool exceeds what one binding can hold (then use device addresses).
     pub fn new(
         device: &Device,
         mut config: D::Config,
@@ -162,11 +164,12 @@ impl<D: Design> Pooled<D> {
         D::Contents::download(&self.parts, device, header)
     }
 
-    /// Writes back what [`Pooled::download`] returned, or what was made of it. Submits and waits: for tests and tools.
-    /// Traces end within their bounds whatever the other pools say.
+    /// Writes back what [`Pooled::download`] returned, or what was made of it. Submits and waits: for tests
+    /// and tools. Traces end within their bounds whatever the other pools say.
     ///
     /// # Safety
-    /// Capacities and addresses in the header are those that were downloaded from this structure since its last resize.
+    /// Capacities and addresses in the header are those that were downloaded from this structure since its
+    /// last resize.
     ///
     /// # Errors
     /// A pool is larger than what was allocated, or the device failed.

@@ -22,12 +22,12 @@ const NOTED: u64 = offset_of!(QueueHeader, corrupted) as u64;
 /// Factor by which the number of rounds grows where rays did not finish.
 const MORE_ROUNDS: u32 = 4;
 
-/// Maximum number of rounds: 2^15 dispatches per trace, and as many times the work budget per ray, on software drivers 2^26
-/// units.
+/// Maximum number of rounds: 2^15 dispatches per trace, and as many times the work budget per ray, on
+/// software drivers 2^26 units.
 const MOST_ROUNDS: u32 = 1 << 14;
 
-/// Buffers of one size, one per pool, in the order of [`Sizes::pools`]. The first is the header, of one element.
-/// Its first word is the status, which traces read before anything else.
+/// Buffers of one size, one per pool, in the order of [`Sizes::pools`]. The first is the header, of one
+/// element. Its first word is the status, which traces read before anything else.
 #[derive(Debug)]
 pub struct Pools {
     structure: &'static str,
@@ -40,8 +40,8 @@ pub struct Pools {
     slots: Slots,
     pools: Vec<Buffer>,
     set: Option<BindingSet>,
-    /// Rounds that were allowed in addition to those that a trace has at first. Traces raise it, so it changes behind a
-    /// shared reference.
+    /// Rounds that were allowed in addition to those that a trace has at first. Traces raise it, so it
+    /// changes behind a shared reference.
     rounds: AtomicU32,
 }
 
@@ -76,7 +76,8 @@ impl Pools {
         })
     }
 
-    /// Allocates again. What was built is lost, but not what the device has yet to say of builds that were recorded before.
+    /// Allocates again. What was built is lost, but not what the device has yet to say of builds that were
+    /// recorded before.
     ///
     /// # Errors
     /// As for [`Pools::new`]; then the pools are as they were.
@@ -94,7 +95,8 @@ impl Pools {
         self.slots.are_pools_of(slot)
     }
 
-    /// Keeps the outcome of `slots` builds separately from now on, at least 1; outcomes of earlier builds are lost.
+    /// Keeps the outcome of `slots` builds separately from now on, at least 1; outcomes of earlier builds are
+    /// lost.
     ///
     /// # Errors
     /// Out of memory; then all is as it was.
@@ -148,8 +150,9 @@ impl Pools {
         halves(address)
     }
 
-    /// Takes the header that the passes recorded next start from, but for the addresses of `P`, and the slot that keeps
-    /// their outcome. Each recording has its own header: builds that wait for the device together do not share one.
+    /// Takes the header that the passes recorded next start from, but for the addresses of `P`, and the slot
+    /// that keeps their outcome. Each recording has its own header: builds that wait for the device together
+    /// do not share one.
     ///
     /// # Errors
     /// There is no such slot.
@@ -180,7 +183,8 @@ impl Pools {
         self.header.copy_from_slice(bytemuck::bytes_of(&header));
     }
 
-    /// Records the header, zeros in the pools of `cleared` and the check of the triangles, visible to `readers`.
+    /// Records the header, zeros in the pools of `cleared` and the check of the triangles, visible to
+    /// `readers`.
     pub(crate) fn record_header(
         &self,
         recorder: &mut Recorder<'_>,
@@ -216,8 +220,8 @@ impl Pools {
         }
     }
 
-    /// Triangles that the last build of a slot found outside of their geometry's bounds, or with a vertex that there is
-    /// not. The caller has waited for the submission.
+    /// Triangles that the last build of a slot found outside of their geometry's bounds, or with a vertex
+    /// that there is not. The caller has waited for the submission.
     ///
     /// # Errors
     /// There is no such slot, or host-visible memory could not be read.
@@ -233,7 +237,8 @@ impl Pools {
         recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::HOST_READ);
     }
 
-    /// The header after the last build of a slot, zeros before the first. The caller has waited for the submission.
+    /// The header after the last build of a slot, zeros before the first. The caller has waited for the
+    /// submission.
     ///
     /// # Errors
     /// There is no such slot, or host-visible memory could not be read.
@@ -273,8 +278,8 @@ impl Pools {
         self.rounds.load(Ordering::Relaxed).max(first)
     }
 
-    /// Multiplies [`Pools::rounds`] of `first`, up to `most`, in which every ray finishes, and up to 2^14 rounds. False
-    /// where that changes nothing.
+    /// Multiplies [`Pools::rounds`] of `first`, up to `most`, in which every ray finishes, and up to 2^14
+    /// rounds. False where that changes nothing.
     pub fn allow_more_rounds(&self, first: u32, most: u32) -> bool {
         let now = self.rounds(first);
         let more = now.saturating_mul(MORE_ROUNDS).min(most).min(MOST_ROUNDS);
@@ -282,16 +287,17 @@ impl Pools {
         more > now
     }
 
-    /// As [`Pools::allow_more_rounds`], up to `first` rounds plus those in which a ray reads everything that is stored.
-    /// A ray that needs more is in a list without an end, which only damaged memory has.
+    /// As [`Pools::allow_more_rounds`], up to `first` rounds plus those in which a ray reads everything that
+    /// is stored. A ray that needs more is in a list without an end, which only damaged memory has.
     pub fn allow_rounds_to_read_all(&self, first: u32, work_budget: u32) -> bool {
         let elements: u64 = self.sizes.pools.iter().map(|pool| pool.elements).sum();
         let most = u64::from(first) + elements.div_ceil(work_budget.into());
         self.allow_more_rounds(first, most.min(u32::MAX.into()) as u32)
     }
 
-    /// Records a trace, as [`TraceKernels::record_trace`]. Traces count list entries with an invalid index in the word
-    /// of the header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]).
+    /// Records a trace, as [`TraceKernels::record_trace`]. Traces count list entries with an invalid index in
+    /// the word of the header at byte `corrupted`; the queue takes note of it
+    /// ([`crate::QueueCounters::corrupted`]).
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,

@@ -6,8 +6,9 @@ use rasray_shaders_glsl::constants::ads::PYRAMID_THREADS;
 use crate::AdsError;
 use crate::kit::{BuildPipelines, BuildTarget, ViewDraw};
 
-/// Builds blocks of 2x2, 4x4 ... cells up to one per view: the pipeline of `ads/build_pyramid.comp` as compiled for a
-/// structure, whose `pyramid.glsl` says where the cells and the blocks are. A dispatch a level.
+/// Builds blocks of 2x2, 4x4 ... cells up to one per view: the pipeline of `ads/build_pyramid.comp` as
+/// compiled for a structure, whose `pyramid.glsl` says where the cells and the blocks are. A dispatch a
+/// level.
 #[derive(Debug)]
 pub struct Pyramid {
     level: ComputePipeline,

@@ -21,8 +21,9 @@ const STEP_HEADER: u64 = 8;
 pub enum Domain {
     /// The first n slots.
     First(u32),
-    /// Those that shaders selected (`queue_select` of `ads/queue.glsl`) before the last [`RayQueue::record_take`], in no
-    /// particular order: as many as the device counted, so that the pass costs nothing for the others.
+    /// Those that shaders selected (`queue_select` of `ads/queue.glsl`) before the last
+    /// [`RayQueue::record_take`], in no particular order: as many as the device counted, so that the pass
+    /// costs nothing for the others.
     Selected,
 }
 
@@ -36,7 +37,8 @@ impl Domain {
     }
 }
 
-/// Buffers of a queue in addition to rays, hits and states. A part that is not requested is a placeholder of 16 bytes.
+/// Buffers of a queue in addition to rays, hits and states. A part that is not requested is a placeholder of
+/// 16 bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct QueueParts {
     /// A [`Surface`] per slot.
@@ -47,12 +49,13 @@ pub struct QueueParts {
     pub steps: u32,
 }
 
-/// Queue of rays on the device: rays, hits, surfaces and traversal states of `capacity` slots, and lists of slots. A
-/// structure traces the rays of a queue and writes their hits. Clones are cheap handles to the same buffers.
+/// Queue of rays on the device: rays, hits, surfaces and traversal states of `capacity` slots, and lists of
+/// slots. A structure traces the rays of a queue and writes their hits. Clones are cheap handles to the same
+/// buffers.
 ///
-/// A queue that is made here is as [`RayQueue::record_reset`] leaves it, and no slot is selected. Its other buffers are
-/// zero, rays included, which miss; on a device without a queue to clear them through they are undefined until something
-/// is written there.
+/// A queue that is made here is as [`RayQueue::record_reset`] leaves it, and no slot is selected. Its other
+/// buffers are zero, rays included, which miss; on a device without a queue to clear them through they are
+/// undefined until something is written there.
 #[derive(Clone, Debug)]
 pub struct RayQueue {
     capacity: u32,
@@ -77,8 +80,8 @@ pub struct QueueCounters {
     pub unfinished: u32,
     /// Rays traced while the structure was incomplete.
     pub not_ready: u32,
-    /// List entries with an invalid index in the structure last traced, all its parts together, since it was built;
-    /// anything but 0 is a fault.
+    /// List entries with an invalid index in the structure last traced, all its parts together, since it was
+    /// built; anything but 0 is a fault.
     pub corrupted: u32,
     /// Cells stepped; zero unless counters are enabled.
     pub cells: u64,
@@ -86,15 +89,17 @@ pub struct QueueCounters {
     pub entries: u64,
     /// Primitives tested; zero unless counters are enabled.
     pub tests: u64,
-    /// Views entered, each once until another is, the near region not counted; zero unless counters are enabled.
+    /// Views entered, each once until another is, the near region not counted; zero unless counters are
+    /// enabled.
     pub views: u64,
-    /// Cells stepped that were not rejected: in which a list entry was read, or which are voxels with something in them;
-    /// zero unless counters are enabled.
+    /// Cells stepped that were not rejected: in which a list entry was read, or which are voxels with
+    /// something in them; zero unless counters are enabled.
     pub searched: u64,
 }
 
 impl RayQueue {
-    /// Allocates a queue, with surfaces if requested. Submits and waits where the device has a queue to clear it through.
+    /// Allocates a queue, with surfaces if requested. Submits and waits where the device has a queue to clear
+    /// it through.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
@@ -102,7 +107,8 @@ impl RayQueue {
         Self::with_parts(device, name, capacity, QueueParts { surfaces, ..QueueParts::default() })
     }
 
-    /// Allocates a queue with the requested parts. Submits and waits where the device has a queue to clear it through.
+    /// Allocates a queue with the requested parts. Submits and waits where the device has a queue to clear it
+    /// through.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
@@ -116,12 +122,12 @@ impl RayQueue {
         Self::made(device, name, capacity, parts, [const { None }; BUFFERS])
     }
 
-    /// A queue of `capacity` slots, at least 1, whose rays and hits, and whatever else is given, are buffers of the host.
-    /// Their contents stay.
+    /// A queue of `capacity` slots, at least 1, whose rays and hits, and whatever else is given, are buffers
+    /// of the host. Their contents stay.
     ///
     /// # Errors
-    /// [`AdsError::Queue`] where a buffer is too small, was not made for what it is used for, or is given twice; out of
-    /// memory, or a buffer exceeds what one binding can hold.
+    /// [`AdsError::Queue`] where a buffer is too small, was not made for what it is used for, or is given
+    /// twice; out of memory, or a buffer exceeds what one binding can hold.
     pub fn from_buffers(
         device: &Device,
         name: &str,
@@ -222,7 +228,8 @@ impl RayQueue {
         [header, rays, hits, states, list, surfaces, work, steps]
     }
 
-    /// Words before the steps: slot 0 is logged, or no slot where there is no capacity; and there is no step yet.
+    /// Words before the steps: slot 0 is logged, or no slot where there is no capacity; and there is no step
+    /// yet.
     fn first_step_words(&self) -> [u32; 2] {
         [if self.step_capacity > 0 { 0 } else { u32::MAX }, 0]
     }
@@ -235,8 +242,8 @@ impl RayQueue {
         Ok(device.create_set_layout("ray queue", BUFFERS as u32)?)
     }
 
-    /// Clears counters and book-keeping, whenever counters are to start anew, and once before first use where the header is a
-    /// buffer of the host. No slot is selected then.
+    /// Clears counters and book-keeping, whenever counters are to start anew, and once before first use where
+    /// the header is a buffer of the host. No slot is selected then.
     pub fn record_reset(&self, recorder: &mut Recorder<'_>) {
         let size = size_of::<QueueHeader>() as u64;
         recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
@@ -249,14 +256,16 @@ impl RayQueue {
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
     }
 
-    /// Records that the slots selected so far are those of [`Domain::Selected`] from now on, and that a new selection
-    /// begins. Shaders that selected them came before it, and a barrier towards compute shaders between.
+    /// Records that the slots selected so far are those of [`Domain::Selected`] from now on, and that a new
+    /// selection begins. Shaders that selected them came before it, and a barrier towards compute shaders
+    /// between.
     pub fn record_take(&self, recorder: &mut Recorder<'_>) {
         self.record_taken(recorder, QueueTakeConstants { back: 0 });
     }
 
-    /// Records that the slots of [`Domain::Selected`] are again those before the last take: after a pass that selected some of
-    /// them for others. Once per take, and before any slot is selected after it; no slot is selected for the next take.
+    /// Records that the slots of [`Domain::Selected`] are again those before the last take: after a pass that
+    /// selected some of them for others. Once per take, and before any slot is selected after it; no slot is
+    /// selected for the next take.
     pub fn record_take_back(&self, recorder: &mut Recorder<'_>) {
         self.record_taken(recorder, QueueTakeConstants { back: 1 });
     }
@@ -276,8 +285,8 @@ impl RayQueue {
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
     }
 
-    /// Records a dispatch of one invocation per slot of `domain`, in workgroups of `QUEUE_GROUP_SIZE`; pipeline, sets and
-    /// constants are bound.
+    /// Records a dispatch of one invocation per slot of `domain`, in workgroups of `QUEUE_GROUP_SIZE`;
+    /// pipeline, sets and constants are bound.
     pub fn record_dispatch(&self, recorder: &mut Recorder<'_>, domain: Domain) {
         match domain {
             Domain::First(count) if count > self.capacity => {
@@ -336,8 +345,8 @@ impl RayQueue {
         &self.work
     }
 
-    /// The steps of slot 0 since the reset, and how many there were, which may be more than the queue has capacity
-    /// for. Submits and waits: for tests and tools.
+    /// The steps of slot 0 since the reset, and how many there were, which may be more than the queue has
+    /// capacity for. Submits and waits: for tests and tools.
     ///
     /// # Errors
     /// The device failed.

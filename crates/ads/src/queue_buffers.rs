@@ -14,26 +14,30 @@ pub(crate) const HEADER: usize = 0;
 /// Place of the steps.
 pub(crate) const STEPS: usize = 7;
 
-/// Buffers of a host that a queue is made of ([`RayQueue::from_buffers`](crate::RayQueue::from_buffers)). Each is used from its start, for all slots of
-/// the queue, and may be larger; all of them have the usage [`BufferUsage::STORAGE`]. No two are the same buffer.
+/// Buffers of a host that a queue is made of ([`RayQueue::from_buffers`](crate::RayQueue::from_buffers)).
+/// Each is used from its start, for all slots of the queue, and may be larger; all of them have the usage
+/// [`BufferUsage::STORAGE`]. No two are the same buffer.
 #[derive(Clone, Debug)]
 pub struct QueueBuffers {
     /// A [`Ray`](crate::Ray) per slot, 48 bytes. What the host has written there is traced.
     pub rays: Buffer,
-    /// A [`Hit`](crate::Hit) per slot, 16 bytes, which traces write. Where camera rays are answered by drawing, also with the usage
-    /// [`BufferUsage::TRANSFER_DST`].
+    /// A [`Hit`](crate::Hit) per slot, 16 bytes, which traces write. Where camera rays are answered by
+    /// drawing, also with the usage [`BufferUsage::TRANSFER_DST`].
     pub hits: Buffer,
-    /// A [`QueueHeader`](crate::QueueHeader), with all usages ([`BufferUsage::ALL`]): [`RayQueue::record_reset`](crate::RayQueue::record_reset) is recorded before anything
-    /// else of the queue, whatever it holds. Absent: one is made, which is reset.
+    /// A [`QueueHeader`](crate::QueueHeader), with all usages ([`BufferUsage::ALL`]):
+    /// [`RayQueue::record_reset`](crate::RayQueue::record_reset) is recorded before anything else of the
+    /// queue, whatever it holds. Absent: one is made, which is reset.
     pub header: Option<Buffer>,
-    /// A [`TraceState`](crate::TraceState) per slot, 64 bytes, of rays that pause; what it holds at first is not read. Absent: one is made.
+    /// A [`TraceState`](crate::TraceState) per slot, 64 bytes, of rays that pause; what it holds at first is
+    /// not read. Absent: one is made.
     pub states: Option<Buffer>,
     /// Four u32 per slot, lists of slots; what it holds at first is not read. Absent: one is made.
     pub list: Option<Buffer>,
-    /// A [`Surface`](crate::Surface) per slot, 128 bytes, which lookups of surfaces write. Absent: there are none, as without
-    /// [`QueueParts::surfaces`].
+    /// A [`Surface`](crate::Surface) per slot, 128 bytes, which lookups of surfaces write. Absent: there are
+    /// none, as without [`QueueParts::surfaces`].
     pub surfaces: Option<Buffer>,
-    /// A [`RayWork`](crate::RayWork) per slot, 24 bytes. Absent: work is not kept per ray, as without [`QueueParts::work`].
+    /// A [`RayWork`](crate::RayWork) per slot, 24 bytes. Absent: work is not kept per ray, as without
+    /// [`QueueParts::work`].
     pub work: Option<Buffer>,
 }
 

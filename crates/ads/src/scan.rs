@@ -6,8 +6,8 @@ use rasray_shaders_glsl::constants::ads::SCAN_BLOCK;
 use crate::AdsError;
 use crate::kit::{BuildPipelines, BuildTarget};
 
-/// Replaces numbers by the sum of all before them: the pipelines of `ads/scan_*.comp` as compiled for a structure,
-/// whose `scanned.glsl` says which numbers. Three dispatches; O(n) work.
+/// Replaces numbers by the sum of all before them: the pipelines of `ads/scan_*.comp` as compiled for a
+/// structure, whose `scanned.glsl` says which numbers. Three dispatches; O(n) work.
 #[derive(Debug)]
 pub struct Scan {
     blocks: ComputePipeline,
@@ -30,8 +30,8 @@ impl Scan {
         numbers.div_ceil(SCAN_BLOCK.into())
     }
 
-    /// Records a labelled pass over `numbers` numbers, as many as `scan_count` of the structure says, visible to
-    /// `readers`. The total is written also where there is no number.
+    /// Records a labelled pass over `numbers` numbers, as many as `scan_count` of the structure says, visible
+    /// to `readers`. The total is written also where there is no number.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,

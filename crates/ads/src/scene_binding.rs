@@ -13,8 +13,8 @@ pub struct SceneBinding {
     pub set: BindingSet,
     /// True if any draw is alpha-masked.
     pub alpha_masked: bool,
-    /// Specialisation constants of modules that read the scene: id and bits. They disable code for features that the
-    /// scene does not have.
+    /// Specialisation constants of modules that read the scene: id and bits. They disable code for features
+    /// that the scene does not have.
     pub constants: Vec<(u32, u32)>,
 }
 
@@ -36,8 +36,8 @@ impl SceneBinding {
         if scene.is_some_and(|scene| scene.alpha_masked) { ".alpha" } else { "" }
     }
 
-    /// Returns what pipelines for this scene are compiled for and another scene does not have; `None`: they read that
-    /// one as well.
+    /// Returns what pipelines for this scene are compiled for and another scene does not have; `None`: they
+    /// read that one as well.
     pub fn difference(&self, other: &Self) -> Option<&'static str> {
         if self.layout.storage_buffers() != other.layout.storage_buffers() {
             Some("buffers")

@@ -3,8 +3,9 @@
 use crate::kit::PoolName;
 use crate::{Builder, Sizes};
 
-/// Contents of the scratch pool of a configuration: the sums of a scan, and behind them what passes use one after the
-/// other, the large-triangle queue while triangles are binned, and two words of each long list once they are sorted.
+/// Contents of the scratch pool of a configuration: the sums of a scan, and behind them what passes use one
+/// after the other, the large-triangle queue while triangles are binned, and two words of each long list once
+/// they are sorted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scratch<P> {
     /// The pool.

@@ -24,8 +24,8 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Pools of a structure: the header, then the others with their elements and the bytes of one, in the order of their
-    /// bindings.
+    /// Pools of a structure: the header, then the others with their elements and the bytes of one, in the
+    /// order of their bindings.
     ///
     /// # Errors
     /// A pool has more words than 32-bit indices can address with one value reserved for "none" or "more".

@@ -24,8 +24,8 @@ pub(crate) fn check_read(structure: &str, slot: u32, slots: u32) -> Result<(), G
 pub(crate) struct Slots {
     structure: &'static str,
     header_bytes: u64,
-    /// Per slot the header after its build, and behind it the count of triangles outside; one more entry for builds
-    /// without a slot.
+    /// Per slot the header after its build, and behind it the count of triangles outside; one more entry for
+    /// builds without a slot.
     entries: Buffer,
     /// Builds whose outcome is kept apart: frames that the device works on at a time.
     count: u32,
@@ -73,7 +73,8 @@ impl Slots {
         self.recorded = self.count;
     }
 
-    /// The pools are others. Entries stay: the device may have yet to write those of builds that were recorded before.
+    /// The pools are others. Entries stay: the device may have yet to write those of builds that were
+    /// recorded before.
     pub fn replace_pools(&mut self) {
         self.replaced += 1;
         self.begin_unread();

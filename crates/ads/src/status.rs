@@ -9,8 +9,9 @@ use crate::{AdsError, Sizes};
 pub struct PoolStatus {
     /// Name of the pool.
     pub name: &'static str,
-    /// Elements the build needs; exact also beyond the capacity. For pages it is the number that this build began
-    /// or would have begun, which varies slightly with the order of threads; `check` adds a margin for it.
+    /// Elements the build needs; exact also beyond the capacity. For pages it is the number that this build
+    /// began or would have begun, which varies slightly with the order of threads; `check` adds a margin for
+    /// it.
     pub demand: u64,
     /// Elements the pool holds.
     pub capacity: u64,
@@ -35,18 +36,18 @@ impl fmt::Display for PoolStatus {
 pub struct BuildStatus {
     /// True if traces will answer.
     pub complete: bool,
-    /// True if traces that were recorded after the build have answers. Differs from `complete` where pools, triangles
-    /// or a scene that builds read were replaced since.
+    /// True if traces that were recorded after the build have answers. Differs from `complete` where pools,
+    /// triangles or a scene that builds read were replaced since.
     pub was_complete: bool,
     /// Pools whose demand the build counted.
     pub pools: Vec<PoolStatus>,
     /// Lists too long to be sorted; they are searched in full.
     pub unsorted: u64,
-    /// Triangles with a corner outside of the bounds that their geometry states, with a vertex that it does not have, or
-    /// beyond its maximum; with any of them the build is not complete.
+    /// Triangles with a corner outside of the bounds that their geometry states, with a vertex that it does
+    /// not have, or beyond its maximum; with any of them the build is not complete.
     pub outside: u32,
-    /// List entries with an invalid index that the build found; anything but 0 is a fault. Those that traces find are
-    /// in [`crate::QueueCounters::corrupted`].
+    /// List entries with an invalid index that the build found; anything but 0 is a fault. Those that traces
+    /// find are in [`crate::QueueCounters::corrupted`].
     pub corrupted: u64,
     /// Outcomes of the parts of a [`Combined`](crate::Combined) structure; empty for all others.
     pub parts: Vec<Self>,
@@ -76,7 +77,8 @@ pub enum Check {
 }
 
 impl BuildStatus {
-    /// The result of [`Structure::check`](crate::Structure::check): `plan` computes the sizes for demands with the given growth.
+    /// The result of [`Structure::check`](crate::Structure::check): `plan` computes the sizes for demands
+    /// with the given growth.
     ///
     /// # Errors
     /// As [`Structure::check`](crate::Structure::check).

@@ -53,12 +53,13 @@ pub struct InlineTrace<'a> {
     pub constants: Vec<(u32, u32)>,
 }
 
-/// Acceleration structure that rays are traced through. A host records its build ([`Structure::record_build`]), checks the
-/// outcome ([`Structure::check`]), and records traces ([`Structure::record_trace`]).
+/// Acceleration structure that rays are traced through. A host records its build
+/// ([`Structure::record_build`]), checks the outcome ([`Structure::check`]), and records traces
+/// ([`Structure::record_trace`]).
 ///
-/// One value has one set of pools, so its builds and traces follow each other on the device's queue. It keeps the outcomes
-/// of builds per slot: a host with n frames in flight records the build of frame k for slot k mod n, and reads the status of
-/// a slot after that frame's fence.
+/// One value has one set of pools, so its builds and traces follow each other on the device's queue. It keeps
+/// the outcomes of builds per slot: a host with n frames in flight records the build of frame k for slot k
+/// mod n, and reads the status of a slot after that frame's fence.
 pub trait Structure {
     /// Facts that do not change while it lives.
     fn description(&self) -> &Description;
@@ -66,32 +67,34 @@ pub trait Structure {
     /// Sizes of the pools that are allocated.
     fn sizes(&self) -> &Sizes;
 
-    /// Reallocates to `sizes`, which come from planning or from [`Structure::check`]; does nothing where these are the
-    /// sizes already. The build is lost. Builds that the device has yet to finish keep their statuses
-    /// ([`BuildStatus::was_complete`]), and what they use lives as long as their [`rasray_gpu::Recorded`].
+    /// Reallocates to `sizes`, which come from planning or from [`Structure::check`]; does nothing where
+    /// these are the sizes already. The build is lost. Builds that the device has yet to finish keep their
+    /// statuses ([`BuildStatus::was_complete`]), and what they use lives as long as their
+    /// [`rasray_gpu::Recorded`].
     ///
     /// # Errors
     /// Out of memory, or a pool exceeds what one binding can hold.
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError>;
 
-    /// Takes other triangles, which the next build reads. Until it is complete traces answer *not ready*, unless these
-    /// are the triangles of the last build.
+    /// Takes other triangles, which the next build reads. Until it is complete traces answer *not ready*,
+    /// unless these are the triangles of the last build.
     ///
     /// # Errors
-    /// Out of memory, no sizes suffice ([`Structure::check`]), or the geometry has other parts ([`AdsError::InParts`]).
+    /// Out of memory, no sizes suffice ([`Structure::check`]), or the geometry has other parts
+    /// ([`AdsError::InParts`]).
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError>;
 
-    /// Takes the scene of other triangles ([`Structure::set_geometry`]), whose surfaces and alpha masks are read from
-    /// the next recording on. Pipelines stay: it has alpha masks if the first scene had, and the same specialisation
-    /// constants. Where a build reads the scene, traces answer *not ready* until the next build is complete. Nothing
-    /// changes after an error.
+    /// Takes the scene of other triangles ([`Structure::set_geometry`]), whose surfaces and alpha masks are
+    /// read from the next recording on. Pipelines stay: it has alpha masks if the first scene had, and the
+    /// same specialisation constants. Where a build reads the scene, traces answer *not ready* until the next
+    /// build is complete. Nothing changes after an error.
     ///
     /// # Errors
     /// [`AdsError::OtherScene`], or [`AdsError::NoScene`] where the structure was made without one.
     fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError>;
 
-    /// Keeps the outcomes of this number of builds apart from now on, at least 1, which is the number at first: one per
-    /// frame in flight. Outcomes of earlier builds are lost; the pools stay.
+    /// Keeps the outcomes of this number of builds apart from now on, at least 1, which is the number at
+    /// first: one per frame in flight. Outcomes of earlier builds are lost; the pools stay.
     ///
     /// # Errors
     /// Out of memory; then all is as it was.
@@ -106,18 +109,18 @@ pub trait Structure {
         Ok(())
     }
 
-    /// Returns true if a build for `built` is to be made anew for `wanted`, of the same triangles: the dependencies
-    /// differ, unless the structure knows that the difference does not matter.
+    /// Returns true if a build for `built` is to be made anew for `wanted`, of the same triangles: the
+    /// dependencies differ, unless the structure knows that the difference does not matter.
     fn is_stale(&self, built: Viewpoint, wanted: Viewpoint) -> bool {
         self.description().depends_on.are_stale(built, wanted)
     }
 
-    /// Records a build for a viewpoint, whose status is that of `slot` once the device is done. Structures without
-    /// views ignore the viewpoint.
+    /// Records a build for a viewpoint, whose status is that of `slot` once the device is done. Structures
+    /// without views ignore the viewpoint.
     ///
     /// # Errors
-    /// The slot does not exist ([`AdsError::Slot`]), or the structure has a view of the camera and the viewpoint has
-    /// none.
+    /// The slot does not exist ([`AdsError::Slot`]), or the structure has a view of the camera and the
+    /// viewpoint has none.
     fn record_build(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -125,16 +128,16 @@ pub trait Structure {
         viewpoint: Viewpoint,
     ) -> Result<(), AdsError>;
 
-    /// Reads the outcome of the last build of a slot, after its submission has ended. [`Structure::report`] and
-    /// [`Structure::rounds`] are of this build from then on.
+    /// Reads the outcome of the last build of a slot, after its submission has ended. [`Structure::report`]
+    /// and [`Structure::rounds`] are of this build from then on.
     ///
     /// # Errors
     /// There is no such slot, or host-visible memory could not be read.
     fn status(&self, slot: u32) -> Result<BuildStatus, GpuError>;
 
-    /// Says that the build is complete, or the sizes it needs. Pools that grow get `headroom` percent more than their
-    /// demand, as far as indices allow: 0 for a static scene; 50 for a sequence of frames, so that the next frame with
-    /// a slightly larger demand is complete at once.
+    /// Says that the build is complete, or the sizes it needs. Pools that grow get `headroom` percent more
+    /// than their demand, as far as indices allow: 0 for a static scene; 50 for a sequence of frames, so that
+    /// the next frame with a slightly larger demand is complete at once.
     ///
     /// # Errors
     /// No sizes suffice: [`AdsError::PoolTooLarge`], or [`AdsError::OutsideBounds`].
@@ -151,11 +154,12 @@ pub trait Structure {
         1
     }
 
-    /// Raises [`Structure::rounds`], for a caller that found unfinished rays and traces again. Each round costs two
-    /// dispatches, also where no ray is paused. Returns false where more rounds would change nothing.
+    /// Raises [`Structure::rounds`], for a caller that found unfinished rays and traces again. Each round
+    /// costs two dispatches, also where no ray is paused. Returns false where more rounds would change
+    /// nothing.
     ///
-    /// Takes a shared reference, since whoever traces has no other one. The number of rounds is no part of a build and
-    /// changes no answer; that of a recording stays ([`Trace::rounds`]).
+    /// Takes a shared reference, since whoever traces has no other one. The number of rounds is no part of a
+    /// build and changes no answer; that of a recording stays ([`Trace::rounds`]).
     fn allow_more_rounds(&self) -> bool {
         false
     }
@@ -163,9 +167,9 @@ pub trait Structure {
     /// Records a trace of rays of `queue`, whose hits are in their slots afterwards.
     fn record_trace(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, trace: Trace<'_>);
 
-    /// Records the lookup of the surfaces of the hits in the slots of `domain` of `queue`: of all, or after a trace
-    /// through parts of a geometry of those on `part`, parts in the order of the trace. Where hits are triangles any
-    /// part knows the surfaces of all.
+    /// Records the lookup of the surfaces of the hits in the slots of `domain` of `queue`: of all, or after a
+    /// trace through parts of a geometry of those on `part`, parts in the order of the trace. Where hits are
+    /// triangles any part knows the surfaces of all.
     ///
     /// # Errors
     /// [`AdsError::NoScene`]: the structure was made without a scene.
@@ -177,9 +181,9 @@ pub trait Structure {
         part: TracedPart,
     ) -> Result<(), AdsError>;
 
-    /// Records hits of the slots of `domain` of `queue` in place of a trace, for rays from the eye that it was built
-    /// for: the nearest that its view of the camera holds at the ray, as fine as that view, also where traces are
-    /// exact.
+    /// Records hits of the slots of `domain` of `queue` in place of a trace, for rays from the eye that it
+    /// was built for: the nearest that its view of the camera holds at the ray, as fine as that view, also
+    /// where traces are exact.
     ///
     /// # Errors
     /// [`AdsError::NoFirstHits`] where it has no such view.
@@ -192,8 +196,8 @@ pub trait Structure {
         Err(AdsError::NoFirstHits { structure: self.description().name })
     }
 
-    /// Access for a shader of one's own, until the next resize; absent where it has no functions to call. These check
-    /// the status of the build.
+    /// Access for a shader of one's own, until the next resize; absent where it has no functions to call.
+    /// These check the status of the build.
     fn inline_trace(&self) -> Option<InlineTrace<'_>> {
         None
     }

@@ -42,8 +42,8 @@ impl CameraView {
     }
 }
 
-/// The eye and the camera that a build is made for. Structures without views ignore both, those without a view of the
-/// camera ignore the camera.
+/// The eye and the camera that a build is made for. Structures without views ignore both, those without a
+/// view of the camera ignore the camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Viewpoint {
     /// Metres relative to the frame origin.
@@ -71,9 +71,10 @@ pub fn box_is_same(extent: &GeometryExtent, built: Viewpoint, wanted: Viewpoint)
     [built, wanted].iter().all(|viewpoint| box_ignores_eye(extent, viewpoint.eye))
 }
 
-/// True if cells of one box over the stated bounds of a geometry are the same for this eye as for every other one as
-/// near: those of an eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest side, and outside of the whole
-/// of which the geometry is a part, have wider margins (`box_placement` in `ads/placement.glsl`).
+/// True if cells of one box over the stated bounds of a geometry are the same for this eye as for every other
+/// one as near: those of an eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest side, and
+/// outside of the whole of which the geometry is a part, have wider margins (`box_placement` in
+/// `ads/placement.glsl`).
 fn box_ignores_eye(extent: &GeometryExtent, eye: [f32; 3]) -> bool {
     let [lower, upper] = extent.bounds;
     let [around_lower, around_upper] = extent.around;

@@ -101,8 +101,8 @@ pub struct Visits<'a> {
 }
 
 impl Visits<'_> {
-    /// The visit of that name, in that variant (`.alpha`, or nothing). Drawing takes this vertex shader, which computing
-    /// ignores.
+    /// The visit of that name, in that variant (`.alpha`, or nothing). Drawing takes this vertex shader,
+    /// which computing ignores.
     ///
     /// # Errors
     /// A module is not compiled in, or the device refuses it.
@@ -130,8 +130,8 @@ impl Visits<'_> {
     }
 }
 
-/// Workgroups per triangle of the large-triangle queue: enough that no loop of an invocation has more than `BIN_TURNS`
-/// iterations. `turns`: cells of the largest view, times the iterations of a loop within each.
+/// Workgroups per triangle of the large-triangle queue: enough that no loop of an invocation has more than
+/// `BIN_TURNS` iterations. `turns`: cells of the largest view, times the iterations of a loop within each.
 pub fn bin_groups(turns: u64) -> u32 {
     turns.div_ceil(u64::from(BIN_GROUP_SIZE) * BIN_TURNS as u64) as u32
 }

@@ -1,6 +1,7 @@
 //! Words of options.
 
-/// Gives each value of an option its word, in options and reports: `ALL` and `WORDS`, every value in order, and `name`.
+/// Gives each value of an option its word, in options and reports: `ALL` and `WORDS`, every value in order,
+/// and `name`.
 ///
 /// ```
 /// #[derive(Clone, Copy)]

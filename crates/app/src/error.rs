@@ -48,8 +48,8 @@ pub enum AppError {
         /// Advice, in one sentence; may be empty.
         help: String,
     },
-    /// An experiment gave no result. Exit code 3 where the device is missing, lacks something required or failed, 4 where
-    /// its result is not whole, 5 where that is a defect, else 2.
+    /// An experiment gave no result. Exit code 3 where the device is missing, lacks something required or
+    /// failed, 4 where its result is not whole, 5 where that is a defect, else 2.
     #[error("{}", hints::message(.0))]
     Experiment(#[from] ExperimentError),
     /// A file gave no rays or hits. Exit code 2.

@@ -1,8 +1,10 @@
-//! SIGINT, SIGTERM and SIGHUP: the first asks for an early end with a valid result, a second ends at once. Where nothing is
-//! finished that could be kept, the first ends as well, after [`GRACE`]: a build, a compiler or a wave may take long.
+//! SIGINT, SIGTERM and SIGHUP: the first asks for an early end with a valid result, a second ends at once.
+//! Where nothing is finished that could be kept, the first ends as well, after [`GRACE`]: a build, a compiler
+//! or a wave may take long.
 //!
-//! A terminal that goes away may send SIGHUP twice, itself and by its shell, and systemd sends one behind SIGTERM: it is
-//! never a second signal. Where it is ignored from the start, as under nohup, it stays ignored.
+//! A terminal that goes away may send SIGHUP twice, itself and by its shell, and systemd sends one behind
+//! SIGTERM: it is never a second signal. Where it is ignored from the start, as under nohup, it stays
+//! ignored.
 
 use crate::error::EXIT_INTERRUPTED;
 use crate::terminal;
@@ -16,8 +18,8 @@ use tempfile::NamedTempFile;
 /// From the first signal to the end, where nothing is finished by then.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// Longest wait of an end for its message to be taken. Who reads stderr may have stopped to, and whatever else writes
-/// there then waits with the stream locked.
+/// Longest wait of an end for its message to be taken. Who reads stderr may have stopped to, and whatever
+/// else writes there then waits with the stream locked.
 const LAST_WORDS: Duration = Duration::from_millis(200);
 
 /// Message of the end where nothing was finished.
@@ -106,8 +108,8 @@ impl Interrupt {
         self.requested.load(Ordering::SeqCst)
     }
 
-    /// Makes a file that is unfinished until the guard is dropped: an end at once removes it. No end comes between the file
-    /// and its guard.
+    /// Makes a file that is unfinished until the guard is dropped: an end at once removes it. No end comes
+    /// between the file and its guard.
     ///
     /// # Errors
     /// Of `make`.
@@ -122,8 +124,8 @@ impl Interrupt {
         Ok((Unfinished { interrupt: self, path }, file))
     }
 
-    /// Ends the process without destructors, which would wait for the device. The lock is kept to the end, so that no
-    /// further file can be begun.
+    /// Ends the process without destructors, which would wait for the device. The lock is kept to the end, so
+    /// that no further file can be begun.
     fn leave(&self) -> ! {
         let files = locked(&self.unfinished);
         for path in files.iter() {

@@ -1,5 +1,5 @@
-//! The command `rasray` as a library: command line, scenes, images, reports, signals and exit codes. The program and its
-//! tests call [`run`].
+//! The command `rasray` as a library: command line, scenes, images, reports, signals and exit codes. The
+//! program and its tests call [`run`].
 //!
 //! - [`run`] runs a command line and returns its exit code.
 //! - [`arguments`] has the options of each command.

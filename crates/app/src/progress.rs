@@ -1,5 +1,5 @@
-//! Progress of work, on stderr: a line that moves on a terminal, else a line now and then where something takes long.
-//! Nothing where quiet was asked for.
+//! Progress of work, on stderr: a line that moves on a terminal, else a line now and then where something
+//! takes long. Nothing where quiet was asked for.
 
 use crate::terminal::{self, Talk};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -92,8 +92,8 @@ struct Count {
 }
 
 impl Count {
-    /// Time that the work will take from `now` on, at the pace so far; absent before the first of it is done, and when
-    /// all is.
+    /// Time that the work will take from `now` on, at the pace so far; absent before the first of it is done,
+    /// and when all is.
     fn time_left(&mut self, progress: Progress<'_>, now: Instant) -> Option<Duration> {
         let Progress { done, total, unit, .. } = progress;
         if total == 0 {

@@ -1,5 +1,5 @@
-//! Text for people: results on stdout, everything else on stderr. Whatever is shown passes through [`escaped`], so
-//! that no name in a file can steer a terminal: nothing before this layer escapes them.
+//! Text for people: results on stdout, everything else on stderr. Whatever is shown passes through
+//! [`escaped`], so that no name in a file can steer a terminal: nothing before this layer escapes them.
 
 use crate::error::AppError;
 use rasray_report::{escaped, escaped_but, one_line};
@@ -34,8 +34,8 @@ pub(crate) fn says(talk: Talk) -> bool {
     TALK.load(Ordering::Relaxed) >= talk as u8
 }
 
-/// Characters in a line of results: what COLUMNS says, else what the terminal has that stdout is; absent where stdout is
-/// none, for files and other programs.
+/// Characters in a line of results: what COLUMNS says, else what the terminal has that stdout is; absent
+/// where stdout is none, for files and other programs.
 pub(crate) fn width() -> Option<usize> {
     let asked = std::env::var("COLUMNS").ok();
     // A program has one width; a terminal that does not say its own is taken to be as wide as terminals were.
@@ -61,7 +61,8 @@ pub(crate) fn hang_up() {
     HUNG_UP.store(true, Ordering::Relaxed);
 }
 
-/// Writes bytes to stdout as they are. A reader that has gone away, such as `head`, wants no more and is no error.
+/// Writes bytes to stdout as they are. A reader that has gone away, such as `head`, wants no more and is no
+/// error.
 ///
 /// # Errors
 /// The error of the system.
@@ -86,7 +87,8 @@ pub(crate) fn print(text: &str) -> Result<(), AppError> {
     }
 }
 
-/// Shows what a run gave: on stdout, or on stderr where a file takes stdout. Nothing where quiet was asked for.
+/// Shows what a run gave: on stdout, or on stderr where a file takes stdout. Nothing where quiet was asked
+/// for.
 ///
 /// # Errors
 /// As [`print`].
@@ -139,7 +141,8 @@ pub(crate) fn warn_of_frame(scene: &Scene, said: &[Warning]) {
     }
 }
 
-/// True if colours are wanted on stderr: where it is a terminal and NO_COLOR (no-color.org) is absent or empty.
+/// True if colours are wanted on stderr: where it is a terminal and NO_COLOR (no-color.org) is absent or
+/// empty.
 fn colors(is_terminal: bool, no_color: Option<&OsStr>) -> bool {
     is_terminal && no_color.is_none_or(OsStr::is_empty)
 }

@@ -1,5 +1,5 @@
-//! Bricks in a plain ash program with its own device, on a queue that only computes: built, traced, compared with brute
-//! force.
+//! Bricks in a plain ash program with its own device, on a queue that only computes: built, traced, compared
+//! with brute force.
 
 use rasray_ads::BruteForce;
 use rasray_bricks::{Bricks, Config, Views};

@@ -1,5 +1,5 @@
-//! Bricks in the frames of a host: its own buffers, two frames in flight, triangles that move, and a compute shader of its
-//! own that traces on the spot. Every frame is compared with brute force.
+//! Bricks in the frames of a host: its own buffers, two frames in flight, triangles that move, and a compute
+//! shader of its own that traces on the spot. Every frame is compared with brute force.
 
 use std::path::Path;
 
@@ -67,7 +67,8 @@ pub fn main() -> Result<()> {
     if complete == COUNT { Ok(()) } else { Err("a frame was not complete".into()) }
 }
 
-/// While the program loads, the first frame is repeated until its pools suffice. No other frame is waited for.
+/// While the program loads, the first frame is repeated until its pools suffice. No other frame is waited
+/// for.
 fn load(host: &Host, device: &Device, bricks: &mut FrameStructure, slot: &mut Slot) -> Result<()> {
     let mut lacking = None;
     for _ in 0..BUILDS {
@@ -160,8 +161,8 @@ impl Slot {
         number: usize,
         bricks: &mut FrameStructure,
     ) -> Result<Recorded> {
-        // SAFETY: the command buffer is being recorded by nobody else, and what this returns is kept until the host has
-        // waited for the frame.
+        // SAFETY: the command buffer is being recorded by nobody else, and what this returns is kept until
+        // the host has waited for the frame.
         let mut recorder = unsafe { Recorder::from_raw(device, commands) };
         bricks.set_geometry(device, &self.geometry)?;
         bricks.record(&mut recorder, number as u32, [0.5; 3].into())?;
@@ -185,8 +186,8 @@ impl Slot {
         Ok(recorder.finish()?)
     }
 
-    /// Outcome of the frame that was waited for; absent where none was submitted. Hits of a complete one are those of brute
-    /// force. Pools that were too small have grown.
+    /// Outcome of the frame that was waited for; absent where none was submitted. Hits of a complete one are
+    /// those of brute force. Pools that were too small have grown.
     fn finish(
         &mut self,
         host: &Host,

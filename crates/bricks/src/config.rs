@@ -17,14 +17,14 @@ const SLICE_LIMIT: u32 = numbers::BRICKS_SLICE_LIMIT;
 pub struct Config {
     /// Projections that cells are made in.
     pub views: Views,
-    /// Columns along a side of a face, or cells along the longest side of the geometry's bounds; 1 to 1024, rounded up
-    /// to a multiple of 4. Absent: by the number of triangles and, along the axes, by the bounds.
+    /// Columns along a side of a face, or cells along the longest side of the geometry's bounds; 1 to 1024,
+    /// rounded up to a multiple of 4. Absent: by the number of triangles and, along the axes, by the bounds.
     pub grid: Option<u32>,
-    /// [`Views::Axes`] only: how often a cell that lists many small triangles is divided into 4x4x4 smaller ones, at
-    /// most; 0 to 3, which is the default.
+    /// [`Views::Axes`] only: how often a cell that lists many small triangles is divided into 4x4x4 smaller
+    /// ones, at most; 0 to 3, which is the default.
     pub divisions: Option<u32>,
-    /// [`Views::Cube`] only: depth slices, the same for all columns, 1 to 1024, rounded up to a multiple of 4; twice
-    /// the columns along a side where absent.
+    /// [`Views::Cube`] only: depth slices, the same for all columns, 1 to 1024, rounded up to a multiple of
+    /// 4; twice the columns along a side where absent.
     pub slices: Option<u32>,
     /// Keep a contiguous copy of the corners of triangles: 36 bytes per triangle instead of 24.
     pub corners: bool,
@@ -87,14 +87,14 @@ impl Config {
         self.most_divisions() > 0
     }
 
-    /// Words of a brick: its own and two of the mask; where cells are divided two more for those, the first of their
-    /// bricks, and its position.
+    /// Words of a brick: its own and two of the mask; where cells are divided two more for those, the first
+    /// of their bricks, and its position.
     pub fn brick_words(&self) -> u32 {
         if self.divides() { 8 } else { 3 }
     }
 
-    /// Maximum divisions of cells where views have this number of them: that of the options, or less where positions
-    /// would not fit into their words.
+    /// Maximum divisions of cells where views have this number of them: that of the options, or less where
+    /// positions would not fit into their words.
     pub(crate) fn depth_for(&self, cells: [u32; 3]) -> u32 {
         let most = cells.into_iter().max().unwrap_or(0);
         (0..=self.most_divisions())

@@ -14,8 +14,8 @@ pub(crate) const SIDE_LIMIT: u32 = BRICKS_SIDE_LIMIT;
 pub enum Views {
     /// Six faces of a cube around a centre: cells grow with the distance.
     Cube,
-    /// One box of cells of one size around the geometry, seen along an axis, which are the cells of views along the
-    /// other two axes as well. Only the distance at which rays may start depends on the eye.
+    /// One box of cells of one size around the geometry, seen along an axis, which are the cells of views
+    /// along the other two axes as well. Only the distance at which rays may start depends on the eye.
     Axes,
 }
 
@@ -37,8 +37,8 @@ const MOST_CELLS: f64 = 16_777_216.0;
 /// Minimum number of cells along the longest side where the rule chooses it.
 const FEWEST_ALONG: f64 = 16.0;
 
-/// Columns along a side of a face for that many triangles: as many as make a column about as wide as a triangle is
-/// seen from the middle, a power of two from 32 to 256.
+/// Columns along a side of a face for that many triangles: as many as make a column about as wide as a
+/// triangle is seen from the middle, a power of two from 32 to 256.
 pub(crate) fn columns_for(triangles: u32) -> u32 {
     let wanted = f64::from(triangles).sqrt() / 4.0;
     // The nearer of two powers of two, by ratio.

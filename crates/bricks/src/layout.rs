@@ -64,8 +64,8 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     Sizes::of("bricks", pools)
 }
 
-/// The first guess where nothing has been counted: eight columns per triangle, of two cells each, two entries per
-/// cell, and where cells are divided a brick for every eight triangles.
+/// The first guess where nothing has been counted: eight columns per triangle, of two cells each, two entries
+/// per cell, and where cells are divided a brick for every eight triangles.
 pub(crate) fn first_demand(config: &Config, extent: &GeometryExtent) -> Demand {
     let (triangles, grid) = (u64::from(extent.triangle_count), config.cells(extent));
     let entries = config.entries.unwrap_or(16 * triangles);
@@ -85,7 +85,8 @@ pub(crate) fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Siz
 /// Bytes for counted bricks, cells and entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// 12 per brick and 4 per cell that lists something; where cells are divided 32 and 8, divided cells included.
+    /// 12 per brick and 4 per cell that lists something; where cells are divided 32 and 8, divided cells
+    /// included.
     pub cells: u64,
     /// 4 per entry.
     pub entries: u64,

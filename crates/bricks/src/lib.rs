@@ -1,16 +1,17 @@
-//! Bricks: a structure of cells with lists of triangles, whose hits are those of the triangles. Hosts make one from their
-//! triangles and trace it as any [`rasray_ads::Structure`].
+//! Bricks: a structure of cells with lists of triangles, whose hits are those of the triangles. Hosts make
+//! one from their triangles and trace it as any [`rasray_ads::Structure`].
 //!
-//! Each cell lists the triangles that reach into it. 4x4x4 cells form a brick with a mask, and each brick stores how far
-//! around it everything is empty, so that rays cross empty space many cells at a time.
+//! Each cell lists the triangles that reach into it. 4x4x4 cells form a brick with a mask, and each brick
+//! stores how far around it everything is empty, so that rays cross empty space many cells at a time.
 //!
-//! - [`Bricks`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to resize.
+//! - [`Bricks`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to
+//!   resize.
 //! - [`Config`] holds its options; [`Views`] chooses the projections that cells are made in.
 //! - [`plan`] and [`formula_bytes`] compute its memory without a device.
 //! - [`Contents`] and [`well_formed`] check its lists on the host, for tests.
 //!
-//! This structure is in no paper. `docs/systems/bricks.md` has its debts to DIRT and to Hu et al., passes, bytes, options and
-//! limits.
+//! This structure is in no paper. `docs/systems/bricks.md` has its debts to DIRT and to Hu et al., passes,
+//! bytes, options and limits.
 
 mod build;
 mod config;

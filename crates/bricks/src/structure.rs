@@ -23,15 +23,16 @@ pub type Bricks = Pooled<Passes>;
 #[derive(Debug)]
 pub struct Passes(Build);
 
-/// Columns, rows and slices of each view, one brick where the capacity does not suffice for those that the geometry
-/// needs; and whether it does.
+/// Columns, rows and slices of each view, one brick where the capacity does not suffice for those that the
+/// geometry needs; and whether it does.
 fn cells(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> ([u32; 3], bool) {
     let wanted = config.cells(extent);
     let fits = bricks_of(config.views, wanted).1 <= sizes.elements_of(Pool::Bricks);
     (if fits { wanted } else { [BRICK_SIDE; 3] }, fits)
 }
 
-/// Workgroups of an indirect dispatch per level: that number of the first, none of the others before the device counts.
+/// Workgroups of an indirect dispatch per level: that number of the first, none of the others before the
+/// device counts.
 fn groups_of_levels(first: u32) -> [u32; 12] {
     std::array::from_fn(|word| match word {
         0 => first,
@@ -163,8 +164,8 @@ impl Design for Passes {
         if fits || !parts.config.divides() {
             return counted;
         }
-        // Cells of a level are only counted where those of the level before fit: at least the first guess, so that few
-        // builds do.
+        // Cells of a level are only counted where those of the level before fit: at least the first guess, so
+        // that few builds do.
         let guess = first_demand(&parts.config, &extent);
         Demand {
             records: counted.records.max(guess.records),

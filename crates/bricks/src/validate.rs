@@ -14,8 +14,8 @@ pub struct Contents {
     pub header: Header,
     /// Bricks, [`Config::brick_words`] each.
     pub bricks: Vec<u32>,
-    /// End of the list of each cell that lists something, or is divided; and once more as many words where cells
-    /// are divided.
+    /// End of the list of each cell that lists something, or is divided; and once more as many words where
+    /// cells are divided.
     pub lists: Vec<u32>,
     /// Entries of all lists.
     pub entries: Vec<u32>,
@@ -59,7 +59,8 @@ pub enum Fault {
         /// The triangle.
         primitive: u32,
     },
-    /// The numbers of a brick's lists are those of another's too or beyond the last, or it is called empty and is not.
+    /// The numbers of a brick's lists are those of another's too or beyond the last, or it is called empty
+    /// and is not.
     #[error("brick {brick}: its word {word:#x} does not fit its {cells} cells that list something")]
     Word {
         /// Brick.
@@ -110,7 +111,8 @@ impl Contents {
         self.header.demand.min(self.header.capacity) as usize
     }
 
-    /// The triangles of a list, in the order they are stored in. Lists are numbered by the cells that have one.
+    /// The triangles of a list, in the order they are stored in. Lists are numbered by the cells that have
+    /// one.
     ///
     /// # Errors
     /// The list leaves the pool.
@@ -254,7 +256,8 @@ fn within_brick(bit: u32) -> [u32; 3] {
     [bit % 4, bit / 4 % 4, bit / 16]
 }
 
-/// Checks that words of bricks number the cells that list something, each once, and that divided cells have none.
+/// Checks that words of bricks number the cells that list something, each once, and that divided cells have
+/// none.
 fn words_are_well_formed(contents: &Contents) -> Result<(), Fault> {
     let mut taken = vec![false; contents.list_count()];
     for Place { brick, level, .. } in contents.all_bricks()? {
@@ -316,8 +319,8 @@ fn distances_are_well_formed(contents: &Contents) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Checks words of bricks, that every counted entry is in exactly one list and has the index of one of `triangles`
-/// triangles, and that no list contains a triangle twice.
+/// Checks words of bricks, that every counted entry is in exactly one list and has the index of one of
+/// `triangles` triangles, and that no list contains a triangle twice.
 ///
 /// # Errors
 /// The first fault found.

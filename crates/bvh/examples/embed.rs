@@ -1,5 +1,5 @@
-//! A tree in a plain ash program with its own device, on a queue that only computes: built, traced, compared with brute
-//! force.
+//! A tree in a plain ash program with its own device, on a queue that only computes: built, traced, compared
+//! with brute force.
 
 use rasray_ads::BruteForce;
 use rasray_bvh::{Builder, Bvh, Config};

@@ -93,7 +93,8 @@ impl Build {
         recorder.end_pass();
     }
 
-    /// Records all passes; where the tree is kept, those that find its boxes anew. The host has written the header.
+    /// Records all passes; where the tree is kept, those that find its boxes anew. The host has written the
+    /// header.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, keeps_tree: bool) {
         record_header(recorder, target);
         let triangles = target.geometry.triangle_count();
@@ -218,7 +219,8 @@ impl TreeletPipelines {
         })
     }
 
-    /// In each round classes of subtrees by size one after the other: those of a class depend on those of smaller ones.
+    /// In each round classes of subtrees by size one after the other: those of a class depend on those of
+    /// smaller ones.
     fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
         let counts = BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES;

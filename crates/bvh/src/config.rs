@@ -14,13 +14,14 @@ pub enum Builder {
     Sah,
     /// The device, by Morton codes: fast to build, slower to trace.
     Lbvh,
-    /// The device: clusters of triangles merge with near ones, by surface area: slower to build than [`Builder::Lbvh`], faster to
-    /// trace.
+    /// The device: clusters of triangles merge with near ones, by surface area: slower to build than
+    /// [`Builder::Lbvh`], faster to trace.
     Ploc,
-    /// The device: the tree by Morton codes, and then treelets of it are restructured by surface area: slower to build, faster to trace.
+    /// The device: the tree by Morton codes, and then treelets of it are restructured by surface area: slower
+    /// to build, faster to trace.
     Trbvh,
-    /// The device: the first tree as [`Builder::Trbvh`] makes it, after that only its boxes. Fastest to build, and slower to
-    /// trace the farther the triangles have moved since the first build.
+    /// The device: the first tree as [`Builder::Trbvh`] makes it, after that only its boxes. Fastest to
+    /// build, and slower to trace the farther the triangles have moved since the first build.
     Refit,
 }
 
@@ -55,7 +56,8 @@ impl Children {
     }
 }
 
-/// Way in which the device works on chunks, of keys that it sorts and of clusters that it merges. The tree is the same.
+/// Way in which the device works on chunks, of keys that it sorts and of clusters that it merges. The tree is
+/// the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Chunks {
     /// An invocation takes a chunk alone: the least work.
@@ -69,11 +71,12 @@ pub enum Chunks {
 pub struct Config {
     /// Builder of the tree.
     pub builder: Builder,
-    /// Children per node; by default two by [`Builder::Lbvh`] and [`Builder::Refit`], whose builds are to be quick, and four by
-    /// the others.
+    /// Children per node; by default two by [`Builder::Lbvh`] and [`Builder::Refit`], whose builds are to be
+    /// quick, and four by the others.
     pub children: Option<Children>,
-    /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`] and, with four children per
-    /// node, by [`Builder::Ploc`], whose heuristic may use fewer, and 1 by the others, whose leaves hold one.
+    /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`] and, with four
+    /// children per node, by [`Builder::Ploc`], whose heuristic may use fewer, and 1 by the others, whose
+    /// leaves hold one.
     pub leaf: Option<u32>,
     /// Way in which the device works on chunks; where absent [`Chunks::Serial`] on software devices and
     /// [`Chunks::Shared`] on others.

@@ -1,8 +1,8 @@
 //! Trees of four children per node, made of trees of two.
 //!
-//! The nodes of the tree of two that stay are those that lower the surface area heuristic's cost the most, found from
-//! the leaves up: Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", HPG
-//! 2017, section 3.1. Leaves and boxes stay as they are.
+//! The nodes of the tree of two that stay are those that lower the surface area heuristic's cost the most,
+//! found from the leaves up: Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs through
+//! compressed wide BVHs", HPG 2017, section 3.1. Leaves and boxes stay as they are.
 
 use rasray_shaders_glsl::constants::bvh::{BVH_FOUR, BVH_LEAF, BVH_NONE};
 
@@ -13,8 +13,8 @@ use crate::validate::area;
 /// Children of a node.
 const FOUR: usize = BVH_FOUR as usize;
 
-/// Least costs of a subtree as exactly 1, 2, 3 and 4 children of a node, infinity where it has fewer leaves, and how
-/// many of them its first half then takes.
+/// Least costs of a subtree as exactly 1, 2, 3 and 4 children of a node, infinity where it has fewer leaves,
+/// and how many of them its first half then takes.
 #[derive(Clone, Copy, Debug)]
 struct Choice {
     costs: [f64; FOUR],
@@ -29,8 +29,8 @@ impl Choice {
         Self { costs, first: [0; FOUR] }
     }
 
-    /// An inner node is divided between several children, or is one: a node of its own, with as many children as it can
-    /// have. So a node with fewer than four has leaves only, which bounds their number.
+    /// An inner node is divided between several children, or is one: a node of its own, with as many children
+    /// as it can have. So a node with fewer than four has leaves only, which bounds their number.
     fn inner(bounds: Box3, halves: [Self; 2]) -> Self {
         let mut choice = Self { costs: [f64::INFINITY; FOUR], first: [0; FOUR] };
         for children in 2..=FOUR {
@@ -51,8 +51,8 @@ impl Choice {
     }
 }
 
-/// Widens a tree to up to four children per node, in the same order of leaves; empty where the root is a leaf. The
-/// root's number is 0 in both.
+/// Widens a tree to up to four children per node, in the same order of leaves; empty where the root is a
+/// leaf. The root's number is 0 in both.
 pub(crate) fn with_four_children(tree: &Tree) -> Vec<NodeOfFour> {
     if tree.root == BVH_NONE || tree.root & BVH_LEAF != 0 {
         return Vec::new();

@@ -49,7 +49,8 @@ pub(crate) fn build(boxes: &[Box3], leaf: u32) -> Tree {
     if boxes.is_empty() {
         return Tree { root: BVH_NONE, nodes: Vec::new(), order: Vec::new() };
     }
-    // No ray hits a triangle with a corner that is not finite; where it is infinite, the check of the build counts it.
+    // No ray hits a triangle with a corner that is not finite; where it is infinite, the check of the build
+    // counts it.
     let is_finite = |bounds: &Box3| bounds.as_flattened().iter().all(|x| x.is_finite());
     let boxes: Vec<Box3> =
         boxes.iter().map(|bounds| if is_finite(bounds) { *bounds } else { [[0.0; 3]; 2] }).collect();
@@ -70,8 +71,8 @@ pub(crate) fn build(boxes: &[Box3], leaf: u32) -> Tree {
     flatten(&shape, boxes, &groups, leaf as usize)
 }
 
-/// The boxes that differ, in order of appearance, and the triangles of each. Clustering takes time in the square
-/// of the number of boxes that are the same, since all their unions cost the same.
+/// The boxes that differ, in order of appearance, and the triangles of each. Clustering takes time in the
+/// square of the number of boxes that are the same, since all their unions cost the same.
 fn grouped(boxes: &[Box3]) -> (Vec<Box3>, Vec<Vec<u32>>) {
     let mut places: HashMap<[[u32; 3]; 2], usize> = HashMap::with_capacity(boxes.len());
     let (mut distinct, mut groups) = (Vec::new(), Vec::<Vec<u32>>::new());
@@ -106,8 +107,8 @@ enum Part {
     Triangles(Vec<u32>),
 }
 
-/// Lays the shape out depth first and gives every child its exact box. More than `leaf` triangles in one place are
-/// halved until they fit.
+/// Lays the shape out depth first and gives every child its exact box. More than `leaf` triangles in one
+/// place are halved until they fit.
 fn flatten(shape: &Bvh2, boxes: &[Box3], groups: &[Vec<u32>], leaf: usize) -> Tree {
     let mut tree = Tree { root: BVH_NONE, nodes: Vec::new(), order: Vec::with_capacity(boxes.len()) };
     let mut pending = vec![(Part::Node(0), BVH_NONE)];

@@ -12,11 +12,13 @@ use crate::{Builder, Children, Config, Pool, Record};
 /// Name of the structure in errors.
 pub(crate) const NAME: &str = "bvh";
 
-/// Words that a triangle takes in the scratch pool of a build on the host before the order of the leaves: its box.
+/// Words that a triangle takes in the scratch pool of a build on the host before the order of the leaves: its
+/// box.
 pub(crate) const BOX_WORDS: u64 = 6;
 
-// Numbers of chains stand where the counts of a chunk's digits stood; sizes and chains of all classes, fewer than two words
-// per triangle, where the keys did (four). The list of nodes of four stands where all counts did.
+// Numbers of chains stand where the counts of a chunk's digits stood; sizes and chains of all classes, fewer
+// than two words per triangle, where the keys did (four). The list of nodes of four stands where all counts
+// did.
 const _: () = assert!(BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES <= BVH_DIGIT_VALUES && BVH_TREELET > 1);
 const _: () = assert!(BVH_SORT_CHUNK <= BVH_DIGIT_VALUES);
 // Each invocation has as many clusters; merging makes fewer of them.
@@ -56,9 +58,10 @@ pub(crate) fn cluster_levels(triangles: u64) -> impl Iterator<Item = u64> {
     std::iter::successors(Some(triangles), above)
 }
 
-/// Inner nodes of a tree over so many triangles at most. With two children per node there is one fewer than there are
-/// leaves. A node of four that has fewer children has leaves only: with w nodes of four children and v others, of two
-/// leaves at least, 4 w + 2 v children and w + v - 1 of them nodes leave at most (2 n - 1) / 3 nodes.
+/// Inner nodes of a tree over so many triangles at most. With two children per node there is one fewer than
+/// there are leaves. A node of four that has fewer children has leaves only: with w nodes of four children
+/// and v others, of two leaves at least, 4 w + 2 v children and w + v - 1 of them nodes leave at most (2 n -
+/// 1) / 3 nodes.
 pub(crate) fn most_nodes(children: Children, triangles: u64) -> u64 {
     match children {
         Children::Two => triangles.saturating_sub(1),
@@ -66,7 +69,8 @@ pub(crate) fn most_nodes(children: Children, triangles: u64) -> u64 {
     }
 }
 
-/// Elements of the pool of nodes behind those of the tree: nodes of two children, of which the device makes nodes of four.
+/// Elements of the pool of nodes behind those of the tree: nodes of two children, of which the device makes
+/// nodes of four.
 pub(crate) fn pair_elements(config: &Config, triangles: u64) -> u64 {
     let bytes = Children::Two.node_bytes() as u64 * pairs(config, triangles);
     bytes.div_ceil(Children::Four.node_bytes() as u64)
@@ -106,12 +110,13 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
 /// Bytes of the page's formula for counted nodes and triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Bytes that traces read: header 96, 64 per node of two children or 128 per node of four, 40 per triangle.
+    /// Bytes that traces read: header 96, 64 per node of two children or 128 per node of four, 40 per
+    /// triangle.
     pub traced: u64,
-    /// Bytes that only the build uses: 28 per triangle by [`Builder::Sah`]; by the others 16 per triangle, 1024
-    /// for every 256 of them, 4 for every 1024 of them, and 24 per union of four boxes, unions of unions
-    /// included, each rounded up, or by [`Builder::Ploc`] in their place 28 per triangle, and for nodes of four 128 per two
-    /// triangles after the first.
+    /// Bytes that only the build uses: 28 per triangle by [`Builder::Sah`]; by the others 16 per triangle,
+    /// 1024 for every 256 of them, 4 for every 1024 of them, and 24 per union of four boxes, unions of unions
+    /// included, each rounded up, or by [`Builder::Ploc`] in their place 28 per triangle, and for nodes of
+    /// four 128 per two triangles after the first.
     pub scratch: u64,
 }
 

@@ -2,9 +2,9 @@
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Orders are numbered from 1. A build that orders the triangles carries the number of the order in its header; once the
-/// host has read that such a build was complete, builds recorded later may keep that order. What is merely recorded does not
-/// count: it may never be submitted, or be incomplete.
+/// Orders are numbered from 1. A build that orders the triangles carries the number of the order in its
+/// header; once the host has read that such a build was complete, builds recorded later may keep that order.
+/// What is merely recorded does not count: it may never be submitted, or be incomplete.
 #[derive(Debug)]
 pub(crate) struct Order {
     /// The number that builds carry now: triangles or pools of another number are gone.

@@ -18,8 +18,8 @@ use crate::layout::{BOX_WORDS, NAME, formula_bytes, pair_elements, plan};
 use crate::order::Order;
 use crate::{Builder, Children, Config, Contents, Header, Node, NodeOfFour, Pool, Record, well_formed};
 
-/// Rounds that a trace records at first. Each costs two dispatches, also where no ray is left, and only a ray that
-/// hits hundreds of thousands of boxes needs more.
+/// Rounds that a trace records at first. Each costs two dispatches, also where no ray is left, and only a ray
+/// that hits hundreds of thousands of boxes needs more.
 const FIRST_ROUNDS: u32 = 64;
 
 /// A bounding volume hierarchy with two or four children per node, made from a [`Config`].
@@ -40,7 +40,8 @@ pub struct Passes {
 /// Elements that a tree takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Inner nodes of the tree, and as many more as take the room of the nodes of two that nodes of four are made of.
+    /// Inner nodes of the tree, and as many more as take the room of the nodes of two that nodes of four are
+    /// made of.
     pub nodes: u64,
     /// Triangles in leaves.
     pub records: u64,
@@ -58,8 +59,8 @@ struct Prepared {
     triangles: u32,
 }
 
-/// The tree that the device builds over at most this many triangles, as far as the host knows it: the device sets the
-/// final root and number of triangles, and that of nodes of four.
+/// The tree that the device builds over at most this many triangles, as far as the host knows it: the device
+/// sets the final root and number of triangles, and that of nodes of four.
 fn on_device(triangles: u32) -> Prepared {
     Prepared { root: BVH_NONE, nodes: triangles.saturating_sub(1), triangles }
 }
@@ -74,7 +75,8 @@ fn refitted(triangles: u32) -> Prepared {
     Prepared { root, ..on_device(triangles) }
 }
 
-/// True if the capacity suffices for the tree. It has no partial form: unless all of it fits, nothing is built.
+/// True if the capacity suffices for the tree. It has no partial form: unless all of it fits, nothing is
+/// built.
 fn has_capacity(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> bool {
     plan(config, extent.triangle_count.into())
         .is_ok_and(|wanted| wanted.pools.iter().all(|pool| sizes.elements(pool.name) >= pool.elements))
@@ -170,7 +172,8 @@ impl Design for Passes {
     }
 
     fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
-        // A tree grows only after a resize to other sizes than those of its triangles, which say all that it needs.
+        // A tree grows only after a resize to other sizes than those of its triangles, which say all that it
+        // needs.
         plan(config, demand.triangles)
     }
 

@@ -141,8 +141,8 @@ pub enum Fault {
     },
 }
 
-/// Checks that every triangle has one record and every record one leaf, that nodes store the link by which they
-/// are reached, and that every box is the union of what is below it, subnormal coordinates being zeros.
+/// Checks that every triangle has one record and every record one leaf, that nodes store the link by which
+/// they are reached, and that every box is the union of what is below it, subnormal coordinates being zeros.
 ///
 /// # Errors
 /// The first fault found.

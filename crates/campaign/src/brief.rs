@@ -1,5 +1,5 @@
-//! An experiment as the page of a paper shows it: every setting once, as high on the page as it holds, every run once,
-//! and of the results those that the page is about. All others are in `report.md` and `table.csv`.
+//! An experiment as the page of a paper shows it: every setting once, as high on the page as it holds, every
+//! run once, and of the results those that the page is about. All others are in `report.md` and `table.csv`.
 
 use rasray_report::{Column, Experiment, Row};
 use std::collections::BTreeSet;
@@ -89,8 +89,8 @@ fn is_decided(rows: &[&Row], decides: &str, name: &str) -> bool {
     keys.len() == pairs.len() && pairs.iter().all(|(key, value)| !key.is_empty() || value.is_empty())
 }
 
-/// Settings that follow from the values of the one that decides, in words and in the order of rows; once for values
-/// from which the same follows.
+/// Settings that follow from the values of the one that decides, in words and in the order of rows; once for
+/// values from which the same follows.
 fn words_of(rows: &[&Row], decides: &str, decided: &[&str]) -> Vec<String> {
     let mut told: Vec<(Vec<&str>, String)> = Vec::new();
     for row in rows {
@@ -108,7 +108,8 @@ fn words_of(rows: &[&Row], decides: &str, decided: &[&str]) -> Vec<String> {
     told.map(|(values, words)| format!("{}: {words}", values.join(", "))).collect()
 }
 
-/// The rows of an experiment, each run once: settings that the run does not depend on have all of their values.
+/// The rows of an experiment, each run once: settings that the run does not depend on have all of their
+/// values.
 pub(crate) fn merged(made: &Experiment) -> Experiment {
     let mut rows: Vec<Row> = Vec::new();
     for row in &made.rows {
@@ -128,8 +129,8 @@ pub(crate) fn merged(made: &Experiment) -> Experiment {
     Experiment { name: made.name.clone(), rows }
 }
 
-/// The results of an experiment that the page shows: those that the plan `names`, or else those of every page;
-/// `below_rays` where a table of rays of the same structures stands above.
+/// The results of an experiment that the page shows: those that the plan `names`, or else those of every
+/// page; `below_rays` where a table of rays of the same structures stands above.
 pub(crate) fn shown(made: &Experiment, names: &[String], below_rays: bool) -> Vec<Column> {
     let is_shown = |column: &Column| {
         let is_named = names.iter().any(|name| name == column.name);
@@ -139,8 +140,8 @@ pub(crate) fn shown(made: &Experiment, names: &[String], below_rays: bool) -> Ve
     made.columns().into_iter().filter(is_shown).collect()
 }
 
-/// Takes those columns out in which all rows of a scene are alike, of scenes with several rows each, and says them in
-/// words.
+/// Takes those columns out in which all rows of a scene are alike, of scenes with several rows each, and says
+/// them in words.
 pub(crate) fn take_alike(made: &Experiment, columns: &mut Vec<Column>) -> Vec<String> {
     let mut scenes: Vec<&str> = Vec::new();
     for row in &made.rows {

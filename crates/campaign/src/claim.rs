@@ -31,7 +31,8 @@ pub struct Finding {
     pub middle: f64,
     /// The middle over what was published.
     pub relation: f64,
-    /// Of a ratio, whether it lies on the side of 1 where the paper's does; absent for values, which depend on the machine.
+    /// Of a ratio, whether it lies on the side of 1 where the paper's does; absent for values, which depend
+    /// on the machine.
     pub same_side: Option<bool>,
 }
 
@@ -131,8 +132,8 @@ impl Finding {
     }
 }
 
-/// True if two rows have a setting in common; an option that one of two systems or integrators does not take does not
-/// tell them apart.
+/// True if two rows have a setting in common; an option that one of two systems or integrators does not take
+/// does not tell them apart.
 fn is_alike(row: &Row, other: &Row, name: &str) -> bool {
     let is_option = |row: &Row| {
         let asked = row.report.cell.as_ref().map(|cell| &cell.depends_on);

@@ -18,8 +18,8 @@ pub struct Estimate {
     pub unknown: usize,
 }
 
-/// Estimates cells with this much of work by those that were made: of the same system and kind, at the same time for
-/// each ray or sample. The time of the oracle and of reference images is not in it.
+/// Estimates cells with this much of work by those that were made: of the same system and kind, at the same
+/// time for each ray or sample. The time of the oracle and of reference images is not in it.
 pub fn estimate<'a>(
     cells: impl IntoIterator<Item = &'a Cell>,
     made: impl IntoIterator<Item = &'a Report>,

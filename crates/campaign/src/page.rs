@@ -9,9 +9,9 @@ use rasray_report::{Campaign, Experiment, Row, in_line, number, rows_markdown};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// The page of a paper: of each item that was made, what differs from the paper, the paper's numbers beside ours, and its
-/// runs; and the sheets of pictures that it shows. Experiments of `campaign` are those of [`Plan::joined`] with
-/// [`word`].
+/// The page of a paper: of each item that was made, what differs from the paper, the paper's numbers beside
+/// ours, and its runs; and the sheets of pictures that it shows. Experiments of `campaign` are those of
+/// [`Plan::joined`] with [`word`].
 pub fn paper_page(paper: &Paper, items: &[(&Item, Plan)], campaign: &Campaign) -> (String, Vec<Sheet>) {
     let made = |item: &Item, experiment: &ExperimentPlan| {
         let name = format!("{}: {}", word(paper, item), experiment.name);
@@ -103,7 +103,8 @@ impl Page<'_> {
         made: &Experiment,
     ) -> String {
         let mut parts: Vec<_> = made.parts().iter().map(merged).collect();
-        // The reference, with the seed that shows what noise alone does, stands before what is held against it.
+        // The reference, with the seed that shows what noise alone does, stands before what is held against
+        // it.
         for part in &mut parts {
             part.rows.sort_by_key(|row| row.setting("system") != "reference");
         }

@@ -119,8 +119,8 @@ impl Plan {
     /// Reads a plan; `small` takes what the plan says of small sizes.
     ///
     /// # Errors
-    /// Text that is no TOML, keys in the wrong place, values that are neither text, number, `true` nor `false`, an
-    /// experiment without a name or a scene, and two of one name.
+    /// Text that is no TOML, keys in the wrong place, values that are neither text, number, `true` nor
+    /// `false`, an experiment without a name or a scene, and two of one name.
     pub fn read(text: &str, small: bool) -> Result<Self, PlanError> {
         let file: Table = text.parse().map_err(|error: toml::de::Error| {
             PlanError::new(error.to_string().trim_end(), "write it as docs/campaigns.md shows")
@@ -314,7 +314,8 @@ fn words_of(key: &str, value: &Value) -> Result<Vec<String>, PlanError> {
     }
 }
 
-/// Every combination of the values of keys that do not go together in one comparison; the last key changes fastest.
+/// Every combination of the values of keys that do not go together in one comparison; the last key changes
+/// fastest.
 fn combinations(keys: &Table) -> Result<Vec<ComparisonPlan>, PlanError> {
     for (key, help) in REFUSED {
         if keys.contains_key(key) {

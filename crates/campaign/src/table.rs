@@ -3,8 +3,8 @@
 use rasray_report::{Campaign, in_order};
 use std::collections::BTreeSet;
 
-/// A row per cell and experiment, as CSV (RFC 4180) with a line of heads: `experiment`, `key`, the settings, `run`
-/// (system, preset and variant as reports name them), the results. What a row does not have is empty.
+/// A row per cell and experiment, as CSV (RFC 4180) with a line of heads: `experiment`, `key`, the settings,
+/// `run` (system, preset and variant as reports name them), the results. What a row does not have is empty.
 pub fn csv_table(campaign: &Campaign) -> Vec<u8> {
     let rows =
         || campaign.experiments.iter().flat_map(|one| one.rows.iter().map(move |row| (&one.name, row)));

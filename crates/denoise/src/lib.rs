@@ -1,7 +1,8 @@
-//! Denoising of pictures by [Open Image Denoise](https://www.openimagedenoise.org), for `rasray render --denoise` and the
-//! viewer.
+//! Denoising of pictures by [Open Image Denoise](https://www.openimagedenoise.org), for `rasray render
+//! --denoise` and the viewer.
 //!
-//! - [`Denoiser`] loads the library at run time: nothing is linked, and programs run where it is not installed.
+//! - [`Denoiser`] loads the library at run time: nothing is linked, and programs run where it is not
+//!   installed.
 //! - [`NoisyPicture`] is its input.
 //! - [`DenoiseError`] names the library that is missing or the image that has the wrong size.
 

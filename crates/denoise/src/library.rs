@@ -1,4 +1,5 @@
-//! The C interface of Open Image Denoise 2 as far as it is used, by the names and types of its header `oidn.h`.
+//! The C interface of Open Image Denoise 2 as far as it is used, by the names and types of its header
+//! `oidn.h`.
 
 use crate::DenoiseError;
 use libloading::Library;
@@ -45,8 +46,8 @@ pub(crate) struct Functions {
 impl Functions {
     /// Loads a library by file or by name.
     pub fn load(name: &OsStr) -> Result<Self, DenoiseError> {
-        // SAFETY: what a library does when it is loaded is its own. The user named it, or it is the one that is
-        // installed under this name; its initialisers have no conditions.
+        // SAFETY: what a library does when it is loaded is its own. The user named it, or it is the one that
+        // is installed under this name; its initialisers have no conditions.
         let library = unsafe { Library::new(name) }
             .map_err(|error| DenoiseError::Missing { reason: described(&error) })?;
         let lacks = |error: libloading::Error| DenoiseError::Unsuitable {
@@ -56,9 +57,10 @@ impl Functions {
         /// A function by its name in the header, with the type that it has there.
         macro_rules! function {
             ($name:literal) => {
-                // SAFETY: `oidn.h` of version 2 declares the function with the type of the field that it goes to, and
-                // functions keep their types within a version: a library with other ones has another file name. The
-                // pointer is used no longer than the library is loaded, since both are in the same struct.
+                // SAFETY: `oidn.h` of version 2 declares the function with the type of the field that it goes
+                // to, and functions keep their types within a version: a library with other ones has another
+                // file name. The pointer is used no longer than the library is loaded, since both are in the
+                // same struct.
                 *unsafe { library.get($name) }.map_err(lacks)?
             };
         }
@@ -138,14 +140,16 @@ impl Device<'_> {
     /// Returns the error, if any, since this was asked last.
     fn check(&self) -> Result<(), DenoiseError> {
         let mut message = null();
-        // SAFETY: the handle is a device, or null, for which the error of this thread is meant; the message is written.
+        // SAFETY: the handle is a device, or null, for which the error of this thread is meant; the message
+        // is written.
         let code = unsafe { (self.functions.device_error)(self.handle, &raw mut message) };
         if code == NO_ERROR {
             return Ok(());
         }
         let message = match message.is_null() {
             true => format!("error {code}"),
-            // SAFETY: a message ends in 0 and stays until the next call for this device, which is after this copy.
+            // SAFETY: a message ends in 0 and stays until the next call for this device, which is after this
+            // copy.
             false => unsafe { CStr::from_ptr(message) }.to_string_lossy().into_owned(),
         };
         Err(DenoiseError::Failed(message))
@@ -157,8 +161,8 @@ impl Device<'_> {
         self.check().err().unwrap_or_else(unknown)
     }
 
-    /// The first image, which is linear, without noise; the others are albedo and normal. All have as many pixels as the
-    /// size says, above 0.
+    /// The first image, which is linear, without noise; the others are albedo and normal. All have as many
+    /// pixels as the size says, above 0.
     pub fn filtered(
         &self,
         [width, height]: [usize; 2],
@@ -167,7 +171,8 @@ impl Device<'_> {
         assert!(images.iter().all(|image| image.len() == width * height), "sizes were checked");
         let functions = self.functions;
         let mut output = vec![[0.0_f32; 3]; width * height];
-        // SAFETY: the handle is a committed device, the name is of a filter that the header lists and ends in 0.
+        // SAFETY: the handle is a committed device, the name is of a filter that the header lists and ends in
+        // 0.
         let handle = unsafe { (functions.new_filter)(self.handle, c"RT".as_ptr()) };
         if handle.is_null() {
             return Err(self.failed());
@@ -177,9 +182,9 @@ impl Device<'_> {
         // The library does not write to inputs; the header has one function for inputs and outputs.
         let inputs = inputs.map(|(name, image)| (name, image.as_ptr().cast_mut()));
         for (name, pixels) in inputs.chain([(c"output", output.as_mut_ptr())]) {
-            // SAFETY: the filter is live, the name ends in 0; the pixels are width * height of three floats without gaps,
-            // which strides of 0 stand for, and stay where they are until the filter is released below: inputs are borrowed,
-            // and `output` is neither moved nor looked at before.
+            // SAFETY: the filter is live, the name ends in 0; the pixels are width * height of three floats
+            // without gaps, which strides of 0 stand for, and stay where they are until the filter is
+            // released below: inputs are borrowed, and `output` is neither moved nor looked at before.
             unsafe {
                 (functions.set_image)(
                     filter.handle,
@@ -194,8 +199,8 @@ impl Device<'_> {
                 );
             }
         }
-        // SAFETY: the filter is live, its device is on this processor and so reads and writes memory of this process; a
-        // filter is executed before the call returns.
+        // SAFETY: the filter is live, its device is on this processor and so reads and writes memory of this
+        // process; a filter is executed before the call returns.
         unsafe {
             (functions.set_bool)(filter.handle, c"hdr".as_ptr(), true);
             (functions.commit_filter)(filter.handle);

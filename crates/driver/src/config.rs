@@ -32,8 +32,8 @@ pub struct Config {
     pub goal: Goal,
     /// Counters that rays record of their work.
     pub counters: Counters,
-    /// Work units that a ray from far outside may spend in one dispatch; the shared default where absent. Other rays end in
-    /// the first.
+    /// Work units that a ray from far outside may spend in one dispatch; the shared default where absent.
+    /// Other rays end in the first.
     pub work_budget: Option<u32>,
 }
 

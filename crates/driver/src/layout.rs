@@ -21,7 +21,8 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     Sizes::of("driver", [(Pool::Boxes, demand.triangles, DRIVER_BOX_BYTES)])
 }
 
-/// The page's formula for header and boxes. It shares nothing with [`plan`], so that the two check each other.
+/// The page's formula for header and boxes. It shares nothing with [`plan`], so that the two check each
+/// other.
 pub fn formula_bytes(demand: &Demand) -> u64 {
     88 + 24 * demand.triangles
 }

@@ -1,10 +1,12 @@
-//! The driver's own tree, traced by ray queries (`VK_KHR_acceleration_structure`, `VK_KHR_ray_query`): the structure that
-//! hardware for ray tracing accelerates. Hosts make one from their triangles and trace it as any [`rasray_ads::Structure`].
+//! The driver's own tree, traced by ray queries (`VK_KHR_acceleration_structure`, `VK_KHR_ray_query`): the
+//! structure that hardware for ray tracing accelerates. Hosts make one from their triangles and trace it as
+//! any [`rasray_ads::Structure`].
 //!
-//! The driver finds boxes around triangles, and the test that all structures share decides whether a triangle is hit. Hits
-//! are exact, and the same on every driver.
+//! The driver finds boxes around triangles, and the test that all structures share decides whether a triangle
+//! is hit. Hits are exact, and the same on every driver.
 //!
-//! - [`Driver`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to resize.
+//! - [`Driver`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to
+//!   resize.
 //! - [`Config`] holds its options; [`Goal`] is the work that the tree is to be fast for.
 //! - [`plan`] and [`formula_bytes`] compute its memory without a device.
 //!

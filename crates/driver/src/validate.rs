@@ -35,7 +35,8 @@ pub enum Fault {
     },
 }
 
-/// Largest coordinate of a box: the bounds are within two units of their centre, and margins are a small share of that.
+/// Largest coordinate of a box: the bounds are within two units of their centre, and margins are a small
+/// share of that.
 const FARTHEST: f32 = 2.1;
 
 /// Checks that each of `triangles` triangles has a box with an inside within the bounds.

@@ -5,8 +5,8 @@ use std::fmt;
 use rasray_scene::Scene;
 use rasray_scene::needs::{Needs, Term, Workload};
 
-/// An image in addition to the colours. All are of the rays through pixels' centres, but for those of the samples
-/// ([`Aov::is_of_samples`]).
+/// An image in addition to the colours. All are of the rays through pixels' centres, but for those of the
+/// samples ([`Aov::is_of_samples`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Aov {
     /// Metres along the ray; 0 where nothing was hit.
@@ -210,8 +210,8 @@ impl fmt::Debug for AovSelection {
     }
 }
 
-/// The pixels of an image in addition to the colours, rows from the top: those of each channel, in the order of
-/// [`Aov::channels`].
+/// The pixels of an image in addition to the colours, rows from the top: those of each channel, in the order
+/// of [`Aov::channels`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum AovImage {
     /// Of one that is not [`Aov::is_whole`].

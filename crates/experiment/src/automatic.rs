@@ -14,7 +14,8 @@ const CANDIDATES: [&str; 2] = ["bvh", "bricks"];
 /// Why the first of them is taken.
 const FASTEST: &str = "the fastest exact structure";
 
-/// Rays per triangle and build from which a tree by surface area repays its build, where each frame builds one.
+/// Rays per triangle and build from which a tree by surface area repays its build, where each frame builds
+/// one.
 const RAYS_PER_TRIANGLE: u64 = 1000;
 
 /// A system that is named, or left to the job.
@@ -30,8 +31,8 @@ impl SystemRequest {
     /// The word of [`SystemRequest::Automatic`].
     pub const AUTOMATIC: &str = "auto";
 
-    /// The system with a preset and options. Where it is left to the job, the fastest one that has all of them, and the
-    /// reason with it ([`SystemConfig::chosen`]).
+    /// The system with a preset and options. Where it is left to the job, the fastest one that has all of
+    /// them, and the reason with it ([`SystemConfig::chosen`]).
     ///
     /// # Errors
     /// As of [`one_system`].
@@ -58,9 +59,9 @@ fn is_fastest(system: &System) -> bool {
 }
 
 impl SystemConfig {
-    /// Fits a structure that the job chose to frames, each of which builds it for so many rays at most: a tree whose
-    /// build is quick, unless there are so many rays that they repay a better one. The device has no say, so that
-    /// shares of a job are alike.
+    /// Fits a structure that the job chose to frames, each of which builds it for so many rays at most: a
+    /// tree whose build is quick, unless there are so many rays that they repay a better one. The device has
+    /// no say, so that shares of a job are alike.
     #[must_use]
     pub fn rebuilt_for(mut self, rays: u64, triangles: u64) -> Self {
         let is_free = self.chosen.is_some()

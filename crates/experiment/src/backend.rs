@@ -114,8 +114,8 @@ pub trait Backend {
     /// Number of texels that the device in use holds.
     fn texel_capacity(&self) -> TexelCapacity;
 
-    /// Renders an image with what was `kept` of the one before, and keeps what the next can use. When `progress` breaks, the
-    /// samples done so far are the result.
+    /// Renders an image with what was `kept` of the one before, and keeps what the next can use. When
+    /// `progress` breaks, the samples done so far are the result.
     fn render(
         &mut self,
         job: &RenderJob<'_>,
@@ -123,9 +123,9 @@ pub trait Backend {
         progress: &mut OnProgress<'_>,
     ) -> Result<RenderOutput, ExperimentError>;
 
-    /// Compares systems: a run per system, preset and ray set, and per image where wanted. Systems take turns on each set
-    /// of rays, so the runs of a set are whole together. When `progress` or `finished` breaks, the complete runs so far are
-    /// the result.
+    /// Compares systems: a run per system, preset and ray set, and per image where wanted. Systems take turns
+    /// on each set of rays, so the runs of a set are whole together. When `progress` or `finished` breaks,
+    /// the complete runs so far are the result.
     fn compare(
         &mut self,
         job: &CompareJob<'_>,
@@ -141,11 +141,12 @@ pub trait Backend {
         progress: &mut OnProgress<'_>,
     ) -> Result<Comparison, ExperimentError>;
 
-    /// Commands that the structure of a job records for a build that is complete, for traces of both kinds and for
-    /// surfaces, pass by pass.
+    /// Commands that the structure of a job records for a build that is complete, for traces of both kinds
+    /// and for surfaces, pass by pass.
     fn passes(&mut self, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError>;
 
-    /// Counts of the lists of a job's structure once it is built: all cells together first, then view by view.
+    /// Counts of the lists of a job's structure once it is built: all cells together first, then view by
+    /// view.
     fn lists(&mut self, job: &RenderJob<'_>) -> Result<Vec<ListRecord>, ExperimentError>;
 
     /// Describes the device.

@@ -62,7 +62,8 @@ fn missing_feature(device: &Device, spec: &Spec, missing: Feature) -> Experiment
     }
 }
 
-/// Names the structure or the scene in the error of a buffer larger than one binding; others stay as they are.
+/// Names the structure or the scene in the error of a buffer larger than one binding; others stay as they
+/// are.
 fn too_large(error: ExperimentError, spec: &Spec) -> ExperimentError {
     match error {
         ExperimentError::Ads(AdsError::Gpu(error @ GpuError::TooLarge { .. }))
@@ -123,7 +124,8 @@ impl Built {
     /// [`DeviceScene::parts`] was called then before the scene was posed.
     ///
     /// # Errors
-    /// As [`Built::new`], and where nothing of the scene moves on the device or the structure cannot be in parts.
+    /// As [`Built::new`], and where nothing of the scene moves on the device or the structure cannot be in
+    /// parts.
     pub fn refreshed(
         device: &Device,
         spec: &Spec,
@@ -177,8 +179,9 @@ impl Built {
         self.frames.structure()
     }
 
-    /// Builds what is stale for the scene as it is now: of the parts that move those that have `moved`, all where that is empty,
-    /// and what depends on where its camera looks from. Times and passes are those of this frame from here on.
+    /// Builds what is stale for the scene as it is now: of the parts that move those that have `moved`, all
+    /// where that is empty, and what depends on where its camera looks from. Times and passes are those of
+    /// this frame from here on.
     ///
     /// # Errors
     /// As [`Built::build_again`].
@@ -205,8 +208,8 @@ impl Built {
         Ok(refresh_until_complete(device, &mut self.frames, self.viewpoint, device.best_timing())?)
     }
 
-    /// Times of the passes of builds, with what the host did: where builds were repeated to be timed, or a frame took one,
-    /// the shares of these passes are `build_ms` together.
+    /// Times of the passes of builds, with what the host did: where builds were repeated to be timed, or a
+    /// frame took one, the shares of these passes are `build_ms` together.
     pub fn pass_times(&self) -> Vec<Pass> {
         self.passes.report((!self.whole.is_empty()).then_some(PassOf::Build))
     }
@@ -235,8 +238,8 @@ impl Built {
         Ok(())
     }
 
-    /// Keeps the times of the build that was just done and took `whole` milliseconds, with the host's parts as passes, so
-    /// that passes add up to the whole.
+    /// Keeps the times of the build that was just done and took `whole` milliseconds, with the host's parts
+    /// as passes, so that passes add up to the whole.
     fn keep_times(&mut self, whole: f64) {
         let BuildOutcome { passes, prepare_milliseconds, .. } = &self.outcome;
         self.passes.repeat();

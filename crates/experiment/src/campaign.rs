@@ -17,8 +17,8 @@ pub struct ExperimentCells {
 }
 
 impl ExperimentCells {
-    /// Places that are asked for, by group. How far noise alone takes an image from the reference is asked for where an
-    /// image is.
+    /// Places that are asked for, by group. How far noise alone takes an image from the reference is asked
+    /// for where an image is.
     fn groups(&self) -> impl Iterator<Item = Vec<usize>> {
         self.cells.groups().iter().map(|group| {
             let wanted = group.clone().filter(|place| !self.excluded.contains(place));
@@ -84,7 +84,8 @@ impl CampaignCells {
         &self.list
     }
 
-    /// Of a comparison, by its place, the cells that it makes: places in its own list, and in that of the campaign.
+    /// Of a comparison, by its place, the cells that it makes: places in its own list, and in that of the
+    /// campaign.
     pub fn made_by(&self, comparison: usize) -> &BTreeMap<usize, usize> {
         &self.made_by[comparison]
     }

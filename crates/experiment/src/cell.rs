@@ -13,15 +13,15 @@ use rasray_report::{Cell, CellImage, CellRays, CellRecord, CellView};
 use rasray_scene_source::{KeyHash, LoadedScene};
 use std::ops::Range;
 
-/// Key of the run of a cell: a hash of the program (`program`: version and commit) and of everything that the run
-/// depends on, 64 hexadecimal digits. The device is not in it; a report says which it was.
+/// Key of the run of a cell: a hash of the program (`program`: version and commit) and of everything that the
+/// run depends on, 64 hexadecimal digits. The device is not in it; a report says which it was.
 pub fn cell_key(program: &str, cell: &Cell) -> String {
     let cell = serde_json::to_vec(cell).expect("strings, numbers and maps with string keys");
     KeyHash::default().with("program", program).with("cell", cell).finish()
 }
 
-/// The cells of a comparison in the order of its report. Those of a group are measured together: a set of rays, a hard
-/// case, or all images.
+/// The cells of a comparison in the order of its report. Those of a group are measured together: a set of
+/// rays, a hard case, or all images.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellList {
     records: Vec<CellRecord>,
@@ -81,8 +81,8 @@ impl CellList {
     }
 }
 
-/// The cells of a comparison on a scene: of each set of rays all systems and files of hits, then all images and the
-/// reference with another seed. Places are those of [`CompareJob::only`].
+/// The cells of a comparison on a scene: of each set of rays all systems and files of hits, then all images
+/// and the reference with another seed. Places are those of [`CompareJob::only`].
 pub fn compare_cells(program: &str, loaded: &LoadedScene, job: &CompareJob<'_>) -> CellList {
     // Whoever adds a field decides here whether it changes a run. The scene is that of `loaded`.
     let CompareJob {

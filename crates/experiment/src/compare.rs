@@ -108,7 +108,8 @@ pub(super) fn compare(
     Ok(comparison)
 }
 
-/// Runs all systems on all ray sets of which a cell is wanted: only these are drawn and answered by the oracle.
+/// Runs all systems on all ray sets of which a cell is wanted: only these are drawn and answered by the
+/// oracle.
 fn compare_rays(
     setting: &Setting<'_>,
     (positions, indices): (&[[f32; 3]], &[u32]),

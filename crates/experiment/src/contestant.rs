@@ -41,10 +41,12 @@ impl<'a> Contestant<'a> {
 
     /// Makes the structures of all systems around `center` (metres, relative to the frame origin) and
     /// builds each `repetitions` times for its medians: one build of each in turn, so that what slows the
-    /// machine for a while slows all of them. Nothing where `progress` asks for an early end before all are built.
+    /// machine for a while slows all of them. Nothing where `progress` asks for an early end before all are
+    /// built.
     ///
     /// # Errors
-    /// Options that do not go together, a device that lacks something or fails, a build that does not become complete.
+    /// Options that do not go together, a device that lacks something or fails, a build that does not become
+    /// complete.
     pub fn all(
         device: &Device,
         stage: &DeviceScene,

@@ -11,7 +11,8 @@ use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
 use crate::render_job::KeptScene;
 use rasray_report::{Device, ListRecord};
 
-/// Pipelines kept for structures that are made again: those of hard cases, of variants, and of frames with other triangles.
+/// Pipelines kept for structures that are made again: those of hard cases, of variants, and of frames with
+/// other triangles.
 const KEPT_PIPELINES: usize = 256;
 
 /// A device; everything made for a job goes with the job, but for what its caller keeps.

@@ -25,8 +25,8 @@ pub struct DeviceScene {
 }
 
 impl DeviceScene {
-    /// Uploads what of a scene is needed, around a frame origin that suits the camera. The size (pixels) and the seed
-    /// are those of images.
+    /// Uploads what of a scene is needed, around a frame origin that suits the camera. The size (pixels) and
+    /// the seed are those of images.
     ///
     /// # Errors
     /// The scene names what it does not have, or the device does not hold it.
@@ -89,15 +89,15 @@ impl DeviceScene {
         Ok(self.scene.geometry().download(device)?)
     }
 
-    /// True if positions have digits enough for a camera: the frame origin, around which the scene was uploaded, is the
-    /// one that suits it.
+    /// True if positions have digits enough for a camera: the frame origin, around which the scene was
+    /// uploaded, is the one that suits it.
     pub fn suits(&self, scene: &Scene, camera: &Camera) -> bool {
         let eye = camera.world_from_camera.translation;
         self.scene.frame_origin() == SceneTables::default_frame_origin(scene, eye)
     }
 
-    /// Looks from elsewhere, or at another size in pixels; the frame origin stays. Structures that depend on it are
-    /// stale then ([`Built::follow`](crate::Built::follow)).
+    /// Looks from elsewhere, or at another size in pixels; the frame origin stays. Structures that depend on
+    /// it are stale then ([`Built::follow`](crate::Built::follow)).
     ///
     /// # Errors
     /// The device fails.

@@ -19,8 +19,8 @@ use rasray_tracer::TracerError;
 
 use crate::selection::SelectionError;
 
-/// Error of an experiment that gave no result. Its message is a whole sentence without a full stop. Messages of the device,
-/// of a structure, of a scene or of the reference are kept as they are.
+/// Error of an experiment that gave no result. Its message is a whole sentence without a full stop. Messages
+/// of the device, of a structure, of a scene or of the reference are kept as they are.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExperimentError {

@@ -40,7 +40,8 @@ pub enum Primary {
     Trace,
     /// Triangles are drawn, whatever the structure stores, and tested at each pixel's ray.
     Raster,
-    /// The nearest fragment of the pixel's cell in the structure's view of the camera, for those that have one.
+    /// The nearest fragment of the pixel's cell in the structure's view of the camera, for those that have
+    /// one.
     Fragments,
 }
 
@@ -155,7 +156,8 @@ pub enum Refresh {
     All,
     /// The part that moves; what stands still is a part of its own, built once.
     Moving,
-    /// As [`Self::Moving`], with a part for each object that its node alone moves, built in frames in which it moves.
+    /// As [`Self::Moving`], with a part for each object that its node alone moves, built in frames in which
+    /// it moves.
     Objects,
 }
 

@@ -16,8 +16,8 @@ use crate::motion::{TrianglesBefore, motion};
 use crate::progressive_image::ProgressiveImage;
 use crate::render_job::Pixels;
 
-/// The images in addition to the colours of `pixels`; `before` are the triangles of the frame before. Each is made band by band,
-/// so that nothing is kept of a pixel but what is wanted.
+/// The images in addition to the colours of `pixels`; `before` are the triangles of the frame before. Each is
+/// made band by band, so that nothing is kept of a pixel but what is wanted.
 pub(super) fn further_images(
     device: &Device,
     job: &RenderJob<'_>,
@@ -80,9 +80,9 @@ pub(super) fn further_images(
 }
 
 impl ProgressiveImage {
-    /// Makes the images [`Aov::FOR_DENOISING`], which a denoiser is fed with beside the colours, of the scene and the
-    /// structure that it renders, as a render has them: one entry per pixel, rows from the top. The scene was uploaded
-    /// with what these need ([`AovSelection::needs`](crate::AovSelection::needs)).
+    /// Makes the images [`Aov::FOR_DENOISING`], which a denoiser is fed with beside the colours, of the scene
+    /// and the structure that it renders, as a render has them: one entry per pixel, rows from the top. The
+    /// scene was uploaded with what these need ([`AovSelection::needs`](crate::AovSelection::needs)).
     ///
     /// # Errors
     /// The device fails, or rays have no answer.
@@ -125,8 +125,8 @@ fn add_centres(
     }
 }
 
-/// Renders the picture of light that is scattered at most once: the same paths with the same random numbers end
-/// earlier, so that what it lacks is what the others gather later.
+/// Renders the picture of light that is scattered at most once: the same paths with the same random numbers
+/// end earlier, so that what it lacks is what the others gather later.
 fn direct_light(
     device: &Device,
     job: &RenderJob<'_>,

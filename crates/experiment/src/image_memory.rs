@@ -89,8 +89,8 @@ pub(crate) fn check(
     There::of(device).check([frame.width, frame.height], per_pixel)
 }
 
-/// Bytes that a process may still take, where the system says so: those that are free or can be made so, and no more than the
-/// limit of its group.
+/// Bytes that a process may still take, where the system says so: those that are free or can be made so, and
+/// no more than the limit of its group.
 fn available_to_host() -> Option<u64> {
     let free = std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| available(&text))?;
     let limit = std::fs::read_to_string("/sys/fs/cgroup/memory.max").ok();

@@ -57,8 +57,8 @@ fn image_error(
 /// System and preset of the run of the reference with another seed.
 pub(super) const NOISE: (&str, &str) = ("reference", "another-seed");
 
-/// Renders the frame through each system whose image is wanted and compares it with the reference. A run named
-/// `reference` is the reference with another seed: what noise alone makes of the same numbers.
+/// Renders the frame through each system whose image is wanted and compares it with the reference. A run
+/// named `reference` is the reference with another seed: what noise alone makes of the same numbers.
 pub(super) fn compare_images(
     setting: &Setting<'_>,
     comparison: &mut Comparison,

@@ -138,7 +138,8 @@ pub struct CompareJob<'a> {
     pub replay: Option<u32>,
     /// Data that is uploaded, compiled in and stored; everything with `--needs all`.
     pub needs: Needs,
-    /// Places of the cells that are made, in the list of [`compare_cells`](crate::compare_cells); absent: all.
+    /// Places of the cells that are made, in the list of [`compare_cells`](crate::compare_cells); absent:
+    /// all.
     pub only: Option<BTreeSet<usize>>,
 }
 
@@ -200,8 +201,8 @@ pub struct SavedRays {
     pub frame_origin: [f64; 3],
     /// Corners by global triangle id, metres.
     pub triangles: Vec<[[f32; 3]; 3]>,
-    /// By global triangle id: 0 without a back, 1 where the clockwise side is one that rays may pass, 2 where the
-    /// counter-clockwise one is. Empty for a hard case.
+    /// By global triangle id: 0 without a back, 1 where the clockwise side is one that rays may pass, 2 where
+    /// the counter-clockwise one is. Empty for a hard case.
     pub backs: Vec<u32>,
     /// One entry a ray set.
     pub sets: Vec<SavedSet>,
@@ -223,8 +224,8 @@ pub struct SavedSet {
 /// The answers of a system to a ray set.
 #[derive(Clone, Debug)]
 pub struct Answers {
-    /// System and preset, such as `mmrt-robust`; with the options of several values where it takes part with several, such as
-    /// `bvh-robust.leaf=2,children=4`.
+    /// System and preset, such as `mmrt-robust`; with the options of several values where it takes part with
+    /// several, such as `bvh-robust.leaf=2,children=4`.
     pub name: String,
     /// Says whether a hit's `a` and `b` are weights of vertices.
     pub kind: StructureKind,
@@ -254,8 +255,8 @@ pub struct RenderOutput {
     pub sums: Option<FilmSums>,
     /// Those in addition that [`RenderJob::aovs`] asked for.
     pub aovs: BTreeMap<Aov, AovImage>,
-    /// Samples per pixel in `beauty`, of adaptive samples the most that a pixel could get; fewer than asked for after an early
-    /// end.
+    /// Samples per pixel in `beauty`, of adaptive samples the most that a pixel could get; fewer than asked
+    /// for after an early end.
     pub samples_done: u32,
     /// Sharing of the samples among the pixels, where some got more than others.
     pub adaptive: Option<AdaptiveRecord>,

@@ -8,9 +8,10 @@ use rasray_ray_files::{hits_to_npy, rays_to_npy, triangles_to_npy, truth_to_npy,
 pub type NamedBytes = (String, Vec<u8>);
 
 impl SavedRays {
-    /// Rays and triangles as files: `<set>.rays` and `<set>.npy`, `<set>.exclude.npy` where a ray excludes a triangle,
-    /// `<set>.flags.npy` where a ray passes backs, and `triangles.npy`, which the hard case that this is about precedes;
-    /// `triangles.backs.npy` where a triangle has a back. They are encoded one by one as they are asked for.
+    /// Rays and triangles as files: `<set>.rays` and `<set>.npy`, `<set>.exclude.npy` where a ray excludes a
+    /// triangle, `<set>.flags.npy` where a ray passes backs, and `triangles.npy`, which the hard case that
+    /// this is about precedes; `triangles.backs.npy` where a triangle has a back. They are encoded one by one
+    /// as they are asked for.
     pub fn ray_files(&self) -> impl Iterator<Item = NamedBytes> {
         let origin = self.frame_origin;
         let name =
@@ -37,8 +38,9 @@ impl SavedRays {
         triangles.chain(backs).chain(rays).chain(excluding).chain(flagged)
     }
 
-    /// The oracle's answers to each set (`<set>.oracle.npy`) and those of each system (`<set>.<system>-<preset>.npy`,
-    /// with its [variant](crate::SystemConfig::variant) before the ending where there are several).
+    /// The oracle's answers to each set (`<set>.oracle.npy`) and those of each system
+    /// (`<set>.<system>-<preset>.npy`, with its [variant](crate::SystemConfig::variant) before the ending
+    /// where there are several).
     pub fn hit_files(&self) -> impl Iterator<Item = NamedBytes> {
         self.sets.iter().flat_map(|set| {
             let truth =

@@ -6,13 +6,13 @@ use rasray_scene::Camera;
 use rasray_scene_source::{KeyHash, LoadedScene};
 use std::collections::BTreeMap;
 
-/// The key of the picture that a job makes of a scene, 64 hexadecimal digits: a hash of everything that decides its
-/// values. That is the program (`program`: version and commit), the contents of all files read or the built-in's name,
-/// the time, the camera, the system with its options, the integrator, the size, the samples, the sampler and the seed,
-/// and which further images there are.
+/// The key of the picture that a job makes of a scene, 64 hexadecimal digits: a hash of everything that
+/// decides its values. That is the program (`program`: version and commit), the contents of all files read or
+/// the built-in's name, the time, the camera, the system with its options, the integrator, the size, the
+/// samples, the sampler and the seed, and which further images there are.
 ///
-/// The device is not in it: between devices, light may differ in its last bits. Neither is which share of the samples
-/// is made: all shares of a picture have the key of the whole.
+/// The device is not in it: between devices, light may differ in its last bits. Neither is which share of the
+/// samples is made: all shares of a picture have the key of the whole.
 pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> String {
     // Whoever adds a field decides here whether it changes the picture.
     // The scene and its moment are those of `loaded`.

@@ -1,10 +1,11 @@
-//! Experiments on the systems of the registry: comparisons of hits and images with an exact oracle, hard cases, renders and
-//! replays of single rays. The command, the tests and the benches run them.
+//! Experiments on the systems of the registry: comparisons of hits and images with an exact oracle, hard
+//! cases, renders and replays of single rays. The command, the tests and the benches run them.
 //!
 //! - [`Backend`] carries out jobs on a device; [`open`] makes one.
-//! - [`CompareJob`], [`HardJob`] and [`RenderJob`] are the jobs, as plain data; [`Comparison`] and [`RenderOutput`] are their
-//!   results.
-//! - [`SystemConfig`] is a system with its preset and options; [`Frame`] is an image, [`RaySet`] a set of rays.
+//! - [`CompareJob`], [`HardJob`] and [`RenderJob`] are the jobs, as plain data; [`Comparison`] and
+//!   [`RenderOutput`] are their results.
+//! - [`SystemConfig`] is a system with its preset and options; [`Frame`] is an image, [`RaySet`] a set of
+//!   rays.
 //! - [`ExperimentError`] has every reason for which a job gives no result.
 //!
 //! ```no_run

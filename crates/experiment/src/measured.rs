@@ -5,8 +5,8 @@ use rasray_hard_cases::{Answer, HardCase};
 use rasray_metrics::{DeviceHit, HitConfusion, MetricsError, Percentiles, Rate, Truth};
 use rasray_reference::oracle::Verdict;
 
-/// 64 units of rounding: what a hit may differ by beyond the bounds that the oracle derives from the test itself,
-/// relative to t.
+/// 64 units of rounding: what a hit may differ by beyond the bounds that the oracle derives from the test
+/// itself, relative to t.
 pub const HIT_ROUNDING: f64 = 64.0 / 16_777_216.0;
 
 /// Depth that a fragment may be off by and count as right, relative.
@@ -41,7 +41,8 @@ pub struct Measured {
     pub confusion: HitConfusion,
     /// Of the unambiguous rays, the share that was missed, false, or wrong in t beyond the tolerance.
     pub errors: Rate,
-    /// Of the ambiguous rays, the share that got an answer that is not admissible, give or take the tolerance in t.
+    /// Of the ambiguous rays, the share that got an answer that is not admissible, give or take the tolerance
+    /// in t.
     pub inadmissible: Rate,
     /// The first ambiguous ray with such an answer, by index.
     pub first_inadmissible: Option<usize>,
@@ -64,8 +65,8 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Compares answers, one for each verdict, a miss being absent; ids are the case's. Rays that `is_unseen` accepts
-    /// count in [`Measured::unseen`] and in no rate.
+    /// Compares answers, one for each verdict, a miss being absent; ids are the case's. Rays that `is_unseen`
+    /// accepts count in [`Measured::unseen`] and in no rate.
     ///
     /// # Errors
     /// There are not as many answers as verdicts.
@@ -136,8 +137,8 @@ impl Measured {
         Ok(measured)
     }
 
-    /// The rate that laws bound: that of errors, or of inadmissible answers where every ray of a case is ambiguous
-    /// (surfaces that coincide).
+    /// The rate that laws bound: that of errors, or of inadmissible answers where every ray of a case is
+    /// ambiguous (surfaces that coincide).
     pub fn evaluated(&self) -> Rate {
         if self.errors.total > 0 { self.errors } else { self.inadmissible }
     }

@@ -52,7 +52,8 @@ impl<'a> Screen<'a> {
         [axes.x_axis, axes.y_axis, axes.z_axis].map(DVec3::normalize_or_zero)
     }
 
-    /// Place in the image that a direction leads to, pixels from the lower left; nothing beside or behind the eye.
+    /// Place in the image that a direction leads to, pixels from the lower left; nothing beside or behind the
+    /// eye.
     fn of_direction(&self, direction: DVec3) -> Option<DVec2> {
         let [right, up, back] = self.axes();
         let depth = match self.camera.projection {
@@ -63,7 +64,8 @@ impl<'a> Screen<'a> {
         (depth > 0.0).then(|| 0.5 * (across + 1.0) * self.size)
     }
 
-    /// Place in the image of a point of the world, pixels from the lower left; nothing beside or behind the eye.
+    /// Place in the image of a point of the world, pixels from the lower left; nothing beside or behind the
+    /// eye.
     fn of_point(&self, point: DVec3) -> Option<DVec2> {
         self.of_direction(point - self.camera.world_from_camera.translation)
     }
@@ -76,9 +78,9 @@ impl<'a> Screen<'a> {
     }
 }
 
-/// From each of some pixels, which follow one another from pixel `first` of the image on, to where its point was: pixels to the
-/// right and upwards. What lies at infinity moves with the camera alone. 0 where the point was beside or behind the eye, or its
-/// triangle is not known.
+/// From each of some pixels, which follow one another from pixel `first` of the image on, to where its point
+/// was: pixels to the right and upwards. What lies at infinity moves with the camera alone. 0 where the point
+/// was beside or behind the eye, or its triangle is not known.
 pub(crate) fn motion(
     (before, camera): (&FrameBefore, &Camera),
     triangles: &TrianglesBefore,

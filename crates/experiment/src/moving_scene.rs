@@ -21,7 +21,8 @@ impl DeviceScene {
     /// As [`DeviceScene::new`], of a scene at rest that [`DeviceScene::pose`] shows at any moment.
     ///
     /// # Errors
-    /// As [`DeviceScene::new`], and where a scene cannot be posed on the device ([`Scene::is_posed_in_place`]).
+    /// As [`DeviceScene::new`], and where a scene cannot be posed on the device
+    /// ([`Scene::is_posed_in_place`]).
     pub fn moving(
         device: &Device,
         scene: &Scene,
@@ -58,7 +59,8 @@ impl DeviceScene {
         self.pose.is_some()
     }
 
-    /// The geometry of the scene that this was made from in the parts that are built apart; absent where it is built as a whole. They stay once there are any.
+    /// The geometry of the scene that this was made from in the parts that are built apart; absent where it
+    /// is built as a whole. They stay once there are any.
     ///
     /// # Errors
     /// Nothing here moves, out of memory, or a lost device.
@@ -86,9 +88,9 @@ impl DeviceScene {
         &self.moved
     }
 
-    /// Shows the scene, which is the one that this was made from ([`DeviceScene::moving`]), at a moment: what moves is posed on the
-    /// device. Structures and pictures of the moment before are stale then. What is on the device does not depend on the
-    /// moments that were shown before.
+    /// Shows the scene, which is the one that this was made from ([`DeviceScene::moving`]), at a moment: what
+    /// moves is posed on the device. Structures and pictures of the moment before are stale then. What is on
+    /// the device does not depend on the moments that were shown before.
     ///
     /// # Errors
     /// Its deformer or the device fails, or nothing here moves.
@@ -106,8 +108,9 @@ impl DeviceScene {
         Ok(times)
     }
 
-    /// Positions, metres relative to the frame origin, and indices of the triangles at another moment. They stay there until
-    /// [`DeviceScene::pose`] shows a moment, which has to follow; what has moved by then is said of the moment shown before.
+    /// Positions, metres relative to the frame origin, and indices of the triangles at another moment. They
+    /// stay there until [`DeviceScene::pose`] shows a moment, which has to follow; what has moved by then is
+    /// said of the moment shown before.
     ///
     /// # Errors
     /// As [`DeviceScene::pose`].

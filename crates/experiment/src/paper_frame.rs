@@ -33,8 +33,8 @@ impl Default for FrameDefaults {
 }
 
 impl FrameDefaults {
-    /// The frame of its paper for the published preset of a system, as far as a paper shows one. Other presets of the same
-    /// system draw first hits as the paper does, and trace paths through the structure.
+    /// The frame of its paper for the published preset of a system, as far as a paper shows one. Other
+    /// presets of the same system draw first hits as the paper does, and trace paths through the structure.
     ///
     /// # Panics
     /// The registry of systems names what there is not; a test reads all of its rows.

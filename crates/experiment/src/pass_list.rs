@@ -8,11 +8,12 @@ use crate::device_scene::DeviceScene;
 use crate::error::ExperimentError;
 use crate::jobs::RenderJob;
 
-/// Rays of the traces that are listed: as few as there can be, since their number is no matter of the structure.
+/// Rays of the traces that are listed: as few as there can be, since their number is no matter of the
+/// structure.
 const RAYS: u32 = 1;
 
-/// Builds until complete, so that sizes are those of the scene, and says what one more build records, then traces of both
-/// kinds and the lookup of surfaces.
+/// Builds until complete, so that sizes are those of the scene, and says what one more build records, then
+/// traces of both kinds and the lookup of surfaces.
 pub(super) fn pass_list(device: &Device, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError> {
     let spec = job.system.spec()?;
     let (mut stage, _) = DeviceScene::of_job(device, job)?;

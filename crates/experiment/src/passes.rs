@@ -65,7 +65,8 @@ impl Passes {
         (!rows.is_empty()).then(|| (0..self.repetitions).map(sum).collect())
     }
 
-    /// The median over repetitions of the milliseconds that some stages took together; absent where none was recorded.
+    /// The median over repetitions of the milliseconds that some stages took together; absent where none was
+    /// recorded.
     pub(super) fn median_of(&self, of: impl Fn(Stage) -> bool) -> Option<f64> {
         self.sums(of).map(|sums| median(&sums))
     }

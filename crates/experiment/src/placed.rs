@@ -7,8 +7,8 @@ use rasray_reference::oracle::{self, COORDINATE_LIMIT};
 use rasray_scene::default_view::camera_looking_at;
 use rasray_scene::{Camera, Instance, Material, Mesh, Scene};
 
-/// Triangles of a case that loaders keep: those whose coordinates are finite and have finite squares. A device counts
-/// these, the case counts all.
+/// Triangles of a case that loaders keep: those whose coordinates are finite and have finite squares. A
+/// device counts these, the case counts all.
 #[derive(Clone, Debug)]
 pub struct Placed {
     /// The case's id of each triangle on the device, ascending.

@@ -79,12 +79,13 @@ pub struct ProgressiveImage {
 }
 
 impl ProgressiveImage {
-    /// Allocates the film of a frame and makes its integrator; nothing is rendered. The scene's view has the size of the
-    /// frame. With a shard only its samples are made. `built` is what will be traced, or what has hits like it
-    /// ([`ProgressiveImage::serves`]).
+    /// Allocates the film of a frame and makes its integrator; nothing is rendered. The scene's view has the
+    /// size of the frame. With a shard only its samples are made. `built` is what will be traced, or what has
+    /// hits like it ([`ProgressiveImage::serves`]).
     ///
     /// # Errors
-    /// The device fails, the frame asks for more than the integrator does, or for first hits that `built` does not have.
+    /// The device fails, the frame asks for more than the integrator does, or for first hits that `built`
+    /// does not have.
     pub fn new(
         device: &Device,
         (stage, built): (&DeviceScene, &Built),
@@ -185,8 +186,8 @@ impl ProgressiveImage {
         Ok(self.image.warm_up(built.structure())?)
     }
 
-    /// Renders the next wave. False where rays need more rounds than they had: then all starts at 0 again, and the
-    /// structure allows more from now on.
+    /// Renders the next wave. False where rays need more rounds than they had: then all starts at 0 again,
+    /// and the structure allows more from now on.
     ///
     /// # Errors
     /// The device fails, or rays met list entries that name nothing.

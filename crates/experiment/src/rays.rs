@@ -62,8 +62,8 @@ impl RaySource<'_> {
         rays.into_iter().map(|ray| Ray { flags: self.flags.others, ..ray }).collect()
     }
 
-    /// Rays that start on triangles and exclude nothing, as tools make them that know no ids: origins uniform over the
-    /// area and rounded to f32, directions uniform on the sphere, t_min 0.
+    /// Rays that start on triangles and exclude nothing, as tools make them that know no ids: origins uniform
+    /// over the area and rounded to f32, directions uniform on the sphere, t_min 0.
     fn surface(&self, count: u32) -> Vec<Ray> {
         let triangles = self.indices.as_chunks::<3>().0;
         let corners =
@@ -109,8 +109,9 @@ impl RaySource<'_> {
         shading::Ray { culls_back_faces, ..ray }
     }
 
-    /// Lines in uniform directions through points that are uniform between the bounds along camera rays, cut where they
-    /// leave the pixel or the bounds: what a ray that passes a cell of the camera's view asks of it.
+    /// Lines in uniform directions through points that are uniform between the bounds along camera rays, cut
+    /// where they leave the pixel or the bounds: what a ray that passes a cell of the camera's view asks of
+    /// it.
     fn pixels(&self, count: u32) -> Vec<Ray> {
         let eye = self.view.camera.world_from_camera.translation - self.frame_origin;
         let to_centre = Vec3::from(self.center).as_dvec3() - eye;
@@ -232,8 +233,8 @@ impl Line {
     }
 }
 
-/// From the direction of a ray, the unit normal that faces it and two numbers in [0, 1) to a unit direction above the
-/// surface.
+/// From the direction of a ray, the unit normal that faces it and two numbers in [0, 1) to a unit direction
+/// above the surface.
 type Lobe = fn(Vec3, Vec3, Vec2) -> Vec3;
 
 /// Cosine-weighted.
@@ -249,8 +250,8 @@ fn mirrored(direction: Vec3, normal: Vec3, _: Vec2) -> Vec3 {
 /// The exponent of [`glossy`]: half of its directions lie within 6.7 degrees of the mirrored one.
 const GLOSS: f32 = 100.0;
 
-/// Around the mirrored direction, with a density as the cosine to the power of [`GLOSS`]; what falls below the surface is
-/// mirrored by it.
+/// Around the mirrored direction, with a density as the cosine to the power of [`GLOSS`]; what falls below
+/// the surface is mirrored by it.
 fn glossy(direction: Vec3, normal: Vec3, numbers: Vec2) -> Vec3 {
     let cosine = (1.0 - numbers.x).powf(1.0 / (GLOSS + 1.0));
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();

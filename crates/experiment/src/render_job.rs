@@ -120,8 +120,8 @@ pub(super) fn render_pixels(
     Ok(Pixels { counters, first_use_ms, ..pixels })
 }
 
-/// State on a device of a scene that is rendered at one moment after the other: the scene, the structure, the image. Begin
-/// with nothing for another scene.
+/// State on a device of a scene that is rendered at one moment after the other: the scene, the structure, the
+/// image. Begin with nothing for another scene.
 #[derive(Default)]
 pub struct KeptScene(Option<OnDevice>);
 
@@ -175,8 +175,8 @@ fn triangles_before(
     Ok(Some(TrianglesBefore { positions, indices }))
 }
 
-/// Brings a job to the device: what is there stays as far as its eye is not far from that of the job before. With times of
-/// the pose; nothing where the host posed the scene.
+/// Brings a job to the device: what is there stays as far as its eye is not far from that of the job before.
+/// With times of the pose; nothing where the host posed the scene.
 fn on_device(
     device: &Device,
     job: &RenderJob<'_>,

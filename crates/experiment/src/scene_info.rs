@@ -60,8 +60,8 @@ pub struct SceneInfo {
 }
 
 impl SceneInfo {
-    /// Looks a scene over, as it is posed. It is lit as a render would light it: what it needs then is what counts. `capacity`
-    /// opens the device, if there is one; it is called only where something depends on it.
+    /// Looks a scene over, as it is posed. It is lit as a render would light it: what it needs then is what
+    /// counts. `capacity` opens the device, if there is one; it is called only where something depends on it.
     ///
     /// # Errors
     /// The scene names what it does not have, or has more texels than the device can make fit.

@@ -1,5 +1,5 @@
-//! From words to rows of the registry: which system has which presets and options, and how options given once reach
-//! several systems.
+//! From words to rows of the registry: which system has which presets and options, and how options given once
+//! reach several systems.
 
 use crate::error::ExperimentError;
 use crate::system_config::SystemConfig;

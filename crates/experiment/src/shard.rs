@@ -5,8 +5,8 @@ use std::fmt;
 use rasray_frame::Samples;
 use rasray_options::text::numbers;
 
-/// One of several shares, dealt out in turns: things are counted from 0, and share i of n gets those whose number leaves
-/// i - 1 when it is divided by n.
+/// One of several shares, dealt out in turns: things are counted from 0, and share i of n gets those whose
+/// number leaves i - 1 when it is divided by n.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: u32,

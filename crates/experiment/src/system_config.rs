@@ -28,9 +28,9 @@ impl SystemConfig {
         Self { system, preset, options, variant: None, chosen: None }
     }
 
-    /// Sets the payload for renders of a workload: published fragments carry what their paper keeps for occlusion where
-    /// nothing else is asked for, unless a payload was given. Comparisons keep the preset's, since rays are compared in
-    /// addition to the image.
+    /// Sets the payload for renders of a workload: published fragments carry what their paper keeps for
+    /// occlusion where nothing else is asked for, unless a payload was given. Comparisons keep the preset's,
+    /// since rays are compared in addition to the image.
     #[must_use]
     pub fn serving(mut self, workload: Workload) -> Self {
         if workload.is_visibility()
@@ -43,9 +43,9 @@ impl SystemConfig {
         self
     }
 
-    /// Sets the views for a frame that a camera sees: published structures whose paper draws the camera's view draw it,
-    /// a cell a pixel of the image, unless views were given, and so do all from which first hits are taken. A parallel
-    /// projection has no such view.
+    /// Sets the views for a frame that a camera sees: published structures whose paper draws the camera's
+    /// view draw it, a cell a pixel of the image, unless views were given, and so do all from which first
+    /// hits are taken. A parallel projection has no such view.
     #[must_use]
     pub fn seen_by(mut self, camera: &Camera, frame: &Frame) -> Self {
         let draws = self.preset == Preset::Published || frame.primary == Primary::Fragments;

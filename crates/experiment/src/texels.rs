@@ -1,4 +1,5 @@
-//! The texels of a scene's textures, and images that are made smaller because a device does not hold the texels of all.
+//! The texels of a scene's textures, and images that are made smaller because a device does not hold the
+//! texels of all.
 
 use crate::backend::TexelCapacity;
 use crate::error::ExperimentError;
@@ -31,8 +32,8 @@ fn smaller_images(
     Ok(demand.smaller_images(capacity.texels)?)
 }
 
-/// Makes the largest images smaller until the device holds the texels of all, and says in words what it did, if anything.
-/// Whoever reads the scene afterwards, the reference too, reads these images.
+/// Makes the largest images smaller until the device holds the texels of all, and says in words what it did,
+/// if anything. Whoever reads the scene afterwards, the reference too, reads these images.
 ///
 /// # Errors
 /// Even images of one texel each are too many.
@@ -49,8 +50,8 @@ pub fn fit(
     Ok(text)
 }
 
-/// Names the images that are made smaller, and the reason; nothing where none is. The largest come first: they were so
-/// before, too.
+/// Names the images that are made smaller, and the reason; nothing where none is. The largest come first:
+/// they were so before, too.
 fn described(smaller: &[SmallerImage], demand: u64, capacity: &TexelCapacity) -> Option<String> {
     let first = smaller.iter().max_by_key(|image| image.from.map(u64::from).iter().product::<u64>())?;
     let ([width, height], [to_width, to_height]) = (first.from, first.to);
@@ -86,11 +87,12 @@ pub struct TexelInfo {
 }
 
 impl TexelInfo {
-    /// Counts the texels that `needs` asks for. `capacity` opens the device, if there is one: it is called only where the
-    /// answer depends on it.
+    /// Counts the texels that `needs` asks for. `capacity` opens the device, if there is one: it is called
+    /// only where the answer depends on it.
     ///
     /// # Errors
-    /// The scene names what it does not have, or the device holds too few texels even where images have one each.
+    /// The scene names what it does not have, or the device holds too few texels even where images have one
+    /// each.
     pub fn of(
         scene: &Scene,
         needs: &Needs,

@@ -42,8 +42,8 @@ pub(super) struct Taking<'a> {
 }
 
 impl<'a> Taking<'a> {
-    /// Those whose cells are wanted. Places go on from `first`: all `systems` with their positions in the job, which
-    /// `count` is the number of, then the files of hits.
+    /// Those whose cells are wanted. Places go on from `first`: all `systems` with their positions in the
+    /// job, which `count` is the number of, then the files of hits.
     pub(super) fn of(
         first: usize,
         (contestants, count): (&'a [(usize, Contestant<'a>)], usize),
@@ -166,7 +166,8 @@ fn evaluate(
     Ok(())
 }
 
-/// Traces rays through all systems in turns: once to warm up, then `repetitions` times. One answer for each contestant.
+/// Traces rays through all systems in turns: once to warm up, then `repetitions` times. One answer for each
+/// contestant.
 ///
 /// # Errors
 /// The device fails, or rays do not finish.

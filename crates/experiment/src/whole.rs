@@ -1,4 +1,5 @@
-//! Checks that a result is whole: one that is not is refused, since nobody could see it in a picture or a table.
+//! Checks that a result is whole: one that is not is refused, since nobody could see it in a picture or a
+//! table.
 
 use crate::error::ExperimentError;
 use crate::jobs::{AovImage, AovSelection, RenderOutput};

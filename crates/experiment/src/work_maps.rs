@@ -41,8 +41,9 @@ pub(super) fn work_maps(
     Ok(maps)
 }
 
-/// Work of the ray through each pixel's centre in a structure of this spec, built as seen from `eye` (metres, relative
-/// to the frame origin); its run is 0. Absent where the structure counts nothing per ray. The size is in pixels.
+/// Work of the ray through each pixel's centre in a structure of this spec, built as seen from `eye` (metres,
+/// relative to the frame origin); its run is 0. Absent where the structure counts nothing per ray. The size
+/// is in pixels.
 ///
 /// Rays that write down their own work are slower, so the map has a structure of its own.
 ///
@@ -71,9 +72,9 @@ pub fn work_per_pixel(
     }))
 }
 
-/// Finds the hit of the ray through a place of a picture (pixels from its left top corner; through the centre of a
-/// lens) in a structure that is built: metres along the ray, and the triangle unless a fragment does not keep it.
-/// Absent where it leaves the scene. The size is in pixels.
+/// Finds the hit of the ray through a place of a picture (pixels from its left top corner; through the centre
+/// of a lens) in a structure that is built: metres along the ray, and the triangle unless a fragment does not
+/// keep it. Absent where it leaves the scene. The size is in pixels.
 ///
 /// # Errors
 /// The device fails, or the ray does not become complete.

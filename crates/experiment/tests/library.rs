@@ -229,7 +229,8 @@ fn render(name: &str, integrator: (&str, OptionValues), [width, height]: [u32; 2
     backend.render(&job, &mut kept, &mut |_| ControlFlow::Continue(())).expect("the device works")
 }
 
-/// The scene says how many pixels show a mirror first, counted when it was made: all other surfaces are Lambertian.
+/// The scene says how many pixels show a mirror first, counted when it was made: all other surfaces are
+/// Lambertian.
 #[test]
 fn the_share_of_samples_that_are_traced_on_is_that_of_pixels_with_a_mirror() {
     for (name, expected) in [("mirror-hall:0", 0.0), ("mirror-hall:40", 0.4)] {
@@ -241,8 +242,8 @@ fn the_share_of_samples_that_are_traced_on_is_that_of_pixels_with_a_mirror() {
     }
 }
 
-/// Bytes of the buffers of an image, slot by slot: ray 48, hit 16, traversal 64, lists 16 and surface 128 bytes; per
-/// pixel of the film 16; the header of a queue, its two placeholders, and what the film counts.
+/// Bytes of the buffers of an image, slot by slot: ray 48, hit 16, traversal 64, lists 16 and surface 128
+/// bytes; per pixel of the film 16; the header of a queue, its two placeholders, and what the film counts.
 #[test]
 fn bytes_of_an_image_are_those_of_its_slots_and_pixels() {
     let slots = 32 * 24;
@@ -257,7 +258,8 @@ fn bytes_of_an_image_are_those_of_its_slots_and_pixels() {
     assert_eq!(memory.by_part["image surfaces"], 128 * slots);
 }
 
-/// The time of fetching surfaces is apart from that of shading them, and what fetches by drawing has bytes of its own.
+/// The time of fetching surfaces is apart from that of shading them, and what fetches by drawing has bytes of
+/// its own.
 #[test]
 fn fetching_by_drawing_is_a_stage_and_a_part_of_memory() {
     let path = |fetch: &'static str| {
@@ -286,7 +288,8 @@ fn fetching_by_drawing_is_a_stage_and_a_part_of_memory() {
     assert!(drawn.iter().all(|pass| pass.stage.as_deref() == Some("surfaces")), "{drawn:?}");
 }
 
-/// Whatever the job before was: at another moment, of another size, seed, share, system or part that is built.
+/// Whatever the job before was: at another moment, of another size, seed, share, system or part that is
+/// built.
 #[test]
 fn pictures_do_not_depend_on_what_was_kept() {
     let mut loaded = load(OsStr::new("walker:8k")).expect("a built-in scene");

@@ -1,11 +1,11 @@
 //! Samples where the noise is: how many each pixel gets, from the first few of its neighbours.
 //!
-//! A pixel that stops by its own samples is biased: it stops early where it happened to miss what is rare and bright (Kirk
-//! and Arvo 1991). Here the pilot, the first few samples of every pixel, says of each pixel what its neighbours need,
-//! never what it needs itself. Random numbers of different pixels are independent, so the number of a pixel's samples is
-//! independent of their values, and their mean is as unbiased as that of any fixed number. Nothing is thrown away, and the
-//! noise is known from eight times as many samples. It is decided once: a second look would see samples whose number the
-//! pixel itself had a part in.
+//! A pixel that stops by its own samples is biased: it stops early where it happened to miss what is rare and
+//! bright (Kirk and Arvo 1991). Here the pilot, the first few samples of every pixel, says of each pixel what
+//! its neighbours need, never what it needs itself. Random numbers of different pixels are independent, so
+//! the number of a pixel's samples is independent of their values, and their mean is as unbiased as that of
+//! any fixed number. Nothing is thrown away, and the noise is known from eight times as many samples. It is
+//! decided once: a second look would see samples whose number the pixel itself had a part in.
 
 use rasray_integrators::FilmPixel;
 
@@ -20,8 +20,8 @@ const DARK: f64 = 0.1;
 /// Rule by which samples are given to pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adaptive {
-    /// Standard error of the mean that a pixel may have, as a share of its luminance, or of a tenth of the picture's where it
-    /// is darker. With 0 every pixel with any noise around it gets all samples.
+    /// Standard error of the mean that a pixel may have, as a share of its luminance, or of a tenth of the
+    /// picture's where it is darker. With 0 every pixel with any noise around it gets all samples.
     pub threshold: f64,
     /// Samples of the pilot, which every pixel gets: at least 2.
     pub least: u32,
@@ -41,8 +41,8 @@ impl Pilot {
         Self { width: width as usize, pixels: vec![Moments::default(); pixels as usize] }
     }
 
-    /// Takes in the sample that was added to each pixel of a band of the film, from pixel `first` on, since the call before;
-    /// one that is not finite was not.
+    /// Takes in the sample that was added to each pixel of a band of the film, from pixel `first` on, since
+    /// the call before; one that is not finite was not.
     pub fn add(&mut self, first: u32, film: &[FilmPixel]) {
         for (moments, pixel) in self.pixels.iter_mut().skip(first as usize).zip(film) {
             let summed: f64 =
@@ -78,7 +78,8 @@ impl Pilot {
                 sum += of_other;
                 known += 1.0;
             }
-            // Without noise nothing more is wanted, also where none is allowed. Where nothing is known, all samples are.
+            // Without noise nothing more is wanted, also where none is allowed. Where nothing is known, all
+            // samples are.
             let wanted = if sum == 0.0 && known > 0.0 { 0.0 } else { sum / known / rule.threshold.powi(2) };
             needed(wanted, rule.least, most)
         };
@@ -194,14 +195,15 @@ mod tests {
 
     #[test]
     fn dark_pixels_are_allowed_the_noise_of_a_tenth_of_the_picture() {
-        // Left half at 1000 without noise, right half at about 1: its noise of a half is far below the threshold.
+        // Left half at 1000 without noise, right half at about 1: its noise of a half is far below the
+        // threshold.
         let value = |pixel, sample| if pixel % 8 < 4 { 1000.0 } else { 0.5 + f64::from(sample % 2) };
         let counts = pilot(8, 64, 4, value).counts(Adaptive { threshold: 0.1, least: 4 }, 64);
         assert_eq!(counts, [4; 64]);
     }
 
-    /// The mean of all pixels of `seeds` images by the numbers of samples that are decided by `own` samples or by the
-    /// neighbours', and its standard error. The truth is 1.
+    /// The mean of all pixels of `seeds` images by the numbers of samples that are decided by `own` samples
+    /// or by the neighbours', and its standard error. The truth is 1.
     fn mean_of_images(seeds: u32, own: bool) -> (f64, f64) {
         let (width, pixels) = (6, 36);
         let rule = Adaptive { threshold: 0.5, least: 8 };

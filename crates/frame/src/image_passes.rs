@@ -9,8 +9,8 @@ use rasray_tracer::TracerError;
 
 use crate::{FrameError, Samples};
 
-/// Records the passes of an image of rays through a structure: an integrator with its film, and what answers camera and
-/// shadow rays. It records, and neither submits nor waits.
+/// Records the passes of an image of rays through a structure: an integrator with its film, and what answers
+/// camera and shadow rays. It records, and neither submits nor waits.
 pub struct ImagePasses {
     integrator: Box<dyn Integrator>,
     /// Answers camera rays in place of traces.
@@ -56,8 +56,8 @@ impl ImagePasses {
         Self { has_stored_hits: true, visibility: None, ..self }
     }
 
-    /// Answers shadow rays that lead to lights without extent by shadow maps of the scene, and where [`Config::points`]
-    /// asks for it those that lead to emitting triangles.
+    /// Answers shadow rays that lead to lights without extent by shadow maps of the scene, and where
+    /// [`Config::points`] asks for it those that lead to emitting triangles.
     ///
     /// # Errors
     /// As [`ShadowMaps::new`].
@@ -87,7 +87,8 @@ impl ImagePasses {
         self.maps_are_stale && self.shadow_maps.is_some()
     }
 
-    /// Records that shadow maps are drawn, where anything has moved since they were recorded. True where they are.
+    /// Records that shadow maps are drawn, where anything has moved since they were recorded. True where they
+    /// are.
     pub(crate) fn record_shadow_maps(&mut self, recorder: &mut Recorder<'_>) -> bool {
         let are_stale = std::mem::take(&mut self.maps_are_stale);
         let Some(maps) = self.shadow_maps.as_ref().filter(|_| are_stale) else { return false };
@@ -110,8 +111,8 @@ impl ImagePasses {
         self.integrator.film()
     }
 
-    /// Names and bytes of the buffers of an image: the film, queues part by part, what the integrator keeps per slot, what
-    /// fetches surfaces by drawing, and what draws first hits. Shadow maps are apart.
+    /// Names and bytes of the buffers of an image: the film, queues part by part, what the integrator keeps
+    /// per slot, what fetches surfaces by drawing, and what draws first hits. Shadow maps are apart.
     pub fn bytes_by_part(&self) -> Vec<(&'static str, u64)> {
         let integrator = self.integrator();
         let mut parts = vec![("film", integrator.film().bytes())];
@@ -128,8 +129,8 @@ impl ImagePasses {
         parts
     }
 
-    /// Shows another scene from the next recording on, in a film of the same size. Kernels stay; shadow maps grow where
-    /// there are more lights.
+    /// Shows another scene from the next recording on, in a film of the same size. Kernels stay; shadow maps
+    /// grow where there are more lights.
     ///
     /// # Errors
     /// The scene has what kernels have no code for, or out of memory.
@@ -198,8 +199,8 @@ impl std::fmt::Debug for ImagePasses {
     }
 }
 
-/// Rays of queues that have no answer, those that met an unbuilt structure included: where there are any, nothing that was
-/// made of them is right.
+/// Rays of queues that have no answer, those that met an unbuilt structure included: where there are any,
+/// nothing that was made of them is right.
 ///
 /// # Errors
 /// Rays met list entries with an invalid index.

@@ -18,15 +18,17 @@ use crate::{FrameError, Samples};
 pub enum Advance {
     /// A wave was added to the film.
     Wave {
-        /// Times of its passes, where they are timed, after those of shadow maps if it was the first that needed them.
+        /// Times of its passes, where they are timed, after those of shadow maps if it was the first that
+        /// needed them.
         passes: Vec<PassTiming>,
     },
-    /// Rays needed more rounds than they had: all starts at 0 again, and the structure allows more from now on.
+    /// Rays needed more rounds than they had: all starts at 0 again, and the structure allows more from now
+    /// on.
     StartedOver,
 }
 
-/// An image in the making: sample after sample, and wave after wave within a sample. Each call submits and waits, so that
-/// no submission is longer than a wave, and a picture can be looked at or given up in between.
+/// An image in the making: sample after sample, and wave after wave within a sample. Each call submits and
+/// waits, so that no submission is longer than a wave, and a picture can be looked at or given up in between.
 ///
 /// The structure must be complete ([`rasray_tracer::build_until_complete`]); pictures are those of
 /// [`FrameRenderer`](crate::FrameRenderer), bit for bit.
@@ -89,11 +91,12 @@ impl ImageRenderer {
         Ok(made)
     }
 
-    /// Takes more samples where there is more noise: those that were asked for are the most that a pixel gets.
+    /// Takes more samples where there is more noise: those that were asked for are the most that a pixel
+    /// gets.
     ///
     /// # Errors
-    /// [`FrameError::DrawnAdaptively`] where camera rays are drawn, `NotListed` where the film was not made by
-    /// [`Film::listed`], or the device fails.
+    /// [`FrameError::DrawnAdaptively`] where camera rays are drawn, `NotListed` where the film was not made
+    /// by [`Film::listed`], or the device fails.
     pub fn adapting(mut self, rule: Adaptive) -> Result<Self, FrameError> {
         if self.passes.visibility().is_some() {
             return Err(FrameError::DrawnAdaptively);
@@ -104,8 +107,8 @@ impl ImageRenderer {
         Ok(self)
     }
 
-    /// Measures the variance of each pixel ([`ImageRenderer::variances`]): the film is read after every sample, and
-    /// nothing of it changes.
+    /// Measures the variance of each pixel ([`ImageRenderer::variances`]): the film is read after every
+    /// sample, and nothing of it changes.
     #[must_use]
     pub fn measuring(self) -> Self {
         let variances = Some(Variances::new(self.film().pixel_count()));
@@ -197,8 +200,8 @@ impl ImageRenderer {
         Ok(submitted.inspect_err(|_| passes.scene_moved())?.passes)
     }
 
-    /// Renders one pixel and forgets it, shadow maps included: software drivers compile a kernel at its first dispatch,
-    /// which is no trace. Returns milliseconds. All starts at 0 after it.
+    /// Renders one pixel and forgets it, shadow maps included: software drivers compile a kernel at its first
+    /// dispatch, which is no trace. Returns milliseconds. All starts at 0 after it.
     ///
     /// # Errors
     /// The device fails.
@@ -229,8 +232,8 @@ impl ImageRenderer {
         };
         let traced = self.passes.traced(structure);
         timings.extend(integrator.render_wave(&self.device, timing, traced, wave)?);
-        // The film lacks light where a ray had no answer, so such rays are counted now and not after the last wave.
-        // Queues count on from wave to wave.
+        // The film lacks light where a ray had no answer, so such rays are counted now and not after the last
+        // wave. Queues count on from wave to wave.
         self.unfinished = self.count_unfinished(structure, &integrator.queues())?;
         if self.unfinished > 0 && structure.allow_more_rounds() {
             self.clear()?;
@@ -247,8 +250,8 @@ impl ImageRenderer {
         Ok(Advance::Wave { passes: timings })
     }
 
-    /// Renders all samples that were asked for, and tells `after` of each step. Where that breaks, ends early, between
-    /// samples, so that all pixels have the same number of them.
+    /// Renders all samples that were asked for, and tells `after` of each step. Where that breaks, ends
+    /// early, between samples, so that all pixels have the same number of them.
     ///
     /// # Errors
     /// As [`ImageRenderer::advance`]. Rays without an answer are none: [`ImageRenderer::unfinished`].
@@ -267,12 +270,12 @@ impl ImageRenderer {
         Ok(())
     }
 
-    /// Traces the rays through the pixels' centres, of the scene as it is shown, and hands out what they hit, row by row from
-    /// the top left, band by band.
+    /// Traces the rays through the pixels' centres, of the scene as it is shown, and hands out what they hit,
+    /// row by row from the top left, band by band.
     ///
     /// # Errors
-    /// The device fails, sizes do not fit, rays met list entries with an invalid index, or did not finish in as many rounds
-    /// as there can be ([`FrameError::Unfinished`]).
+    /// The device fails, sizes do not fit, rays met list entries with an invalid index, or did not finish in
+    /// as many rounds as there can be ([`FrameError::Unfinished`]).
     pub fn aovs(
         &self,
         scene: &GpuScene,
@@ -283,8 +286,8 @@ impl ImageRenderer {
         self.trace_centres(&aov, structure, |pixels, _| take(pixels))
     }
 
-    /// Traces as [`ImageRenderer::aovs`] and hands out materials and meshes of the hits as well. Bands are smaller
-    /// where a device does not bind the larger records of as many pixels.
+    /// Traces as [`ImageRenderer::aovs`] and hands out materials and meshes of the hits as well. Bands are
+    /// smaller where a device does not bind the larger records of as many pixels.
     ///
     /// # Errors
     /// As [`ImageRenderer::aovs`].
@@ -361,8 +364,8 @@ impl ImageRenderer {
         self.waves_done
     }
 
-    /// Samples that all pixels have; where some get more than others, those that are on the film of the first so many. All
-    /// where every pixel has what it needs.
+    /// Samples that all pixels have; where some get more than others, those that are on the film of the first
+    /// so many. All where every pixel has what it needs.
     pub fn samples_done(&self) -> u32 {
         self.samples_done
     }
@@ -372,8 +375,8 @@ impl ImageRenderer {
         self.next_pixel == 0
     }
 
-    /// Variance of the mean of each pixel, row by row from the top left, as if its samples were independent: that of a
-    /// sample over their number, 0 where there are fewer than two. Nothing unless it is measured
+    /// Variance of the mean of each pixel, row by row from the top left, as if its samples were independent:
+    /// that of a sample over their number, 0 where there are fewer than two. Nothing unless it is measured
     /// ([`ImageRenderer::measuring`]).
     pub fn variances(&self) -> Option<impl Iterator<Item = [f32; 3]>> {
         self.variances.as_ref().map(Variances::of_means)

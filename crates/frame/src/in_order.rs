@@ -7,8 +7,8 @@ use rasray_gpu_scene::FramePose;
 
 use crate::{FrameError, FrameInput, FrameRenderer, FrameResult, FrameScene, Picture};
 
-/// Repeats after which a frame counts as unstable: as many as a build may grow, one for rounds of traces, and as often as
-/// the rounds of paths that pass surfaces can double.
+/// Repeats after which a frame counts as unstable: as many as a build may grow, one for rounds of traces, and
+/// as often as the rounds of paths that pass surfaces can double.
 const REPEATS: u32 = 16;
 
 /// Counts of a sequence of frames.
@@ -20,11 +20,13 @@ pub struct InOrder {
     pub repeated: u64,
 }
 
-/// Renders frames with several in flight and hands out each picture in order; frames without a picture are repeated, with
-/// those that were submitted after them. Ends early where `sink` says so. No input may continue the one before.
+/// Renders frames with several in flight and hands out each picture in order; frames without a picture are
+/// repeated, with those that were submitted after them. Ends early where `sink` says so. No input may
+/// continue the one before.
 ///
-/// Frames that nothing has posed yet cannot be brought back once a later one moved the scene, so the first frame with a pose
-/// waits for those before it that have none, in their own input or in one before. All others overlap.
+/// Frames that nothing has posed yet cannot be brought back once a later one moved the scene, so the first
+/// frame with a pose waits for those before it that have none, in their own input or in one before. All
+/// others overlap.
 ///
 /// # Errors
 /// Errors of frames, [`FrameError::Unstable`] where repeating does not help; nothing is in flight then.

@@ -15,7 +15,8 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
-    /// Takes in the sample that was added to the film's sum since the call before; one that is not finite was not.
+    /// Takes in the sample that was added to the film's sum since the call before; one that is not finite was
+    /// not.
     pub fn follow(&mut self, summed: f64, samples: u32) {
         if samples > self.samples {
             self.add(summed - f64::from(self.summed));
@@ -47,7 +48,8 @@ impl Variances {
         Self(vec![[Moments::default(); 3]; pixels as usize])
     }
 
-    /// Takes in the sample that was added to pixels of a band of the film, from pixel `first` on, since the call before.
+    /// Takes in the sample that was added to pixels of a band of the film, from pixel `first` on, since the
+    /// call before.
     pub fn add(&mut self, first: u32, film: &[FilmPixel]) {
         for (channels, pixel) in self.0.iter_mut().skip(first as usize).zip(film) {
             for (moments, sum) in channels.iter_mut().zip(pixel.sum) {
@@ -56,8 +58,8 @@ impl Variances {
         }
     }
 
-    /// Of the mean of each pixel, as if its samples were independent: that of a sample over their number; 0 where there are
-    /// fewer than two.
+    /// Of the mean of each pixel, as if its samples were independent: that of a sample over their number; 0
+    /// where there are fewer than two.
     pub fn of_means(&self) -> impl Iterator<Item = [f32; 3]> {
         let of_mean =
             |moments: Moments| (moments.variance().unwrap_or(0.0) / f64::from(moments.samples.max(1))) as f32;

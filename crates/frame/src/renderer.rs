@@ -19,10 +19,11 @@ pub struct FrameInput {
     pub view: View,
     /// Sampling of pixels.
     pub sampling: Sampling,
-    /// The scene; absent: that of the frame before. Another one may have other triangles, as many as there are; materials,
-    /// textures and lights, too, as long as the kernels have code for them.
+    /// The scene; absent: that of the frame before. Another one may have other triangles, as many as there
+    /// are; materials, textures and lights, too, as long as the kernels have code for them.
     pub scene: Option<FrameScene>,
-    /// Poses of everything that moves; absent: those of the last frame of the same scene, at first those of the tables.
+    /// Poses of everything that moves; absent: those of the last frame of the same scene, at first those of
+    /// the tables.
     pub pose: Option<FramePose>,
     /// Samples of each pixel.
     pub samples: Samples,
@@ -35,10 +36,12 @@ pub struct FrameInput {
 pub enum FrameResult {
     /// A picture.
     Picture(Picture),
-    /// Its build was not complete, or its rays needed more rounds or passed more surfaces than were recorded, all of which the
-    /// next frames have: nothing of it is shown. A frame that continues it has no picture either.
+    /// Its build was not complete, or its rays needed more rounds or passed more surfaces than were recorded,
+    /// all of which the next frames have: nothing of it is shown. A frame that continues it has no picture
+    /// either.
     Nothing {
-        /// The pool that its build lacked most; absent where the build is not why ([`FrameOutcome::Incomplete`]).
+        /// The pool that its build lacked most; absent where the build is not why
+        /// ([`FrameOutcome::Incomplete`]).
         pool: Option<PoolStatus>,
     },
 }
@@ -75,11 +78,11 @@ struct Pending {
 
 /// Frames of a scene through one structure and one integrator.
 ///
-/// A frame may bring another scene ([`FrameInput::scene`]): structure, integrator and visibility are kept and read it from
-/// there on. What frames in flight use of the scene before lives until they have ended.
+/// A frame may bring another scene ([`FrameInput::scene`]): structure, integrator and visibility are kept and
+/// read it from there on. What frames in flight use of the scene before lives until they have ended.
 ///
-/// Data of the host for a frame is stored in its command buffer, results that the host reads lie in memory of the
-/// frame's slot: frames in flight share nothing that one of them could find changed. No call waits but
+/// Data of the host for a frame is stored in its command buffer, results that the host reads lie in memory of
+/// the frame's slot: frames in flight share nothing that one of them could find changed. No call waits but
 /// [`FrameRenderer::take`], and [`FrameRenderer::submit`] for structures that the host builds.
 pub struct FrameRenderer {
     device: Device,
@@ -100,9 +103,9 @@ pub struct FrameRenderer {
 impl FrameRenderer {
     /// Frames of `scene`, moved by `pose`, seen through `structure`, which was made for both and not built: a
     /// structure over all triangles, all of which each frame builds in which anything moved, or a
-    /// [`Combined`](rasray_ads::Combined) one over the parts of [`PosePass::parts`] or [`PosePass::objects`], of which only
-    /// those that moved are built. With
-    /// `reads_films` each picture has its image on the host; without, it is on the device in the integrator's film.
+    /// [`Combined`](rasray_ads::Combined) one over the parts of [`PosePass::parts`] or [`PosePass::objects`],
+    /// of which only those that moved are built. With `reads_films` each picture has its image on the host;
+    /// without, it is on the device in the integrator's film.
     ///
     /// # Errors
     /// Out of memory, the device has no queue, or it cannot time passes as asked.
@@ -138,8 +141,8 @@ impl FrameRenderer {
         Self { image: self.image.with_visibility(Some(visibility)), ..self }
     }
 
-    /// Answers shadow rays that lead to lights without extent by shadow maps. They are drawn in frames in which lights
-    /// or triangles have moved.
+    /// Answers shadow rays that lead to lights without extent by shadow maps. They are drawn in frames in
+    /// which lights or triangles have moved.
     ///
     /// # Errors
     /// As [`ImagePasses::with_shadow_maps`].
@@ -213,9 +216,9 @@ impl FrameRenderer {
     /// Records a frame and submits it; returns its number. Nothing waits, also where it brings another scene.
     ///
     /// # Errors
-    /// [`TracerError::Busy`] while all slots hold frames, a size that is not the film's, a view without what the structure
-    /// needs, a scene that kernels have no code for ([`IntegratorError::LeftOut`]) or that is not in parts as the structure is,
-    /// or the device failed.
+    /// [`TracerError::Busy`] while all slots hold frames, a size that is not the film's, a view without what
+    /// the structure needs, a scene that kernels have no code for ([`IntegratorError::LeftOut`]) or that is
+    /// not in parts as the structure is, or the device failed.
     pub fn submit(&mut self, input: &FrameInput) -> Result<u64, FrameError> {
         if self.frames.free_slot().is_none() {
             return Err(TracerError::Busy { slots: self.frames.slots() }.into());
@@ -280,8 +283,8 @@ impl FrameRenderer {
     /// Waits for the oldest frame in flight; absent where none is.
     ///
     /// # Errors
-    /// The device failed, no sizes suffice for the structure, rays did not finish in as many rounds as there can be
-    /// ([`FrameError::Unfinished`]), lists are damaged, or surfaces have too many photons around them
+    /// The device failed, no sizes suffice for the structure, rays did not finish in as many rounds as there
+    /// can be ([`FrameError::Unfinished`]), lists are damaged, or surfaces have too many photons around them
     /// ([`IntegratorError::Crowded`]).
     pub fn take(&mut self) -> Result<Option<FrameResult>, FrameError> {
         let ended = self.frames.take()?;

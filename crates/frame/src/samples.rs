@@ -3,8 +3,8 @@
 use std::iter::StepBy;
 use std::ops::Range;
 
-/// Indices of samples, at the same distance from one to the next: all of an image, some that are added to it, or a share of
-/// them. Random numbers depend on the index, so shares add up to the image.
+/// Indices of samples, at the same distance from one to the next: all of an image, some that are added to it,
+/// or a share of them. Random numbers depend on the index, so shares add up to the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
     first: u32,

@@ -12,9 +12,10 @@ use crate::FrameError;
 pub struct FrameScene(Arc<(GpuScene, Option<PosePass>)>);
 
 impl FrameScene {
-    /// A scene for renderers with that many frames in flight ([`FrameRenderer::slots`](crate::FrameRenderer::slots)). Where
-    /// the structure is in parts, [`PosePass::parts`] was called before. Nothing waits for a scene that is
-    /// [staged](GpuScene::staged); the first frame that shows it takes its tables to the device.
+    /// A scene for renderers with that many frames in flight
+    /// ([`FrameRenderer::slots`](crate::FrameRenderer::slots)). Where the structure is in parts,
+    /// [`PosePass::parts`] was called before. Nothing waits for a scene that is [staged](GpuScene::staged);
+    /// the first frame that shows it takes its tables to the device.
     ///
     /// # Errors
     /// Out of memory.

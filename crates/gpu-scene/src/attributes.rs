@@ -23,8 +23,8 @@ pub struct Attributes {
     pub vertex: Words,
 }
 
-/// Packs the attributes of all draws into tables that begin as `words`. `first_emissive` of every draw is left at
-/// `EMISSIVE_NONE`.
+/// Packs the attributes of all draws into tables that begin as `words`. `first_emissive` of every draw is
+/// left at `EMISSIVE_NONE`.
 ///
 /// # Errors
 /// `TooManyVertices` where 32-bit word offsets do not reach; `Malformed` where an attribute has

@@ -25,8 +25,8 @@ pub struct EmissiveSources {
 }
 
 impl EmissiveSources {
-    /// Lists all triangles of draws that emit, and notes in every such draw where its triangles start. None where nothing
-    /// emits, whatever its area.
+    /// Lists all triangles of draws that emit, and notes in every such draw where its triangles start. None
+    /// where nothing emits, whatever its area.
     ///
     /// Indices of `scene` must have been checked.
     pub fn new(scene: &Scene, posed: &Posed, draw_shadings: &mut [DrawShading]) -> Self {
@@ -85,8 +85,8 @@ impl EmissiveSources {
     }
 }
 
-/// Share of the emission that a surface sends, as far as its material alone says it: what blends emits in proportion to its
-/// opacity.
+/// Share of the emission that a surface sends, as far as its material alone says it: what blends emits in
+/// proportion to its opacity.
 fn opacity(material: &Material) -> f64 {
     match material.alpha_mode {
         AlphaMode::Blend => f64::from(material.base_color[3].clamp(0.0, 1.0)),
@@ -124,8 +124,8 @@ impl<'a> Glow<'a> {
         Some(Self { image, texture, uvs, rows: used.uv_transform, channels })
     }
 
-    /// Mean over the triangle of what the texture lets through: the texels at the centroids of n by n parts, n such
-    /// that a part has about the area of a texel.
+    /// Mean over the triangle of what the texture lets through: the texels at the centroids of n by n parts,
+    /// n such that a part has about the area of a texel.
     fn share(&self, vertices: [usize; 3]) -> f64 {
         let corners = vertices.map(|vertex| {
             let [u, v] = self.uvs.and_then(|uvs| uvs.get(vertex)).map_or([0.0; 2], |uv| uv.map(f64::from));

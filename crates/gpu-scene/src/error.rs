@@ -14,7 +14,8 @@ pub enum GpuSceneError {
         /// Largest number that works.
         limit: u64,
     },
-    /// The texels of all images with their smaller levels exceed what the device holds, or what 32 bits number.
+    /// The texels of all images with their smaller levels exceed what the device holds, or what 32 bits
+    /// number.
     #[error(
         "the textures need {count} texels with all levels, more than the {limit} that can be held; use smaller or fewer images"
     )]

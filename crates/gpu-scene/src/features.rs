@@ -117,8 +117,8 @@ impl ShadingFeatures {
         }
     }
 
-    /// Specialisation constants of modules that read the scene (`scene/features.glsl`): id and bits. A module without
-    /// one of them ignores it.
+    /// Specialisation constants of modules that read the scene (`scene/features.glsl`): id and bits. A module
+    /// without one of them ignores it.
     pub fn constants(self) -> [(u32, u32); 10] {
         [
             (ids::SCENE_HAS_TEXTURES, self.textures.into()),

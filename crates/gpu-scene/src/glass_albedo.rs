@@ -1,8 +1,8 @@
 //! Light that rough glass loses in one scattering, as tables (`docs/shading.md`, "Energy").
 //!
-//! A table has three blocks: the share of light that is lost where it arrives at the front, the same at the back, and
-//! the share that is reflected once where light arrives on the side of the larger index. A block has a row for every
-//! roughness, a row a value for every cosine and their mean over the hemisphere.
+//! A table has three blocks: the share of light that is lost where it arrives at the front, the same at the
+//! back, and the share that is reflected once where light arrives on the side of the larger index. A block
+//! has a row for every roughness, a row a value for every cosine and their mean over the hemisphere.
 
 use std::{collections::HashMap, f64::consts::PI};
 
@@ -19,7 +19,8 @@ const ROW_WORDS: usize = GLASS_ROW_WORDS as usize;
 const TABLE_WORDS: usize = 3 * ROWS * ROW_WORDS;
 /// The last word of a row is the mean.
 const COSINES: usize = ROW_WORDS - 1;
-/// Points of the Fibonacci lattice that integrates over visible normals, and its step: neighbours in the sequence.
+/// Points of the Fibonacci lattice that integrates over visible normals, and its step: neighbours in the
+/// sequence.
 const POINTS: u32 = 2584;
 const STEP: u32 = 1597;
 /// Under a cosine of 0 the integrand has only a limit.
@@ -188,7 +189,8 @@ fn append_block(table: &mut Vec<f32>, rows: &[[Share; COSINES]], value: impl Fn(
     }
 }
 
-/// Of the interpolated values, over the hemisphere and weighted by the cosine: `4 y³ dy` with y the root of the cosine.
+/// Of the interpolated values, over the hemisphere and weighted by the cosine: `4 y³ dy` with y the root of
+/// the cosine.
 fn mean(values: &[f32; COSINES]) -> f64 {
     let step = 1.0 / (COSINES - 1) as f64;
     let mut sum = 0.0;

@@ -5,9 +5,9 @@ use glam::DVec3;
 /// Share of the scene's diagonal that the default grid of frame origins is spaced by.
 const CELLS_PER_DIAGONAL: f64 = 8.0;
 
-/// As many cells of that grid away from the world's origin the eye may stand before the frame origin follows it: four to
-/// eight diagonals of the scene. Nearer, moving the origin would round positions that files state exactly once more, and
-/// gain at most three of their 24 bits.
+/// As many cells of that grid away from the world's origin the eye may stand before the frame origin follows
+/// it: four to eight diagonals of the scene. Nearer, moving the origin would round positions that files state
+/// exactly once more, and gain at most three of their 24 bits.
 const CELLS_OF_WORLD: f64 = 64.0;
 
 /// Metres beyond which the frame origin follows the eye in any scene: f32 resolves a millimetre there.
@@ -28,10 +28,10 @@ pub fn frame_origin_spacing(diagonal: f64) -> f64 {
     exponent.exp2()
 }
 
-/// The default frame origin: the world's, unless a coordinate of the eye (world, metres) is more than 64 times `spacing`
-/// or 16,384 m; then the eye snapped to the nearest point of a grid of `spacing` metres. With a power-of-two spacing the result is exact, and it changes only when the
-/// eye leaves a cell, so a moving camera rarely forces a rebuild. Coordinates of an eye that are
-/// not finite count as 0.
+/// The default frame origin: the world's, unless a coordinate of the eye (world, metres) is more than 64
+/// times `spacing` or 16,384 m; then the eye snapped to the nearest point of a grid of `spacing` metres. With
+/// a power-of-two spacing the result is exact, and it changes only when the eye leaves a cell, so a moving
+/// camera rarely forces a rebuild. Coordinates of an eye that are not finite count as 0.
 ///
 /// The farther a point lies from the frame origin, the coarser its f32 position: points within one
 /// cell of the eye keep about 24 bits of a cell.

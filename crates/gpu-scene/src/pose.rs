@@ -37,7 +37,8 @@ pub struct Posed {
 
 impl Posed {
     /// Poses every instance of `scene` in f64, takes `frame_origin` (world, metres) off and rounds
-    /// once to f32; what is neither moved nor shifted keeps every bit. `flags` gives the draw flags of an instance from its index.
+    /// once to f32; what is neither moved nor shifted keeps every bit. `flags` gives the draw flags of an
+    /// instance from its index.
     ///
     /// # Errors
     /// `TooManyVertices` where vertices or indices exceed what u32 can number, `Malformed` where a

@@ -43,11 +43,11 @@ use crate::{GpuScene, GpuSceneError, SceneTables, kinds::kind_shares};
 /// Bytes that one command writes at most.
 const UPDATE_BYTES: usize = 65_536;
 
-/// The moving part of a scene on the device: shapes at rest, and the pass that writes positions, normals, tangents,
-/// lights and bounds of a [`GpuScene`] as they are in a frame.
+/// The moving part of a scene on the device: shapes at rest, and the pass that writes positions, normals,
+/// tangents, lights and bounds of a [`GpuScene`] as they are in a frame.
 ///
-/// Draws that no clip can move and no deformer changes are left as the tables have them. `docs/motion.md` says what is
-/// evaluated where.
+/// Draws that no clip can move and no deformer changes are left as the tables have them. `docs/motion.md`
+/// says what is evaluated where.
 #[derive(Debug)]
 pub struct PosePass {
     /// One per draw of the geometry.
@@ -82,13 +82,14 @@ pub struct PosePass {
 }
 
 impl PosePass {
-    /// Uploads the shapes of what moves and makes the pipelines; for one frame at a time ([`PosePass::set_slots`]). `tables`
-    /// were made from `scene`, `gpu` from `tables`; the images of the scene are not looked at. Does not wait where `gpu` was
-    /// [staged](GpuScene::staged).
+    /// Uploads the shapes of what moves and makes the pipelines; for one frame at a time
+    /// ([`PosePass::set_slots`]). `tables` were made from `scene`, `gpu` from `tables`; the images of the
+    /// scene are not looked at. Does not wait where `gpu` was [staged](GpuScene::staged).
     ///
     /// # Errors
-    /// `Malformed` where the tables are of a scene with other instances, [`GpuSceneError::DeformedTwice`], out of memory, more words than 32 bits number, a
-    /// table larger than one binding can hold (the error names it), or a lost device.
+    /// `Malformed` where the tables are of a scene with other instances, [`GpuSceneError::DeformedTwice`],
+    /// out of memory, more words than 32 bits number, a table larger than one binding can hold (the error
+    /// names it), or a lost device.
     pub fn new(
         device: &Device,
         scene: &Scene,
@@ -184,8 +185,8 @@ impl PosePass {
         })
     }
 
-    /// Memory for shapes of that many frames in flight, at least 1: what a simulation or a file has of a frame is written
-    /// there. Nothing recorded before may be pending.
+    /// Memory for shapes of that many frames in flight, at least 1: what a simulation or a file has of a
+    /// frame is written there. Nothing recorded before may be pending.
     ///
     /// # Errors
     /// Out of memory.
@@ -193,13 +194,14 @@ impl PosePass {
         Ok(self.shapes.set_slots(device, slots)?)
     }
 
-    /// The host's part of a frame, in f64: linear in nodes, channels, joints and moving draws, in the triangles of
-    /// those that emit, and in the vertices that the scene's deformer changes, whose simulation it runs or whose file it
-    /// reads. No device call. `scene` is the one that this was made from, or that at another moment.
+    /// The host's part of a frame, in f64: linear in nodes, channels, joints and moving draws, in the
+    /// triangles of those that emit, and in the vertices that the scene's deformer changes, whose simulation
+    /// it runs or whose file it reads. No device call. `scene` is the one that this was made from, or that at
+    /// another moment.
     ///
     /// # Errors
-    /// `Malformed` where the scene has fewer instances, [`GpuSceneError::OtherTriangles`] where a deformer changes more than
-    /// positions and normals, or it fails.
+    /// `Malformed` where the scene has fewer instances, [`GpuSceneError::OtherTriangles`] where a deformer
+    /// changes more than positions and normals, or it fails.
     pub fn frame(&self, scene: &Scene, moment: &Moment) -> Result<FramePose, GpuSceneError> {
         let rig = &scene.animation.rig;
         let is_placed = rig.placements.len() == scene.instances.len();
@@ -237,10 +239,11 @@ impl PosePass {
         Ok(FramePose { maps, placements, joints, targets, shapes, lights, emissive, emissive_power, cameras })
     }
 
-    /// Records a frame: what `pose` holds is stored in the command buffer, so that several recordings may be pending, and
-    /// written to the device in order. Shapes are written to memory of `slot`, whose last recording has ended; where
-    /// nothing is deformed by the host, any slot will do. One dispatch poses all vertices that move, [`BoundsPass`] measures the bounds. All
-    /// that follows sees the results. Nothing where nothing moves.
+    /// Records a frame: what `pose` holds is stored in the command buffer, so that several recordings may be
+    /// pending, and written to the device in order. Shapes are written to memory of `slot`, whose last
+    /// recording has ended; where nothing is deformed by the host, any slot will do. One dispatch poses all
+    /// vertices that move, [`BoundsPass`] measures the bounds. All that follows sees the results. Nothing
+    /// where nothing moves.
     pub fn record(&self, recorder: &mut Recorder<'_>, slot: u32, pose: &FramePose) {
         let is_own = pose.placements.len() == self.places.len()
             && pose.joints.len() == self.joint_count
@@ -309,9 +312,9 @@ impl PosePass {
         !self.places.is_empty()
     }
 
-    /// The geometry of the scene in two parts, what moves and all else, each with bounds of its own. From then on
-    /// each frame measures the bounds of what moves, and with them those of the whole, without reading the static triangles.
-    /// Where the geometry is in parts already these stay.
+    /// The geometry of the scene in two parts, what moves and all else, each with bounds of its own. From
+    /// then on each frame measures the bounds of what moves, and with them those of the whole, without
+    /// reading the static triangles. Where the geometry is in parts already these stay.
     ///
     /// # Errors
     /// Out of memory, or a lost device.
@@ -319,12 +322,13 @@ impl PosePass {
         self.divide(device, None, MovingTriangles::together)
     }
 
-    /// Divides the geometry as [`PosePass::parts`] does, into a part for each object that its node alone moves, for at
-    /// most `most` of them, the largest; one for what else moves, where anything does; and all that stands still. An
-    /// object is all that hangs on the same node that a clip changes, and no other below it: without joints, morph
-    /// targets and deformer. Objects of `scene`, the one that this was made from, also have positions in a space of
-    /// their own, 12 bytes for each vertex of the scene, in which a structure may be built once
-    /// ([`Description::follows`](rasray_ads::Description::follows)). Poses of frames are made after this.
+    /// Divides the geometry as [`PosePass::parts`] does, into a part for each object that its node alone
+    /// moves, for at most `most` of them, the largest; one for what else moves, where anything does; and all
+    /// that stands still. An object is all that hangs on the same node that a clip changes, and no other
+    /// below it: without joints, morph targets and deformer. Objects of `scene`, the one that this was made
+    /// from, also have positions in a space of their own, 12 bytes for each vertex of the scene, in which a
+    /// structure may be built once ([`Description::follows`](rasray_ads::Description::follows)). Poses of
+    /// frames are made after this.
     ///
     /// # Errors
     /// Out of memory, or a lost device.
@@ -376,8 +380,8 @@ impl PosePass {
         self.parts.as_ref().map(|division| &division.parts)
     }
 
-    /// Of each part that moves whether one pose has it elsewhere than another, or in another shape; in one part where the geometry
-    /// is not in parts. Both were made by [`PosePass::frame`].
+    /// Of each part that moves whether one pose has it elsewhere than another, or in another shape; in one
+    /// part where the geometry is not in parts. Both were made by [`PosePass::frame`].
     pub fn moved_parts(&self, before: &FramePose, after: &FramePose) -> Vec<bool> {
         let count = self.divided().map_or(1, |parts| parts.moving().len());
         let deformed =
@@ -392,15 +396,15 @@ impl PosePass {
         moved
     }
 
-    /// Objects with a space of their own, by moving part; empty where none has, so that poses are the same as without
-    /// parts.
+    /// Objects with a space of their own, by moving part; empty where none has, so that poses are the same as
+    /// without parts.
     fn objects_in_spaces(&self) -> &[Option<RigidObject>] {
         let objects = self.parts.as_ref().map_or(&[][..], |division| &division.objects);
         if objects.iter().any(Option::is_some) { objects } else { &[] }
     }
 
-    /// For each draw of the geometry whether any clip can move it or a deformer changes it. All others stay where the tables
-    /// have them.
+    /// For each draw of the geometry whether any clip can move it or a deformer changes it. All others stay
+    /// where the tables have them.
     pub fn moving_draws(&self) -> &[bool] {
         &self.moving_draws
     }

@@ -83,8 +83,8 @@ impl TexelDemand {
         self.texels() * TEXEL_BYTES
     }
 
-    /// Images that are made smaller so that `most` texels are enough: time and again the largest, the first of equal
-    /// ones, is halved. None where they are enough already.
+    /// Images that are made smaller so that `most` texels are enough: time and again the largest, the first
+    /// of equal ones, is halved. None where they are enough already.
     ///
     /// # Errors
     /// `TooManyTexels` where images of one texel each are still too many.
@@ -121,8 +121,8 @@ impl TexelDemand {
 }
 
 impl SmallerImage {
-    /// Replaces the image by its smaller level: an image that has one use is then stored as before, without its
-    /// finest levels. Whoever reads the scene from here on sees the same texels as the device.
+    /// Replaces the image by its smaller level: an image that has one use is then stored as before, without
+    /// its finest levels. Whoever reads the scene from here on sees the same texels as the device.
     ///
     /// # Panics
     /// `scene` is not the one that the demand was taken of.

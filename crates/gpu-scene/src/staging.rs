@@ -12,7 +12,8 @@ struct StagedCopy {
     to: Buffer,
 }
 
-/// Filling of tables: at once, with a wait, or by a recording of the caller's. Clones are handles to the same tables.
+/// Filling of tables: at once, with a wait, or by a recording of the caller's. Clones are handles to the same
+/// tables.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Staging(Arc<Mutex<Option<Vec<StagedCopy>>>>);
 

@@ -9,8 +9,8 @@ pub const TEXEL_BYTES: u64 = 4;
 /// Largest exponent of a run's length: four runs then have all texels that 32 bits number.
 const LARGEST_SHIFT: u32 = 30;
 
-/// The length of a run of texels, a power of two. Textures are not aligned to runs: one may begin in one run and end
-/// in the next.
+/// The length of a run of texels, a power of two. Textures are not aligned to runs: one may begin in one run
+/// and end in the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TexelRuns {
     shift: u32,
@@ -20,8 +20,8 @@ impl TexelRuns {
     /// The longest that the shaders can address.
     pub const LONGEST: Self = Self { shift: LARGEST_SHIFT };
 
-    /// The longest that a device can bind and allocate. Vulkan grants bindings of 128 MiB, so that every device holds
-    /// 512 MiB of texels.
+    /// The longest that a device can bind and allocate. Vulkan grants bindings of 128 MiB, so that every
+    /// device holds 512 MiB of texels.
     pub fn of(limits: &Limits) -> Self {
         Self::at_most(limits.max_storage_buffer_range.min(limits.max_memory_allocation) / TEXEL_BYTES)
     }

@@ -76,7 +76,8 @@ impl<'a> TexturePacker<'a> {
         Ok(TextureUse { texture: entry, uv_set: reference.uv_set.min(1), row_u, row_v })
     }
 
-    /// The images that are stored: once for each encoding, with all levels if any of their textures wants them.
+    /// The images that are stored: once for each encoding, with all levels if any of their textures wants
+    /// them.
     pub fn stored(&self) -> BTreeMap<(usize, Encoding), bool> {
         let mut mipmapped = BTreeMap::new();
         for &(texture, encoding) in &self.entries {

@@ -27,7 +27,8 @@ const VIEW_BYTES: Range<usize> = 0..offset_of!(Frame, triangle_count);
 /// Bytes of the frame that the sampling decides.
 const SAMPLING_BYTES: Range<usize> = offset_of!(Frame, sampling)..offset_of!(Frame, kind_shares);
 
-/// Buffers that change from frame to frame, in addition to positions. One record stands in for an empty table.
+/// Buffers that change from frame to frame, in addition to positions. One record stands in for an empty
+/// table.
 #[derive(Clone, Debug)]
 pub struct PosedBuffers {
     /// One [`Frame`].
@@ -62,8 +63,8 @@ pub struct GpuScene {
 }
 
 impl GpuScene {
-    /// Uploads the tables and waits until they have arrived. Texels may exceed one binding: they lie in the longest
-    /// runs that the device can bind.
+    /// Uploads the tables and waits until they have arrived. Texels may exceed one binding: they lie in the
+    /// longest runs that the device can bind.
     ///
     /// # Errors
     /// Out of memory, a table larger than one binding can hold (the error names it), more texels than
@@ -73,8 +74,9 @@ impl GpuScene {
     }
 
     /// As [`GpuScene::upload`], without waiting: the tables lie in memory of the host until a recording with
-    /// [`GpuScene::record_staged`] has run. Those of a [`PosePass`](crate::PosePass) that is made for the scene before
-    /// [`GpuScene::end_staging`] go the same way. Takes the bytes of all tables twice until then.
+    /// [`GpuScene::record_staged`] has run. Those of a [`PosePass`](crate::PosePass) that is made for the
+    /// scene before [`GpuScene::end_staging`] go the same way. Takes the bytes of all tables twice until
+    /// then.
     ///
     /// # Errors
     /// As [`GpuScene::upload`].
@@ -177,8 +179,8 @@ impl GpuScene {
         })
     }
 
-    /// Adds code for more than this scene needs: pipelines that are made for it read later scenes, too, that have any
-    /// of `features`. No picture depends on it.
+    /// Adds code for more than this scene needs: pipelines that are made for it read later scenes, too, that
+    /// have any of `features`. No picture depends on it.
     #[must_use]
     pub fn allowing(mut self, features: ShadingFeatures) -> Self {
         self.features = self.features.with(features);
@@ -187,14 +189,14 @@ impl GpuScene {
         self
     }
 
-    /// Records the copies of tables that [`GpuScene::staged`] left with the host, before everything that reads them, visible to
-    /// all that follows; nothing where the tables are on the device.
+    /// Records the copies of tables that [`GpuScene::staged`] left with the host, before everything that
+    /// reads them, visible to all that follows; nothing where the tables are on the device.
     pub fn record_staged(&self, recorder: &mut Recorder<'_>) {
         self.staging.record(recorder);
     }
 
-    /// Says that the recording of [`GpuScene::record_staged`] was submitted: memory of the host is freed when the
-    /// device is done with it.
+    /// Says that the recording of [`GpuScene::record_staged`] was submitted: memory of the host is freed when
+    /// the device is done with it.
     pub fn end_staging(&self) {
         self.staging.end();
     }
@@ -216,7 +218,8 @@ impl GpuScene {
         self.write_frame(VIEW_BYTES)
     }
 
-    /// Changes how pixels are sampled and what their rays pass; otherwise as [`GpuScene::update_camera`], which leaves this as it is.
+    /// Changes how pixels are sampled and what their rays pass; otherwise as [`GpuScene::update_camera`],
+    /// which leaves this as it is.
     ///
     /// # Errors
     /// The buffer cannot be written.
@@ -230,10 +233,11 @@ impl GpuScene {
         Ok(self.posed_buffers.frame.write(bytes.start as u64, frame)?)
     }
 
-    /// Records what [`GpuScene::update_camera`] and [`GpuScene::set_sampling`] write: the values are stored in the command
-    /// buffer, so that several recordings may be pending, each with a view of its own. Answers the frame as shaders will
-    /// see it, for [`viewpoint_of`](crate::layout::viewpoint_of); [`GpuScene::frame`] and what follows from it stay those
-    /// of the view that was written last. Visible to all that follows.
+    /// Records what [`GpuScene::update_camera`] and [`GpuScene::set_sampling`] write: the values are stored
+    /// in the command buffer, so that several recordings may be pending, each with a view of its own. Answers
+    /// the frame as shaders will see it, for [`viewpoint_of`](crate::layout::viewpoint_of);
+    /// [`GpuScene::frame`] and what follows from it stay those of the view that was written last. Visible to
+    /// all that follows.
     pub fn record_frame(&self, recorder: &mut Recorder<'_>, view: &View, sampling: Sampling) -> Frame {
         let mut frame = self.frame;
         view.write(&mut frame, self.frame_origin);
@@ -247,7 +251,8 @@ impl GpuScene {
         frame
     }
 
-    /// The buffers that a [`PosePass`](crate::PosePass) writes in addition to positions, and [`GpuScene::record_frame`].
+    /// The buffers that a [`PosePass`](crate::PosePass) writes in addition to positions, and
+    /// [`GpuScene::record_frame`].
     pub fn posed_buffers(&self) -> &PosedBuffers {
         &self.posed_buffers
     }
@@ -339,8 +344,8 @@ impl Upload<'_> {
         Ok(buffer)
     }
 
-    /// Texels in runs, one part of the bytes. Where there are fewer runs than bindings, the first stands in for the
-    /// others, of which nothing is read.
+    /// Texels in runs, one part of the bytes. Where there are fewer runs than bindings, the first stands in
+    /// for the others, of which nothing is read.
     fn texels(
         &mut self,
         texels: &[u32],

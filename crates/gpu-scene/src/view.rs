@@ -40,7 +40,8 @@ impl Default for Sampling {
 }
 
 impl Sampling {
-    /// Writes the fields of `frame` that depend on the sampling. Without a single-sided surface no ray has to look for one.
+    /// Writes the fields of `frame` that depend on the sampling. Without a single-sided surface no ray has to
+    /// look for one.
     pub fn write(self, frame: &mut Frame, has_single_sided: bool) {
         let flags = |passes: bool| if passes && has_single_sided { RAY_CULL_BACK_FACES } else { 0 };
         frame.camera_ray_flags = flags(self.back_faces.lets_camera_rays());

@@ -33,7 +33,8 @@ impl Access {
     pub const HOST_READ: Access = Access(1 << 9);
     /// Writes by the host.
     pub const HOST_WRITE: Access = Access(1 << 10);
-    /// Builds of the driver's trees: what they read and write. Only where [`crate::Feature::AccelerationStructure`] is enabled.
+    /// Builds of the driver's trees: what they read and write. Only where
+    /// [`crate::Feature::AccelerationStructure`] is enabled.
     pub const TREE_BUILD: Access = Access(1 << 11);
     /// Ray queries of compute shaders. Only where [`crate::Feature::RayQuery`] is enabled.
     pub const TREE_TRACE: Access = Access(1 << 12);

@@ -167,8 +167,8 @@ impl Drop for BindingSetInner {
         }
         let Some(device) = core.usable_device() else { return };
         for part in self.parts.lock().values() {
-            // SAFETY: submissions that use the set hold a handle to it, so none is pending; embedders keep what
-            // they record alive. It was taken out of the layout, so that no part is added any more.
+            // SAFETY: submissions that use the set hold a handle to it, so none is pending; embedders keep
+            // what they record alive. It was taken out of the layout, so that no part is added any more.
             unsafe { device.destroy_descriptor_pool(part.pool, None) };
         }
     }

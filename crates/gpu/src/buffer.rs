@@ -17,8 +17,8 @@ use crate::memory::{Allocation, MemoryLocation};
 pub struct BufferUsage(u32);
 
 impl BufferUsage {
-    /// Read and written by shaders; also by address where [`Feature::BufferDeviceAddress`] is enabled, and read by builds of the
-    /// driver's trees where [`Feature::AccelerationStructure`] is.
+    /// Read and written by shaders; also by address where [`Feature::BufferDeviceAddress`] is enabled, and
+    /// read by builds of the driver's trees where [`Feature::AccelerationStructure`] is.
     pub const STORAGE: BufferUsage = BufferUsage(1);
     /// Arguments of indirect dispatches and draws.
     pub const INDIRECT: BufferUsage = BufferUsage(1 << 1);
@@ -100,8 +100,8 @@ pub struct RawBuffer<'a> {
     pub usage: BufferUsage,
 }
 
-/// Memory of a device, made by [`Device::create_buffer`] or wrapped by [`Device::buffer_from_raw`]. Clones are handles to the
-/// same buffer.
+/// Memory of a device, made by [`Device::create_buffer`] or wrapped by [`Device::buffer_from_raw`]. Clones
+/// are handles to the same buffer.
 #[derive(Clone)]
 pub struct Buffer {
     pub(crate) inner: Arc<BufferInner>,
@@ -123,8 +123,8 @@ pub(crate) struct BufferInner {
 /// Host address of the first byte of a buffer.
 struct Mapped(NonNull<u8>);
 
-// SAFETY: the memory behind the address belongs to the buffer alone and may be touched from any thread, one at a
-// time, which the lock around this value ensures.
+// SAFETY: the memory behind the address belongs to the buffer alone and may be touched from any thread, one
+// at a time, which the lock around this value ensures.
 unsafe impl Send for Mapped {}
 
 struct OwnedMemory {
@@ -254,14 +254,14 @@ impl Buffer {
         self.inner.raw
     }
 
-    /// Device address of the first byte, where [`Feature::BufferDeviceAddress`] is enabled and the usage holds
-    /// [`BufferUsage::STORAGE`].
+    /// Device address of the first byte, where [`Feature::BufferDeviceAddress`] is enabled and the usage
+    /// holds [`BufferUsage::STORAGE`].
     pub fn address(&self) -> Option<u64> {
         self.inner.address
     }
 
-    /// The address of the first byte for builds of the driver's trees; none for a buffer of a host, which may not be made for
-    /// them.
+    /// The address of the first byte for builds of the driver's trees; none for a buffer of a host, which may
+    /// not be made for them.
     pub(crate) fn input_address(&self) -> Option<u64> {
         self.inner.owned.as_ref().and(self.inner.address)
     }
@@ -350,8 +350,8 @@ impl Drop for BufferInner {
             std::mem::forget(owned);
             return;
         }
-        // SAFETY: made from this device; binding sets and submissions that use it hold handles, so none is left,
-        // and embedders keep what they record alive.
+        // SAFETY: made from this device; binding sets and submissions that use it hold handles, so none is
+        // left, and embedders keep what they record alive.
         unsafe { self.core.device.destroy_buffer(self.raw, None) };
         if let Some(allocation) = owned.allocation {
             // SAFETY: the only buffer bound to this piece was just destroyed.

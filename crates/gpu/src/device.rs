@@ -44,8 +44,8 @@ impl Default for DeviceDesc {
     }
 }
 
-/// A Vulkan device with one queue. It makes buffers and pipelines, and submits recorded commands. [`Device::create`] makes a
-/// device, [`Device::from_raw`] takes that of a host.
+/// A Vulkan device with one queue. It makes buffers and pipelines, and submits recorded commands.
+/// [`Device::create`] makes a device, [`Device::from_raw`] takes that of a host.
 ///
 /// Clones are handles to the same device, which lives as long as any of them or any object made from it.
 #[derive(Clone)]
@@ -235,8 +235,8 @@ impl Device {
     /// That everything `what` requires is enabled and within the device's limits.
     ///
     /// # Errors
-    /// [`GpuError::FeatureNotEnabled`] for the first required feature that is not, [`GpuError::LimitExceeded`] for
-    /// too many storage buffers.
+    /// [`GpuError::FeatureNotEnabled`] for the first required feature that is not,
+    /// [`GpuError::LimitExceeded`] for too many storage buffers.
     pub fn require(&self, what: &str, requirements: &Requirements) -> Result<(), GpuError> {
         self.missing(requirements).next().map_or(Ok(()), |missing| Err(missing.error(what)))
     }
@@ -269,8 +269,8 @@ impl Device {
         self.core.log.messages()
     }
 
-    /// The list behind [`Device::validation_messages`]; it outlives the device, so that its destruction can be
-    /// checked as well.
+    /// The list behind [`Device::validation_messages`]; it outlives the device, so that its destruction can
+    /// be checked as well.
     pub fn validation_log(&self) -> ValidationLog {
         self.core.log.clone()
     }

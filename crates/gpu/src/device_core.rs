@@ -1,4 +1,5 @@
-//! State shared by every object of a device: handles, functions, books about memory, and the order of destruction.
+//! State shared by every object of a device: handles, functions, books about memory, and the order of
+//! destruction.
 
 use std::collections::BTreeSet;
 use std::ffi::{CStr, CString};

@@ -34,7 +34,8 @@ pub struct DriverTreeDesc<'a> {
     pub goal: DriverTreeGoal,
 }
 
-/// A tree of the driver over boxes, one instance of it on top, and the memory of both. Clones are handles to the same tree.
+/// A tree of the driver over boxes, one instance of it on top, and the memory of both. Clones are handles to
+/// the same tree.
 #[derive(Clone)]
 pub struct DriverTree {
     inner: Arc<TreeInner>,
@@ -76,8 +77,9 @@ impl Device {
     /// Makes a tree. It holds nothing until a build is recorded ([`crate::Recorder::build_driver_tree`]).
     ///
     /// # Errors
-    /// [`GpuError::FeatureNotEnabled`] without [`Feature::AccelerationStructure`] and [`Feature::BufferDeviceAddress`];
-    /// [`GpuError::LimitExceeded`] for more boxes than the device takes; out of memory, or what the driver reports.
+    /// [`GpuError::FeatureNotEnabled`] without [`Feature::AccelerationStructure`] and
+    /// [`Feature::BufferDeviceAddress`]; [`GpuError::LimitExceeded`] for more boxes than the device takes;
+    /// out of memory, or what the driver reports.
     pub fn create_driver_tree(&self, desc: &DriverTreeDesc<'_>) -> Result<DriverTree> {
         let core = &self.core;
         for feature in [Feature::AccelerationStructure, Feature::BufferDeviceAddress] {
@@ -185,8 +187,9 @@ impl DriverTree {
     /// Records both builds over `count` boxes at an address, with a barrier between them.
     ///
     /// # Safety
-    /// The command buffer is being recorded outside of rendering; the boxes at `address` (a multiple of 8) are no more than the
-    /// tree was made for, in memory that was made for it and lives until the device is done, as this tree does.
+    /// The command buffer is being recorded outside of rendering; the boxes at `address` (a multiple of 8)
+    /// are no more than the tree was made for, in memory that was made for it and lives until the device is
+    /// done, as this tree does.
     pub(crate) unsafe fn record(
         &self,
         command: vk::CommandBuffer,
@@ -204,8 +207,8 @@ impl DriverTree {
                 .scratch_data(vk::DeviceOrHostAddressKHR { device_address: *scratch_address });
             let range =
                 [vk::AccelerationStructureBuildRangeInfoKHR::default().primitive_count(input.count())];
-            // SAFETY: the caller vouches for the command buffer and the boxes; levels and scratch memory are as large as
-            // the driver asked for, and the scratch address is aligned.
+            // SAFETY: the caller vouches for the command buffer and the boxes; levels and scratch memory are
+            // as large as the driver asked for, and the scratch address is aligned.
             unsafe { trees.cmd_build_acceleration_structures(command, &[info], &[&range]) };
         };
         build(&Input::Boxes { address, count }, bottom);
@@ -325,8 +328,8 @@ fn tree_limits(core: &Core) -> vk::PhysicalDeviceAccelerationStructureProperties
     limits
 }
 
-/// The instance of a level in place, as `VkAccelerationStructureInstanceKHR` lies in memory: rows of a matrix, a number and
-/// a mask, two words of flags, an address.
+/// The instance of a level in place, as `VkAccelerationStructureInstanceKHR` lies in memory: rows of a
+/// matrix, a number and a mask, two words of flags, an address.
 fn instance_bytes(address: u64) -> [u8; 64] {
     const IDENTITY: [f32; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
     const SEEN_BY_ALL: u32 = 0xFF << 24;

@@ -61,8 +61,8 @@ pub enum GpuError {
         /// Object or call that needs it.
         what: String,
     },
-    /// A buffer is larger than a storage buffer binding may be. Pools of structures can be reached by device address
-    /// instead (`addressing` of their configurations); nothing else can.
+    /// A buffer is larger than a storage buffer binding may be. Pools of structures can be reached by device
+    /// address instead (`addressing` of their configurations); nothing else can.
     #[error(
         "buffer `{name}` has {size} bytes, but a storage buffer binding ends at {limit} bytes on this device"
     )]
@@ -91,8 +91,8 @@ pub enum GpuError {
         /// Who refused: a Vulkan call, or the name of a limit.
         refused_by: &'static str,
     },
-    /// Memory could not be had for another reason than that there is none left: no type of memory fits, or the driver refused
-    /// to allocate or map it.
+    /// Memory could not be had for another reason than that there is none left: no type of memory fits, or
+    /// the driver refused to allocate or map it.
     #[error("memory for `{name}` could not be had: {reason}")]
     Memory {
         /// Name of the buffer, or "memory pool".

@@ -1,4 +1,5 @@
-//! Faults on demand, for tests only: Vulkan calls that fail, features and limits that a device pretends not to have.
+//! Faults on demand, for tests only: Vulkan calls that fail, features and limits that a device pretends not
+//! to have.
 //!
 //! The loader's `vkGetInstanceProcAddr` is replaced by one of this module, from which every other function
 //! pointer of instance, device, extensions and memory allocator is got. A function that returns `VkResult` is
@@ -43,8 +44,8 @@ pub fn without<R>(features: &[Feature], work: impl FnOnce() -> R) -> R {
     answer
 }
 
-/// Runs `work`, in which every device made has limits as `change` leaves them. They may only become smaller than
-/// those of the device: nothing is gained by promising more than it has.
+/// Runs `work`, in which every device made has limits as `change` leaves them. They may only become smaller
+/// than those of the device: nothing is gained by promising more than it has.
 pub fn with_limits<R>(change: impl Fn(&mut Limits) + 'static, work: impl FnOnce() -> R) -> R {
     let before = LOWERED.replace(Some(Box::new(change)));
     let answer = work();

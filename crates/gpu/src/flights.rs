@@ -6,11 +6,11 @@ use crate::one_time::OneTime;
 use crate::recorder::{Completed, Recorder};
 use crate::timers::{PassTiming, TIMED_PASSES, Timers, Timing};
 
-/// A ring of command buffers that are submitted without waiting, one per frame in flight: the host records the next
-/// while the device works on the last.
+/// A ring of command buffers that are submitted without waiting, one per frame in flight: the host records
+/// the next while the device works on the last.
 ///
-/// Submissions run in the order in which they were made, each after all earlier ones have ended, and what they use lives
-/// until they are waited for. Dropping the ring waits for all.
+/// Submissions run in the order in which they were made, each after all earlier ones have ended, and what
+/// they use lives until they are waited for. Dropping the ring waits for all.
 pub struct Flights {
     device: Device,
     slots: Vec<Slot>,
@@ -38,8 +38,9 @@ impl Flights {
     /// Makes a ring of that many slots, at least 1.
     ///
     /// # Errors
-    /// [`GpuError::InvalidUse`] for [`Timing::Host`], which waits for every pass, and for a device without a queue;
-    /// [`GpuError::FeatureNotEnabled`] for [`Timing::Device`] on a queue without timestamps, or what the driver reports.
+    /// [`GpuError::InvalidUse`] for [`Timing::Host`], which waits for every pass, and for a device without a
+    /// queue; [`GpuError::FeatureNotEnabled`] for [`Timing::Device`] on a queue without timestamps, or what
+    /// the driver reports.
     pub fn new(device: &Device, slots: u32, timing: Timing) -> Result<Self> {
         if timing == Timing::Host {
             return Err(GpuError::InvalidUse {
@@ -83,8 +84,8 @@ impl Flights {
     /// Records commands and submits them; returns what `record` did.
     ///
     /// # Errors
-    /// There is no such slot, or what was submitted from it was not waited for; the first mistake of the recording, of
-    /// which nothing is submitted then; [`GpuError::Abandoned`], or what the driver reports.
+    /// There is no such slot, or what was submitted from it was not waited for; the first mistake of the
+    /// recording, of which nothing is submitted then; [`GpuError::Abandoned`], or what the driver reports.
     pub fn submit<R>(&mut self, slot: u32, record: impl FnOnce(&mut Recorder<'_>) -> R) -> Result<R> {
         let device = self.device.clone();
         let Slot { work, timers, pending } =
@@ -101,11 +102,12 @@ impl Flights {
         Ok(value)
     }
 
-    /// Waits, at most [`Device::timeout`], for what was submitted from a slot, and returns the times of its passes, if
-    /// the ring times them. Nothing where nothing was submitted since the last wait.
+    /// Waits, at most [`Device::timeout`], for what was submitted from a slot, and returns the times of its
+    /// passes, if the ring times them. Nothing where nothing was submitted since the last wait.
     ///
     /// # Errors
-    /// There is no such slot; [`GpuError::Timeout`], after which the device is abandoned, or [`GpuError::DeviceLost`].
+    /// There is no such slot; [`GpuError::Timeout`], after which the device is abandoned, or
+    /// [`GpuError::DeviceLost`].
     pub fn wait(&mut self, slot: u32) -> Result<Option<Vec<PassTiming>>> {
         let Slot { work, timers, pending } =
             self.slots.get_mut(slot as usize).ok_or_else(|| missing(slot))?;

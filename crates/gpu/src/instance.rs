@@ -9,9 +9,10 @@ use crate::messages::{ValidationLog, messenger_info};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
-/// The first version of the layer whose thread for a queue locks the labels of command buffers. Earlier ones, such as 1.3.239 of
-/// Debian 12, forget those of a destroyed command buffer without a lock, some time after a wait for its fence ended: where its
-/// handle is in use again by then, labels are written to freed memory (Vulkan-ValidationLayers, issue 5172).
+/// The first version of the layer whose thread for a queue locks the labels of command buffers. Earlier ones,
+/// such as 1.3.239 of Debian 12, forget those of a destroyed command buffer without a lock, some time after a
+/// wait for its fence ended: where its handle is in use again by then, labels are written to freed memory
+/// (Vulkan-ValidationLayers, issue 5172).
 const LABELS_ARE_LOCKED: u32 = vk::make_api_version(0, 1, 3, 242);
 
 /// An instance made here, with the library it came from.
@@ -90,7 +91,8 @@ impl Instance {
         if debug_utils {
             let functions = ash::ext::debug_utils::Instance::new(&instance._entry, &instance.raw);
             let info = messenger_info(&instance.log);
-            // SAFETY: the extension is enabled, and the log is boxed in the value that destroys the messenger.
+            // SAFETY: the extension is enabled, and the log is boxed in the value that destroys the
+            // messenger.
             let messenger = unsafe { functions.create_debug_utils_messenger(&info, None) }
                 .during("vkCreateDebugUtilsMessengerEXT", "the messages of the validation layer")?;
             instance.messenger = Some((functions, messenger));

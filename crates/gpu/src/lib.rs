@@ -1,7 +1,9 @@
-//! Vulkan for rasray: devices, memory, buffers, pipelines, recorded commands and timings. All crates that run on a device use
-//! it. It knows no scene, no window and no ray-tracing structure, and works on the device of a host that has a renderer.
+//! Vulkan for rasray: devices, memory, buffers, pipelines, recorded commands and timings. All crates that run
+//! on a device use it. It knows no scene, no window and no ray-tracing structure, and works on the device of
+//! a host that has a renderer.
 //!
-//! - [`Device`] is a device with one queue, made here ([`Device::create`]) or handed in ([`Device::from_raw`]).
+//! - [`Device`] is a device with one queue, made here ([`Device::create`]) or handed in
+//!   ([`Device::from_raw`]).
 //! - [`Buffer`] is memory of the device, made here or wrapped ([`Device::buffer_from_raw`]).
 //! - [`Recorder`] records passes into a command buffer, of a submission of this crate or of a host.
 //! - [`Flights`] submits frame after frame without waiting.
@@ -17,18 +19,18 @@
 //! Pipelines of the same making are one; [`Device::keep_pipelines`] keeps some that are not in use.
 //!
 //! **Who waits.** A [`Recorder`] only records: it never submits, never waits, never allocates device memory.
-//! [`Device::submit`], [`Device::upload`], [`Device::download`] and [`Device::create_cleared_buffer`] submit and wait
-//! with a timeout; they are for applications, tests and what is made before frames begin. [`Flights`] submits without
-//! waiting, frame after frame. Code that is to run inside somebody else's frame uses a [`Recorder`] alone.
-//! Submissions keep what they use alive until the device is done with it.
+//! [`Device::submit`], [`Device::upload`], [`Device::download`] and [`Device::create_cleared_buffer`] submit
+//! and wait with a timeout; they are for applications, tests and what is made before frames begin.
+//! [`Flights`] submits without waiting, frame after frame. Code that is to run inside somebody else's frame
+//! uses a [`Recorder`] alone. Submissions keep what they use alive until the device is done with it.
 //!
-//! **Synchronisation.** Within one command buffer the caller records [`Recorder::barrier`]. Every submission of
-//! [`Device::submit`] begins with a barrier against all earlier ones and ends with one towards host reads.
+//! **Synchronisation.** Within one command buffer the caller records [`Recorder::barrier`]. Every submission
+//! of [`Device::submit`] begins with a barrier against all earlier ones and ends with one towards host reads.
 //!
 //! **Ranges of buffers** have one user at a time, see [below](#ranges-of-buffers).
 //!
-//! **Errors.** Creation returns [`GpuError`]. Recording does not return errors: the first mistake is kept, what
-//! follows is not recorded, and [`Recorder::finish`] or the submission reports it.
+//! **Errors.** Creation returns [`GpuError`]. Recording does not return errors: the first mistake is kept,
+//! what follows is not recorded, and [`Recorder::finish`] or the submission reports it.
 //!
 //! **After a timeout** the device may still be running the work. The device is then *abandoned*: nothing made
 //! from it is destroyed any more, and every later submission fails with [`GpuError::Abandoned`].
@@ -41,19 +43,23 @@
 //!
 //! # Ranges of buffers
 //!
-//! The host ([`Buffer::write`], [`Buffer::read_into`], [`Buffer::read`]) and recorded commands use the same memory. Callers
-//! keep these rules:
+//! The host ([`Buffer::write`], [`Buffer::read_into`], [`Buffer::read`]) and recorded commands use the same
+//! memory. Callers keep these rules:
 //!
-//! - The host writes a range only while no pending work uses it, and reads it only while no pending work writes it.
-//! - Work is pending from its submission until its fence is signalled. [`Device::submit`] waits for that; with [`Flights`]
-//!   and submissions of a host the caller waits.
-//! - Before the host reads, the work has made its writes visible to the host. Submissions of [`Device::submit`] end so.
-//! - Ranges that do not overlap are independent. Threads of the host exclude each other: each access locks the buffer.
+//! - The host writes a range only while no pending work uses it, and reads it only while no pending work
+//!   writes it.
+//! - Work is pending from its submission until its fence is signalled. [`Device::submit`] waits for that;
+//!   with [`Flights`] and submissions of a host the caller waits.
+//! - Before the host reads, the work has made its writes visible to the host. Submissions of
+//!   [`Device::submit`] end so.
+//! - Ranges that do not overlap are independent. Threads of the host exclude each other: each access locks
+//!   the buffer.
 //!
-//! Nothing checks these rules, and the functions are safe all the same: they copy plain bytes under a lock, stay within the
-//! buffer and return no reference into it. Of a race the host reads old bytes, new ones or a mix, and so do shaders; no
-//! other memory of the host is touched. Shaders treat the mix as any other bytes that were written there. Hosts that mark
-//! every function as unsafe whose misuse gives wrong bytes have to wrap these.
+//! Nothing checks these rules, and the functions are safe all the same: they copy plain bytes under a lock,
+//! stay within the buffer and return no reference into it. Of a race the host reads old bytes, new ones or a
+//! mix, and so do shaders; no other memory of the host is touched. Shaders treat the mix as any other bytes
+//! that were written there. Hosts that mark every function as unsafe whose misuse gives wrong bytes have to
+//! wrap these.
 //!
 //! # Example
 //!

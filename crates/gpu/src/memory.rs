@@ -41,8 +41,8 @@ unsafe impl Sync for Allocation {}
 /// A source of device memory; a host may bring its own.
 ///
 /// # Safety
-/// A piece returned by [`Memory::allocate`] must fulfil the requirements, belong to nobody else, stay valid and
-/// in place until it is freed, and be host-visible, host-coherent and mapped for
+/// A piece returned by [`Memory::allocate`] must fulfil the requirements, belong to nobody else, stay valid
+/// and in place until it is freed, and be host-visible, host-coherent and mapped for
 /// [`MemoryLocation::Upload`] and [`MemoryLocation::Readback`]. Where
 /// [`Feature::BufferDeviceAddress`](crate::Feature::BufferDeviceAddress) is enabled, it must come from an
 /// allocation with `VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT`.
@@ -70,8 +70,8 @@ pub unsafe trait Memory: Send + Sync {
     }
 }
 
-/// The memory source used unless a host brings one: blocks of 16 MiB on the device and 4 MiB on the host, shared
-/// by small buffers.
+/// The memory source used unless a host brings one: blocks of 16 MiB on the device and 4 MiB on the host,
+/// shared by small buffers.
 pub struct PooledMemory {
     allocator: Mutex<pooled::Allocator>,
     device_local_bytes: u64,
@@ -81,8 +81,8 @@ impl PooledMemory {
     const DEVICE_BLOCK_BYTES: u64 = 16 << 20;
     const HOST_BLOCK_BYTES: u64 = 4 << 20;
 
-    /// A pool on a device; `addresses` if buffers will be reached by device address. It must be dropped before
-    /// the device is destroyed.
+    /// A pool on a device; `addresses` if buffers will be reached by device address. It must be dropped
+    /// before the device is destroyed.
     ///
     /// # Errors
     /// [`GpuError::Memory`] with what the allocator reports.
@@ -116,9 +116,9 @@ impl PooledMemory {
     }
 }
 
-// SAFETY: gpu-allocator gives out disjoint pieces that fulfil the requirements, maps host-visible blocks once for
-// their life, takes only coherent types for the two host locations, and sets the address flag on its blocks if
-// told so in `new`.
+// SAFETY: gpu-allocator gives out disjoint pieces that fulfil the requirements, maps host-visible blocks once
+// for their life, takes only coherent types for the two host locations, and sets the address flag on its
+// blocks if told so in `new`.
 unsafe impl Memory for PooledMemory {
     fn allocate(
         &self,

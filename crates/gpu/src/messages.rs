@@ -5,8 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
 
-/// Messages about calls that are not ours, by id: a driver's own layer asks for functions of the instance through the
-/// device (NVIDIA 580). `ash` asks for functions of a device alone.
+/// Messages about calls that are not ours, by id: a driver's own layer asks for functions of the instance
+/// through the device (NVIDIA 580). `ash` asks for functions of a device alone.
 const OF_OTHERS: &[&str] = &["WARNING-vkGetDeviceProcAddr-device"];
 
 /// Warnings and errors of the validation layer, in order. Clones share one list, which outlives the device.
@@ -21,7 +21,8 @@ impl ValidationLog {
         self.messages.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Description of a messenger for an instance that a host makes, so that its messages are gathered here as well.
+    /// Description of a messenger for an instance that a host makes, so that its messages are gathered here
+    /// as well.
     ///
     /// # Safety
     /// The log stays where it is until the messenger and its instance are gone.

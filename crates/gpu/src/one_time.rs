@@ -126,8 +126,8 @@ impl OneTime {
                 return Err(GpuError::Timeout { pass: during.to_owned(), seconds });
             }
             Err(failed) => {
-                // The wait failed, not the work. Nothing that the work uses may be destroyed while it runs, so it
-                // is waited for once more; a lost device runs nothing any more.
+                // The wait failed, not the work. Nothing that the work uses may be destroyed while it runs,
+                // so it is waited for once more; a lost device runs nothing any more.
                 let ended = failed == vk::Result::ERROR_DEVICE_LOST
                     || matches!(wait(), Ok(()) | Err(vk::Result::ERROR_DEVICE_LOST));
                 if !ended {

@@ -95,8 +95,8 @@ impl Device {
             let specialisation = values.info();
             let stage = module.stage(vk::ShaderStageFlags::COMPUTE, &specialisation);
             let info = vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout);
-            // SAFETY: module and layout are alive and of this device; shader and layout agree (layout reflection
-            // tests hold them together, and validation checks it).
+            // SAFETY: module and layout are alive and of this device; shader and layout agree (layout
+            // reflection tests hold them together, and validation checks it).
             let made =
                 unsafe { self.core.device.create_compute_pipelines(self.core.pipeline_cache, &[info], None) };
             first_pipeline(&self.core, made, "vkCreateComputePipelines", desc.name)

@@ -18,7 +18,8 @@ pub struct ComputePipelineDesc<'a> {
 }
 
 /// A raster pipeline to be made. It draws triangle lists without attachments, vertex input or culling; what
-/// it produces is what its shaders store. Depth is 0 to 1, y is not flipped, viewport and scissor are dynamic.
+/// it produces is what its shaders store. Depth is 0 to 1, y is not flipped, viewport and scissor are
+/// dynamic.
 #[derive(Debug, Clone, Copy)]
 pub struct RasterPipelineDesc<'a> {
     /// Name for errors and tools: the path of the shaders.

@@ -64,8 +64,8 @@ struct Books {
 }
 
 /// The pipelines of a device. Every handle to one was given out by [`PipelineStore::find`] or
-/// [`PipelineStore::insert`] and goes back by [`PipelineStore::release`]. Where nothing may be destroyed any more, its
-/// device is `None`.
+/// [`PipelineStore::insert`] and goes back by [`PipelineStore::release`]. Where nothing may be destroyed any
+/// more, its device is `None`.
 #[derive(Default)]
 pub(crate) struct PipelineStore {
     books: Mutex<Books>,
@@ -81,8 +81,8 @@ impl PipelineStore {
         self.books().find(recipe)
     }
 
-    /// The first handle to what was just made. Where another thread was faster, its pipeline is given out and this one
-    /// destroyed.
+    /// The first handle to what was just made. Where another thread was faster, its pipeline is given out and
+    /// this one destroyed.
     pub(crate) fn insert(
         &self,
         device: &ash::Device,

@@ -17,8 +17,8 @@ use crate::timers::{PassTiming, TIMED_PASSES, Timers, Timing};
 pub struct SubmitOptions {
     /// Timing of passes.
     pub timing: Timing,
-    /// Longest wait for the device, at most an hour: every wait has an end. [`Device::timeout`] where absent. With
-    /// [`Timing::Host`] it holds for each pass by itself.
+    /// Longest wait for the device, at most an hour: every wait has an end. [`Device::timeout`] where absent.
+    /// With [`Timing::Host`] it holds for each pass by itself.
     pub timeout: Option<Duration>,
 }
 
@@ -32,8 +32,8 @@ pub struct Submitted<R> {
 }
 
 impl Device {
-    /// Longest wait of submissions unless told: 60 seconds, and ten minutes on a software driver, whose passes take
-    /// hundreds of times as long and hold up no display.
+    /// Longest wait of submissions unless told: 60 seconds, and ten minutes on a software driver, whose
+    /// passes take hundreds of times as long and hold up no display.
     pub fn timeout(&self) -> Duration {
         Duration::from_secs(if self.is_software() { 600 } else { 60 })
     }
@@ -47,8 +47,8 @@ impl Device {
     ///
     /// # Errors
     /// The first mistake of the recording, [`GpuError::Timeout`](crate::GpuError::Timeout),
-    /// [`GpuError::DeviceLost`](crate::GpuError::DeviceLost), [`GpuError::Abandoned`](crate::GpuError::Abandoned), or
-    /// what the driver reports.
+    /// [`GpuError::DeviceLost`](crate::GpuError::DeviceLost),
+    /// [`GpuError::Abandoned`](crate::GpuError::Abandoned), or what the driver reports.
     pub fn submit<R>(&self, record: impl FnOnce(&mut Recorder<'_>) -> R) -> Result<Submitted<R>> {
         self.submit_passes(Timing::None, record)
     }
@@ -68,8 +68,8 @@ impl Device {
 
     /// As [`Device::submit`], with options.
     ///
-    /// With [`Timing::Host`] every pass becomes a submission of its own; bound pipeline, sets and push constants
-    /// go on across it.
+    /// With [`Timing::Host`] every pass becomes a submission of its own; bound pipeline, sets and push
+    /// constants go on across it.
     ///
     /// # Errors
     /// As [`Device::submit_passes`].
@@ -96,8 +96,9 @@ impl Device {
 }
 
 impl OneTime {
-    /// Records what a submission does, after everything submitted before it and visible to the host at its end. What was
-    /// submitted last was waited for. Returns what `record` did and what the recording left behind.
+    /// Records what a submission does, after everything submitted before it and visible to the host at its
+    /// end. What was submitted last was waited for. Returns what `record` did and what the recording left
+    /// behind.
     pub(crate) fn record<R>(
         &self,
         device: &Device,

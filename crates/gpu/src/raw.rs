@@ -28,8 +28,9 @@ pub struct RawDevice {
     pub api_version: u32,
     /// Features the host enabled; at least [`Feature::Synchronization2`].
     pub enabled: Vec<Feature>,
-    /// True if the host enabled `VK_EXT_debug_utils`; names and labels are then set. Under a validation layer older
-    /// than 1.3.242 labels of a destroyed command buffer may be written to freed memory: say false there.
+    /// True if the host enabled `VK_EXT_debug_utils`; names and labels are then set. Under a validation layer
+    /// older than 1.3.242 labels of a destroyed command buffer may be written to freed memory: say false
+    /// there.
     pub debug_utils: bool,
     /// Cache used for all pipelines, or null.
     pub pipeline_cache: vk::PipelineCache,
@@ -45,10 +46,11 @@ impl Device {
     /// # Safety
     /// - Instance, physical device, device, queue, queue family and pipeline cache belong together and are
     ///   valid until the last object made from the returned device is dropped.
-    /// - Every feature in `enabled` was enabled when the device was made (with its extension where it is one),
-    ///   and `debug_utils` is true only if that extension is enabled.
-    /// - The queue is not used elsewhere while [`Device::submit`], [`Device::upload`], [`Device::download`] or whatever else
-    ///   says that it submits runs, such as what makes a queue of rays or a film; and the pipeline cache was made without `VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT`.
+    /// - Every feature in `enabled` was enabled when the device was made (with its extension where it is
+    ///   one), and `debug_utils` is true only if that extension is enabled.
+    /// - The queue is not used elsewhere while [`Device::submit`], [`Device::upload`], [`Device::download`]
+    ///   or whatever else says that it submits runs, such as what makes a queue of rays or a film; and the
+    ///   pipeline cache was made without `VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT`.
     ///
     /// # Errors
     /// [`GpuError::FeatureNotEnabled`] if synchronization2 is not in `enabled`, [`GpuError::InvalidUse`] if a

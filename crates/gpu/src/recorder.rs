@@ -29,15 +29,16 @@ use self::bound::Bound;
 pub use self::commands_of_pass::PassCommands;
 pub use self::render_area::RenderArea;
 
-/// Recorder of commands into one command buffer: of [`Device::submit`], of [`Flights`](crate::Flights), or of a host
-/// ([`Recorder::from_raw`]). It never submits, waits or allocates device memory, except in a submission of this crate whose
-/// passes the host times one by one.
+/// Recorder of commands into one command buffer: of [`Device::submit`], of [`Flights`](crate::Flights), or of
+/// a host ([`Recorder::from_raw`]). It never submits, waits or allocates device memory, except in a
+/// submission of this crate whose passes the host times one by one.
 ///
-/// Mistakes (a range beyond a buffer, a dispatch without a pipeline …) do not end the program: the recorder keeps the first
-/// one and records nothing more, and [`Recorder::finish`] or the submission returns it.
+/// Mistakes (a range beyond a buffer, a dispatch without a pipeline …) do not end the program: the recorder
+/// keeps the first one and records nothing more, and [`Recorder::finish`] or the submission returns it.
 ///
-/// Recorded resources stay alive until the device is done with them, even if their owner drops or replaces them before: a
-/// submission of this crate keeps them, and [`Recorded`] keeps them for command buffers of a host.
+/// Recorded resources stay alive until the device is done with them, even if their owner drops or replaces
+/// them before: a submission of this crate keeps them, and [`Recorded`] keeps them for command buffers of a
+/// host.
 pub struct Recorder<'a> {
     device: &'a Device,
     command: vk::CommandBuffer,
@@ -54,8 +55,8 @@ pub struct Recorder<'a> {
     submission: Option<Submission<'a>>,
 }
 
-/// Resources that a command buffer of a host uses. Keep it until the device has executed the command buffer for the
-/// last time: then nothing that was recorded is destroyed too early, whatever happens to its owners.
+/// Resources that a command buffer of a host uses. Keep it until the device has executed the command buffer
+/// for the last time: then nothing that was recorded is destroyed too early, whatever happens to its owners.
 #[must_use = "what was recorded may be destroyed once this is dropped: keep it until the device is done"]
 pub struct Recorded {
     kept: Vec<Arc<dyn Any + Send + Sync>>,
@@ -80,10 +81,11 @@ impl<'a> Recorder<'a> {
     /// Records into a command buffer of a host.
     ///
     /// # Safety
-    /// - The command buffer was made from this device for its queue family, is being recorded, is outside of a
-    ///   render pass or rendering, and is not used elsewhere while this value lives.
+    /// - The command buffer was made from this device for its queue family, is being recorded, is outside of
+    ///   a render pass or rendering, and is not used elsewhere while this value lives.
     /// - The device has executed the command buffer, or it never will, when the [`Recorded`] that
-    ///   [`Recorder::finish`] returns is dropped; where `finish` was not called or failed, it is not submitted.
+    ///   [`Recorder::finish`] returns is dropped; where `finish` was not called or failed, it is not
+    ///   submitted.
     /// - What is bound in the command buffer (pipelines, sets, push constants, viewport, scissor) may change.
     pub unsafe fn from_raw(device: &'a Device, command: vk::CommandBuffer) -> Recorder<'a> {
         Self {
@@ -202,7 +204,8 @@ impl<'a> Recorder<'a> {
             return self.misuse("a pass was ended that was not begun");
         };
         if let (Some(timers), Some(index)) = (&self.timers, timer) {
-            // SAFETY: the command buffer is being recorded, outside of rendering, and the pass was begun in it.
+            // SAFETY: the command buffer is being recorded, outside of rendering, and the pass was begun in
+            // it.
             unsafe { timers.end(self.command, index) };
         }
         if let Some(labels) = &self.core().labels {
@@ -340,8 +343,8 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Where passes are submitted one by one: submits what was recorded, waits, notes the time of `pass`, and goes
-    /// on with the same state bound. True if that failed.
+    /// Where passes are submitted one by one: submits what was recorded, waits, notes the time of `pass`, and
+    /// goes on with the same state bound. True if that failed.
     fn split_here(&mut self, pass: Option<(Stage, String)>) -> bool {
         if !self.submission.as_ref().is_some_and(|submission| submission.split) {
             return false;

@@ -10,13 +10,14 @@ pub struct Requirements {
     pub required: Vec<Feature>,
     /// Enabled where present; with each what it buys.
     pub optional: Vec<(Feature, &'static str)>,
-    /// Storage buffers that one shader stage must be able to use, all sets together; 0 where any device will do.
+    /// Storage buffers that one shader stage must be able to use, all sets together; 0 where any device will
+    /// do.
     pub storage_buffers: u32,
 }
 
 impl Requirements {
-    /// The needs of everything that draws nothing: scalar block layout and synchronization2. A queue that computes will
-    /// do.
+    /// The needs of everything that draws nothing: scalar block layout and synchronization2. A queue that
+    /// computes will do.
     pub fn compute() -> Self {
         Self { required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2], ..Self::default() }
     }

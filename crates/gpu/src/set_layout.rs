@@ -12,8 +12,8 @@ use crate::set_parts::{MOST_BINDINGS, Mask, SetPart, SetParts, all, bindings};
 /// Layout of a set: storage buffers at bindings 0, 1, 2 …, seen by vertex, fragment and compute shaders.
 /// Clones are handles to the same layout, and so are layouts of the same number of buffers of one device.
 ///
-/// A pipeline is made with those bindings alone that its modules use, so that what a device lets a stage see is
-/// compared with what a stage does see.
+/// A pipeline is made with those bindings alone that its modules use, so that what a device lets a stage see
+/// is compared with what a stage does see.
 #[derive(Clone)]
 pub struct SetLayout {
     pub(crate) core: Arc<Core>,
@@ -53,7 +53,8 @@ impl SetLayout {
         self.is_of(&other.core) && self.storage_buffers == other.storage_buffers
     }
 
-    /// The Vulkan layout of some bindings. Every set of this layout, of now and of later, has that part from here on.
+    /// The Vulkan layout of some bindings. Every set of this layout, of now and of later, has that part from
+    /// here on.
     pub(crate) fn part(&self, mask: Mask) -> Result<vk::DescriptorSetLayout> {
         let mut layouts = self.core.set_layouts.lock();
         let parts = layouts.entry(self.storage_buffers).or_default();

@@ -1,7 +1,7 @@
 //! Keeps the set layouts of a device and the sets made with them, part by part.
 //!
-//! A pipeline is made with a part of a layout: the bindings that its modules use. Every set of the layout has a Vulkan
-//! set for each part.
+//! A pipeline is made with a part of a layout: the bindings that its modules use. Every set of the layout has
+//! a Vulkan set for each part.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -24,8 +24,8 @@ pub(crate) fn all(count: u32) -> Mask {
     Mask::MAX.checked_shr(MOST_BINDINGS - count).unwrap_or(0)
 }
 
-/// The parts of the layouts of a device, by their number of buffers. They live as long as the device: pipelines that are
-/// kept without a handle to them are made of them.
+/// The parts of the layouts of a device, by their number of buffers. They live as long as the device:
+/// pipelines that are kept without a handle to them are made of them.
 #[derive(Default)]
 pub(crate) struct SetLayouts(Mutex<BTreeMap<u32, LayoutParts>>);
 

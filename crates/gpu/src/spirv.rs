@@ -12,8 +12,8 @@ const OP_DECORATE: u32 = 71;
 const DECORATION_BINDING: u32 = 33;
 const DECORATION_DESCRIPTOR_SET: u32 = 34;
 
-/// The bindings of each set, from set 0 up, that the functions of a module name: one bit a binding. A set layout of
-/// these alone is enough for it, which counts where a device lets a stage see few buffers.
+/// The bindings of each set, from set 0 up, that the functions of a module name: one bit a binding. A set
+/// layout of these alone is enough for it, which counts where a device lets a stage see few buffers.
 ///
 /// # Errors
 /// [`GpuError::InvalidShader`] for words that are no module, and for bindings beyond 63.

@@ -20,7 +20,8 @@ pub enum Timing {
     None,
     /// By timestamps of the device, all passes in one submission. Passes that no barrier separates overlap.
     Device,
-    /// By the clock of the host, with a submission and a wait for every pass. A time includes what a submission costs.
+    /// By the clock of the host, with a submission and a wait for every pass. A time includes what a
+    /// submission costs.
     Host,
 }
 
@@ -184,8 +185,8 @@ impl Timers {
 impl Drop for TimersInner {
     fn drop(&mut self) {
         if self.core.is_usable() {
-            // SAFETY: submissions that use the pool hold a handle to it, so none is pending; embedders keep what
-            // they record alive.
+            // SAFETY: submissions that use the pool hold a handle to it, so none is pending; embedders keep
+            // what they record alive.
             unsafe { self.core.device.destroy_query_pool(self.pool, None) };
         }
     }

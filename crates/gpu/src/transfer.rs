@@ -14,8 +14,8 @@ impl Device {
     /// Writes bytes into a buffer, through staging buffers of at most 16 MiB unless it is host-visible.
     ///
     /// # Errors
-    /// [`GpuError::OutOfRange`] beyond its end, [`GpuError::InvalidUse`] if a device-local buffer was not made
-    /// for [`BufferUsage::TRANSFER_DST`], or as [`Device::submit`].
+    /// [`GpuError::OutOfRange`] beyond its end, [`GpuError::InvalidUse`] if a device-local buffer was not
+    /// made for [`BufferUsage::TRANSFER_DST`], or as [`Device::submit`].
     pub fn upload(&self, buffer: &Buffer, offset: u64, bytes: &[u8]) -> Result<()> {
         buffer.check_range(offset, bytes.len() as u64)?;
         if bytes.is_empty() {
@@ -43,8 +43,8 @@ impl Device {
     /// Reads bytes from a buffer, through staging buffers of at most 16 MiB unless it is host-visible.
     ///
     /// # Errors
-    /// [`GpuError::OutOfRange`] beyond its end, [`GpuError::InvalidUse`] if a device-local buffer was not made
-    /// for [`BufferUsage::TRANSFER_SRC`], or as [`Device::submit`].
+    /// [`GpuError::OutOfRange`] beyond its end, [`GpuError::InvalidUse`] if a device-local buffer was not
+    /// made for [`BufferUsage::TRANSFER_SRC`], or as [`Device::submit`].
     pub fn download(&self, buffer: &Buffer, offset: u64, size: u64) -> Result<Vec<u8>> {
         let length = host_length(buffer, offset, size)?;
         let mut bytes = vec![0; length];
@@ -99,7 +99,8 @@ impl Device {
         Ok(values)
     }
 
-    /// Makes a device-local buffer that holds `values`, for shaders and copies. No values become 16 undefined bytes.
+    /// Makes a device-local buffer that holds `values`, for shaders and copies. No values become 16 undefined
+    /// bytes.
     ///
     /// # Errors
     /// As [`Device::create_buffer`] and [`Device::upload`].
@@ -120,8 +121,9 @@ impl Device {
         Ok(buffer)
     }
 
-    /// Makes a buffer that holds zeros before anything is recorded: for what shaders look at first. The host writes them
-    /// without a submission, so the buffer is host-visible: on the device, where that has such memory. For what is small.
+    /// Makes a buffer that holds zeros before anything is recorded: for what shaders look at first. The host
+    /// writes them without a submission, so the buffer is host-visible: on the device, where that has such
+    /// memory. For what is small.
     ///
     /// # Errors
     /// As [`Device::create_buffer`].
@@ -133,9 +135,9 @@ impl Device {
         Ok(buffer)
     }
 
-    /// Makes a device-local buffer, cleared where this device has a queue to clear it through: then it submits and waits.
-    /// Without one its content is undefined until it is recorded: for what is large, and read only where something was
-    /// written.
+    /// Makes a device-local buffer, cleared where this device has a queue to clear it through: then it
+    /// submits and waits. Without one its content is undefined until it is recorded: for what is large, and
+    /// read only where something was written.
     ///
     /// # Errors
     /// As [`Device::create_buffer`] and [`Device::submit`].

@@ -1,4 +1,5 @@
-//! Errors of an incomplete installation. Each runs in a process of its own, as they come from its environment.
+//! Errors of an incomplete installation. Each runs in a process of its own, as they come from its
+//! environment.
 
 use std::process::Command;
 

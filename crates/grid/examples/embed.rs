@@ -1,5 +1,5 @@
-//! A grid in a plain ash program with its own device, on a queue that only computes: built, traced, compared with brute
-//! force.
+//! A grid in a plain ash program with its own device, on a queue that only computes: built, traced, compared
+//! with brute force.
 
 use rasray_ads::BruteForce;
 use rasray_gpu::Device;

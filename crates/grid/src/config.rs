@@ -59,8 +59,8 @@ impl Config {
     }
 }
 
-/// Cells along each axis for bounds (lower, upper) in metres: cubes, except where a side is not a whole number of them,
-/// with `along` on the longest side, or [`DENSITY`] per triangle.
+/// Cells along each axis for bounds (lower, upper) in metres: cubes, except where a side is not a whole
+/// number of them, with `along` on the longest side, or [`DENSITY`] per triangle.
 fn cells_along([lower, upper]: [[f32; 3]; 2], triangles: u32, along: Option<u32>) -> [u32; 3] {
     let extent: [f64; 3] = std::array::from_fn(|axis| f64::from(upper[axis]) - f64::from(lower[axis]));
     let longest = extent.into_iter().fold(0.0_f64, f64::max);

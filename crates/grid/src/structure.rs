@@ -27,8 +27,9 @@ fn cells(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> ([u32; 3], 
     (if fits { wanted } else { [1; 3] }, fits)
 }
 
-/// Maximum number of iterations of the loops over the cells of a triangle, in all its invocations: a plane has three
-/// times the cells of the largest side of the grid, with its margins twice as many, and some of its columns have none.
+/// Maximum number of iterations of the loops over the cells of a triangle, in all its invocations: a plane
+/// has three times the cells of the largest side of the grid, with its margins twice as many, and some of its
+/// columns have none.
 fn turns(cells: [u32; 3]) -> u64 {
     let [x, y, z] = cells.map(u64::from);
     8 * (x * y).max(y * z).max(z * x)

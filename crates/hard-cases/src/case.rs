@@ -52,7 +52,8 @@ pub struct HardCase {
     pub grid: Option<Grid>,
 }
 
-/// Point that a camera at the eye of a case looks at, relative to the eye. Its angle of view is a right one, both ways.
+/// Point that a camera at the eye of a case looks at, relative to the eye. Its angle of view is a right one,
+/// both ways.
 pub const CAMERA_TOWARDS: [f64; 3] = [0.25, 0.125, 1.0];
 
 /// Answers to all rays of a case that are known by construction.

@@ -58,8 +58,8 @@ pub struct CatalogueRow {
     pub measure: &'static str,
     /// The demands.
     pub target: Targets,
-    /// Largest error of t on the right triangle, relative, for structures that find triangles: where the catalogue
-    /// states one. Elsewhere the oracle's bounds of rounding hold.
+    /// Largest error of t on the right triangle, relative, for structures that find triangles: where the
+    /// catalogue states one. Elsewhere the oracle's bounds of rounding hold.
     pub largest_dt: Option<f64>,
 }
 

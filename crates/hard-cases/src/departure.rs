@@ -41,8 +41,8 @@ impl Departure {
         Self { origin, normal }
     }
 
-    /// A direction on the side that was left, which leans towards the normal by `lean` so that neighbours whose
-    /// corners are rounded stay behind.
+    /// A direction on the side that was left, which leans towards the normal by `lean` so that neighbours
+    /// whose corners are rounded stay behind.
     pub fn away(&self, direction: [f32; 3], lean: f32) -> [f32; 3] {
         let cosine: f64 = self.normal.iter().zip(direction).map(|(n, d)| n * f64::from(d)).sum();
         let side = if cosine < 0.0 { -1.0 } else { 1.0 };

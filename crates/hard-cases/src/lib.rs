@@ -1,16 +1,17 @@
-//! The hard cases of ray tracing: scenes and rays that break tracers, as data with their truth. `rasray compare hard:ID` and
-//! the conformance tests run them.
+//! The hard cases of ray tracing: scenes and rays that break tracers, as data with their truth. `rasray
+//! compare hard:ID` and the conformance tests run them.
 //!
-//! - [`HardCase`] is a case: triangles, rays, an eye, and the answers that are known by construction. [`case()`] makes the case
-//!   of an id, [`cases`] makes all of them.
+//! - [`HardCase`] is a case: triangles, rays, an eye, and the answers that are known by construction.
+//!   [`case()`] makes the case of an id, [`cases`] makes all of them.
 //! - [`CATALOGUE`] has a row per id: its subject, and the [`Targets`] of each kind of structure.
 //! - [`HardFile`] is bad input that never becomes triangles.
-//! - [`replay`] makes one ray again. A ray depends on case, seed and index alone, never on the number of rays.
+//! - [`replay`] makes one ray again. A ray depends on case, seed and index alone, never on the number of
+//!   rays.
 //!
-//! Ids begin with a letter: G triangle shape, E edges and vertices, V views, Z depth, X voxels, C capacity and bad input,
-//! T transforms, P light transport; variants append a parameter. Coordinates are single precision, in metres, and the camera
-//! looks along +z. The truth comes from the oracle at run time. Where a case states its answer, a test holds the oracle
-//! against it.
+//! Ids begin with a letter: G triangle shape, E edges and vertices, V views, Z depth, X voxels, C capacity
+//! and bad input, T transforms, P light transport; variants append a parameter. Coordinates are single
+//! precision, in metres, and the camera looks along +z. The truth comes from the oracle at run time. Where a
+//! case states its answer, a test holds the oracle against it.
 
 mod capacity;
 mod case;

@@ -97,8 +97,8 @@ fn closest(ray: &Ray, triangles: &[Triangle], closed: bool) -> Option<DeviceHit>
 #[test]
 fn single_precision_gives_admissible_answers() {
     let mut wrong = Vec::new();
-    // A test's own bound of t decides whether a ray of E9 hits what it starts on, and the device's, which the oracle
-    // follows, is closer than the one above.
+    // A test's own bound of t decides whether a ray of E9 hits what it starts on, and the device's, which the
+    // oracle follows, is closer than the one above.
     for id in ids().into_iter().filter(|id| *id != "E9") {
         let case = case(id, Scale::QUICK).expect("the id is in the catalogue");
         let (positions, indices) = case.buffers();

@@ -145,8 +145,8 @@ fn short(target: Target) -> String {
     name.split(" with ").next().unwrap_or_default().to_owned()
 }
 
-/// The page has a row for every file and for every number of the catalogue that has rays, with the ids of all its cases
-/// and, of a case that is alone, the title.
+/// The page has a row for every file and for every number of the catalogue that has rays, with the ids of all
+/// its cases and, of a case that is alone, the title.
 #[test]
 fn the_page_lists_every_case() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/hard-cases.md");

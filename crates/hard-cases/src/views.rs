@@ -203,8 +203,8 @@ fn on_face(context: &Context) -> Content {
     Content::new(cube([0.0; 3], 2.0), rays, Expectation::All(Answer::Hit)).seen_from(eye)
 }
 
-/// Triangles over the outermost pixels of the face towards +z, for views of this many pixels along a side, at least
-/// two.
+/// Triangles over the outermost pixels of the face towards +z, for views of this many pixels along a side, at
+/// least two.
 pub fn outermost_pixels(size: usize) -> Vec<Triangle> {
     let (inner, outer) = (5.0 * (1.0 - 2.0 / size as f32), 5.0);
     let side = |turn: usize| {

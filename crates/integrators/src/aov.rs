@@ -1,5 +1,5 @@
-//! Auxiliary images of what lies at the centre of every pixel: distance, normal and primitive, and where wanted what
-//! materials and meshes say of it.
+//! Auxiliary images of what lies at the centre of every pixel: distance, normal and primitive, and where
+//! wanted what materials and meshes say of it.
 
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Device, Recorder};
@@ -15,8 +15,8 @@ use crate::{
     kernels::{Bindings, Kernel, OfPixels, WaveConstants, binding, camera_constants, device_buffer},
 };
 
-/// Traces the rays of pixel centres and keeps what they hit, of one band at a time. One trace per wave; `Wave::sample` is
-/// not used.
+/// Traces the rays of pixel centres and keeps what they hit, of one band at a time. One trace per wave;
+/// `Wave::sample` is not used.
 #[derive(Debug)]
 pub struct AovPass {
     bands: Bands,
@@ -34,11 +34,12 @@ pub struct AovPass {
 const SURFACES: u32 = 9;
 
 impl AovPass {
-    /// Makes queue, image and kernels for the scene's view in these bands, with at most `wave_capacity` rays per wave.
+    /// Makes queue, image and kernels for the scene's view in these bands, with at most `wave_capacity` rays
+    /// per wave.
     ///
     /// # Errors
-    /// `SizesDiffer` where bands and view have not as many pixels, sizes that do not fit, out of memory, or the device refuses
-    /// a pipeline.
+    /// `SizesDiffer` where bands and view have not as many pixels, sizes that do not fit, out of memory, or
+    /// the device refuses a pipeline.
     pub fn new(
         device: &Device,
         scene: &GpuScene,
@@ -150,7 +151,8 @@ impl AovPass {
         Ok(device.download_as(&self.pixels, 0, count as usize)?)
     }
 
-    /// Downloads what materials and meshes say of the same pixels; nothing where that was not wanted. Submits and waits.
+    /// Downloads what materials and meshes say of the same pixels; nothing where that was not wanted. Submits
+    /// and waits.
     ///
     /// # Errors
     /// As [`AovPass::read`].

@@ -13,8 +13,8 @@ pub const PIXEL_LIMIT: u32 = 1 << 30;
 /// Bytes of the larger of the records that a film and the images beside it have per pixel.
 const RECORD_BYTES: u64 = size_of::<AovPixel>() as u64;
 
-/// The bands of an image: consecutive pixels whose records are in one buffer, as many as a device binds. All but the last
-/// have as many pixels. A wave lies in one band; no picture depends on where bands end.
+/// The bands of an image: consecutive pixels whose records are in one buffer, as many as a device binds. All
+/// but the last have as many pixels. A wave lies in one band; no picture depends on where bands end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bands {
     pixels: u32,
@@ -79,8 +79,8 @@ impl Bands {
         })
     }
 
-    /// Cuts samples with these indices into waves of at most `capacity` pixels: all pixels of a sample before the next sample
-    /// starts, so that a picture stopped early has the same number of samples everywhere.
+    /// Cuts samples with these indices into waves of at most `capacity` pixels: all pixels of a sample before
+    /// the next sample starts, so that a picture stopped early has the same number of samples everywhere.
     pub fn waves(self, samples: impl IntoIterator<Item = u32>, capacity: u32) -> impl Iterator<Item = Wave> {
         let of_sample = move |sample| self.ranges().flat_map(move |band| Wave::cut(band, sample, capacity));
         samples.into_iter().flat_map(of_sample)

@@ -88,7 +88,8 @@ pub enum IntegratorError {
     /// An option of an integrator has no such value.
     #[error(transparent)]
     Value(#[from] ValueError),
-    /// A scene that is to take the place of the one that kernels were made for can reach code that they leave out.
+    /// A scene that is to take the place of the one that kernels were made for can reach code that they leave
+    /// out.
     #[error(
         "kernels were made without code for {missing}: make them for a scene that allows it (`GpuScene::allowing`)"
     )]

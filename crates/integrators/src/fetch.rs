@@ -32,12 +32,12 @@ pub struct FetchCounts {
 }
 
 /// Fetches the surfaces of hits by drawing the scene against lists of hits, in place of
-/// [`Structure::record_surfaces`](rasray_ads::Structure::record_surfaces): hits are listed by pixel of a cube around the
-/// camera, triangles with hits are drawn onto it, and each fragment writes the surfaces of those hits of its pixel that
-/// are on its triangle.
+/// [`Structure::record_surfaces`](rasray_ads::Structure::record_surfaces): hits are listed by pixel of a cube
+/// around the camera, triangles with hits are drawn onto it, and each fragment writes the surfaces of those
+/// hits of its pixel that are on its triangle.
 ///
-/// Surfaces are those of the triangles' ids. A hit counts as not ready until its surface is fetched, so that none is
-/// missing without a word.
+/// Surfaces are those of the triangles' ids. A hit counts as not ready until its surface is fetched, so that
+/// none is missing without a word.
 #[derive(Debug)]
 pub struct Fetch {
     device: Device,
@@ -67,8 +67,8 @@ impl Fetch {
     /// Makes pipelines for the scene's triangles, and lists for `capacity` hits.
     ///
     /// # Errors
-    /// `CannotFetch` where the device lacks a feature or the faces are larger than it can draw; out of memory, or the
-    /// device refuses a pipeline.
+    /// `CannotFetch` where the device lacks a feature or the faces are larger than it can draw; out of
+    /// memory, or the device refuses a pipeline.
     pub fn new(device: &Device, scene: &GpuScene, capacity: u32) -> Result<Self, IntegratorError> {
         let side = side(check_capacity(capacity)?);
         check(device, side)?;
@@ -122,10 +122,12 @@ impl Fetch {
         })
     }
 
-    /// Fetches surfaces of another scene from the next recording on. Pipelines stay. Nothing changes after an error.
+    /// Fetches surfaces of another scene from the next recording on. Pipelines stay. Nothing changes after an
+    /// error.
     ///
     /// # Errors
-    /// The binding of the scene differs from that of the first in what pipelines are compiled for; out of memory.
+    /// The binding of the scene differs from that of the first in what pipelines are compiled for; out of
+    /// memory.
     pub fn set_scene(&mut self, scene: &GpuScene) -> Result<(), IntegratorError> {
         let binding = scene.binding();
         if let Some(what) = self.scene.difference(binding) {

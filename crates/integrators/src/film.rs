@@ -25,8 +25,8 @@ pub struct Film {
 }
 
 impl Film {
-    /// Allocates an image of `width` by `height` pixels. It has no samples, except on a device without a queue, where its
-    /// content is undefined until [`Film::record_clear`].
+    /// Allocates an image of `width` by `height` pixels. It has no samples, except on a device without a
+    /// queue, where its content is undefined until [`Film::record_clear`].
     ///
     /// # Errors
     /// `ImageSize` for an image without pixels or with too many; out of memory.
@@ -59,8 +59,9 @@ impl Film {
         Ok(Self { faults: self.faults.clone(), ..Self::in_bands(device, size, Bands::one(size)?)? })
     }
 
-    /// Adds a list of pixels for each band, which waves of integrators made for this film are ranges of: a sample may
-    /// be taken of some pixels only ([`Film::write_list`]). All are listed, in their order. Submits and waits.
+    /// Adds a list of pixels for each band, which waves of integrators made for this film are ranges of: a
+    /// sample may be taken of some pixels only ([`Film::write_list`]). All are listed, in their order.
+    /// Submits and waits.
     ///
     /// # Errors
     /// The device is lost or out of memory.
@@ -78,12 +79,12 @@ impl Film {
         self.list.as_deref()
     }
 
-    /// Says of which pixels of a band the next samples are taken: their numbers, each at most once. Returns what waves are
-    /// ranges of then, in place of all pixels of the band. Submits and waits.
+    /// Says of which pixels of a band the next samples are taken: their numbers, each at most once. Returns
+    /// what waves are ranges of then, in place of all pixels of the band. Submits and waits.
     ///
     /// # Errors
-    /// [`IntegratorError::NotListed`] without a list or such a band, [`IntegratorError::NoPixel`] for a number beyond the band;
-    /// more pixels than it has; the device is lost or out of memory.
+    /// [`IntegratorError::NotListed`] without a list or such a band, [`IntegratorError::NoPixel`] for a
+    /// number beyond the band; more pixels than it has; the device is lost or out of memory.
     pub fn write_list(
         &self,
         device: &Device,

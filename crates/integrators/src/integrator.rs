@@ -21,9 +21,9 @@ pub struct IntegratorDesc<'a> {
     pub wave_capacity: u32,
     /// Shading code that is compiled in: [`GpuScene::features`], or [`ShadingFeatures::ALL`].
     pub features: ShadingFeatures,
-    /// Kernels that shade look up the surfaces of hits themselves, which saves storing and reading them, where an integrator
-    /// can ([`Path`](crate::Path)). Structures that are traced must then have
-    /// [surfaces of triangles](rasray_ads::Description::surfaces_of_triangles). No picture changes.
+    /// Kernels that shade look up the surfaces of hits themselves, which saves storing and reading them,
+    /// where an integrator can ([`Path`](crate::Path)). Structures that are traced must then have [surfaces
+    /// of triangles](rasray_ads::Description::surfaces_of_triangles). No picture changes.
     pub surfaces_of_hits: bool,
 }
 
@@ -57,8 +57,8 @@ pub(crate) fn check_capacity(wave_capacity: u32) -> Result<u32, IntegratorError>
     }
 }
 
-/// Submits what is recorded, and then its rest, which `record` is told, for as long as there is any. Returns the times of all
-/// passes.
+/// Submits what is recorded, and then its rest, which `record` is told, for as long as there is any. Returns
+/// the times of all passes.
 pub(crate) fn submit_with_rest(
     (device, timing): (&Device, Timing),
     record: impl Fn(&mut Recorder<'_>, bool) -> Result<(), IntegratorError>,
@@ -77,16 +77,18 @@ pub(crate) fn submit_with_rest(
 
 /// Integrator: it turns rays through any structure into radiance on a film, wave by wave.
 ///
-/// Functions that record never submit, wait or allocate. The traced structure must be complete and built from the scene's
-/// geometry; film and queues must have been reset once with [`Integrator::record_reset`]. The results of a wave are visible to compute shaders and transfers
-/// recorded after it. The labels of passes are the paths of their shaders.
+/// Functions that record never submit, wait or allocate. The traced structure must be complete and built from
+/// the scene's geometry; film and queues must have been reset once with [`Integrator::record_reset`]. The
+/// results of a wave are visible to compute shaders and transfers recorded after it. The labels of passes are
+/// the paths of their shaders.
 pub trait Integrator {
     /// Name, as the command and reports use it.
     fn name(&self) -> &'static str;
 
-    /// Records one sample of every pixel of a wave. Where surfaces let rays pass ([`Path`](crate::Path)), a ray may pass
-    /// more of them than rounds are recorded: its sample is added by [`Integrator::record_rest`], and counted in
-    /// [`FilmFaults::unended`](crate::FilmFaults) until then. [`Integrator::render_wave`] does all of it.
+    /// Records one sample of every pixel of a wave. Where surfaces let rays pass ([`Path`](crate::Path)), a
+    /// ray may pass more of them than rounds are recorded: its sample is added by
+    /// [`Integrator::record_rest`], and counted in [`FilmFaults::unended`](crate::FilmFaults) until then.
+    /// [`Integrator::render_wave`] does all of it.
     ///
     /// # Errors
     /// The wave does not fit the queues or the image, or the structure was made without a scene.
@@ -119,8 +121,8 @@ pub trait Integrator {
         Ok(false)
     }
 
-    /// Renders a wave with all of its rest; returns the times of its passes. Submits and waits, once unless rays pass many
-    /// surfaces.
+    /// Renders a wave with all of its rest; returns the times of its passes. Submits and waits, once unless
+    /// rays pass many surfaces.
     ///
     /// # Errors
     /// As [`Integrator::record_wave`], or the device fails.
@@ -141,19 +143,20 @@ pub trait Integrator {
         )
     }
 
-    /// Records more rounds from the next wave on, for those who record frames as a whole and repeat one with paths left; false
-    /// where there cannot be more.
+    /// Records more rounds from the next wave on, for those who record frames as a whole and repeat one with
+    /// paths left; false where there cannot be more.
     fn allow_more_rounds(&self) -> bool {
         false
     }
 
-    /// True if shadow rays that lead to lights are answered by [`Traced::occluder`]; not where there are none, nor
-    /// where surfaces let them pass.
+    /// True if shadow rays that lead to lights are answered by [`Traced::occluder`]; not where there are
+    /// none, nor where surfaces let them pass.
     fn asks_occluder(&self) -> bool {
         true
     }
 
-    /// Shades another scene from the next recording on, into the same film. Kernels stay. Nothing changes after an error.
+    /// Shades another scene from the next recording on, into the same film. Kernels stay. Nothing changes
+    /// after an error.
     ///
     /// # Errors
     /// [`IntegratorError::LeftOut`] where the scene has features that the kernels were not made for.

@@ -15,8 +15,8 @@ use rasray_shaders_glsl::{
 
 use crate::{Bands, Film, IntegratorError, Wave};
 
-/// Bindings of the integrators' set that several have, as `integrators/storage.glsl` declares them. Those of one alone, from
-/// 9 to 14, are in its own files.
+/// Bindings of the integrators' set that several have, as `integrators/storage.glsl` declares them. Those of
+/// one alone, from 9 to 14, are in its own files.
 pub(crate) mod binding {
     pub const FILM: u32 = 0;
     pub const FILM_FAULTS: u32 = 1;
@@ -99,8 +99,9 @@ pub(crate) struct Bindings {
 }
 
 impl Bindings {
-    /// Sets 0 to 3: geometry, storage, queue, scene. The queue is given when a pass is recorded. Kernels use no bindings of
-    /// the storage but those that are bound: of the pixels of the band, and the integrator's own.
+    /// Sets 0 to 3: geometry, storage, queue, scene. The queue is given when a pass is recorded. Kernels use
+    /// no bindings of the storage but those that are bound: of the pixels of the band, and the integrator's
+    /// own.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.

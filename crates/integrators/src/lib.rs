@@ -1,15 +1,18 @@
-//! Integrators: they turn the hits of rays into radiance on a film. Programs that render a scene use one with any structure.
+//! Integrators: they turn the hits of rays into radiance on a film. Programs that render a scene use one with
+//! any structure.
 //!
-//! - [`Integrator`] is the contract. It records waves: runs of pixels, of each of which one sample is taken. A wave fills a ray
-//!   queue, has it traced by the [`rasray_ads::Structure`] that it is given, shades the hits, and adds to the film.
-//! - [`INTEGRATORS`] has a row per integrator: ray casting, layers, ambient occlusion, environment mapping, Whitted's ray
-//!   tracing, path tracing and photon maps.
+//! - [`Integrator`] is the contract. It records waves: runs of pixels, of each of which one sample is taken.
+//!   A wave fills a ray queue, has it traced by the [`rasray_ads::Structure`] that it is given, shades the
+//!   hits, and adds to the film.
+//! - [`INTEGRATORS`] has a row per integrator: ray casting, layers, ambient occlusion, environment mapping,
+//!   Whitted's ray tracing, path tracing and photon maps.
 //! - [`Film`] holds the image.
-//! - [`Visibility`] draws the first hits of the camera in place of tracing them; [`Fetch`] draws the surfaces of hits.
+//! - [`Visibility`] draws the first hits of the camera in place of tracing them; [`Fetch`] draws the surfaces
+//!   of hits.
 //!
-//! Integrators depend on no structure, and structures on no integrator. `docs/shading.md` describes shading and random numbers.
-//! Random numbers depend on the pixel's number in the whole image, the sample and the use, never on the wave, so the picture
-//! does not depend on the way in which it is cut into waves.
+//! Integrators depend on no structure, and structures on no integrator. `docs/shading.md` describes shading
+//! and random numbers. Random numbers depend on the pixel's number in the whole image, the sample and the
+//! use, never on the wave, so the picture does not depend on the way in which it is cut into waves.
 //!
 //! Shaders bind four sets: geometry, the integrator's own buffers, the queue, the scene.
 //!

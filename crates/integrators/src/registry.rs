@@ -1,5 +1,5 @@
-//! The registry: every integrator, found by name, and one with its options. This is all that names an integrator outside of
-//! its own file.
+//! The registry: every integrator, found by name, and one with its options. This is all that names an
+//! integrator outside of its own file.
 
 use std::fmt;
 
@@ -58,8 +58,8 @@ impl RayKind {
     }
 }
 
-/// A row of the registry. Everything that is known of an integrator by name is here and in its own file; the naive one of
-/// `rasray_reference::integrators` has the same name.
+/// A row of the registry. Everything that is known of an integrator by name is here and in its own file; the
+/// naive one of `rasray_reference::integrators` has the same name.
 #[derive(Clone, Copy)]
 pub struct IntegratorRow {
     /// Name, on the command line and in reports.
@@ -172,7 +172,8 @@ impl IntegratorSpec {
         &self.options
     }
 
-    /// The value of an option, given or by default; absent where it has none or the integrator lacks the option.
+    /// The value of an option, given or by default; absent where it has none or the integrator lacks the
+    /// option.
     pub fn get(&self, option: &str) -> Option<Value> {
         self.options.get(option).or_else(|| self.row.option(option)?.default)
     }

@@ -8,8 +8,8 @@ use rasray_shaders_glsl::constants::scene::{WAVE_ROUND_LAST, WAVE_ROUND_RESUMES}
 
 use crate::{IntegratorError, Traced, Wave, kernels::WaveConstants};
 
-/// Number of closest-hit rounds that one recording of a wave has. Rays that have not ended then are counted in
-/// [`FilmFaults::unended`](crate::FilmFaults) and are the rest of the wave.
+/// Number of closest-hit rounds that one recording of a wave has. Rays that have not ended then are counted
+/// in [`FilmFaults::unended`](crate::FilmFaults) and are the rest of the wave.
 #[derive(Debug)]
 pub(crate) struct Rounds {
     now: AtomicU32,
@@ -45,8 +45,8 @@ impl Rounds {
         now < self.limit
     }
 
-    /// Records the rounds of a new wave, whose camera rays are in the queue, or of the rest of one: a trace, then `shade`,
-    /// which is given the slots that were traced, and selects those that have another ray.
+    /// Records the rounds of a new wave, whose camera rays are in the queue, or of the rest of one: a trace,
+    /// then `shade`, which is given the slots that were traced, and selects those that have another ray.
     ///
     /// # Errors
     /// The structure was made without a scene.

@@ -28,8 +28,8 @@ impl<'a> From<Option<&'a Visibility>> for FirstHits<'a> {
 pub struct Traced<'a> {
     /// Finds the nearest hit and its surface.
     pub closest: &'a dyn Structure,
-    /// Answers shadow rays; where absent, they are traced. Not used where surfaces let them pass: they need nearest hits
-    /// there ([`Integrator::asks_occluder`](crate::Integrator::asks_occluder)).
+    /// Answers shadow rays; where absent, they are traced. Not used where surfaces let them pass: they need
+    /// nearest hits there ([`Integrator::asks_occluder`](crate::Integrator::asks_occluder)).
     pub occluder: Option<&'a dyn Occluder>,
     /// Finds what camera rays hit.
     pub primary: FirstHits<'a>,
@@ -85,8 +85,8 @@ impl<'a> Traced<'a> {
     /// Records hits and surfaces of the camera rays of a wave.
     ///
     /// # Errors
-    /// The structure was made without a scene, surfaces are drawn and its hits are fragments, or it has no first hits where
-    /// those are asked for.
+    /// The structure was made without a scene, surfaces are drawn and its hits are fragments, or it has no
+    /// first hits where those are asked for.
     pub(crate) fn record_primary(
         self,
         recorder: &mut Recorder<'_>,

@@ -19,9 +19,10 @@ use crate::{IntegratorError, Wave, kernels::device_buffer};
 
 /// Finds what camera rays hit by drawing the triangles, in place of a trace ([`crate::Traced::primary`]).
 ///
-/// The rasterizer proposes pixels, and the test that traces use decides on the ray of each pixel, so hits are those of a
-/// structure that finds every triangle, bit for bit. Surfaces are those of triangles, whatever structure later rays are
-/// traced through. Triangles are drawn through a pinhole: where the camera has a lens, every ray is counted as not ready.
+/// The rasterizer proposes pixels, and the test that traces use decides on the ray of each pixel, so hits are
+/// those of a structure that finds every triangle, bit for bit. Surfaces are those of triangles, whatever
+/// structure later rays are traced through. Triangles are drawn through a pinhole: where the camera has a
+/// lens, every ray is counted as not ready.
 #[derive(Debug)]
 pub struct Visibility {
     geometry: Geometry,
@@ -42,12 +43,12 @@ impl Visibility {
         requirements
     }
 
-    /// Makes pipelines for the scene's triangles and its view. With counters, every triangle that is tested at a pixel
-    /// is counted as a test of the queue.
+    /// Makes pipelines for the scene's triangles and its view. With counters, every triangle that is tested
+    /// at a pixel is counted as a test of the queue.
     ///
     /// # Errors
-    /// `CannotDraw` where the device lacks a feature or the image is larger than it can draw; out of memory, or the
-    /// device refuses a pipeline.
+    /// `CannotDraw` where the device lacks a feature or the image is larger than it can draw; out of memory,
+    /// or the device refuses a pipeline.
     pub fn new(
         device: &Device,
         scene: &GpuScene,
@@ -84,8 +85,8 @@ impl Visibility {
         Ok(Self { geometry: geometry.clone(), width, counts, set, scene: binding.clone(), draw, resolve })
     }
 
-    /// Draws the triangles of another scene from the next recording on, into images of the same size. Pipelines stay. Nothing
-    /// changes after an error.
+    /// Draws the triangles of another scene from the next recording on, into images of the same size.
+    /// Pipelines stay. Nothing changes after an error.
     ///
     /// # Errors
     /// The binding of the scene differs from that of the first in what pipelines are compiled for.

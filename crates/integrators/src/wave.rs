@@ -14,8 +14,8 @@ const SMALL_WAVE: u32 = 131_072;
 /// Bytes per slot of two queues and a path's state, rounded up.
 const SLOT_BYTES: u64 = 512;
 
-/// Number of rays in a wave, by device: 131,072 on software drivers; on others as many as fit into a sixteenth of the
-/// device's memory and into one binding, at most [`WAVE_LIMIT`]. No picture depends on it.
+/// Number of rays in a wave, by device: 131,072 on software drivers; on others as many as fit into a
+/// sixteenth of the device's memory and into one binding, at most [`WAVE_LIMIT`]. No picture depends on it.
 pub fn wave_capacity(device: &Device) -> u32 {
     let limits = device.limits();
     suitable(device.is_software(), limits.device_local_bytes, limits.max_storage_buffer_range)
@@ -30,12 +30,12 @@ fn suitable(software: bool, memory: u64, binding: u64) -> u32 {
 }
 
 /// A range of pixels of which one sample is taken. Pixels are numbered row by row from the top left;
-/// slot `i` of the queues holds the ray of pixel `first_pixel + i`, or of the pixel at that place of the film's list
-/// ([`Film::listed`](crate::Film::listed)).
+/// slot `i` of the queues holds the ray of pixel `first_pixel + i`, or of the pixel at that place of the
+/// film's list ([`Film::listed`](crate::Film::listed)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wave {
-    /// Number of the first pixel in the whole image; of listed ones its place in the list of the band, which counts from the
-    /// first pixel of the band ([`Film::write_list`](crate::Film::write_list)).
+    /// Number of the first pixel in the whole image; of listed ones its place in the list of the band, which
+    /// counts from the first pixel of the band ([`Film::write_list`](crate::Film::write_list)).
     pub first_pixel: u32,
     /// Pixels in the wave, at least 1, at most the capacity of the queues; all in one band
     /// ([`Bands`](crate::Bands)).

@@ -11,12 +11,13 @@ use rasray_shaders_glsl::constants::ldc as numbers;
 pub enum Accept {
     /// Its depth is within [`Config::tolerance`] of the depths that the ray has in its cell.
     Tolerance,
-    /// Its depth is within a tolerance that follows the slope of its triangle: half of its rise over the cell.
+    /// Its depth is within a tolerance that follows the slope of its triangle: half of its rise over the
+    /// cell.
     Slope,
     /// The ray intersects the plane of its triangle within the cell.
     Plane,
-    /// The ray intersects its triangle, wherever that is. With [`Coverage::Conservative`], which it needs, the list of
-    /// every cell holds all triangles that reach into it, and hits are those of brute force.
+    /// The ray intersects its triangle, wherever that is. With [`Coverage::Conservative`], which it needs,
+    /// the list of every cell holds all triangles that reach into it, and hits are those of brute force.
     Triangle,
 }
 
@@ -29,8 +30,8 @@ pub enum Coverage {
     Hardware,
     /// Those whose centre it covers by a watertight test; the rasterizer only proposes.
     Exact,
-    /// Those of `Exact`, and it is kept in other cells that it reaches into, where no fragment represents it: there
-    /// hits on the triangle itself count. With [`Accept::Triangle`] all cells that it reaches into.
+    /// Those of `Exact`, and it is kept in other cells that it reaches into, where no fragment represents it:
+    /// there hits on the triangle itself count. With [`Accept::Triangle`] all cells that it reaches into.
     Conservative,
 }
 
@@ -100,18 +101,21 @@ pub struct Config {
     pub accept: Accept,
     /// Share of the cube's side, 0 to 1; only for [`Accept::Tolerance`].
     pub tolerance: f32,
-    /// Says whether rays hit what they leave and end on; only for [`Accept::Tolerance`] and [`Accept::Slope`].
+    /// Says whether rays hit what they leave and end on; only for [`Accept::Tolerance`] and
+    /// [`Accept::Slope`].
     pub ends: Ends,
     /// Cells in which a triangle gets a fragment.
     pub coverage: Coverage,
     /// Way of binning triangles into cells; [`Making::Peel`] draws. Changes no hit.
     pub builder: Builder,
-    /// Times that a pass of the build draws the scene: 1, and the vertex stage chooses the view of each triangle, or 3,
-    /// once for each view, which keeps its own triangles. 3 only with [`Builder::Raster`]. Changes no hit.
+    /// Times that a pass of the build draws the scene: 1, and the vertex stage chooses the view of each
+    /// triangle, or 3, once for each view, which keeps its own triangles. 3 only with [`Builder::Raster`].
+    /// Changes no hit.
     pub passes: u32,
     /// Format of depths.
     pub depth: Depth,
-    /// Data of a fragment. Hits that do not name their triangle have `PRIMITIVE_UNKNOWN` and cannot be excluded.
+    /// Data of a fragment. Hits that do not name their triangle have `PRIMITIVE_UNKNOWN` and cannot be
+    /// excluded.
     pub payload: Payload,
     /// For diagnostics: keep the triangle of each fragment behind [`Payload::Attributes`]. Hits then name it,
     /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
@@ -131,7 +135,8 @@ pub struct Config {
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The repaired structure: triangles in every cell that they reach into, so that hits are those of brute force.
+    /// The repaired structure: triangles in every cell that they reach into, so that hits are those of brute
+    /// force.
     pub fn robust(resolution: u32) -> Self {
         Self {
             resolution,
@@ -157,8 +162,8 @@ impl Config {
         }
     }
 
-    /// The paper's approximations: a tolerance of a thousandth, 16-bit depths, colour and normal in each fragment, the
-    /// rasterizer's own coverage, one level of blocks with their smallest and largest depth.
+    /// The paper's approximations: a tolerance of a thousandth, 16-bit depths, colour and normal in each
+    /// fragment, the rasterizer's own coverage, one level of blocks with their smallest and largest depth.
     pub fn published(resolution: u32) -> Self {
         Self {
             levels: 1,
@@ -223,7 +228,8 @@ impl Config {
         matches!(self.accept, Accept::Tolerance | Accept::Slope)
     }
 
-    /// True if triangles are kept beside the lists of fragments: where rays meet triangles those lists hold all.
+    /// True if triangles are kept beside the lists of fragments: where rays meet triangles those lists hold
+    /// all.
     pub(crate) fn has_conservative_lists(&self) -> bool {
         self.coverage == Coverage::Conservative && self.accept != Accept::Triangle
     }

@@ -23,8 +23,8 @@ pub fn block_count(config: &Config) -> u64 {
 /// The demand of a build: how much of each pool it needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Places of fragments. With 16-bit depths every list begins at an even place, so a list of odd length takes one
-    /// place more than it has fragments.
+    /// Places of fragments. With 16-bit depths every list begins at an even place, so a list of odd length
+    /// takes one place more than it has fragments.
     pub fragments: u64,
     /// Triangles that conservative lists keep.
     pub conservative: u64,
@@ -83,8 +83,8 @@ pub(crate) fn layer_capacity(config: &Config, sizes: &Sizes) -> u64 {
     if config.making == Making::Peel { scratch(config).words_behind_sums(sizes) } else { 0 }
 }
 
-/// The first guess where nothing has been counted: two fragments per cell, and a triangle outside of the centre of
-/// every fourth; and eight layers.
+/// The first guess where nothing has been counted: two fragments per cell, and a triangle outside of the
+/// centre of every fourth; and eight layers.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let cells = cell_count(config.resolution);
     let fragments = config.fragments.unwrap_or(2 * cells);

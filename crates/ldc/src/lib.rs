@@ -1,17 +1,18 @@
-//! Layered depth cubes: a structure of fragments in three orthographic views, after LDC. Hosts make one from their triangles
-//! and trace it as any [`rasray_ads::Structure`].
+//! Layered depth cubes: a structure of fragments in three orthographic views, after LDC. Hosts make one from
+//! their triangles and trace it as any [`rasray_ads::Structure`].
 //!
-//! The rasterizer stores every fragment of three views along the axes, each triangle in the view that it faces most. One pass
-//! makes all layers of a cell and stores them contiguously, sorted by depth, as peeling would yield them. Rays traverse the
-//! views one after the other.
+//! The rasterizer stores every fragment of three views along the axes, each triangle in the view that it
+//! faces most. One pass makes all layers of a cell and stores them contiguously, sorted by depth, as peeling
+//! would yield them. Rays traverse the views one after the other.
 //!
-//! - [`LayeredDepthCube`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to resize.
+//! - [`LayeredDepthCube`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when
+//!   to resize.
 //! - [`Config`] holds its options: [`Depth`], [`Payload`], [`Coverage`], [`Accept`], [`Making`] and more.
 //! - [`plan`] and [`formula_bytes`] compute its memory without a device.
 //! - [`Contents`] and [`well_formed`] check its lists on the host, for tests.
 //!
-//! Source: Bürger, Hertel, Krüger, Westermann, "GPU rendering of secondary effects", VMV 2007 (LDC). `docs/systems/ldc.md`
-//! has passes, bytes, options, limits and departures.
+//! Source: Bürger, Hertel, Krüger, Westermann, "GPU rendering of secondary effects", VMV 2007 (LDC).
+//! `docs/systems/ldc.md` has passes, bytes, options, limits and departures.
 
 mod build;
 mod config;

@@ -70,8 +70,8 @@ impl Design for Build {
     const FOLLOWING: &'static [(u32, u32)] = &[(LDC_RIGID, 1)];
     const RIGID: Option<usize> = Some(offset_of!(Header, rigid_x));
 
-    /// Cells are about as fine as those of the whole, and at least as many along a side as lets each have a few triangles. A
-    /// tolerance is a share of the side, and goes with as many cells as it has elsewhere.
+    /// Cells are about as fine as those of the whole, and at least as many along a side as lets each have a
+    /// few triangles. A tolerance is a share of the side, and goes with as many cells as it has elsewhere.
     fn follow(config: &mut Config, part: &GeometryExtent) -> bool {
         match config.accept {
             Accept::Plane => return false,

@@ -18,8 +18,8 @@ pub struct Contents {
     pub depths: Vec<u32>,
     /// Triangles of fragments, or two words of each: colour and normal.
     pub payload: Vec<u32>,
-    /// Smallest (its complement) and largest depth of each block, and where it keeps them its slices; the second level
-    /// follows the first.
+    /// Smallest (its complement) and largest depth of each block, and where it keeps them its slices; the
+    /// second level follows the first.
     pub blocks: Vec<u32>,
     /// First link of each cell's conservative list.
     pub heads: Vec<u32>,

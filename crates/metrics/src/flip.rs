@@ -19,8 +19,8 @@ pub struct Flip {
     pub visible: f64,
 }
 
-/// From where on a pixel counts as one that differs visibly. The authors of FLIP name no threshold: this is a tenth of the
-/// difference of black and white.
+/// From where on a pixel counts as one that differs visibly. The authors of FLIP name no threshold: this is a
+/// tenth of the difference of black and white.
 pub const VISIBLE: f32 = 0.1;
 
 /// The variant for low dynamic range (LDR-FLIP) of displayed values (exposure 1, clamped, sRGB) in 8 bits

@@ -125,8 +125,8 @@ impl HitConfusion {
         Some(dt_rel)
     }
 
-    /// True if a structure that finds triangles kept its promise: nothing missed, false, wrong, lost or not finite.
-    /// (How exact t is, `dt_rel` and `t_off` say.)
+    /// True if a structure that finds triangles kept its promise: nothing missed, false, wrong, lost or not
+    /// finite. (How exact t is, `dt_rel` and `t_off` say.)
     pub fn is_clean(&self) -> bool {
         let wrong = self.wrong_primitive.unwrap_or_default();
         [self.missed, self.false_hits, wrong, self.ambiguous_lost, self.ambiguous_wrong, self.non_finite]

@@ -1,9 +1,10 @@
-//! Errors of traced hits and rendered images against the truth, and the confidence in them. Comparisons, reports and tests
-//! measure with it. All of it is arithmetic on slices, without a device.
+//! Errors of traced hits and rendered images against the truth, and the confidence in them. Comparisons,
+//! reports and tests measure with it. All of it is arithmetic on slices, without a device.
 //!
 //! - [`HitConfusion`] compares a structure's hits with exact verdicts, ray by ray.
 //! - [`ImageError`] compares an image with a reference; [`flip()`] and [`ssim()`] are perceptual measures.
-//! - [`Rate`] gives a counted rate its confidence interval, [`Summary`] a measured series its median and spread.
+//! - [`Rate`] gives a counted rate its confidence interval, [`Summary`] a measured series its median and
+//!   spread.
 //! - [`ToneCurve`] maps linear colours to those of a display.
 
 mod beta;

@@ -45,8 +45,8 @@ impl Rate {
         ])
     }
 
-    /// True if the interval is the one-sided bound of a rate that never or always happened, 3 / total at 95 %;
-    /// Clopper-Pearson otherwise.
+    /// True if the interval is the one-sided bound of a rate that never or always happened, 3 / total at 95
+    /// %; Clopper-Pearson otherwise.
     pub fn is_one_sided(&self) -> bool {
         self.total > 0 && (self.count == 0 || self.count >= self.total)
     }

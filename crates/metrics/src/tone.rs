@@ -5,8 +5,8 @@ mod agx;
 
 use crate::image::Image;
 
-/// Exposure of linear colours, and the curve that then brings them into the range of a screen. The default is exposure
-/// 0 and no curve beyond that of sRGB.
+/// Exposure of linear colours, and the curve that then brings them into the range of a screen. The default is
+/// exposure 0 and no curve beyond that of sRGB.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tone {
     /// Brings exposed colours into the range of a screen.
@@ -76,7 +76,8 @@ pub fn display_values(image: &Image<'_>) -> Vec<[f32; 3]> {
     image.pixels().iter().map(|pixel| pixel.map(|value| encode(clamped(value)))).collect()
 }
 
-/// Three bytes of sRGB per pixel, rounded to the nearest step; of a number, which is exposure in stops, or of a [`Tone`].
+/// Three bytes of sRGB per pixel, rounded to the nearest step; of a number, which is exposure in stops, or of
+/// a [`Tone`].
 pub fn tone_map(linear: &[[f32; 3]], tone: impl Into<Tone>) -> Vec<u8> {
     let tone = tone.into();
     linear

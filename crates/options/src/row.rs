@@ -9,8 +9,8 @@ pub struct OptionRow {
     pub name: &'static str,
     /// Values that it takes.
     pub values: Values,
-    /// Purpose, one line of help without a full stop, with names of other options in backticks. Help adds the range and
-    /// the default.
+    /// Purpose, one line of help without a full stop, with names of other options in backticks. Help adds the
+    /// range and the default.
     pub doc: &'static str,
     /// The value where none is given; absent where that depends on more than the option.
     pub default: Option<Value>,

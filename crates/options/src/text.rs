@@ -7,8 +7,8 @@ pub fn number<T: FromStr>(text: &str) -> Option<T> {
     text.trim().parse().ok()
 }
 
-/// Reads as many numbers as are asked for, with one of these characters between each two: `1,-2.5,0`, `640x360`. No number
-/// can hold such a character, so that -1 is none where `-` is one.
+/// Reads as many numbers as are asked for, with one of these characters between each two: `1,-2.5,0`,
+/// `640x360`. No number can hold such a character, so that -1 is none where `-` is one.
 pub fn numbers<T: FromStr, const COUNT: usize>(text: &str, between: &[char]) -> Option<[T; COUNT]> {
     let numbers: Option<Vec<T>> = text.split(between).map(number).collect();
     numbers?.try_into().ok()

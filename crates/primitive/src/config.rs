@@ -27,8 +27,8 @@ pub enum Centre {
     /// At the eye within the geometry's bounds, or where those are flat; for an eye outside of them, at the
     /// nearest point well within.
     Scene,
-    /// Within the geometry's bounds or, where those are flat, beside them, wherever the eye is: a build is not stale where
-    /// only the eye moved.
+    /// Within the geometry's bounds or, where those are flat, beside them, wherever the eye is: a build is
+    /// not stale where only the eye moved.
     Fixed,
 }
 
@@ -46,7 +46,8 @@ pub enum Views {
 
 words! { Views { Cube "cube", Camera "camera" } }
 
-/// With a pyramid, the level that a ray compares its depths with first. Changes no hit where [`Config::is_exact`].
+/// With a pyramid, the level that a ray compares its depths with first. Changes no hit where
+/// [`Config::is_exact`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PyramidStart {
     /// The finest: up until a block holds something.
@@ -62,7 +63,8 @@ words! { PyramidStart { Finest "finest", Coarsest "coarsest" } }
 pub struct Config {
     /// Pixels along a side of each face, 1 to 8192. Changes no hit where [`Config::is_exact`].
     pub resolution: u32,
-    /// Pixels along a side of a tile, 1 to 64: lists are kept per tile. Changes no hit where [`Config::is_exact`].
+    /// Pixels along a side of a tile, 1 to 64: lists are kept per tile. Changes no hit where
+    /// [`Config::is_exact`].
     pub tile: u32,
     /// Depth buckets per tile, 1 to 64. Changes no hit where [`Config::is_exact`].
     pub buckets: u32,

@@ -46,8 +46,8 @@ pub(crate) fn large_words(config: &Config) -> u64 {
     }
 }
 
-/// Workgroups per triangle with many columns of a face: enough that the loops of an invocation stay within BIN_TURNS
-/// iterations.
+/// Workgroups per triangle with many columns of a face: enough that the loops of an invocation stay within
+/// BIN_TURNS iterations.
 pub(crate) fn bin_groups(config: &Config) -> u32 {
     let block = BIN_BLOCK as u64;
     let blocks = u64::from(config.tiles() + 2).div_ceil(block).pow(2);
@@ -96,14 +96,15 @@ pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsEr
 /// Bytes for counted cells, buckets and entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Per tile 8, per list of each bucket 4, and a scale of 4 where there are several buckets; 8 per block of the
-    /// pyramid.
+    /// Per tile 8, per list of each bucket 4, and a scale of 4 where there are several buckets; 8 per block
+    /// of the pyramid.
     pub cells: u64,
     /// Per entry: 4, or 8 in a linked list.
     pub entries: u64,
     /// Per 1024 numbers that are scanned: a sum of 4.
     pub scan: u64,
-    /// Header, 4 per triangle of the near-region list, and 24 per triangle where a compute pass puts them into tiles.
+    /// Header, 4 per triangle of the near-region list, and 24 per triangle where a compute pass puts them
+    /// into tiles.
     pub rest: u64,
 }
 
@@ -167,8 +168,8 @@ mod tests {
     /// Table 3 of the paper: a node of a list is 8 bytes, a head 4, and depth bounds 8 per tile.
     #[test]
     fn published_lists_have_the_papers_bytes() {
-        // Terms of the paper's table 3: depths 8 and a third of that for their pyramid, a head of 4 per bucket,
-        // a node of 8.
+        // Terms of the paper's table 3: depths 8 and a third of that for their pyramid, a head of 4 per
+        // bucket, a node of 8.
         let published = Config { tile: 1, buckets: 4, ..Config::published(512) };
         let demand = Demand { entries: 3_100_000, ..Demand::default() };
         let (formula, cells) = (formula_bytes(&published, &demand), cell_count(&published));
@@ -186,7 +187,8 @@ mod tests {
         assert_eq!(formula_bytes(&contiguous, &demand).entries, 4 * 3_100_000);
     }
 
-    /// However many tiles and buckets, an invocation's share of a triangle that covers all columns stays bounded.
+    /// However many tiles and buckets, an invocation's share of a triangle that covers all columns stays
+    /// bounded.
     #[test]
     fn binning_gives_each_invocation_a_bounded_share() {
         for (resolution, buckets, groups) in [(16, 1, 1), (256, 16, 1), (1024, 64, 36), (8192, 64, 2286)] {

@@ -1,17 +1,18 @@
-//! Primitive lists: a structure of triangle ids per tile of image-space views, after DIRT. Hosts make one from their triangles
-//! and trace it as any [`rasray_ads::Structure`].
+//! Primitive lists: a structure of triangle ids per tile of image-space views, after DIRT. Hosts make one
+//! from their triangles and trace it as any [`rasray_ads::Structure`].
 //!
-//! The rasterizer stores the ids of triangles in lists per tile and depth bucket of the six faces of a cube around the eye.
-//! Rays test the triangles that the tiles on their way list, so hits are those of the triangles. The rules of the paper that
-//! lose some hits are options.
+//! The rasterizer stores the ids of triangles in lists per tile and depth bucket of the six faces of a cube
+//! around the eye. Rays test the triangles that the tiles on their way list, so hits are those of the
+//! triangles. The rules of the paper that lose some hits are options.
 //!
-//! - [`PrimitiveLists`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to resize.
+//! - [`PrimitiveLists`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when
+//!   to resize.
 //! - [`Config`] holds its options: [`Storage`], [`March`], [`Coverage`], [`Accept`], [`Stop`] and more.
 //! - [`plan`] and [`formula_bytes`] compute its memory without a device.
 //! - [`Contents`] and [`well_formed`] check its lists on the host, for tests.
 //!
-//! Source: Vardis, Vasilakis, Papaioannou, "DIRT: Deferred image-based ray tracing", HPG 2016. `docs/systems/dirt.md` has
-//! passes, bytes, options, limits and departures.
+//! Source: Vardis, Vasilakis, Papaioannou, "DIRT: Deferred image-based ray tracing", HPG 2016.
+//! `docs/systems/dirt.md` has passes, bytes, options, limits and departures.
 
 mod build;
 mod config;

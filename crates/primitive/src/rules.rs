@@ -5,7 +5,8 @@ use rasray_ads::words;
 /// Cells that list a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// All cells that the triangle reaches into, decided by a shared function; the rasterizer only proposes cells.
+    /// All cells that the triangle reaches into, decided by a shared function; the rasterizer only proposes
+    /// cells.
     Conservative,
     /// Those of these that the rasterizer's own conservative rasterization touches (section 3.2): needs
     /// [`rasray_gpu::Feature::ConservativeRasterization`], and loses what it does not touch.

@@ -20,7 +20,8 @@ pub type PrimitiveLists = Pooled<Passes>;
 #[derive(Debug)]
 pub struct Passes(Build);
 
-/// Camera columns of the header, which give metres along the axes as the camera sees them; zeros without its view.
+/// Camera columns of the header, which give metres along the axes as the camera sees them; zeros without its
+/// view.
 ///
 /// # Errors
 /// There is no camera.

@@ -129,8 +129,8 @@ impl Contents {
     }
 }
 
-/// Checks that every counted entry is in exactly one list and has the index of one of `triangles` triangles, and that
-/// no list contains a triangle twice.
+/// Checks that every counted entry is in exactly one list and has the index of one of `triangles` triangles,
+/// and that no list contains a triangle twice.
 ///
 /// # Errors
 /// The first fault found.

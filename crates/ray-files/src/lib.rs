@@ -1,8 +1,8 @@
-//! Rays and hits in files, so that another tracer can be compared with the systems of rasray on the same rays.
-//! `rasray compare` reads and writes them.
+//! Rays and hits in files, so that another tracer can be compared with the systems of rasray on the same
+//! rays. `rasray compare` reads and writes them.
 //!
-//! - [`load_rays`] and [`load_hits`] read a file. They return rays and hits that can be traced and compared, or an error that
-//!   names the file, the place and the fix.
+//! - [`load_rays`] and [`load_hits`] read a file. They return rays and hits that can be traced and compared,
+//!   or an error that names the file, the place and the fix.
 //! - [`write_rays`], [`rays_to_npy`], [`hits_to_npy`], [`truth_to_npy`] and [`triangles_to_npy`] write them.
 //!
 //! `docs/ray-files.md` describes the formats.

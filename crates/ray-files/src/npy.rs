@@ -1,8 +1,8 @@
 //! Arrays of NumPy's `.npy` format, versions 1 to 3: little-endian, in C order, of numbers or of records
 //! with named fields.
 //!
-//! Written here because npyz 0.9, on files that are no arrays, multiplies lengths without a check and allocates what a header
-//! asks for before it looks how long the file is.
+//! Written here because npyz 0.9, on files that are no arrays, multiplies lengths without a check and
+//! allocates what a header asks for before it looks how long the file is.
 
 use super::LIMIT;
 use super::error::FormatError;

@@ -1,5 +1,5 @@
-//! The truth of a scene, computed on the processor: exact hits, and images computed naively. Comparisons and tests hold
-//! structures and integrators against it.
+//! The truth of a scene, computed on the processor: exact hits, and images computed naively. Comparisons and
+//! tests hold structures and integrators against it.
 //!
 //! - [`oracle`] decides which triangle a ray hits, exactly on the single-precision data of the device.
 //! - [`integrators`] computes an image as each integrator of the registry should, from the scene model.

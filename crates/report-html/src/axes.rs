@@ -23,8 +23,8 @@ pub(super) fn decades(title: &str, values: impl Iterator<Item = f64>) -> Value {
     })
 }
 
-/// A logarithmic axis that ends where the values do, with labels at powers of ten, and at 2 and 5 between them
-/// where the powers are few.
+/// A logarithmic axis that ends where the values do, with labels at powers of ten, and at 2 and 5 between
+/// them where the powers are few.
 pub(super) fn close_log(title: &str, values: impl Iterator<Item = f64>) -> Value {
     let (low, high) = exponents(values).map_or((-0.2, 1.2), |(low, high)| (low - 0.2, high + 0.2));
     let mut axis = json!({

@@ -173,8 +173,8 @@ struct SharedTimes<'a> {
     runs: Vec<Bar<'a>>,
 }
 
-/// Bars of the passes of each run, one plot a figure that they add up to: those of builds once for all rays that were
-/// traced through them.
+/// Bars of the passes of each run, one plot a figure that they add up to: those of builds once for all rays
+/// that were traced through them.
 pub(super) fn passes(report: &Report) -> Option<Section> {
     let mut plots = Vec::new();
     for figure in FIGURES {

@@ -17,8 +17,8 @@ fn coincide(a: &Curve, b: &Curve) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(close)
 }
 
-/// Number of the curves drawn later that lie on each: it is drawn as much wider, so that it is seen on both sides of
-/// them.
+/// Number of the curves drawn later that lie on each: it is drawn as much wider, so that it is seen on both
+/// sides of them.
 pub(super) fn covered(curves: &[Curve]) -> Vec<usize> {
     let later =
         |index: usize| curves[index + 1..].iter().filter(|other| coincide(&curves[index], other)).count();

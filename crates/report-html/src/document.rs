@@ -138,7 +138,8 @@ fn footer(page: &mut Markup) {
     page.fixed("</pre></details>\n</footer>\n");
 }
 
-/// plotly.js as npm's plotly.js-basic-dist-min 3.0.1 has it: scatter and bar plots, which are all that pages have.
+/// plotly.js as npm's plotly.js-basic-dist-min 3.0.1 has it: scatter and bar plots, which are all that pages
+/// have.
 const PLOT_LIBRARY: &str = include_str!("plotly-basic.min.js");
 
 #[cfg(test)]

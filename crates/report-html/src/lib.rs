@@ -1,11 +1,11 @@
-//! Pages of reports: `rasray compare --html` and campaigns write a report as one file that needs no other file, no server and
-//! no network.
+//! Pages of reports: `rasray compare --html` and campaigns write a report as one file that needs no other
+//! file, no server and no network.
 //!
 //! - [`page()`] makes the page of a [`Report`].
 //! - [`campaign_page`] makes the page of a campaign.
 //!
-//! Each section of a page is made by a module of its own, and is absent where its data was not measured. Figures are computed
-//! here; the script of the page only draws, sorts and slides.
+//! Each section of a page is made by a module of its own, and is absent where its data was not measured.
+//! Figures are computed here; the script of the page only draws, sorts and slides.
 
 mod axes;
 mod bars;
@@ -41,7 +41,8 @@ use rasray_report::figures::Figures;
 /// Figures that do not fit the report: a run that is not there, or a picture that lacks pixels.
 pub fn page(report: &Report, figures: &Figures) -> Result<Vec<u8>, HtmlError> {
     check(report, figures)?;
-    // Charts before tables: what they show is seen at once. Of many hard cases the verdicts are the summary, and a row per run is what to look up in.
+    // Charts before tables: what they show is seen at once. Of many hard cases the verdicts are the summary,
+    // and a row per run is what to look up in.
     let (summary, hard) = (summary::section(report), hard::section(report));
     let many = names::hard_cases(&report.runs) > names::MOST_HARD_CASES;
     let [first, second] = if many { [hard, summary] } else { [summary, hard] };

@@ -44,7 +44,8 @@ pub(super) fn evaluated(run: &Run) -> Option<u64> {
     accuracy.rays.checked_sub(accuracy.ambiguous).filter(|rays| *rays > 0)
 }
 
-/// Missed, false and wrong hits. Where the primitive is unknown, a hit is wrong if rounding does not explain its t.
+/// Missed, false and wrong hits. Where the primitive is unknown, a hit is wrong if rounding does not explain
+/// its t.
 fn errors(run: &Run) -> Option<u64> {
     let accuracy = run.accuracy.as_ref()?;
     let wrong = accuracy.wrong_primitive.or(accuracy.t_off).unwrap_or(0);

@@ -30,8 +30,8 @@ struct Column {
     heading: &'static str,
     meaning: &'static str,
     cell: fn(&Run) -> Option<Cell>,
-    /// True if it stands beside speed and error in the first table, which is as wide as a page; the others have one of
-    /// their own.
+    /// True if it stands beside speed and error in the first table, which is as wide as a page; the others
+    /// have one of their own.
     is_main: bool,
 }
 
@@ -284,8 +284,8 @@ const COLUMNS: &[Column] = &[
     },
 ];
 
-/// Tables of the runs of rays and of the images, as their columns differ: first what speed and error are, as wide as a
-/// page at most, then what else was counted.
+/// Tables of the runs of rays and of the images, as their columns differ: first what speed and error are, as
+/// wide as a page at most, then what else was counted.
 pub(super) fn section(report: &Report) -> Option<Section> {
     if report.runs.is_empty() {
         return None;

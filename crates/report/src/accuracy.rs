@@ -1,4 +1,5 @@
-//! Accuracy of a run: hits against the oracle, images against the reference, hard cases against what is stated of them.
+//! Accuracy of a run: hits against the oracle, images against the reference, hard cases against what is
+//! stated of them.
 
 use crate::absent::absent;
 use rasray_metrics::{HitConfusion, Rate};
@@ -46,8 +47,8 @@ pub struct Accuracy {
     /// Answers that are not finite numbers.
     pub non_finite: u64,
     /// Rates with their intervals by name: `missed`, `false_hits`, `wrong_primitive`, `t_off`,
-    /// `ambiguous_lost`, `ambiguous_wrong`, `non_finite`; `errors` where a law bounds their share. One that could
-    /// not have happened is absent.
+    /// `ambiguous_lost`, `ambiguous_wrong`, `non_finite`; `errors` where a law bounds their share. One that
+    /// could not have happened is absent.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub rates: BTreeMap<String, RateRecord>,
 }

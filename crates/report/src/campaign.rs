@@ -1,5 +1,5 @@
-//! A campaign: cells of many comparisons, in experiments that show them together. Each is flat: settings by name, and
-//! results by name.
+//! A campaign: cells of many comparisons, in experiments that show them together. Each is flat: settings by
+//! name, and results by name.
 
 use crate::{Cell, Device, ExperimentRecord, Report, Run};
 use serde_json::Value;
@@ -40,7 +40,8 @@ pub struct Row {
     pub report: Report,
 }
 
-/// Settings of every cell, in the order in which they are shown; options of systems and integrators come behind `preset`.
+/// Settings of every cell, in the order in which they are shown; options of systems and integrators come
+/// behind `preset`.
 const BEFORE: [&str; 9] =
     ["scene", "time", "clip", "camera", "size", "back-faces", "system", "preset", "integrator"];
 
@@ -102,8 +103,8 @@ impl Experiment {
         in_order(self.rows.iter().flat_map(|row| row.settings.keys().map(String::as_str)))
     }
 
-    /// Its sets of rays and its images apart, those that it has: each of them has settings and results that the other has
-    /// not.
+    /// Its sets of rays and its images apart, those that it has: each of them has settings and results that
+    /// the other has not.
     pub fn parts(&self) -> Vec<Self> {
         let part = |rays: bool| {
             let rows = self.rows.iter().filter(|row| row.run().ray_set.is_some() == rays);
@@ -192,7 +193,8 @@ pub fn cell_settings(cell: &Cell) -> BTreeMap<String, String> {
 
 /// Every number that a run gave, by its path in the report; of a list, elements are named by their `label`,
 /// `stage` or `cells_of`.
-/// `rays_traced`: those of `trace_ms`; `error_share`: hits that are missed, false or wrong, of the rays that were compared.
+/// `rays_traced`: those of `trace_ms`; `error_share`: hits that are missed, false or wrong, of the rays that
+/// were compared.
 fn results(run: &Run) -> BTreeMap<String, f64> {
     let mut numbers = BTreeMap::new();
     if let Ok(Value::Object(fields)) = serde_json::to_value(run) {

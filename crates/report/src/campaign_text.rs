@@ -115,8 +115,8 @@ impl Experiment {
     }
 }
 
-/// The campaign as Markdown: of each experiment what its rows have in common, and a table of the settings that they differ
-/// in and of what they gave.
+/// The campaign as Markdown: of each experiment what its rows have in common, and a table of the settings
+/// that they differ in and of what they gave.
 pub fn campaign_markdown(campaign: &Campaign) -> String {
     let device = &campaign.device;
     let software = if device.software { ", a software driver: times are for ratios" } else { "" };
@@ -142,8 +142,8 @@ fn part_markdown(experiment: &Experiment) -> String {
     format!("{}\n\n{rows}", in_line(&experiment.common()))
 }
 
-/// A row per run: these settings, and of its results these columns. A unit that all numbers of a column have stands in its
-/// head.
+/// A row per run: these settings, and of its results these columns. A unit that all numbers of a column have
+/// stands in its head.
 pub fn rows_markdown(experiment: &Experiment, settings: &[&str], columns: &[Column]) -> String {
     let mut heads: Vec<_> = settings.iter().map(|&name| name.to_owned()).collect();
     let rules = settings.iter().map(|_| "---").chain(columns.iter().map(|_| "---:"));

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Settings that one run of a comparison depends on: one system on one set of rays, or the image of one system.
+/// Settings that one run of a comparison depends on: one system on one set of rays, or the image of one
+/// system.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cell {
@@ -87,7 +88,8 @@ pub struct CellImage {
     pub options: BTreeMap<String, String>,
     /// Samples per pixel.
     pub spp: u32,
-    /// Rule by which pixels get as many samples as their noise needs: the threshold and the least samples, as in `0.02 16`.
+    /// Rule by which pixels get as many samples as their noise needs: the threshold and the least samples, as
+    /// in `0.02 16`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<String>,
     /// Source of random numbers.

@@ -45,11 +45,12 @@ pub struct Times {
     /// The host's part of the build.
     #[serde(default, skip_serializing_if = "absent")]
     pub build_host_ms: Option<f64>,
-    /// The first build, until complete: what the driver compiles on first use and builds that had to grow included.
+    /// The first build, until complete: what the driver compiles on first use and builds that had to grow
+    /// included.
     #[serde(default, skip_serializing_if = "absent")]
     pub first_build_ms: Option<f64>,
-    /// The first dispatch of every kernel of an image, with one pixel: what the driver compiles on first use. In no
-    /// other figure but `frame_ms`. Absent where they had been used, for the picture before.
+    /// The first dispatch of every kernel of an image, with one pixel: what the driver compiles on first use.
+    /// In no other figure but `frame_ms`. Absent where they had been used, for the picture before.
     #[serde(default, skip_serializing_if = "absent")]
     pub first_use_ms: Option<f64>,
     /// Rays in to hits out.
@@ -72,11 +73,13 @@ pub struct Times {
     pub mrays_per_s: Option<f64>,
 }
 
-/// A stage of a frame: milliseconds of all its passes, and of what the host does for it, in one repetition together.
+/// A stage of a frame: milliseconds of all its passes, and of what the host does for it, in one repetition
+/// together.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StageTime {
-    /// `pose`, `build`, `shadow-maps`, `visible`, `trace-closest`, `trace-occluded`, `surfaces`, `shade` or `film`.
+    /// `pose`, `build`, `shadow-maps`, `visible`, `trace-closest`, `trace-occluded`, `surfaces`, `shade` or
+    /// `film`.
     pub stage: String,
     /// Median.
     pub ms: f64,
@@ -98,8 +101,8 @@ pub enum PassOf {
     Image,
 }
 
-/// A pass, or what the host does beside them: milliseconds of all its dispatches in one repetition together, after
-/// warm-up.
+/// A pass, or what the host does beside them: milliseconds of all its dispatches in one repetition together,
+/// after warm-up.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pass {
@@ -111,8 +114,9 @@ pub struct Pass {
     /// The figure that it is a part of.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub of: Option<PassOf>,
-    /// Its share of the figure that it is a part of: its time in the repetition whose time is that median, or the mean
-    /// of the two in the middle. The shares of a figure add up to it, which medians of the parts need not.
+    /// Its share of the figure that it is a part of: its time in the repetition whose time is that median, or
+    /// the mean of the two in the middle. The shares of a figure add up to it, which medians of the parts
+    /// need not.
     #[serde(default, skip_serializing_if = "absent")]
     pub ms_share: Option<f64>,
     /// Times it was dispatched in that repetition.
@@ -136,8 +140,8 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// Label of the host's own part of a build, [`Times::build_host_ms`], such as a tree that it builds, and of a pose,
-    /// such as the matrices of a rig.
+    /// Label of the host's own part of a build, [`Times::build_host_ms`], such as a tree that it builds, and
+    /// of a pose, such as the matrices of a rig.
     pub const HOST: &'static str = "host, before recording";
     /// Label of what else the host sees of a build: recording, submitting, and waiting beyond the passes.
     pub const WAITING: &'static str = "host, recording and waiting";
@@ -159,7 +163,8 @@ pub struct Memory {
     /// Kept only to measure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diagnostic_bytes: Option<u64>,
-    /// Buffers of an image: film, queues, states, and those of drawing; without structure, scene and shadow maps.
+    /// Buffers of an image: film, queues, states, and those of drawing; without structure, scene and shadow
+    /// maps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame_bytes: Option<u64>,
     /// `frame_bytes` per pixel of the image.
@@ -177,7 +182,8 @@ pub struct Memory {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ListRecord {
-    /// Cells: `all`, a face of the cube such as `+x`, `camera`, the view along an axis such as `x`, `voxels` or `grid`.
+    /// Cells: `all`, a face of the cube such as `+x`, `camera`, the view along an axis such as `x`, `voxels`
+    /// or `grid`.
     pub cells_of: String,
     /// All of them.
     pub cells: u64,
@@ -208,8 +214,8 @@ pub struct Counters {
     /// Triangles with an area that cover no cell's centre in any view, so that rays pass through them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lost: Option<u64>,
-    /// Of images whose integrator traces on from some surfaces alone: the share of samples whose first surface sent a mirrored
-    /// or a refracted ray on.
+    /// Of images whose integrator traces on from some surfaces alone: the share of samples whose first
+    /// surface sent a mirrored or a refracted ray on.
     #[serde(default, skip_serializing_if = "absent")]
     pub selected_share: Option<f64>,
     /// List entries stored.
@@ -230,8 +236,8 @@ pub struct Counters {
     /// Views entered per ray; absent where the structure has none.
     #[serde(default, skip_serializing_if = "absent")]
     pub views_per_ray: Option<f64>,
-    /// Share of the cells stepped in which nothing was read: empty, or rejected by their bounds, buckets or masks; absent
-    /// where none was stepped.
+    /// Share of the cells stepped in which nothing was read: empty, or rejected by their bounds, buckets or
+    /// masks; absent where none was stepped.
     #[serde(default, skip_serializing_if = "absent")]
     pub rejected_share: Option<f64>,
     /// Entries that the pools were asked for.

@@ -1,5 +1,5 @@
-//! Measurements as data: the schema `rasray-report/1`. The command and the full tier of the tests write reports; pages,
-//! tables and merges read them.
+//! Measurements as data: the schema `rasray-report/1`. The command and the full tier of the tests write
+//! reports; pages, tables and merges read them.
 //!
 //! - [`Report`] is a report, with one [`Run`] per system and set of rays or image.
 //! - [`Cell`] is one run of a comparison as a line of JSON; [`Campaign`] is the result of a plan.

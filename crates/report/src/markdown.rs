@@ -27,8 +27,9 @@ const HEADS: [&str; 15] = [
     "wrong",
 ];
 
-/// The table, one row per run, with |dt|/t percentiles behind the counts of wrong answers. What was not measured is an
-/// empty cell. Counts are over the unambiguous rays, whose number heads the table with the scene and the device.
+/// The table, one row per run, with |dt|/t percentiles behind the counts of wrong answers. What was not
+/// measured is an empty cell. Counts are over the unambiguous rays, whose number heads the table with the
+/// scene and the device.
 pub fn markdown(report: &Report) -> String {
     let heads: Vec<&str> = HEADS.into_iter().chain(["dt/t p50", "dt/t p99"]).collect();
     let rules = (0..heads.len()).map(|column| if column < 2 { "---" } else { "---:" });

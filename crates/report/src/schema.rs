@@ -88,21 +88,22 @@ pub struct SceneRecord {
     /// Of the scene file, in hexadecimal; absent for built-in scenes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
-    /// Bytes of its tables that were not allocated on the device, because no image of the integrator can show what they
-    /// hold; absent for hard cases.
+    /// Bytes of its tables that were not allocated on the device, because no image of the integrator can show
+    /// what they hold; absent for hard cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub not_uploaded_bytes: Option<u64>,
     /// When it was shown; absent at rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<PoseRecord>,
-    /// The light from outside: `scene` for the scene's own, `given` for one that was asked for, `default` for the light of a
-    /// scene that nothing lights; absent for hard cases.
+    /// The light from outside: `scene` for the scene's own, `given` for one that was asked for, `default` for
+    /// the light of a scene that nothing lights; absent for hard cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<String>,
     /// `off` where every surface was made opaque; absent otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub alpha: Option<String>,
-    /// Images that were made smaller, because the device does not hold the texels of all; absent where there are none.
+    /// Images that were made smaller, because the device does not hold the texels of all; absent where there
+    /// are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub smaller_images: Vec<SmallerImageRecord>,
 }
@@ -137,8 +138,8 @@ pub struct FramesRecord {
     /// Share of them that the command makes, such as `2/8`; absent where it makes all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<String>,
-    /// Key of the sequence, equal for all shares, 64 hexadecimal digits: a hash of the first frame's key and of frames
-    /// per second.
+    /// Key of the sequence, equal for all shares, 64 hexadecimal digits: a hash of the first frame's key and
+    /// of frames per second.
     pub key: String,
 }
 
@@ -171,8 +172,8 @@ pub struct CameraRecord {
     /// Metres of the world from the lower to the upper edge; of a parallel projection.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
-    /// Width over height of what the camera frames, where it says so; an image that is narrower for its height shows more
-    /// above and below than its angle or height says.
+    /// Width over height of what the camera frames, where it says so; an image that is narrower for its
+    /// height shows more above and below than its angle or height says.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aspect_ratio: Option<f64>,
     /// Metres, the diameter of the lens's opening; absent: a pinhole.
@@ -213,14 +214,15 @@ pub struct Run {
     pub structure: String,
     /// `robust` or `published`.
     pub preset: String,
-    /// The options in which it differs from other runs of the same system and preset, such as `leaf=2`; absent where
-    /// there is one.
+    /// The options in which it differs from other runs of the same system and preset, such as `leaf=2`;
+    /// absent where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variant: Option<String>,
     /// Why the system was taken, where none was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chosen: Option<String>,
-    /// Key of a picture, 64 hexadecimal digits: a hash of everything that decides its values; absent for ray sets.
+    /// Key of a picture, 64 hexadecimal digits: a hash of everything that decides its values; absent for ray
+    /// sets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub key: Option<String>,
     /// Share of the samples that was made, such as `2/8`; absent where all were.
@@ -245,7 +247,8 @@ pub struct Run {
     /// Samples per pixel that were made.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spp: Option<u32>,
-    /// Sharing of samples among the pixels, where some got more than others; then `spp` is the most that one could get.
+    /// Sharing of samples among the pixels, where some got more than others; then `spp` is the most that one
+    /// could get.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<AdaptiveRecord>,
     /// Scatterings at most; absent unless paths are traced.

@@ -78,14 +78,16 @@ fn certainty(statistics: &Statistics) -> String {
 /// Runs up to which each is printed in full; more are read in a file.
 const RUNS_IN_FULL: usize = 24;
 
-/// The report for people: device, scene, and in words the `camera` that it was seen from; then what came of the runs in short, or in `full` each of them
-/// with every number unless they are very many, and with several runs one line each for comparison.
+/// The report for people: device, scene, and in words the `camera` that it was seen from; then what came of
+/// the runs in short, or in `full` each of them with every number unless they are very many, and with several
+/// runs one line each for comparison.
 pub fn table(report: &Report, camera: Option<&str>, full: bool) -> String {
     table_within(report, camera, full, None)
 }
 
-/// [`table()`] in lines of at most `width` characters, where that is given: columns that do not fit come below in
-/// further blocks, and longer lines are broken between words, but for the camera's, which is there to be copied.
+/// [`table()`] in lines of at most `width` characters, where that is given: columns that do not fit come
+/// below in further blocks, and longer lines are broken between words, but for the camera's, which is there
+/// to be copied.
 pub fn table_within(report: &Report, camera: Option<&str>, full: bool, width: Option<usize>) -> String {
     let whole = unbroken(report, camera, full, width);
     let Some(width) = width else { return whole };

@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-/// Text of one or several lines with every character that a terminal obeys written out, such as `\u{1b}`: controls but
-/// line breaks and tabs, and those that turn the direction of what follows.
+/// Text of one or several lines with every character that a terminal obeys written out, such as `\u{1b}`:
+/// controls but line breaks and tabs, and those that turn the direction of what follows.
 pub fn escaped(text: &str) -> Cow<'_, str> {
     written_out(text, &['\n', '\t'])
 }
@@ -45,8 +45,8 @@ fn is_obeyed(character: char) -> bool {
     character.is_control() || turns || separates
 }
 
-/// JSON text in which every such character is escaped as JSON does it, so that nothing is left for [`escaped`]; in
-/// valid JSON they stand in strings only, but for the line breaks between them.
+/// JSON text in which every such character is escaped as JSON does it, so that nothing is left for
+/// [`escaped`]; in valid JSON they stand in strings only, but for the line breaks between them.
 pub fn json_escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {

@@ -37,8 +37,8 @@ pub fn columns(rows: &[Vec<String>], left: usize) -> String {
     text
 }
 
-/// [`columns`] in lines of at most `width` characters where that can be: columns that do not fit beside the first
-/// `left` come below, in further blocks that repeat these.
+/// [`columns`] in lines of at most `width` characters where that can be: columns that do not fit beside the
+/// first `left` come below, in further blocks that repeat these.
 pub fn columns_within(rows: &[Vec<String>], left: usize, width: usize) -> String {
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
     let widest = |column: usize| {
@@ -74,8 +74,8 @@ pub fn columns_within(rows: &[Vec<String>], left: usize, width: usize) -> String
     blocks.iter().map(block).collect::<Vec<_>>().join("\n")
 }
 
-/// Lines of at most `width` characters where their words allow it: longer ones are broken at spaces and go on `indent`
-/// spaces from the left.
+/// Lines of at most `width` characters where their words allow it: longer ones are broken at spaces and go on
+/// `indent` spaces from the left.
 pub fn wrapped(text: &str, width: usize, indent: usize) -> String {
     let mut lines = String::new();
     for line in text.lines() {

@@ -1,6 +1,7 @@
 //! Writes where the vertices of a scene's triangles are at a time, one per line: x, y, z, metres, world.
 //!
-//! `positions FILE [SECONDS [CLIP]]`; without a time at rest, without a clip (a number from 0) all that can be played at once.
+//! `positions FILE [SECONDS [CLIP]]`; without a time at rest, without a clip (a number from 0) all that can
+//! be played at once.
 
 use std::io::{BufWriter, Write, stdout};
 use std::path::Path;

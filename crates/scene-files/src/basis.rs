@@ -1,7 +1,7 @@
 //! KTX2 images with texels of Basis Universal, ETC1S or UASTC, to RGBA8.
 //!
-//! The crate `basisu` decodes. It trusts the places and lengths of a file in sums and allocations, so these are checked here
-//! before.
+//! The crate `basisu` decodes. It trusts the places and lengths of a file in sums and allocations, so these
+//! are checked here before.
 
 use basisu::{DecodeFlags, SourceFormat, TargetFormat, Transcoder};
 use image::RgbaImage;

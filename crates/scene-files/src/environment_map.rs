@@ -17,8 +17,8 @@ const PIXEL_LIMIT: u64 = 1 << 27;
 /// Reads a Radiance `.hdr` file of at most 2^27 pixels.
 ///
 /// # Errors
-/// [`SceneError::Read`] and [`SceneError::TooLarge`] for a file that cannot be read whole, [`SceneError::Syntax`] for
-/// one that is no such map, is too large, or has pixels that are no radiance.
+/// [`SceneError::Read`] and [`SceneError::TooLarge`] for a file that cannot be read whole,
+/// [`SceneError::Syntax`] for one that is no such map, is too large, or has pixels that are no radiance.
 pub fn load_environment(path: &Path) -> Result<Environment, SceneError> {
     let bytes = read_file(path, Limits::default().file_bytes)?;
     let map = catch_unwind(|| decode(&bytes))

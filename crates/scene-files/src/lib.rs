@@ -1,8 +1,8 @@
-//! Scenes from files: glTF, OBJ, PLY, numbered files that are one scene over time, and environment maps. `rasray-scene-source`
-//! loads scenes with it; a host can use it alone.
+//! Scenes from files: glTF, OBJ, PLY, numbered files that are one scene over time, and environment maps.
+//! `rasray-scene-source` loads scenes with it; a host can use it alone.
 //!
-//! - [`load()`] makes a [`rasray_scene::Scene`] of a file; [`LoadOptions`] has limits, the scene of a file with several, and
-//!   frames per second.
+//! - [`load()`] makes a [`rasray_scene::Scene`] of a file; [`LoadOptions`] has limits, the scene of a file
+//!   with several, and frames per second.
 //! - [`load_environment`] reads an environment map, [`decode_image`] an image.
 //! - [`sequence`] reads numbered files.
 //!

@@ -8,8 +8,8 @@ use rasray_scene::SceneError;
 /// large workstation and refuse files that are small but ask for a lot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Bytes of the scene file, of each file it refers to, of each decoded `data:` URI, and of all buffers together, those
-    /// that are decoded included.
+    /// Bytes of the scene file, of each file it refers to, of each decoded `data:` URI, and of all buffers
+    /// together, those that are decoded included.
     pub file_bytes: u64,
     /// Triangles placed in the world: those of every instance count.
     pub triangles: u64,

@@ -10,8 +10,8 @@ use rasray_scene::{Scene, SceneError};
 /// Loads a scene from a file; the extension of its name decides the format: `.gltf`, `.glb`,
 /// `.obj` or `.ply`, in any case.
 ///
-/// A file name with a run of `#`, unless there is such a file, stands for numbered OBJ or PLY files that are one scene over
-/// time: see [`crate::sequence::Sequence`].
+/// A file name with a run of `#`, unless there is such a file, stands for numbered OBJ or PLY files that are
+/// one scene over time: see [`crate::sequence::Sequence`].
 ///
 /// Files may come from anywhere: whatever they hold, this returns. Triangles and attributes that
 /// cannot be rendered are dropped, images that cannot be read are left out, and both are said in

@@ -1,20 +1,23 @@
-//! Origins of meshes of OBJ and PLY files, chosen so that coordinates far from the origin keep their precision.
+//! Origins of meshes of OBJ and PLY files, chosen so that coordinates far from the origin keep their
+//! precision.
 //!
-//! These files have coordinates in text, in double precision or in whole numbers, and no transforms; a mesh has positions in
-//! single precision. Georeferenced coordinates lose what matters in it: northings of 4,650 km are rounded to half a metre.
-//! So a mesh gets an origin in double precision, which its instance carries: positions are the differences to it, rounded
-//! once.
+//! These files have coordinates in text, in double precision or in whole numbers, and no transforms; a mesh
+//! has positions in single precision. Georeferenced coordinates lose what matters in it: northings of 4,650
+//! km are rounded to half a metre. So a mesh gets an origin in double precision, which its instance carries:
+//! positions are the differences to it, rounded once.
 //!
-//! The rule: an axis is *far* where its greatest coordinate is more than [`FAR`] times the longest side of the box around
-//! what is placed. On a far axis the origin is the middle of the box (to a quarter of the power of two below that side), on
-//! any other axis 0. All meshes of a file share one origin if it is far; otherwise the file is divided where its boxes have
-//! gaps, and the same holds for each part. So meshes that touch always share an origin, and what is closed stays closed.
-//! Where every coordinate of a part is a single-precision number, the origin is 0: these meshes keep every bit of their file.
+//! The rule: an axis is *far* where its greatest coordinate is more than [`FAR`] times the longest side of
+//! the box around what is placed. On a far axis the origin is the middle of the box (to a quarter of the
+//! power of two below that side), on any other axis 0. All meshes of a file share one origin if it is far;
+//! otherwise the file is divided where its boxes have gaps, and the same holds for each part. So meshes that
+//! touch always share an origin, and what is closed stays closed. Where every coordinate of a part is a
+//! single-precision number, the origin is 0: these meshes keep every bit of their file.
 //!
-//! Groups of one mesh may lie far apart, too, and one origin cannot serve both: such a mesh is divided first ([`apart`]).
+//! Groups of one mesh may lie far apart, too, and one origin cannot serve both: such a mesh is divided first
+//! ([`apart`]).
 //!
-//! On a far axis the difference of two single-precision coordinates is one, too. So placing by an origin never costs
-//! precision, wherever that origin is.
+//! On a far axis the difference of two single-precision coordinates is one, too. So placing by an origin
+//! never costs precision, wherever that origin is.
 
 use std::collections::HashMap;
 
@@ -29,7 +32,8 @@ const FAR: f64 = 8.0;
 /// Least width of a gap that divides a mesh into groups, over the side of the larger box next to it.
 const APART: f64 = 32.0;
 
-/// Most levels of division of a file: gaps that are nested deeper are no plausible file, and would take long to find.
+/// Most levels of division of a file: gaps that are nested deeper are no plausible file, and would take long
+/// to find.
 const DEPTH: u32 = 32;
 
 /// Choice of origins.
@@ -37,14 +41,15 @@ const DEPTH: u32 = 32;
 pub(crate) enum Origins<'a> {
     /// By what the file holds.
     Own,
-    /// By what the file holds, also where this file loses nothing: others follow, which are placed by its origins.
+    /// By what the file holds, also where this file loses nothing: others follow, which are placed by its
+    /// origins.
     First,
     /// Those of an earlier file, mesh by mesh; zero beyond them.
     Given(&'a [DVec3]),
 }
 
-/// Rounds the positions of meshes relative to origins, one for each mesh. `wide` has the positions of each mesh as the file
-/// has them, metres, world.
+/// Rounds the positions of meshes relative to origins, one for each mesh. `wide` has the positions of each
+/// mesh as the file has them, metres, world.
 pub(crate) fn settle(meshes: &mut [Mesh], wide: &[Vec<DVec3>], origins: Origins<'_>) -> Vec<DVec3> {
     let mut found = vec![DVec3::ZERO; meshes.len()];
     match origins {
@@ -66,9 +71,9 @@ pub(crate) fn settle(meshes: &mut [Mesh], wide: &[Vec<DVec3>], origins: Origins<
     found
 }
 
-/// Rounds texture coordinates of a mesh, v turned over. `wide` has them as the file does: v counts from the bottom of the
-/// image. Where textures repeat, whole numbers change nothing but take precision: they are taken off an axis that is far, by
-/// the same rule.
+/// Rounds texture coordinates of a mesh, v turned over. `wide` has them as the file does: v counts from the
+/// bottom of the image. Where textures repeat, whole numbers change nothing but take precision: they are
+/// taken off an axis that is far, by the same rule.
 pub(crate) fn texture_coordinates(
     wide: &[[f64; 2]],
     material: &Material,
@@ -169,8 +174,9 @@ impl Part {
     }
 }
 
-/// Groups of a mesh that lie together, as a number for each: the same on both sides of every gap that is not much wider
-/// than what is on either side. Each group has its part of the indices; all are 0 where single precision loses nothing.
+/// Groups of a mesh that lie together, as a number for each: the same on both sides of every gap that is not
+/// much wider than what is on either side. Each group has its part of the indices; all are 0 where single
+/// precision loses nothing.
 pub(crate) fn apart<'a>(groups: impl Iterator<Item = &'a [u32]>, wide: &[DVec3]) -> Vec<u32> {
     let boxes: Vec<Option<Part>> =
         groups.enumerate().map(|(number, indices)| Part::of(number, indices, wide)).collect();

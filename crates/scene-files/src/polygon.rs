@@ -1,9 +1,10 @@
 //! Polygons to triangles.
 //!
-//! A polygon that a fan from its first corner fills is that fan: every convex one, and concave ones whose first corner sees
-//! all others. Any other is cut along its ears in the plane of its normal (Newell's, the sum of the fan's), by the crate
-//! `earcut`. A polygon of n corners is n - 2 triangles in either case, and every corner is one of theirs, so that polygons
-//! that share corners stay closed. Triangles keep the side that the polygon faces.
+//! A polygon that a fan from its first corner fills is that fan: every convex one, and concave ones whose
+//! first corner sees all others. Any other is cut along its ears in the plane of its normal (Newell's, the
+//! sum of the fan's), by the crate `earcut`. A polygon of n corners is n - 2 triangles in either case, and
+//! every corner is one of theirs, so that polygons that share corners stay closed. Triangles keep the side
+//! that the polygon faces.
 
 use std::collections::HashMap;
 
@@ -25,7 +26,8 @@ pub(crate) enum Filling {
 pub(crate) const CROSSING: &str =
     "faces have sides that cross, or too many corners; they are shown as fans from their first corner";
 
-/// Sine of the angle by which a fan may turn back without being taken for concave: rounding of single-precision positions.
+/// Sine of the angle by which a fan may turn back without being taken for concave: rounding of
+/// single-precision positions.
 const ROUNDING: f64 = 1.0e-7;
 
 /// Corners of the largest polygon that is cut. The time grows with the square in the worst case.
@@ -56,7 +58,8 @@ impl Polygons {
             let is_line = from_first().zip(from_first().skip(1)).all(|(a, b)| is_line(a, b));
             return if is_line { Filling::Fan } else { Filling::Crossing };
         }
-        // Seen along the steepest axis, no coordinate is rounded; from the side on which corners run to the left.
+        // Seen along the steepest axis, no coordinate is rounded; from the side on which corners run to the
+        // left.
         let (u, v) = ((steepest + 1) % 3, (steepest + 2) % 3);
         let (u, v) = if normal[steepest] > 0.0 { (u, v) } else { (v, u) };
         self.flat.clear();
@@ -84,7 +87,8 @@ fn is_fan(flat: &[[f64; 2]]) -> bool {
     flat[1..].windows(2).all(|pair| {
         let [a, b] = [pair[0], pair[1]].map(DVec2::from);
         let turns_left = a.perp_dot(b) >= -ROUNDING * a.length() * b.length();
-        // Once around the first corner: what has passed to the right of its first side may not come back to its left.
+        // Once around the first corner: what has passed to the right of its first side may not come back to
+        // its left.
         let side = DVec2::from(flat[1]).perp_dot(b);
         let comes_back = was_right && side > 0.0;
         was_right |= side < 0.0;
@@ -92,9 +96,10 @@ fn is_fan(flat: &[[f64; 2]]) -> bool {
     })
 }
 
-/// Triangles that use every corner and fill the polygon, from those that `earcut` found, which leaves out corners that lie
-/// on a line with their neighbours. `None` if they fill something else: their areas must be positive and sum up to that of
-/// the polygon, so that each point is covered as often as the polygon runs around it.
+/// Triangles that use every corner and fill the polygon, from those that `earcut` found, which leaves out
+/// corners that lie on a line with their neighbours. `None` if they fill something else: their areas must be
+/// positive and sum up to that of the polygon, so that each point is covered as often as the polygon runs
+/// around it.
 fn whole(flat: &[[f64; 2]], cut: &[u32]) -> Option<Vec<[u32; 3]>> {
     let point = |corner: u32| DVec2::from(flat[corner as usize]);
     let twice = |[a, b, c]: [u32; 3]| (point(b) - point(a)).perp_dot(point(c) - point(a));
@@ -357,7 +362,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// Corners at any distance around a point, in the order of their angle, make a polygon that does not cross itself.
+        /// Corners at any distance around a point, in the order of their angle, make a polygon that does not
+        /// cross itself.
         #[test]
         fn stars_are_filled(
             reach in prop::collection::vec(0.2_f64..5.0, 4..40),

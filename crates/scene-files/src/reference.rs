@@ -18,8 +18,8 @@ pub(crate) enum Place {
     },
 }
 
-/// Target of `name` from `folder`; backslashes separate folders too. It leads outside if it is absolute (with a root, a
-/// drive or a scheme), has `..` as a part, or holds a zero byte.
+/// Target of `name` from `folder`; backslashes separate folders too. It leads outside if it is absolute (with
+/// a root, a drive or a scheme), has `..` as a part, or holds a zero byte.
 pub(crate) fn place(folder: &Path, name: &str) -> Place {
     let forward = name.replace('\\', "/");
     let has_drive = forward.as_bytes().get(1) == Some(&b':');
@@ -47,9 +47,9 @@ pub(crate) fn outside(folder: &Path, name: &str, reason: &'static str) -> Place 
     Place::Outside { reason, beside: is_name.then(|| folder.join(last)) }
 }
 
-/// The file of the texture that a scene calls `name`. One that leads outside is looked for beside the file that refers to
-/// it, since textures often travel with their scenes while paths stay behind. `None` if it is not there; either way with a
-/// remark.
+/// The file of the texture that a scene calls `name`. One that leads outside is looked for beside the file
+/// that refers to it, since textures often travel with their scenes while paths stay behind. `None` if it is
+/// not there; either way with a remark.
 pub(crate) fn texture(place: &Place, name: &str, remarks: &mut Remarks) -> Option<PathBuf> {
     let (reason, beside) = match place {
         Place::Below(file) => return Some(file.clone()),

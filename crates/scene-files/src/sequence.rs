@@ -9,12 +9,13 @@ use crate::origin::Origins;
 use rasray_scene::deforming::{Deformation, Deformer, Shape, Topology};
 use rasray_scene::{Mesh, Scene, SceneError, Warning};
 
-/// Files of one name but for a number, such as `cloth.####.ply`: file n is shown from n / fps seconds on, until the next one
-/// is. Before the first it is the first, after the last the last.
+/// Files of one name but for a number, such as `cloth.####.ply`: file n is shown from n / fps seconds on,
+/// until the next one is. Before the first it is the first, after the last the last.
 ///
-/// Vertices and triangles may be others in every file. Materials, textures and instances are those of the first file with
-/// triangles; a later one may have fewer meshes (the others are empty then), not more, and no other materials. Each mesh
-/// stays where the instance of the first places it, and positions are relative to that.
+/// Vertices and triangles may be others in every file. Materials, textures and instances are those of the
+/// first file with triangles; a later one may have fewer meshes (the others are empty then), not more, and no
+/// other materials. Each mesh stays where the instance of the first places it, and positions are relative to
+/// that.
 #[derive(Clone, Debug)]
 pub struct Sequence {
     /// All files, without a gap.
@@ -62,8 +63,9 @@ impl Sequence {
     /// Finds the files of a pattern.
     ///
     /// # Errors
-    /// [`SceneError::Read`] for a folder that cannot be read, [`SceneError::Sequence`] where there are no such files or one
-    /// between the first and the last is missing, and [`SceneError::UnknownFormat`] for other formats than OBJ and PLY.
+    /// [`SceneError::Read`] for a folder that cannot be read, [`SceneError::Sequence`] where there are no
+    /// such files or one between the first and the last is missing, and [`SceneError::UnknownFormat`] for
+    /// other formats than OBJ and PLY.
     pub fn find(pattern: &Path, options: &LoadOptions) -> Result<Self, SceneError> {
         let problem = |problem: String| SceneError::Sequence { path: pattern.to_owned(), problem };
         let extension = pattern.extension().and_then(|text| text.to_str()).unwrap_or_default();

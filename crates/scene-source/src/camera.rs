@@ -19,8 +19,8 @@ pub struct ChosenCamera {
 }
 
 impl ChosenCamera {
-    /// This camera with a lens: the diameter of its opening, metres (0: a pinhole), and the distance of the plane in
-    /// focus, metres along the view.
+    /// This camera with a lens: the diameter of its opening, metres (0: a pinhole), and the distance of the
+    /// plane in focus, metres along the view.
     ///
     /// # Errors
     /// A parallel projection, or a lens without a distance.
@@ -61,7 +61,8 @@ impl ChosenCamera {
         }
     }
 
-    /// The camera in a few words: whose it is, where it stands, and the options of the command that put one there.
+    /// The camera in a few words: whose it is, where it stands, and the options of the command that put one
+    /// there.
     pub fn described(&self) -> String {
         let record = self.record();
         let whose = match record.index {
@@ -77,8 +78,8 @@ impl ChosenCamera {
     }
 }
 
-/// The view where nothing is said of it: the scene's first camera; else one that stands in the room that the scene
-/// is, or outside and sees all of it.
+/// The view where nothing is said of it: the scene's first camera; else one that stands in the room that the
+/// scene is, or outside and sees all of it.
 pub fn default_view(scene: &Scene) -> ChosenCamera {
     let first = scene.cameras.first().cloned().map(|camera| ChosenCamera { camera, index: Some(0) });
     first.unwrap_or_else(|| ChosenCamera { camera: default_camera(scene), index: None })
@@ -99,7 +100,8 @@ pub fn named_view(scene: &Scene, name: &str) -> Result<ChosenCamera, LoadError> 
     Ok(ChosenCamera { camera: scene.cameras[index].clone(), index: Some(index) })
 }
 
-/// A camera at `eye` that looks at `target` (metres), upright; `fov` is the full vertical angle of view in degrees.
+/// A camera at `eye` that looks at `target` (metres), upright; `fov` is the full vertical angle of view in
+/// degrees.
 ///
 /// # Errors
 /// Both at one place, or not finite.
@@ -113,7 +115,8 @@ pub fn placed_view(eye: [f64; 3], target: [f64; 3], fov: Option<f64>) -> Result<
     Ok(ChosenCamera { camera: camera_looking_at("command line", eye, target, fov), index: None })
 }
 
-/// Projection and place of a camera; of a perspective as the options that make the same one, unless it is rolled.
+/// Projection and place of a camera; of a perspective as the options that make the same one, unless it is
+/// rolled.
 fn place(record: &CameraRecord) -> String {
     let (eye, forward) = (DVec3::from_array(record.eye), DVec3::from_array(record.forward));
     // A target as far away as the eye is from the origin keeps as many digits.

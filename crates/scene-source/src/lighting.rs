@@ -29,8 +29,9 @@ impl Lighting {
 }
 
 impl LoadedScene {
-    /// Lights the scene. An environment that is given takes the place of the scene's and stays as it is, a black one
-    /// too; else a scene that nothing lights as it is shown gets [`view::default_light`], with a warning.
+    /// Lights the scene. An environment that is given takes the place of the scene's and stays as it is, a
+    /// black one too; else a scene that nothing lights as it is shown gets [`view::default_light`], with a
+    /// warning.
     pub fn light(&mut self, environment: Option<Environment>) {
         match environment {
             Some(environment) => self.light_with(environment),
@@ -38,9 +39,9 @@ impl LoadedScene {
         }
     }
 
-    /// Lights the scene for frames, which have one light: the scene gets the default light where nothing lights it at
-    /// any of these times, seconds. Where surfaces alone may light it, it is looked at one time after the other until
-    /// it is lit; with numbered files, every file is read for that.
+    /// Lights the scene for frames, which have one light: the scene gets the default light where nothing
+    /// lights it at any of these times, seconds. Where surfaces alone may light it, it is looked at one time
+    /// after the other until it is lit; with numbered files, every file is read for that.
     ///
     /// # Errors
     /// It has no such clip, or its deformer fails.
@@ -85,8 +86,8 @@ impl LoadedScene {
         self.lighting = Lighting::Given;
     }
 
-    /// Decides anew whether the default light is added, as the scene is shown now, unless an environment was given: after
-    /// [`Self::show`], or a return to rest.
+    /// Decides anew whether the default light is added, as the scene is shown now, unless an environment was
+    /// given: after [`Self::show`], or a return to rest.
     pub fn relight(&mut self) {
         if let Lighting::Default(own) = &mut self.lighting {
             self.scene.environment = std::mem::take(own);

@@ -25,13 +25,16 @@ pub struct LoadedScene {
     pub moment: Option<Moment>,
     /// Triangles over all instances.
     pub triangles: u64,
-    /// SHA-256 of the scene file, of a sequence of the one that is shown, in hexadecimal; absent for built-in scenes.
+    /// SHA-256 of the scene file, of a sequence of the one that is shown, in hexadecimal; absent for built-in
+    /// scenes.
     pub sha256: Option<String>,
-    /// SHA-256 in hexadecimal of everything that it was made from: the contents of all files read for it, or the
-    /// built-in's name with parameters as it was given; the environment that was asked for; whether its holes were closed.
+    /// SHA-256 in hexadecimal of everything that it was made from: the contents of all files read for it, or
+    /// the built-in's name with parameters as it was given; the environment that was asked for; whether its
+    /// holes were closed.
     pub content: String,
-    /// Bytes of the scene's tables that are not uploaded because no image can show what they hold; absent until they
-    /// are counted by whoever knows the image, and where the scene is at fault in what is left out.
+    /// Bytes of the scene's tables that are not uploaded because no image can show what they hold; absent
+    /// until they are counted by whoever knows the image, and where the scene is at fault in what is left
+    /// out.
     pub not_uploaded_bytes: Option<u64>,
     /// When it is shown; absent at rest.
     pub pose: Option<PoseRecord>,
@@ -82,7 +85,8 @@ pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, Loa
         let scene = rasray_scene_files::load(path, options)?;
         let shown = scene.animation.deformer.as_ref().and_then(|deformer| deformer.file(0.0));
         let sha256 = digest(shown.unwrap_or(path))?;
-        // Of numbered files the one that is shown changes with the time: keys of pictures have it by its digest.
+        // Of numbered files the one that is shown changes with the time: keys of pictures have it by its
+        // digest.
         let first = if shown.is_none() { sha256.as_str() } else { "" };
         let mut content = KeyHash::default().with("file", first);
         for file in &scene.files {
@@ -124,9 +128,9 @@ fn loaded(scene: Scene, sha256: Option<String>, content: KeyHash) -> LoadedScene
 }
 
 impl LoadedScene {
-    /// Says that the scene is shown at a time, as [`Self::pose`] does, and leaves it at rest: whoever puts it on a device poses
-    /// it there. A scene whose triangles may be others at every time, as in numbered files, is posed
-    /// here.
+    /// Says that the scene is shown at a time, as [`Self::pose`] does, and leaves it at rest: whoever puts it
+    /// on a device poses it there. A scene whose triangles may be others at every time, as in numbered files,
+    /// is posed here.
     ///
     /// # Errors
     /// Those of [`Self::pose`].
@@ -194,9 +198,9 @@ impl LoadedScene {
         PoseRecord { time_s: seconds, clips, frame: None, frames: None, file }
     }
 
-    /// Shows the scene at a time of its animation, seconds: moved by the clip of that name, or else at that position from 0,
-    /// or without one by all that can be played at once; or deformed by what it is simulated with, or as the file has it that
-    /// is shown then.
+    /// Shows the scene at a time of its animation, seconds: moved by the clip of that name, or else at that
+    /// position from 0, or without one by all that can be played at once; or deformed by what it is simulated
+    /// with, or as the file has it that is shown then.
     ///
     /// # Errors
     /// Nothing moves the scene, it has no such clip, or the file of that time cannot be read.

@@ -1,7 +1,7 @@
 //! Everything needed to pose a scene at a time other than rest: nodes, clips, skins, morph targets.
 //!
-//! [`crate::Scene::meshes`] hold the pose at rest, [`crate::Scene::at`] makes another. What is here is as the file has it, checked:
-//! indices are in range, arrays have the lengths that the fields promise, times ascend.
+//! [`crate::Scene::meshes`] hold the pose at rest, [`crate::Scene::at`] makes another. What is here is as the
+//! file has it, checked: indices are in range, arrays have the lengths that the fields promise, times ascend.
 
 use glam::{DAffine3, DQuat, DVec3};
 

@@ -1,7 +1,8 @@
 /// Rays that pass the backs of single-sided surfaces ([`Material::culls_back`](crate::Material::culls_back)).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BackFaces {
-    /// Those of the camera, on through what blends: rooms can be looked into, and are lit as if their walls were there.
+    /// Those of the camera, on through what blends: rooms can be looked into, and are lit as if their walls
+    /// were there.
     #[default]
     Camera,
     /// Every ray.

@@ -43,8 +43,8 @@ pub fn clean(path: &Path, mesh: &mut Mesh, remarks: &mut Remarks) -> Result<(), 
     clean_deformed(path, mesh, None, remarks)
 }
 
-/// [`clean`] of a mesh at rest, with its positions `before` something deforms it: triangles are remarked on that have
-/// no area then, since what they are for a while is no fault of the file.
+/// [`clean`] of a mesh at rest, with its positions `before` something deforms it: triangles are remarked on
+/// that have no area then, since what they are for a while is no fault of the file.
 pub fn clean_deformed(
     path: &Path,
     mesh: &mut Mesh,

@@ -27,17 +27,17 @@ const MARGIN: f64 = 1.05;
 
 /// A camera for a scene that has none, upright with +y; the same for the same scene.
 ///
-/// It stands outside and sees the whole scene from the front, somewhat to the right and above, in a picture that is
-/// at least as wide as high; around the origin if the scene has no triangles. Two kinds of scene are seen in
-/// another way:
+/// It stands outside and sees the whole scene from the front, somewhat to the right and above, in a picture
+/// that is at least as wide as high; around the origin if the scene has no triangles. Two kinds of scene are
+/// seen in another way:
 ///
-/// - A room with one open side is looked into from before that side. A scene is a room if most of what is seen from
-///   its middle turns its front (counter-clockwise) side there and nothing is close; a solid turns its back to its
-///   own inside.
-/// - In a room that closes it in on all sides, but perhaps above, the camera stands: clear of the walls, looking
-///   along the longest free way, almost level, with a vertical angle of 60 to 70 degrees. Less than about two
-///   fifths of the surface may lie outside; so a hollow thing with walls of its own, such as a helmet, is no room,
-///   and neither is a house as large outside as inside.
+/// - A room with one open side is looked into from before that side. A scene is a room if most of what is
+///   seen from its middle turns its front (counter-clockwise) side there and nothing is close; a solid turns
+///   its back to its own inside.
+/// - In a room that closes it in on all sides, but perhaps above, the camera stands: clear of the walls,
+///   looking along the longest free way, almost level, with a vertical angle of 60 to 70 degrees. Less than
+///   about two fifths of the surface may lie outside; so a hollow thing with walls of its own, such as a
+///   helmet, is no room, and neither is a house as large outside as inside.
 ///
 /// Scenes of more than 2^23 triangles are not examined.
 pub fn default_camera(scene: &Scene) -> Camera {
@@ -50,7 +50,8 @@ fn camera_outside(scene: &Scene) -> Camera {
     let direction = DVec3::new(0.45, 0.35, 1.0).normalize();
     let toward = camera_looking_at("default", centre + direction, centre, FOV_Y as f32);
     let axes = toward.world_from_camera.matrix3;
-    // From where a corner of the bounds is still in the picture. What is as thin as the view's axis keeps its distance.
+    // From where a corner of the bounds is still in the picture. What is as thin as the view's axis keeps its
+    // distance.
     let needed = |corner: DVec3| {
         let aside = axes.x_axis.dot(corner).abs().max(axes.y_axis.dot(corner).abs()).max(0.1 * half.length());
         axes.z_axis.dot(corner) + MARGIN * aside / (FOV_Y * 0.5).tan()

@@ -20,8 +20,8 @@ pub trait Deformer: Debug + Send + Sync {
     /// The meshes that it changes, indices into [`Scene::meshes`](crate::Scene::meshes).
     fn meshes(&self) -> &[usize];
 
-    /// These meshes at a time, seconds; before 0 as at 0, after the end as at the end. Times in ascending order may be
-    /// far cheaper than others. The same time gives the same bits.
+    /// These meshes at a time, seconds; before 0 as at 0, after the end as at the end. Times in ascending
+    /// order may be far cheaper than others. The same time gives the same bits.
     ///
     /// # Errors
     /// A file that cannot be read, or that does not go with the others.

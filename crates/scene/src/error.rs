@@ -49,7 +49,8 @@ pub enum SceneError {
         /// The scene file.
         path: PathBuf,
     },
-    /// The file, or one that it needs, is something else than its name says, or of a version that is not read.
+    /// The file, or one that it needs, is something else than its name says, or of a version that is not
+    /// read.
     #[error("{}: {}; {fix}", path.display(), sentence(found))]
     NotThisFormat {
         /// The scene file.

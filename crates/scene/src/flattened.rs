@@ -11,8 +11,8 @@ const ZERO_SCALE: (&str, &str) = ("zero-scale", "has a scale of 0; what it place
 const SINGULAR_MATRIX: (&str, &str) =
     ("singular-transform", "has a singular matrix; what it places is flat or a point");
 
-/// Remarks on nodes of a rig that place triangles and flatten them while these clips play; what a clip scales comes and
-/// goes as it says.
+/// Remarks on nodes of a rig that place triangles and flatten them while these clips play; what a clip scales
+/// comes and goes as it says.
 pub fn remark(rig: &Rig, instances: &[Instance], clips: &[usize], remarks: &mut Remarks) {
     let places = placing(rig, instances);
     let mut is_scaled = vec![false; rig.nodes.len()];
@@ -42,8 +42,8 @@ fn flattens(transform: &NodeTransform) -> Option<(&'static str, &'static str)> {
     }
 }
 
-/// Nodes at or above a node that places triangles: one that shows a mesh, or a joint that has weight. The node of a mesh
-/// with joints does not place it.
+/// Nodes at or above a node that places triangles: one that shows a mesh, or a joint that has weight. The
+/// node of a mesh with joints does not place it.
 fn placing(rig: &Rig, instances: &[Instance]) -> Vec<bool> {
     let mut starts = vec![false; rig.nodes.len()];
     let mut skinned = std::collections::HashSet::new();
@@ -76,8 +76,9 @@ fn placing(rig: &Rig, instances: &[Instance]) -> Vec<bool> {
 }
 
 impl Scene {
-    /// Brings the warnings of nodes that flatten what they place to what holds while these clips play: a clip that scales a
-    /// node, to hide something for a while, flattens nothing by mistake. Without clips they are those of rest.
+    /// Brings the warnings of nodes that flatten what they place to what holds while these clips play: a clip
+    /// that scales a node, to hide something for a while, flattens nothing by mistake. Without clips they are
+    /// those of rest.
     pub fn warn_while_playing(&mut self, clips: &[usize]) {
         let ours = [ZERO_SCALE, SINGULAR_MATRIX];
         self.warnings.retain(|warning| {

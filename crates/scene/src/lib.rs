@@ -1,5 +1,5 @@
-//! Scenes as data: meshes, instances, materials, lights, cameras and their animation. Loaders make them, and everything that
-//! renders or checks reads them.
+//! Scenes as data: meshes, instances, materials, lights, cameras and their animation. Loaders make them, and
+//! everything that renders or checks reads them.
 //!
 //! - [`Scene`] is a scene; [`model`] has its parts.
 //! - [`builtin`] has the scenes that need no file.
@@ -7,8 +7,8 @@
 //! - [`needs`] says which parts of a scene a render can observe.
 //! - [`default_view`] finds a camera, and [`check`] checks and repairs meshes.
 //!
-//! The crate knows no Vulkan and reads no file: `rasray-scene-files` does. Transforms are f64 until the pose; positions are
-//! metres, angles radians, times seconds, radiance W/(sr m^2).
+//! The crate knows no Vulkan and reads no file: `rasray-scene-files` does. Transforms are f64 until the pose;
+//! positions are metres, angles radians, times seconds, radiance W/(sr m^2).
 
 pub mod animation;
 mod back_faces;

@@ -9,8 +9,8 @@ pub use crate::warning::Warning;
 
 /// Scene in one world: meshes and their instances, materials, lights, cameras and animation.
 ///
-/// Instances are in *scene order*, which global triangle ids follow (glTF: depth-first over scene nodes, primitives in
-/// order, instances in order; OBJ and PLY: file order).
+/// Instances are in *scene order*, which global triangle ids follow (glTF: depth-first over scene nodes,
+/// primitives in order, instances in order; OBJ and PLY: file order).
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// File stem or built-in name with its parameters.
@@ -35,8 +35,8 @@ pub struct Scene {
     pub animation: Animation,
     /// Data that was dropped, replaced or not supported, each with a count and a place.
     pub warnings: Vec<Warning>,
-    /// Files that the scene's own file refers to and that were read: buffers, images and material libraries, in the order
-    /// in which they were read. One that is referred to twice may be here twice.
+    /// Files that the scene's own file refers to and that were read: buffers, images and material libraries,
+    /// in the order in which they were read. One that is referred to twice may be here twice.
     pub files: Vec<std::path::PathBuf>,
 }
 
@@ -116,8 +116,8 @@ pub struct Material {
     pub alpha_mode: AlphaMode,
     /// Emission leaves both sides, not the front alone.
     pub double_sided: bool,
-    /// The back is not drawn: rays that pass backs ([`BackFaces`](crate::BackFaces)) go on behind it. The front is the
-    /// counter-clockwise side of the mesh.
+    /// The back is not drawn: rays that pass backs ([`BackFaces`](crate::BackFaces)) go on behind it. The
+    /// front is the counter-clockwise side of the mesh.
     pub culls_back: bool,
     /// Shows its base colour as emission and scatters nothing.
     pub unlit: bool,
@@ -286,12 +286,13 @@ pub struct Camera {
     pub projection: Projection,
     /// Width over height of what it frames, above 0, where the file says so; see [`Camera::half_extents`].
     pub aspect_ratio: Option<f32>,
-    /// The lens of a perspective; absent: a pinhole, which blurs nothing. No file format that is read has one.
+    /// The lens of a perspective; absent: a pinhole, which blurs nothing. No file format that is read has
+    /// one.
     pub lens: Option<Lens>,
 }
 
-/// A thin lens: all of its opening sees a pixel, and what is not in the plane in focus is blurred. Brightness does not depend
-/// on it.
+/// A thin lens: all of its opening sees a pixel, and what is not in the plane in focus is blurred. Brightness
+/// does not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
     /// Diameter of the opening, metres; 0 is a pinhole.
@@ -301,10 +302,11 @@ pub struct Lens {
 }
 
 impl Camera {
-    /// Half of what an image of that many pixels shows, across and upwards: tangents of angles of a perspective, metres of
-    /// a parallel projection. Pixels are square. What the projection says of the height holds for images that are at least
-    /// as wide for their height as the camera's frame, or where it has none: wider ones show more at both sides. A narrower
-    /// one shows the frame in its full width, and more above and below.
+    /// Half of what an image of that many pixels shows, across and upwards: tangents of angles of a
+    /// perspective, metres of a parallel projection. Pixels are square. What the projection says of the
+    /// height holds for images that are at least as wide for their height as the camera's frame, or where it
+    /// has none: wider ones show more at both sides. A narrower one shows the frame in its full width, and
+    /// more above and below.
     pub fn half_extents(&self, width: u32, height: u32) -> [f64; 2] {
         let aspect = f64::from(width.max(1)) / f64::from(height.max(1));
         let half_height = match self.projection {

@@ -1,8 +1,8 @@
 //! The name that was meant, where one is not known.
 
-/// The candidate that takes the fewest changes of single letters to get from `word`, swaps of neighbours included and
-/// upper case ignored: one for words of up to three letters, two beyond, three from eight on. The first of equally near
-/// ones; absent where all are farther.
+/// The candidate that takes the fewest changes of single letters to get from `word`, swaps of neighbours
+/// included and upper case ignored: one for words of up to three letters, two beyond, three from eight on.
+/// The first of equally near ones; absent where all are farther.
 ///
 /// ```
 /// use rasray_scene::nearest::nearest;
@@ -28,7 +28,8 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|near| near.1)
 }
 
-/// Letters that are put in, taken out, replaced or swapped with their neighbour on the way from one word to the other.
+/// Letters that are put in, taken out, replaced or swapped with their neighbour on the way from one word to
+/// the other.
 fn changes(from: &str, to: &str) -> usize {
     let letters = |word: &str| word.to_lowercase().chars().collect::<Vec<_>>();
     let (from, to) = (letters(from), letters(to));

@@ -1,4 +1,5 @@
-//! Scenes at a time: nodes moved by clips, meshes deformed by morph targets and joints, all in f64 and rounded once.
+//! Scenes at a time: nodes moved by clips, meshes deformed by morph targets and joints, all in f64 and
+//! rounded once.
 
 use std::collections::HashMap;
 
@@ -13,16 +14,17 @@ use crate::{Camera, Light, Mesh, Scene, check, time};
 /// When a scene is shown, and what moves it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Moment {
-    /// Seconds from the beginning of every clip. Before the first and after the last key of a channel its value is the one
-    /// of that key. A time that is a key's but for single precision, as files hold keys, is at that key.
+    /// Seconds from the beginning of every clip. Before the first and after the last key of a channel its
+    /// value is the one of that key. A time that is a key's but for single precision, as files hold keys, is
+    /// at that key.
     pub seconds: f64,
     /// Indices into [`Rig::clips`]; of two that animate the same property of a node the later one counts.
     pub clips: Vec<usize>,
 }
 
 impl Rig {
-    /// The clips that can be played at once: all, but for those that animate a property of a node that an earlier one of
-    /// them animates as well, such as the gaits of a figure.
+    /// The clips that can be played at once: all, but for those that animate a property of a node that an
+    /// earlier one of them animates as well, such as the gaits of a figure.
     pub fn compatible_clips(&self) -> Vec<usize> {
         let mut taken = std::collections::HashSet::new();
         let property = |channel: &Channel| (channel.node, std::mem::discriminant(&channel.values));
@@ -86,7 +88,8 @@ impl Pose {
         animated.unwrap_or_else(|| deformed.weights.iter().copied().map(f64::from).collect())
     }
 
-    /// Poses of the cameras of that rig's scene: world, metres, rigid. One without a node, or whose node degenerates, stays.
+    /// Poses of the cameras of that rig's scene: world, metres, rigid. One without a node, or whose node
+    /// degenerates, stays.
     pub fn cameras(&self, rig: &Rig, at_rest: &[Camera]) -> Vec<DAffine3> {
         let nodes = rig.cameras.iter().map(|&node| Some(node)).chain(std::iter::repeat(None));
         let placed = |node: Option<usize>| node.and_then(|node| rigid(self.world(node)));
@@ -97,7 +100,8 @@ impl Pose {
             .collect()
     }
 
-    /// The lights of the scene with that rig where they are. One without a node, or whose node degenerates, stays.
+    /// The lights of the scene with that rig where they are. One without a node, or whose node degenerates,
+    /// stays.
     pub fn lights(&self, rig: &Rig, at_rest: &[Light]) -> Vec<Light> {
         let mut lights = at_rest.to_vec();
         for (light, &node) in lights.iter_mut().zip(&rig.lights) {
@@ -150,7 +154,8 @@ impl Between {
         Self { first: after - 1, second: after, share, seconds: end - begin }
     }
 
-    /// Terms of a value that is interpolated number by number: places in the list of elements, with their shares.
+    /// Terms of a value that is interpolated number by number: places in the list of elements, with their
+    /// shares.
     fn terms(&self, interpolation: Interpolation) -> [(usize, f64); 4] {
         let Self { first, second, share: s, seconds } = *self;
         match interpolation {
@@ -221,8 +226,8 @@ impl<'a> Joints<'a> {
         Self { binding, moves }
     }
 
-    /// The mean of the joints of a vertex. Weights add up to 1 but for rounding, which would be multiplied by the way from
-    /// the world's origin: so the sum is divided by theirs.
+    /// The mean of the joints of a vertex. Weights add up to 1 but for rounding, which would be multiplied by
+    /// the way from the world's origin: so the sum is divided by theirs.
     fn of_vertex(&self, vertex: usize) -> DAffine3 {
         let (mut matrix3, mut translation, mut total) = (DMat3::ZERO, DVec3::ZERO, 0.0);
         for (joint, weight) in self.binding.of_vertex(vertex).filter(|(_, weight)| *weight > 0.0) {
@@ -236,10 +241,10 @@ impl<'a> Joints<'a> {
     }
 }
 
-/// Origin relative to which positions are rounded to f32, so that each keeps its digits: the world's origin where it
-/// lies among them or not far away, so that they are rounded once; else a place among them, on a grid of at least their
-/// size, which stays while they move a little. Wherever that is, a position is rounded by at most a unit in the last
-/// place of half their size.
+/// Origin relative to which positions are rounded to f32, so that each keeps its digits: the world's origin
+/// where it lies among them or not far away, so that they are rounded once; else a place among them, on a
+/// grid of at least their size, which stays while they move a little. Wherever that is, a position is rounded
+/// by at most a unit in the last place of half their size.
 fn origin_for(positions: &[DVec3]) -> DVec3 {
     let finite = positions.iter().filter(|position| position.is_finite());
     let (lower, upper) = finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lower, upper), position| {
@@ -257,8 +262,9 @@ fn origin_for(positions: &[DVec3]) -> DVec3 {
     origin + DVec3::ZERO
 }
 
-/// Moves the vertices of `mesh`, which is as the file has it, by weighted targets of `deformed` and by joints. Answers where
-/// a mesh is that joints place; as the format asks, the transform of the node that holds it plays no part.
+/// Moves the vertices of `mesh`, which is as the file has it, by weighted targets of `deformed` and by
+/// joints. Answers where a mesh is that joints place; as the format asks, the transform of the node that
+/// holds it plays no part.
 pub fn deform(
     mesh: &mut Mesh,
     deformed: &DeformedMesh,
@@ -303,8 +309,8 @@ pub fn deform(
     origin.map(DAffine3::from_translation)
 }
 
-/// Gives a mesh that is flattened to nothing the normals and tangents of its own shape: what is left of them has no direction,
-/// nobody sees it, and the mesh has them again as soon as it is more than nothing.
+/// Gives a mesh that is flattened to nothing the normals and tangents of its own shape: what is left of them
+/// has no direction, nobody sees it, and the mesh has them again as soon as it is more than nothing.
 fn keep_attributes(mesh: &mut Mesh, deformed: &DeformedMesh) {
     if (deformed.normals.is_some() || deformed.tangents.is_some()) && check::is_flattened(mesh) {
         mesh.normals.clone_from(&deformed.normals);
@@ -312,16 +318,16 @@ fn keep_attributes(mesh: &mut Mesh, deformed: &DeformedMesh) {
     }
 }
 
-/// The matrix that turns normals, whatever the determinant; for a mirrored map it also flips them back to the side that the
-/// winding has.
+/// The matrix that turns normals, whatever the determinant; for a mirrored map it also flips them back to the
+/// side that the winding has.
 fn cofactors(matrix: DMat3) -> DMat3 {
     let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let side = if matrix.determinant() < 0.0 { -1.0 } else { 1.0 };
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * side
 }
 
-/// The rigid map with the same place, view direction and up direction: where a camera at a node is. Absent where the node
-/// is degenerate.
+/// The rigid map with the same place, view direction and up direction: where a camera at a node is. Absent
+/// where the node is degenerate.
 pub fn rigid(world: DAffine3) -> Option<DAffine3> {
     let back = world.matrix3.z_axis.try_normalize()?;
     let right = world.matrix3.y_axis.try_normalize()?.cross(back).try_normalize()?;
@@ -389,7 +395,8 @@ impl Scene {
     }
 }
 
-/// A mesh deformed, with the attributes brought into the state that [`Mesh`] promises; and where it is, if joints say so.
+/// A mesh deformed, with the attributes brought into the state that [`Mesh`] promises; and where it is, if
+/// joints say so.
 pub fn posed_mesh(
     at_rest: &Mesh,
     deformed: &DeformedMesh,

@@ -9,7 +9,8 @@ use crate::warning::Warning;
 /// Different texts of one kind that are told; more are counted, so that no file can make the list long.
 const TEXTS: usize = 16;
 
-/// Remarks on the places of a file, and which files were read for it. The same remark on many places becomes one warning.
+/// Remarks on the places of a file, and which files were read for it. The same remark on many places becomes
+/// one warning.
 #[derive(Debug, Default)]
 pub struct Remarks {
     /// In the order in which they were read.
@@ -43,7 +44,8 @@ impl Remarks {
         self.add(kind, place.into(), None, text.into());
     }
 
-    /// A remark on `count` things in a place, unless there are none: `mesh a: 3 text`. Counts of several places are added.
+    /// A remark on `count` things in a place, unless there are none: `mesh a: 3 text`. Counts of several
+    /// places are added.
     pub fn count(
         &mut self,
         kind: &'static str,

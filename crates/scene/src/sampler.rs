@@ -1,8 +1,8 @@
 /// The random numbers of the samples of an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sampler {
-    /// Sobol points in groups of four dimensions, shuffled and scrambled for every pixel: least noise, above all where
-    /// the samples per pixel are a power of two.
+    /// Sobol points in groups of four dimensions, shuffled and scrambled for every pixel: least noise, above
+    /// all where the samples per pixel are a power of two.
     #[default]
     Sobol,
     /// Independent numbers.

@@ -1,10 +1,12 @@
 //! When a time has come.
 //!
-//! Files hold times in single precision, and frames and command lines ask for them in double: frame 10 of 25 per second is
-//! at 0.4000000059604645 s in a file and is asked for at 0.4 s. Both mean the same, so both meet here and nowhere else.
+//! Files hold times in single precision, and frames and command lines ask for them in double: frame 10 of 25
+//! per second is at 0.4000000059604645 s in a file and is asked for at 0.4 s. Both mean the same, so both
+//! meet here and nowhere else.
 
-/// Share by which a time may be off and is still the same: what single precision makes of a frame's number times the seconds
-/// of a frame, by which some exporters go: two roundings of half a unit in the last place each.
+/// Share by which a time may be off and is still the same: what single precision makes of a frame's number
+/// times the seconds of a frame, by which some exporters go: two roundings of half a unit in the last place
+/// each.
 const SAME: f64 = 1.0 / (1 << 22) as f64;
 
 /// True if a time that is asked for is that of a key, both in seconds.

@@ -1,5 +1,5 @@
-//! Shadow maps in a plain ash program with its own device: a lamp and a sun above a staircase, whose shadow rays are
-//! answered by maps and compared with those of brute force.
+//! Shadow maps in a plain ash program with its own device: a lamp and a sun above a staircase, whose shadow
+//! rays are answered by maps and compared with those of brute force.
 
 use rasray_ads::{BruteForce, Domain, Hit, Occluder, Ray, RayQueue, Structure, Trace};
 use rasray_gpu::{Device, Recorder};
@@ -50,7 +50,8 @@ pub fn main() -> Result<()> {
         let queue = RayQueue::new(&device, "rays", rays.len() as u32, false)?;
         device.upload_slice(queue.rays(), 0, &rays)?;
         let recorded = host.submit(0, |commands| {
-            // SAFETY: the command buffer is being recorded by nobody else, and `recorded` outlives the wait below.
+            // SAFETY: the command buffer is being recorded by nobody else, and `recorded` outlives the wait
+            // below.
             let mut recorder = unsafe { Recorder::from_raw(&device, commands) };
             let all = Domain::First(rays.len() as u32);
             queue.record_reset(&mut recorder);

@@ -7,11 +7,11 @@ use rasray_ads::AdsError;
 pub struct Config {
     /// Texels along a side of a view, from [`Config::LEAST_TEXELS`] to [`Config::MOST_TEXELS`].
     pub resolution: u32,
-    /// Each texel lies this much deeper than the triangle at its centre, in multiples of what the triangle's plane gains
-    /// within half a texel: from 0 to 16. With 1, no flat surface shades itself.
+    /// Each texel lies this much deeper than the triangle at its centre, in multiples of what the triangle's
+    /// plane gains within half a texel: from 0 to 16. With 1, no flat surface shades itself.
     pub bias: f32,
-    /// Points on each emitting triangle that have a cube of maps each, from 0 to [`Config::MOST_POINTS`]. 0: shadow rays that
-    /// lead to emitting triangles are traced.
+    /// Points on each emitting triangle that have a cube of maps each, from 0 to [`Config::MOST_POINTS`]. 0:
+    /// shadow rays that lead to emitting triangles are traced.
     pub points: u32,
 }
 

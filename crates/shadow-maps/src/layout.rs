@@ -47,8 +47,8 @@ pub(crate) fn texel_count(config: &Config, views: u64) -> Result<u64, AdsError> 
     Ok(elements)
 }
 
-/// Bytes of the buffers for that many lights and views, in their order: which views lights have, views, texels. At least
-/// one element each.
+/// Bytes of the buffers for that many lights and views, in their order: which views lights have, views,
+/// texels. At least one element each.
 pub(crate) fn sizes(lights: usize, views: u64, texels: u64) -> [u64; 3] {
     [
         size_of::<ShadowMapsHeader>() as u64 + lights.max(1) as u64 * size_of::<ShadowMapsLight>() as u64,
@@ -57,8 +57,8 @@ pub(crate) fn sizes(lights: usize, views: u64, texels: u64) -> [u64; 3] {
     ]
 }
 
-/// The page's formula for lights without extent that have these views, and emitting triangles: one of either at least. It
-/// shares nothing with what is allocated, so that the two check each other.
+/// The page's formula for lights without extent that have these views, and emitting triangles: one of either
+/// at least. It shares nothing with what is allocated, so that the two check each other.
 pub fn bytes(config: &Config, views: &[u32], emitters: u32) -> u64 {
     let of_lights: u64 = views.iter().copied().map(u64::from).sum();
     let of_emitters = 6 * u64::from(config.points) * u64::from(emitters);

@@ -28,10 +28,11 @@ const LIGHTS_PER_GROUP: u32 = 64;
 /// Lights that shadow rays lead to.
 #[derive(Clone, Copy, Debug)]
 pub struct Lights<'a> {
-    /// [`Light`] records of lights without extent on the device, from its start. Each build reads where they are then.
+    /// [`Light`] records of lights without extent on the device, from its start. Each build reads where they
+    /// are then.
     pub records: &'a Buffer,
-    /// These records as the host knows them: which kinds there are, and how wide cones are. Where they are is not
-    /// looked at.
+    /// These records as the host knows them: which kinds there are, and how wide cones are. Where they are is
+    /// not looked at.
     pub known: &'a [Light],
     /// Triangles that emit, where there are any.
     pub emitters: Option<Emitters<'a>>,
@@ -40,19 +41,22 @@ pub struct Lights<'a> {
 /// Triangles that emit. With [`Config::points`] each of them has maps.
 #[derive(Clone, Copy, Debug)]
 pub struct Emitters<'a> {
-    /// [`EmissiveTriangle`](crate::EmissiveTriangle) records on the device, from its start, of which the triangle is read.
+    /// [`EmissiveTriangle`](crate::EmissiveTriangle) records on the device, from its start, of which the
+    /// triangle is read.
     pub records: &'a Buffer,
     /// Number of triangles.
     pub count: u32,
 }
 
-/// Shadow maps of all lights: a cube around each that shines everywhere, one view along each narrower cone, one parallel
-/// view over all triangles for each light far away; and where [`Config::points`] asks for it a cube around each of so many
-/// points on every emitting triangle, of which a ray takes the one nearest to its end.
+/// Shadow maps of all lights: a cube around each that shines everywhere, one view along each narrower cone,
+/// one parallel view over all triangles for each light far away; and where [`Config::points`] asks for it a
+/// cube around each of so many points on every emitting triangle, of which a ray takes the one nearest to its
+/// end.
 ///
-/// A build draws the triangles into every view. Rays that lead to a light ([`Ray::light`](rasray_ads::Ray::light)) are
-/// answered by one comparison; a structure is asked for all others: for rays without such a light, from outside of a view,
-/// and rays that pass back faces. Until a build of the triangles that there are was recorded, it is asked for all.
+/// A build draws the triangles into every view. Rays that lead to a light
+/// ([`Ray::light`](rasray_ads::Ray::light)) are answered by one comparison; a structure is asked for all
+/// others: for rays without such a light, from outside of a view, and rays that pass back faces. Until a
+/// build of the triangles that there are was recorded, it is asked for all.
 ///
 /// There is one set of maps, which frames in flight on one queue use one after the other.
 #[derive(Debug)]
@@ -89,11 +93,12 @@ impl ShadowMaps {
         requirements
     }
 
-    /// Makes pipelines and maps; nothing is built. `scene` has the alpha masks; without it geometry is opaque.
+    /// Makes pipelines and maps; nothing is built. `scene` has the alpha masks; without it geometry is
+    /// opaque.
     ///
     /// # Errors
-    /// An option out of range, or maps larger than the device draws or binds; out of memory, or the device lacks a feature
-    /// or refuses a pipeline.
+    /// An option out of range, or maps larger than the device draws or binds; out of memory, or the device
+    /// lacks a feature or refuses a pipeline.
     pub fn new(
         device: &Device,
         config: Config,
@@ -155,8 +160,9 @@ impl ShadowMaps {
         })
     }
 
-    /// Takes other lights from the next recording on; the maps grow where there are more. Nothing is built then. What was
-    /// recorded before keeps the lights that it was recorded with. Nothing changes after an error.
+    /// Takes other lights from the next recording on; the maps grow where there are more. Nothing is built
+    /// then. What was recorded before keeps the lights that it was recorded with. Nothing changes after an
+    /// error.
     ///
     /// # Errors
     /// Maps larger than the device binds, or out of memory.
@@ -167,15 +173,18 @@ impl ShadowMaps {
         Ok(())
     }
 
-    /// Takes other triangles from the next recording on. Until they are drawn, a structure is asked for every ray.
+    /// Takes other triangles from the next recording on. Until they are drawn, a structure is asked for every
+    /// ray.
     pub fn set_geometry(&mut self, geometry: &Geometry) {
         self.geometry = geometry.clone();
     }
 
-    /// Takes the scene that other triangles belong to, whose alpha masks the next build reads. Nothing changes after an error.
+    /// Takes the scene that other triangles belong to, whose alpha masks the next build reads. Nothing
+    /// changes after an error.
     ///
     /// # Errors
-    /// [`AdsError::OtherScene`] where it has alpha masks and the one before had none, or other specialisation constants.
+    /// [`AdsError::OtherScene`] where it has alpha masks and the one before had none, or other specialisation
+    /// constants.
     pub fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError> {
         if let Some(what) = self.scene.as_ref().and_then(|before| before.difference(scene)) {
             return Err(AdsError::OtherScene { structure: MODULES.structure, what });
@@ -201,8 +210,8 @@ impl ShadowMaps {
         self.of_lights.table.size() + self.views.size() + self.texels.size()
     }
 
-    /// Depths of the texels of all views, metres from the light, of a light far away from the front of the view, row by row;
-    /// NaN where there is no triangle. Submits and waits: for tests and tools.
+    /// Depths of the texels of all views, metres from the light, of a light far away from the front of the
+    /// view, row by row; NaN where there is no triangle. Submits and waits: for tests and tools.
     ///
     /// # Errors
     /// The device failed.
@@ -211,8 +220,9 @@ impl ShadowMaps {
         Ok(device.download_as::<f32>(&self.texels, 0, count as usize)?)
     }
 
-    /// Records that all maps are drawn, of lights and triangles as they are where this comes in the recording: after what moves
-    /// them, and after a structure's build, which gathers and checks triangles. Visible to what follows.
+    /// Records that all maps are drawn, of lights and triangles as they are where this comes in the
+    /// recording: after what moves them, and after a structure's build, which gathers and checks triangles.
+    /// Visible to what follows.
     pub fn record_build(&self, recorder: &mut Recorder<'_>) {
         let OfLights { lights, points, view_count, .. } = self.of_lights;
         if view_count == 0 {
@@ -274,7 +284,8 @@ impl Occluder for ShadowMaps {
     }
 }
 
-/// Views, texels and tables for these lights; `kept` are views and texels to be used again where they suffice.
+/// Views, texels and tables for these lights; `kept` are views and texels to be used again where they
+/// suffice.
 fn made_for(
     device: &Device,
     config: &Config,

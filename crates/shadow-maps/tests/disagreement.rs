@@ -10,7 +10,8 @@ use rasray_shadow_maps::{Config, bytes, views_of};
 
 use crate::lit::{Lit, cluttered_room, device, expect_silence, lights, scene_of};
 
-/// Shares of rays that are answered differently, for each light at each resolution that the device has room for.
+/// Shares of rays that are answered differently, for each light at each resolution that the device has room
+/// for.
 fn disagreement(device: &Device, scene: &Scene, resolutions: &[u32], rays: usize) -> Vec<Vec<f64>> {
     let of_light = |light: usize| {
         let alone = Scene { lights: vec![scene.lights[light]], ..scene.clone() };
@@ -93,7 +94,8 @@ fn bounds(scene: &Scene) -> [DVec3; 2] {
     [corners().fold(DVec3::INFINITY, DVec3::min), corners().fold(DVec3::NEG_INFINITY, DVec3::max)]
 }
 
-/// Cornell's room, lit from within where all is inside of the view of a light: its lamp stays a wall of the ceiling.
+/// Cornell's room, lit from within where all is inside of the view of a light: its lamp stays a wall of the
+/// ceiling.
 fn lit_cornell() -> Scene {
     let mut scene = builtin::cornell();
     scene.lights = vec![

@@ -1,4 +1,5 @@
-//! The example runs, its answers are those of brute force where a map has them, and the validation layer is silent.
+//! The example runs, its answers are those of brute force where a map has them, and the validation layer is
+//! silent.
 
 #[path = "../examples/embed.rs"]
 mod embed;

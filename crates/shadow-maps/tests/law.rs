@@ -1,5 +1,6 @@
-//! The law of shadow maps: a ray's answer is what a naive map in double precision says, which looks at every triangle along
-//! the line from the light through the centre of the ray's texel. Where rounding decides, it may be either.
+//! The law of shadow maps: a ray's answer is what a naive map in double precision says, which looks at every
+//! triangle along the line from the light through the centre of the ray's texel. Where rounding decides, it
+//! may be either.
 
 use std::f64::consts::{PI, TAU};
 
@@ -85,8 +86,8 @@ fn line(view: &View, [x, y]: [f64; 2]) -> (DVec3, DVec3) {
     }
 }
 
-/// Depth of a triangle (in a view) at a texel's centre with the bias; `None` where it does not cover the centre. An error
-/// where rounding decides whether it does.
+/// Depth of a triangle (in a view) at a texel's centre with the bias; `None` where it does not cover the
+/// centre. An error where rounding decides whether it does.
 fn stored(view: &View, [a, b, c]: [DVec3; 3], centre: [f64; 2], half_texel: f64) -> Result<Option<f64>, ()> {
     let (origin, direction) = line(view, centre);
     let edges = [(b, c), (c, a), (a, b)].map(|(from, to)| {
@@ -190,8 +191,8 @@ fn answers_are_those_of_a_naive_map() {
     expect_silence(&device);
 }
 
-/// No point of a flat surface is in its own shadow, however steep: by the bias, and where the triangle of a point is known
-/// without it, too.
+/// No point of a flat surface is in its own shadow, however steep: by the bias, and where the triangle of a
+/// point is known without it, too.
 #[test]
 fn a_surface_does_not_shade_itself() {
     let (device, _turn) = device();
@@ -225,7 +226,8 @@ fn a_surface_does_not_shade_itself() {
     expect_silence(&device);
 }
 
-/// Neither does a convex one of triangles smaller than texels, from outside and from within, whatever its curvature.
+/// Neither does a convex one of triangles smaller than texels, from outside and from within, whatever its
+/// curvature.
 #[test]
 fn a_curved_surface_does_not_shade_itself() {
     let (device, _turn) = device();

@@ -1,4 +1,5 @@
-//! Scenes on a device whose shadow rays are answered by maps and by traces, and rays between surfaces and lights.
+//! Scenes on a device whose shadow rays are answered by maps and by traces, and rays between surfaces and
+//! lights.
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -192,8 +193,8 @@ impl Lit {
         self.indices.as_chunks::<3>().0.iter().map(|triangle| triangle.each_ref().map(corner)).collect()
     }
 
-    /// From points spread evenly over all surfaces to a light without extent: as integrators ask. Those that the light does
-    /// not shine on are left out.
+    /// From points spread evenly over all surfaces to a light without extent: as integrators ask. Those that
+    /// the light does not shine on are left out.
     pub fn shadow_rays(&self, light: u32, count: usize) -> Vec<Ray> {
         let record = self.scene.lights()[light as usize];
         self.rays_to(light, count, |_, p| {
@@ -203,8 +204,8 @@ impl Lit {
         })
     }
 
-    /// From points spread evenly over all surfaces to places spread at random over the emitting triangle of this number
-    /// and these corners.
+    /// From points spread evenly over all surfaces to places spread at random over the emitting triangle of
+    /// this number and these corners.
     pub fn rays_to_emitter(&self, emitter: u32, corners: [DVec3; 3], count: usize) -> Vec<Ray> {
         self.rays_to(self.scene.lights().len() as u32 + emitter, count, |random, p| {
             let (root, along) = (random.next().sqrt(), random.next());
@@ -214,7 +215,8 @@ impl Lit {
         })
     }
 
-    /// From points on all surfaces, on the side of a light: `target` says in which direction that is, and where rays end.
+    /// From points on all surfaces, on the side of a light: `target` says in which direction that is, and
+    /// where rays end.
     fn rays_to(
         &self,
         light: u32,

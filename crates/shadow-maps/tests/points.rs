@@ -14,7 +14,8 @@ fn config(resolution: u32, points: u32) -> Config {
     Config { points, ..Config::new(resolution) }
 }
 
-/// A room with things in it and a lamp of two triangles below its ceiling, of a mesh of its own, so that they come last.
+/// A room with things in it and a lamp of two triangles below its ceiling, of a mesh of its own, so that they
+/// come last.
 fn room_with_a_lamp() -> Scene {
     let mut scene = scene_of(&cluttered_room(60), lights()[..2].to_vec());
     let corner = |x: f32, z: f32| [x, 0.9, z];
@@ -99,7 +100,8 @@ fn answers_are_those_of_a_naive_map_of_the_nearest_point() {
     expect_silence(&device);
 }
 
-/// Without points, and of triangles that there are not, rays are traced; lights without extent keep their maps.
+/// Without points, and of triangles that there are not, rays are traced; lights without extent keep their
+/// maps.
 #[test]
 fn rays_to_emitters_without_points_are_traced() {
     let (device, _turn) = device();
@@ -130,7 +132,8 @@ fn rays_to_emitters_without_points_are_traced() {
     expect_silence(&device);
 }
 
-/// The share of rays that are answered differently from a trace falls as there are more points, and more texels.
+/// The share of rays that are answered differently from a trace falls as there are more points, and more
+/// texels.
 #[test]
 fn errors_fall_as_points_and_texels_grow() {
     let (device, _turn) = device();

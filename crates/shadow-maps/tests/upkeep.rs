@@ -1,5 +1,5 @@
-//! Rays that maps answer, and those that they leave to a structure; masks; lights and triangles that are others; sizes
-//! that do not fit.
+//! Rays that maps answer, and those that they leave to a structure; masks; lights and triangles that are
+//! others; sizes that do not fit.
 
 use glam::DVec3;
 use rasray_ads::{AdsError, Domain, Hit, PRIMITIVE_UNKNOWN, RAY_CULL_BACK_FACES, Ray, RayQueue};

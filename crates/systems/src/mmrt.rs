@@ -74,8 +74,8 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     OptionValue::apply_all(spec, OPTIONS, &mut config)?;
     let given = |option| spec.options().get(option).is_some();
     if spec.preset() == Preset::Robust {
-        // Options that conservative coverage does not go with ask for another, as buckets do for lists that have them,
-        // and boxes, which give these their bounds.
+        // Options that conservative coverage does not go with ask for another, as buckets do for lists that
+        // have them, and boxes, which give these their bounds.
         if !given("coverage") && !config.may_test_triangles() {
             config.coverage = Coverage::Exact;
         }

@@ -1,6 +1,6 @@
-//! Every option that a system may have, as data: what it is for, what it takes, and whether it may change a hit. The
-//! command line, its help, the page of options and the tests of invariance are made from these rows; each system says in
-//! its own file which of them it has and what they set.
+//! Every option that a system may have, as data: what it is for, what it takes, and whether it may change a
+//! hit. The command line, its help, the page of options and the tests of invariance are made from these rows;
+//! each system says in its own file which of them it has and what they set.
 
 use rasray_options::{Least, OptionRow, Unit, Values};
 

@@ -1,4 +1,5 @@
-//! Selective reflections: voxels first, then each fragment in one of the axis A-buffers, with the paper's presets.
+//! Selective reflections: voxels first, then each fragment in one of the axis A-buffers, with the paper's
+//! presets.
 
 use rasray_voxel::{Config, Payload, Voxels};
 

@@ -43,7 +43,8 @@ impl Preset {
     }
 }
 
-/// The frame of a paper's pictures, and options of the structure that follow from a frame, in words of the command line.
+/// The frame of a paper's pictures, and options of the structure that follow from a frame, in words of the
+/// command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PaperFrame {
     /// The integrator.
@@ -57,15 +58,15 @@ pub struct PaperFrame {
     /// The published preset's `payload` for renders that ask for occlusion alone; absent where the paper has
     /// none of its own for it.
     pub occlusion_payload: Option<&'static str>,
-    /// The published preset's `views` where a perspective camera looks at the scene, whose view then has one cell per
-    /// pixel (`camera-resolution`), and those of every preset that first hits are taken from; absent where the paper
-    /// draws none.
+    /// The published preset's `views` where a perspective camera looks at the scene, whose view then has one
+    /// cell per pixel (`camera-resolution`), and those of every preset that first hits are taken from; absent
+    /// where the paper draws none.
     pub camera_views: Option<&'static str>,
 }
 
 impl PaperFrame {
-    /// Pictures of an integrator with these options: first hits are drawn, shadow rays go through the structure, and none of
-    /// its options follows from the frame.
+    /// Pictures of an integrator with these options: first hits are drawn, shadow rays go through the
+    /// structure, and none of its options follows from the frame.
     pub(crate) const fn of(
         integrator: &'static str,
         options: &'static [(&'static str, &'static str)],
@@ -84,17 +85,18 @@ pub struct System {
     pub presets: &'static [Preset],
     /// Description for help.
     pub doc: &'static str,
-    /// The frame that pictures of its published preset are made with, where no integrator is asked for; absent where no paper
-    /// shows it.
+    /// The frame that pictures of its published preset are made with, where no integrator is asked for;
+    /// absent where no paper shows it.
     pub frame: Option<PaperFrame>,
-    /// Options with which its published preset needs no scene: by default fragments carry what a scene's materials say.
+    /// Options with which its published preset needs no scene: by default fragments carry what a scene's
+    /// materials say.
     pub without_scene: &'static [(&'static str, &'static str)],
     /// The name of the structure that it traces.
     pub structure: &'static str,
     /// Records that the structure shares with its shaders, the header first.
     pub records: &'static [RecordLayout],
-    /// Options over the robust preset with which a pool is larger than the 128 MiB that a binding of small devices holds,
-    /// whatever the triangles; none where pools grow with these alone.
+    /// Options over the robust preset with which a pool is larger than the 128 MiB that a binding of small
+    /// devices holds, whatever the triangles; none where pools grow with these alone.
     pub large_pools: &'static [(&'static str, &'static str)],
     /// Names of the options it has.
     pub(crate) options: fn() -> Vec<&'static str>,
@@ -199,9 +201,9 @@ impl Spec {
         Self { counters: counters.into(), ..self }
     }
 
-    /// Makes rays spend this many units of work in a dispatch, from 2 on, and then wait for the next. Changes no hit;
-    /// rays that need more dispatches than they are given are counted as unfinished. Brute force keeps the shared
-    /// default.
+    /// Makes rays spend this many units of work in a dispatch, from 2 on, and then wait for the next. Changes
+    /// no hit; rays that need more dispatches than they are given are counted as unfinished. Brute force
+    /// keeps the shared default.
     #[must_use]
     pub fn with_work_budget(self, units: u32) -> Self {
         Self { work_budget: Some(units), ..self }
@@ -266,8 +268,8 @@ impl Spec {
         (self.system.requirements)(self)
     }
 
-    /// The given option, as name and value, without which its structure does not require this feature of a device;
-    /// absent where no single one is why.
+    /// The given option, as name and value, without which its structure does not require this feature of a
+    /// device; absent where no single one is why.
     pub fn option_that_requires(&self, feature: Feature) -> Option<(&'static str, Value)> {
         self.options.iter().find(|(option, _)| {
             let others = self.options.iter().filter(|(other, _)| other != option).collect();

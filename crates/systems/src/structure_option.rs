@@ -34,7 +34,8 @@ impl Group {
     }
 }
 
-/// Cases in which an option may change a hit, by kind of hits. Elsewhere hits are bit-identical whatever its value.
+/// Cases in which an option may change a hit, by kind of hits. Elsewhere hits are bit-identical whatever its
+/// value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hits {
     /// Never.

@@ -1,6 +1,6 @@
-//! Pages follow the registry: `docs/options.md` is what the rows of options say, the page of each system names every
-//! option that it has, that of published frames has a line for each, and the table of features in `docs/embedding.md` is
-//! what structures require.
+//! Pages follow the registry: `docs/options.md` is what the rows of options say, the page of each system
+//! names every option that it has, that of published frames has a line for each, and the table of features in
+//! `docs/embedding.md` is what structures require.
 //!
 //! `RASRAY_WRITE_PAGES=1` writes the page of options and the table instead of comparing them.
 

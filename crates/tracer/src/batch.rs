@@ -12,8 +12,8 @@ use crate::{Replay, TracerError};
 
 /// Tracer of batches of rays of any length, through a queue of fixed capacity. It submits and waits.
 ///
-/// The first submission to a structure is small, and later ones hold as many rays as are traced in a second. The division
-/// into submissions changes no hit.
+/// The first submission to a structure is small, and later ones hold as many rays as are traced in a second.
+/// The division into submissions changes no hit.
 #[derive(Debug)]
 pub struct BatchTracer {
     device: Device,
@@ -52,8 +52,8 @@ impl BatchTracer {
         Ok(Self { device: device.clone(), queue, shares: Shares::default() })
     }
 
-    /// Traces all rays, one submission after another, in at most [`Structure::rounds`] rounds; all of them again where
-    /// some did not finish and the structure allows more. Measurements are of the last time.
+    /// Traces all rays, one submission after another, in at most [`Structure::rounds`] rounds; all of them
+    /// again where some did not finish and the structure allows more. Measurements are of the last time.
     ///
     /// # Errors
     /// The device fails, rays do not finish, or the structure is not built.

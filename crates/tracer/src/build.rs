@@ -7,10 +7,10 @@ use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 
 use crate::{FrameOutcome, FrameStructure, TracerError};
 
-/// Rebuilds after which a structure counts as unstable. One is enough where all pools are counted at once; a later
-/// pool's demand may only be known once an earlier pool sufficed, such as that of the cells of divided cells, which may
-/// be divided themselves, and the demand for pages differs slightly from build to build, for which [`Structure::check`]
-/// adds a margin.
+/// Rebuilds after which a structure counts as unstable. One is enough where all pools are counted at once; a
+/// later pool's demand may only be known once an earlier pool sufficed, such as that of the cells of divided
+/// cells, which may be divided themselves, and the demand for pages differs slightly from build to build, for
+/// which [`Structure::check`] adds a margin.
 const REBUILDS: u32 = 8;
 
 /// Cost of a build.
@@ -41,9 +41,9 @@ pub fn build_until_complete(
     until_complete(device, &mut Whole { structure }, viewpoint.into(), timing)
 }
 
-/// Builds what of a structure over frames is stale from a viewpoint, in its first slot, until all of it is complete. A frame of it
-/// that is in flight has ended before. Passes, and the sums of the outcome, are those of the parts that were built; none where
-/// nothing is stale.
+/// Builds what of a structure over frames is stale from a viewpoint, in its first slot, until all of it is
+/// complete. A frame of it that is in flight has ended before. Passes, and the sums of the outcome, are those
+/// of the parts that were built; none where nothing is stale.
 ///
 /// # Errors
 /// As [`build_until_complete`].

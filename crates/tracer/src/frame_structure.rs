@@ -28,12 +28,12 @@ impl Default for FrameSettings {
 pub enum FrameOutcome {
     /// Everything was stored: what was traced is right.
     Complete,
-    /// Something was not stored: traces answered *not ready*, and the frame must not be shown. The structure has grown
-    /// where that helps, and the next frame builds anew.
+    /// Something was not stored: traces answered *not ready*, and the frame must not be shown. The structure
+    /// has grown where that helps, and the next frame builds anew.
     Incomplete {
-        /// The pool of all parts that lacked most, with the capacity before it grew. Absent where no counted pool lacked
-        /// anything: an earlier frame has made them larger since the build was recorded, or what the build lacked is not
-        /// counted but follows from the number of triangles.
+        /// The pool of all parts that lacked most, with the capacity before it grew. Absent where no counted
+        /// pool lacked anything: an earlier frame has made them larger since the build was recorded, or what
+        /// the build lacked is not counted but follows from the number of triangles.
         pool: Option<PoolStatus>,
     },
 }
@@ -83,8 +83,8 @@ struct Part {
     /// Builds recorded so far.
     builds: u64,
     used: Vec<Option<Used>>,
-    /// The last build whose frame has ended, and its outcome. Frames end in order, so that none traced through an earlier
-    /// one is left.
+    /// The last build whose frame has ended, and its outcome. Frames end in order, so that none traced
+    /// through an earlier one is left.
     ended: Option<(u64, FrameOutcome)>,
 }
 
@@ -97,14 +97,15 @@ struct Used {
     made: bool,
 }
 
-/// Structure over frames in flight, for hosts that record and submit their own frames. It records a build if the last one is
-/// stale, reads the status when a frame has ended, and grows between frames. It never submits or waits, except in
-/// [`FrameStructure::prepare`] for structures that the host builds.
+/// Structure over frames in flight, for hosts that record and submit their own frames. It records a build if
+/// the last one is stale, reads the status when a frame has ended, and grows between frames. It never submits
+/// or waits, except in [`FrameStructure::prepare`] for structures that the host builds.
 ///
 /// Order of calls; any other is an error:
 ///
 /// 1. per frame, in the order of submission: [`FrameStructure::record`] with a slot;
-/// 2. after the fence of the slot, in the same order, and before the slot is recorded again: [`FrameStructure::finish`].
+/// 2. after the fence of the slot, in the same order, and before the slot is recorded again:
+///    [`FrameStructure::finish`].
 ///
 /// Other triangles are handed over between frames.
 pub struct FrameStructure {
@@ -147,14 +148,16 @@ impl FrameStructure {
         self.counts
     }
 
-    /// The vertices have moved, or will have by the time that the next frame builds: in parts those of all parts that move.
+    /// The vertices have moved, or will have by the time that the next frame builds: in parts those of all
+    /// parts that move.
     pub fn geometry_moved(&mut self) {
         self.parts_moved(&[]);
     }
 
-    /// Takes for each of the parts that move whether its vertices moved; one that is not stated did. What is built for
-    /// a part in a space of its own stays ([`Description::follows`](rasray_ads::Description::follows)). Without parts,
-    /// all of the vertices have moved where any have.
+    /// Takes for each of the parts that move whether its vertices moved; one that is not stated did. What is
+    /// built for a part in a space of its own stays
+    /// ([`Description::follows`](rasray_ads::Description::follows)). Without parts, all of the vertices have
+    /// moved where any have.
     pub fn parts_moved(&mut self, moved: &[bool]) {
         if !self.is_in_parts() {
             if moved.is_empty() || moved.contains(&true) {
@@ -171,11 +174,12 @@ impl FrameStructure {
         }
     }
 
-    /// Takes other triangles; all of them are built. Frames in flight keep those that they were recorded with.
+    /// Takes other triangles; all of them are built. Frames in flight keep those that they were recorded
+    /// with.
     ///
     /// # Errors
-    /// Out of memory, or a [`Combined`](rasray_ads::Combined) structure is given another number of triangles: then
-    /// [`FrameStructure::set_parts`].
+    /// Out of memory, or a [`Combined`](rasray_ads::Combined) structure is given another number of triangles:
+    /// then [`FrameStructure::set_parts`].
     pub fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
         self.replace(|structure| structure.set_geometry(device, geometry))
     }
@@ -188,8 +192,8 @@ impl FrameStructure {
         self.replace(|structure| structure.set_parts(device, parts))
     }
 
-    /// Takes the scene that other triangles belong to ([`Structure::set_scene`]); all of them are built. Frames in flight keep
-    /// the scene that they were recorded with.
+    /// Takes the scene that other triangles belong to ([`Structure::set_scene`]); all of them are built.
+    /// Frames in flight keep the scene that they were recorded with.
     ///
     /// # Errors
     /// As [`Structure::set_scene`].
@@ -197,8 +201,8 @@ impl FrameStructure {
         self.replace(|structure| structure.set_scene(scene))
     }
 
-    /// Rounds that a trace records now, of all parts together: more than for a frame in flight where that one may have had too
-    /// few ([`Structure::rounds`]).
+    /// Rounds that a trace records now, of all parts together: more than for a frame in flight where that one
+    /// may have had too few ([`Structure::rounds`]).
     pub fn rounds(&self) -> u32 {
         (0..self.parts.len()).fold(0, |sum, part| self.structure.part(part).rounds().saturating_add(sum))
     }
@@ -229,9 +233,10 @@ impl FrameStructure {
         self.parts[part].built.is_none_or(|built| structure.is_stale(built.viewpoint, viewpoint))
     }
 
-    /// Does what only the host can do for the build of the next frame, if that builds: for structures that are built on the
-    /// device alone, nothing. Where [`Description::builds_on_host`](rasray_ads::Description::builds_on_host) says so,
-    /// this waits for the device, and vertices must be where they are to be built.
+    /// Does what only the host can do for the build of the next frame, if that builds: for structures that
+    /// are built on the device alone, nothing. Where
+    /// [`Description::builds_on_host`](rasray_ads::Description::builds_on_host) says so, this waits for the
+    /// device, and vertices must be where they are to be built.
     ///
     /// # Errors
     /// The device failed, or memory does not suffice.
@@ -244,12 +249,12 @@ impl FrameStructure {
         Ok(())
     }
 
-    /// Records the build of a frame, of each part for which the last one does not hold. What follows in the frame may be traced through
-    /// [`FrameStructure::structure`]. True where a build was recorded.
+    /// Records the build of a frame, of each part for which the last one does not hold. What follows in the
+    /// frame may be traced through [`FrameStructure::structure`]. True where a build was recorded.
     ///
     /// # Errors
-    /// There is no such slot, or the last frame of it was not finished ([`AdsError::Slot`]); the structure was not prepared,
-    /// or it has a view of the camera and the viewpoint has none.
+    /// There is no such slot, or the last frame of it was not finished ([`AdsError::Slot`]); the structure
+    /// was not prepared, or it has a view of the camera and the viewpoint has none.
     pub fn record(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -288,12 +293,13 @@ impl FrameStructure {
         Ok(parts_made > 0)
     }
 
-    /// Says what became of the build that a slot's frame was traced through; the caller has waited for the frame. Grows
-    /// where pools were too small.
+    /// Says what became of the build that a slot's frame was traced through; the caller has waited for the
+    /// frame. Grows where pools were too small.
     ///
     /// # Errors
-    /// The slot is not that of the oldest frame that was recorded and not finished ([`AdsError::Slot`]): then nothing changed.
-    /// No sizes suffice, triangles reach out of their bounds ([`AdsError::OutsideBounds`]), or out of memory.
+    /// The slot is not that of the oldest frame that was recorded and not finished ([`AdsError::Slot`]): then
+    /// nothing changed. No sizes suffice, triangles reach out of their bounds ([`AdsError::OutsideBounds`]),
+    /// or out of memory.
     pub fn finish(&mut self, device: &Device, slot: u32) -> Result<FrameOutcome, AdsError> {
         if self.pending.front() != Some(&slot) {
             return Err(self.wrong_slot(slot));
@@ -340,8 +346,8 @@ impl FrameStructure {
         AdsError::Slot { structure: self.structure().description().name, slot, slots: self.slots }
     }
 
-    /// The frame that was recorded last, for this slot, was not submitted: what it built does not exist. Nothing where no frame
-    /// was recorded for it.
+    /// The frame that was recorded last, for this slot, was not submitted: what it built does not exist.
+    /// Nothing where no frame was recorded for it.
     pub fn take_back(&mut self, slot: u32) {
         self.pending.retain(|pending| *pending != slot);
         for part in &mut self.parts {

@@ -7,8 +7,8 @@ use rasray_gpu::{Device, Flights, PassTiming, Recorder, Timing};
 
 use crate::{FrameOutcome, FrameSettings, FrameStructure, Refresh, TracerError};
 
-/// Frames of a structure in flight: each records what moves its vertices, the build if that is stale, and what traces
-/// through it, in one submission that nothing waits for until the frame is taken.
+/// Frames of a structure in flight: each records what moves its vertices, the build if that is stale, and
+/// what traces through it, in one submission that nothing waits for until the frame is taken.
 #[derive(Debug)]
 pub struct Frames {
     device: Device,
@@ -107,14 +107,15 @@ impl Frames {
         self.structure.set_scene(scene)
     }
 
-    /// Records a frame and submits it; returns its number. `before` records what moves vertices and comes first, `after`
-    /// what traces through the structure; both are given the slot, which is [`Frames::free_slot`]. Where the host has a part
-    /// in the build ([`Description::builds_on_host`](rasray_ads::Description::builds_on_host)), `before` is submitted
-    /// by itself and waited for.
+    /// Records a frame and submits it; returns its number. `before` records what moves vertices and comes
+    /// first, `after` what traces through the structure; both are given the slot, which is
+    /// [`Frames::free_slot`]. Where the host has a part in the build
+    /// ([`Description::builds_on_host`](rasray_ads::Description::builds_on_host)), `before` is submitted by
+    /// itself and waited for.
     ///
     /// # Errors
-    /// [`TracerError::Busy`]; what `after` returns, or what the device, the recording or the structure reports: nothing
-    /// of the frame is submitted then, but for `before` where it is submitted by itself.
+    /// [`TracerError::Busy`]; what `after` returns, or what the device, the recording or the structure
+    /// reports: nothing of the frame is submitted then, but for `before` where it is submitted by itself.
     pub fn submit<E: From<TracerError>>(
         &mut self,
         viewpoint: Viewpoint,
@@ -159,8 +160,8 @@ impl Frames {
         Ok(number)
     }
 
-    /// Waits for the oldest frame in flight and says what became of it; the structure has grown where it was too small.
-    /// Absent where none is in flight.
+    /// Waits for the oldest frame in flight and says what became of it; the structure has grown where it was
+    /// too small. Absent where none is in flight.
     ///
     /// # Errors
     /// The device failed, or no sizes suffice ([`FrameStructure::finish`]).

@@ -7,8 +7,9 @@ use rasray_gpu::Device;
 pub enum Refresh {
     /// All triangles.
     All(Box<dyn Structure>),
-    /// The parts that moved. The static part, and those that did not move, are built where they are stale themselves: the first
-    /// time, where their pools grew, for other triangles, and from another view where the structure depends on it.
+    /// The parts that moved. The static part, and those that did not move, are built where they are stale
+    /// themselves: the first time, where their pools grew, for other triangles, and from another view where
+    /// the structure depends on it.
     Parts(Box<Combined>),
 }
 

@@ -17,14 +17,14 @@ const SECONDS: f64 = 1.0;
 /// Maximum ratio of a submission to the one before.
 const GROWTH: u32 = 8;
 
-/// Maximum number of rays of a submission per structure, adapted to the time of the last one: a million triangles
-/// tested one by one take a million times as long as one, and a submission that takes a minute is ended by a driver or
-/// a timeout.
+/// Maximum number of rays of a submission per structure, adapted to the time of the last one: a million
+/// triangles tested one by one take a million times as long as one, and a submission that takes a minute is
+/// ended by a driver or a timeout.
 #[derive(Debug, Default)]
 pub(crate) struct Shares(Mutex<HashMap<Contestant, u32>>);
 
-/// A structure, identified by its address: two of one kind may have different scenes and options. A later value at
-/// the same address starts from its predecessor's share and corrects it.
+/// A structure, identified by its address: two of one kind may have different scenes and options. A later
+/// value at the same address starts from its predecessor's share and corrects it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Contestant(usize);
 

@@ -1,5 +1,5 @@
-//! A window without the command: `cargo run -p rasray-viewer --features window --example window -- cornell`. Pictures are
-//! saved as .ppm, and how `rasray render` makes them is printed.
+//! A window without the command: `cargo run -p rasray-viewer --features window --example window -- cornell`.
+//! Pictures are saved as .ppm, and how `rasray render` makes them is printed.
 
 use rasray_experiment::{
     DeviceChoice, Frame, INTEGRATORS, IntegratorSpec, OccluderKind, OptionValues, Primary, Sampler,

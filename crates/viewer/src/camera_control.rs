@@ -9,7 +9,8 @@ use rasray_scene_source::placed_view;
 /// Largest angle up and down, radians: short of straight up, where a camera without roll has no right side.
 const STEEPEST: f64 = 89.0 * std::f64::consts::PI / 180.0;
 
-/// Numbers of a camera as the command line has them: eye and target in metres, the full vertical angle of view in degrees.
+/// Numbers of a camera as the command line has them: eye and target in metres, the full vertical angle of
+/// view in degrees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounded {
     /// Position of the eye.
@@ -93,9 +94,9 @@ pub struct CameraControl {
 }
 
 impl CameraControl {
-    /// Takes over from a camera, whose picture has that many pixels a row and rows. It turns around the point in front of it
-    /// that is `distance` metres away. A roll is lost; a parallel projection becomes a perspective that sees as much at that
-    /// point.
+    /// Takes over from a camera, whose picture has that many pixels a row and rows. It turns around the point
+    /// in front of it that is `distance` metres away. A roll is lost; a parallel projection becomes a
+    /// perspective that sees as much at that point.
     pub fn from_camera(camera: &Camera, [width, height]: [u32; 2], distance: f64) -> Self {
         let frame = &camera.world_from_camera;
         let eye = frame.translation;
@@ -119,7 +120,8 @@ impl CameraControl {
         self.lens.unwrap_or(Lens { aperture: 0.0, focus: self.distance() as f32 })
     }
 
-    /// Opens a lens, or closes it to a pinhole with an aperture of 0. Numbers that no lens has change nothing.
+    /// Opens a lens, or closes it to a pinhole with an aperture of 0. Numbers that no lens has change
+    /// nothing.
     pub fn set_lens(&mut self, lens: Lens) {
         if !(lens.aperture >= 0.0 && lens.aperture.is_finite() && lens.focus > 0.0 && lens.focus.is_finite())
         {
@@ -137,8 +139,9 @@ impl CameraControl {
         }
     }
 
-    /// Goes back or forward, and aside, so that a box (its least and greatest corner, world, metres) is in the middle and a ball
-    /// around it fits into a picture of that many pixels a row and rows. It looks in the same direction.
+    /// Goes back or forward, and aside, so that a box (its least and greatest corner, world, metres) is in
+    /// the middle and a ball around it fits into a picture of that many pixels a row and rows. It looks in
+    /// the same direction.
     pub fn frame_all(&mut self, (low, high): (DVec3, DVec3), [width, height]: [u32; 2]) {
         let radius =
             (0.5 * (high - low).length()).max(1.0e-6 * (1.0 + high.abs().max(low.abs()).max_element()));
@@ -215,8 +218,8 @@ impl CameraControl {
         }
     }
 
-    /// The numbers of the camera, with no more digits than can be seen: a thousandth of a thousandth of the distance to the
-    /// target.
+    /// The numbers of the camera, with no more digits than can be seen: a thousandth of a thousandth of the
+    /// distance to the target.
     pub fn rounded(&self) -> Rounded {
         let digits = (6.0 - self.distance().log10().ceil()).clamp(0.0, 15.0) as usize;
         let number = |value: f64| trimmed(&format!("{value:.digits$}"));

@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 use rasray_denoise::{DenoiseError, Denoiser, NoisyPicture};
 use rasray_experiment::{Built, DeviceScene, ExperimentError, ProgressiveImage};
 
-/// From the end of one to the begin of the next, in times of what the last one took: a fifth of the time is spent on it.
+/// From the end of one to the begin of the next, in times of what the last one took: a fifth of the time is
+/// spent on it.
 const PAUSE: u32 = 4;
 
 /// Denoiser of pictures, with what it knows of the one that refines.

@@ -143,13 +143,12 @@ impl Engine {
         }
     }
 
-    /// Does the next piece of work: at most one wave of rays after what must be made, or a sample of a picture while something
-    /// moves. `say` is told in a few words what
-    /// takes long.
+    /// Does the next piece of work: at most one wave of rays after what must be made, or a sample of a
+    /// picture while something moves. `say` is told in a few words what takes long.
     ///
     /// # Errors
-    /// The settings ask for what cannot be, the device fails, or a structure or rays do not become complete. The next step
-    /// tries again.
+    /// The settings ask for what cannot be, the device fails, or a structure or rays do not become complete.
+    /// The next step tries again.
     pub fn step(&mut self, say: &mut dyn FnMut(&str)) -> Result<Step, ViewerError> {
         if self.done {
             return Ok(Step::Done);
@@ -326,8 +325,8 @@ impl Engine {
             }
         });
         let full = [settings.frame.width, settings.frame.height];
-        // Settings change faster than waves end, and would start them over for ever: a step ends with a picture. Where all
-        // samples so far were quick, there is time for one more.
+        // Settings change faster than waves end, and would start them over for ever: a step ends with a
+        // picture. Where all samples so far were quick, there is time for one more.
         let (samples, of_a_sample) = loop {
             let started = Instant::now();
             while !(advance(device, films.next(), traced, &mut self.sample_ms)? && films.is_whole()) {}
@@ -392,8 +391,8 @@ impl Engine {
         self.picture(camera, pixels, samples, Vec::new())
     }
 
-    /// Traces the ray of a pick through one of its systems. The structure that is there is used where it is of that system;
-    /// one that is built for this is dropped.
+    /// Traces the ray of a pick through one of its systems. The structure that is there is used where it is
+    /// of that system; one that is built for this is dropped.
     pub fn answer(&self, pick: &Pick, config: &SystemConfig) -> Answer {
         let system = format!("{} {}", config.system.name, config.preset.name());
         let is_there = pick.scene == self.settings.scene && pick.seconds == self.posed;

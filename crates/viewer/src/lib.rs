@@ -1,12 +1,14 @@
-//! A viewer of scenes: the structures and integrators of `rasray render`, live. The command `rasray view` opens it.
+//! A viewer of scenes: the structures and integrators of `rasray render`, live. The command `rasray view`
+//! opens it.
 //!
 //! - [`Session`] holds the choices of a user, and turns keys, drags and widgets into [`Settings`].
-//! - [`Engine`] makes pictures of settings on a device, step by step, and repeats only what a change makes necessary
-//!   ([`Redo`]).
+//! - [`Engine`] makes pictures of settings on a device, step by step, and repeats only what a change makes
+//!   necessary ([`Redo`]).
 //! - [`Worker`] runs an engine in a thread, so that a window never waits for a build.
 //! - `run`, with the feature `window`, opens the window. All other types work without one.
 //!
-//! The picture that refinement ends at is the one that `rasray render` writes for the session's command line, bit by bit.
+//! The picture that refinement ends at is the one that `rasray render` writes for the session's command line,
+//! bit by bit.
 
 mod camera_control;
 mod command_line;

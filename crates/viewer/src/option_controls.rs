@@ -58,8 +58,8 @@ impl SystemChoice {
         self.preset
     }
 
-    /// Changes to a system. Options mean something else there, so that all are left to the preset, which is kept where the
-    /// system has it.
+    /// Changes to a system. Options mean something else there, so that all are left to the preset, which is
+    /// kept where the system has it.
     pub fn choose_system(&mut self, system: &'static System) {
         if system != self.system {
             let preset = if system.presets.contains(&self.preset) { self.preset } else { system.presets[0] };

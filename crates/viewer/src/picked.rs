@@ -46,8 +46,8 @@ impl Pick {
         }
     }
 
-    /// Hit in the structure of a configuration: in `traced` where that is of this configuration, else in one that is
-    /// built for the pick. The scene is given as it was read and as it is on the device.
+    /// Hit in the structure of a configuration: in `traced` where that is of this configuration, else in one
+    /// that is built for the pick. The scene is given as it was read and as it is on the device.
     pub(crate) fn hit(
         &self,
         device: &Device,

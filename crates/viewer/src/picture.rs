@@ -49,8 +49,8 @@ pub enum Pixels {
 }
 
 impl Pixels {
-    /// Three bytes of sRGB per pixel, of radiance as files of PNG are in this tone; maps have none. A number is stops of exposure
-    /// alone.
+    /// Three bytes of sRGB per pixel, of radiance as files of PNG are in this tone; maps have none. A number
+    /// is stops of exposure alone.
     pub fn bytes(&self, tone: impl Into<Tone>) -> Vec<u8> {
         match self {
             Self::Radiance(radiance) => tone_map(radiance, tone),
@@ -70,8 +70,9 @@ impl Pixels {
         )
     }
 
-    /// A map of absolute differences: the greatest of a pixel's channels; black is none. A hundredth of the pixels may be
-    /// beyond the scale: else edges of lamps, which are far brighter than all they light, would leave the rest dark.
+    /// A map of absolute differences: the greatest of a pixel's channels; black is none. A hundredth of the
+    /// pixels may be beyond the scale: else edges of lamps, which are far brighter than all they light, would
+    /// leave the rest dark.
     pub(crate) fn of_difference(one: &[[f32; 3]], other: &[[f32; 3]], exact: &str) -> Self {
         let far = |(one, other): (&[f32; 3], &[f32; 3])| {
             (0..3).map(|channel| f64::from((one[channel] - other[channel]).abs())).fold(0.0, f64::max)
@@ -106,8 +107,8 @@ pub struct Picture {
     pub samples: u32,
     /// Name and version of its denoiser; absent without one.
     pub denoised: Option<String>,
-    /// Rays that would have passed more transparent surfaces than a ray may, once refinement has ended: what lies behind
-    /// is left out.
+    /// Rays that would have passed more transparent surfaces than a ray may, once refinement has ended: what
+    /// lies behind is left out.
     pub cut_rays: u32,
     /// From where.
     pub camera: Camera,

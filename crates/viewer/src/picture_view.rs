@@ -40,9 +40,9 @@ impl Area {
         Self { corner, size: [0, 1].map(|axis| (self.corner[axis] + self.size[axis]).ceil() - corner[axis]) }
     }
 
-    /// Pixels that a window shows of a picture that lies here, whose pixels are squares: per pixel of `window`, which
-    /// are whole ones, the pixel of the picture that its centre is in, and `around` beside the picture. `pixels` has
-    /// the picture's rows from the top.
+    /// Pixels that a window shows of a picture that lies here, whose pixels are squares: per pixel of
+    /// `window`, which are whole ones, the pixel of the picture that its centre is in, and `around` beside
+    /// the picture. `pixels` has the picture's rows from the top.
     pub fn squares<Pixel: Copy>(
         &self,
         (picture, pixels): ([u32; 2], &[Pixel]),

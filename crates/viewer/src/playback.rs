@@ -50,8 +50,8 @@ impl Playback {
         (self.seconds, self.playing) = (None, false);
     }
 
-    /// The time that is shown, seconds; absent at rest. Between the times that the command line gave it is a whole number
-    /// of milliseconds.
+    /// The time that is shown, seconds; absent at rest. Between the times that the command line gave it is a
+    /// whole number of milliseconds.
     pub fn shown(&self) -> Option<f64> {
         let rounded = |seconds: f64| if self.playing { (seconds * STEPS).round() / STEPS } else { seconds };
         self.seconds.map(rounded)

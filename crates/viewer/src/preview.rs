@@ -6,9 +6,9 @@ use rasray_experiment::{
 use rasray_gpu::Device;
 use rasray_scene::needs::Needs;
 
-/// Pixels from each to those that a pass of [`smoothed`] averages it with. Of a sample at 320x180, mean errors as shown fall
-/// from 3.1 to 1.2 of 255 (cornell) and from 24.7 to 6.4 (walker:8k); with a fourth pass, of 8, to 2.0 and 6.0, since it blurs
-/// shadows.
+/// Pixels from each to those that a pass of [`smoothed`] averages it with. Of a sample at 320x180, mean
+/// errors as shown fall from 3.1 to 1.2 of 255 (cornell) and from 24.7 to 6.4 (walker:8k); with a fourth
+/// pass, of 8, to 2.0 and 6.0, since it blurs shadows.
 const STEPS: [usize; 3] = [1, 2, 4];
 
 /// Relative difference of two surfaces' colours at which light of one counts a quarter for the other.
@@ -17,8 +17,9 @@ const APART: f32 = 0.08;
 /// Added to colours of surfaces, so that light on black ones is known.
 const BLACK: f32 = 0.02;
 
-/// The frame of a preview of `size`: of paths their first scattering alone, which is direct light; of other integrators
-/// with materials that scatter the same, since they differ in what comes after; else what was chosen.
+/// The frame of a preview of `size`: of paths their first scattering alone, which is direct light; of other
+/// integrators with materials that scatter the same, since they differ in what comes after; else what was
+/// chosen.
 fn light_frame(frame: &Frame, [width, height]: [u32; 2]) -> Frame {
     let chosen = &frame.integrator;
     let path = IntegratorRow::named("path").expect("it is registered");
@@ -31,7 +32,8 @@ fn light_frame(frame: &Frame, [width, height]: [u32; 2]) -> Frame {
     Frame { integrator, width, height, adaptive: None, ..frame.clone() }
 }
 
-/// The frame of what is seen without light; absent where `light` has no noise, as all that sends camera rays alone.
+/// The frame of what is seen without light; absent where `light` has no noise, as all that sends camera rays
+/// alone.
 fn surface_frame(light: &Frame) -> Option<Frame> {
     let raycast = IntegratorRow::named("raycast").expect("it is registered");
     let is_noisy = light.integrator.row().rays.len() > 1;
@@ -106,9 +108,9 @@ impl Preview {
     }
 }
 
-/// Light averaged over pixels around each where the surfaces look alike: light is divided by the colours of the surfaces,
-/// averaged by a few passes over pixels farther and farther apart ("à trous"), and multiplied by these colours again, so that
-/// edges and textures stay. Both pictures have `width` pixels a row.
+/// Light averaged over pixels around each where the surfaces look alike: light is divided by the colours of
+/// the surfaces, averaged by a few passes over pixels farther and farther apart ("à trous"), and multiplied
+/// by these colours again, so that edges and textures stay. Both pictures have `width` pixels a row.
 fn smoothed(light: Vec<[f32; 3]>, surfaces: &[[f32; 3]], width: usize) -> Vec<[f32; 3]> {
     let colours: Vec<[f32; 3]> = surfaces.iter().map(|colour| colour.map(|value| value + BLACK)).collect();
     let scaled = |picture: &[[f32; 3]], by: fn(f32, f32) -> f32| -> Vec<[f32; 3]> {

@@ -6,12 +6,12 @@ pub(crate) const TARGET_MS: f64 = 80.0;
 /// Greatest number that sides are divided by.
 const MOST: u32 = 8;
 
-/// Pixels that a picture has at least where its sides are divided by more than 2: fewer cannot be read. These are a quarter
-/// of 640x360.
+/// Pixels that a picture has at least where its sides are divided by more than 2: fewer cannot be read. These
+/// are a quarter of 640x360.
 const LEAST_PIXELS: u32 = 320 * 180;
 
-/// The size of pictures while something moves, by how long the last ones took: half of the sides or all, and less where
-/// that is still 320x180 pixels.
+/// The size of pictures while something moves, by how long the last ones took: half of the sides or all, and
+/// less where that is still 320x180 pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct PreviewSize {
     /// Milliseconds per pixel; absent before the first picture.
@@ -26,8 +26,8 @@ impl Default for PreviewSize {
 }
 
 impl PreviewSize {
-    /// Takes note of how long a picture took, and chooses by what sides are divided from now on: 1, 2, 4 or 8.
-    /// Sides in pixels.
+    /// Takes note of how long a picture took, and chooses by what sides are divided from now on: 1, 2, 4 or
+    /// 8. Sides in pixels.
     pub fn took(&mut self, milliseconds: f64, full: [u32; 2], pixels: u32) {
         let now = milliseconds / f64::from(pixels.max(1));
         // One slow picture, as after a build, counts by half.

@@ -6,12 +6,13 @@ use rasray_scene_source::{ChosenCamera, LoadError, LoadedScene};
 /// Chooses the camera of a scene as the command line said.
 pub type ChooseCamera = dyn Fn(&mut LoadedScene) -> Result<ChosenCamera, LoadError> + Send;
 
-/// A scene that can be shown at any time, and at rest again. [`SceneAtTime::show`] is the one place that steps a scene: it
-/// stays at rest, and the device poses it. Scenes whose triangles may be others at every time are posed here.
+/// A scene that can be shown at any time, and at rest again. [`SceneAtTime::show`] is the one place that
+/// steps a scene: it stays at rest, and the device poses it. Scenes whose triangles may be others at every
+/// time are posed here.
 pub(crate) struct SceneAtTime {
     loaded: LoadedScene,
-    /// As the file places everything, without its images, which do not move and may be most of the memory, of a scene that
-    /// is posed here.
+    /// As the file places everything, without its images, which do not move and may be most of the memory, of
+    /// a scene that is posed here.
     rest: Option<Scene>,
     /// The clip that moves it; else all that can be played at once.
     clip: Option<String>,

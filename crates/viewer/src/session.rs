@@ -153,8 +153,8 @@ impl Session {
         self.moving_until = now + REST;
     }
 
-    /// The settings at `now` (seconds), where they are others than those asked for before. Options that are not valid are
-    /// a failure, and the settings stay what they were.
+    /// The settings at `now` (seconds), where they are others than those asked for before. Options that are
+    /// not valid are a failure, and the settings stay what they were.
     pub fn changed_settings(&mut self, now: f64) -> Option<Settings> {
         self.invalid = None;
         match self.system.config() {
@@ -200,9 +200,9 @@ impl Session {
         (moving && !self.playback.playing).then_some(self.moving_until)
     }
 
-    /// Takes what was said at `now` (seconds). Pictures of settings that are no longer asked for are shown all the same: they
-    /// are complete, and say what they are of. Those of a scene before are not. Of a scene that was read there is what an engine
-    /// shows, with the settings of which pictures are to be made.
+    /// Takes what was said at `now` (seconds). Pictures of settings that are no longer asked for are shown
+    /// all the same: they are complete, and say what they are of. Those of a scene before are not. Of a scene
+    /// that was read there is what an engine shows, with the settings of which pictures are to be made.
     pub fn take(&mut self, update: Update, now: f64) -> Option<(SceneSource, Settings)> {
         match update {
             Update::Status(text) => self.status = Some(text),
@@ -246,7 +246,8 @@ impl Session {
         self.invalid.as_ref().or(self.failed.as_ref())
     }
 
-    /// The command line that makes the picture of these settings when its refinement has ended, and writes it to `output`.
+    /// The command line that makes the picture of these settings when its refinement has ended, and writes it
+    /// to `output`.
     pub fn command_line(&self, settings: &Settings, output: &Path) -> String {
         let Opening { scene, camera_words, cameras, time_words, other_words, .. } = &self.opening;
         let mut words = vec!["rasray".to_owned(), "render".to_owned(), scene.to_string_lossy().into_owned()];
@@ -287,8 +288,8 @@ impl Session {
         words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
     }
 
-    /// The first place for a picture where `is_taken` says that there is no file. Without a run of # in the name there is
-    /// one place, which is written over.
+    /// The first place for a picture where `is_taken` says that there is no file. Without a run of # in the
+    /// name there is one place, which is written over.
     pub fn place_for_picture(&self, is_taken: impl Fn(&Path) -> bool) -> PathBuf {
         let pattern = &self.opening.output;
         let name = pattern.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();

@@ -97,7 +97,8 @@ impl Settings {
 /// Parts that must be made anew. What is made from something that is made anew is made anew as well.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Redo {
-    /// The scene on the device. What moves in it is posed, and structures are built for it, where the time has changed.
+    /// The scene on the device. What moves in it is posed, and structures are built for it, where the time
+    /// has changed.
     pub scene: bool,
     /// The structure.
     pub structure: bool,

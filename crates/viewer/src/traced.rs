@@ -24,8 +24,9 @@ pub(crate) fn exact_config(shown: &SystemConfig) -> SystemConfig {
     others.into_iter().find(is_exact).unwrap_or_else(|| shown.clone())
 }
 
-/// Makes the structure of a configuration for the scene at a time and its camera, where there is none or another; builds it
-/// anew where the scene has moved, or the camera has and it depends on that. One whose build fails is dropped.
+/// Makes the structure of a configuration for the scene at a time and its camera, where there is none or
+/// another; builds it anew where the scene has moved, or the camera has and it depends on that. One whose
+/// build fails is dropped.
 pub(crate) fn follow(
     device: &Device,
     stage: Option<&(DeviceScene, Needs)>,

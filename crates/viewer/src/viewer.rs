@@ -21,8 +21,8 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// Begins a session with the engine that `engine` makes in the worker's thread. `wake` is called from other threads where
-    /// there is something to take ([`Viewer::take_updates`]).
+    /// Begins a session with the engine that `engine` makes in the worker's thread. `wake` is called from
+    /// other threads where there is something to take ([`Viewer::take_updates`]).
     ///
     /// # Errors
     /// The system has no more threads.

@@ -67,8 +67,8 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// Starts it with the settings of the engine that `make` makes in the thread, where it stays; `tell` is called from
-    /// there.
+    /// Starts it with the settings of the engine that `make` makes in the thread, where it stays; `tell` is
+    /// called from there.
     ///
     /// # Errors
     /// The system has no more threads.

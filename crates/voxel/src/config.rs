@@ -36,8 +36,8 @@ words! { Marking { Fragments "fragments", Triangles "triangles" } }
 pub enum Leaves {
     /// Its fragments, which the views keep.
     Fragments,
-    /// The voxel itself, where the ray enters it; its triangle with the lowest id stands for it. There are no views and no
-    /// fragments. Needs [`Axes::Triangle`] and [`Payload::Index`].
+    /// The voxel itself, where the ray enters it; its triangle with the lowest id stands for it. There are no
+    /// views and no fragments. Needs [`Axes::Triangle`] and [`Payload::Index`].
     Voxels,
 }
 
@@ -81,7 +81,8 @@ words! { Accept { Parity "parity", Plane "plane" } }
 pub enum Inside {
     /// All that lie before it in its cell: of closed objects an even number ends before the voxel.
     Column,
-    /// Those of them at the depths of the voxel, which need not be of closed objects: elsewhere nothing flips.
+    /// Those of them at the depths of the voxel, which need not be of closed objects: elsewhere nothing
+    /// flips.
     Voxel,
 }
 
@@ -94,8 +95,8 @@ pub enum Coverage {
     Hardware,
     /// Those whose centre it covers by a watertight test; the rasterizer only proposes.
     Exact,
-    /// All that it reaches into. Hits are those of the triangles, and none is lost. Needs [`Axes::Triangle`] and
-    /// [`Accept::Plane`].
+    /// All that it reaches into. Hits are those of the triangles, and none is lost. Needs [`Axes::Triangle`]
+    /// and [`Accept::Plane`].
     Conservative,
 }
 
@@ -129,8 +130,8 @@ impl Storage {
 pub enum Payload {
     /// Its triangle: 4 bytes. Surfaces come from the posed triangle.
     Index,
-    /// Hu's: colour and opacity, normal, terms of the material; 12 bytes, read from a scene. Hits do not name their
-    /// triangle and cannot be excluded. Needs [`Accept::Parity`], as the next.
+    /// Hu's: colour and opacity, normal, terms of the material; 12 bytes, read from a scene. Hits do not name
+    /// their triangle and cannot be excluded. Needs [`Accept::Parity`], as the next.
     Material,
     /// Selective's: colour and reflectivity, normal, triangle; 12 bytes, read from a scene.
     Mirror,
@@ -179,7 +180,8 @@ pub struct Config {
     pub sort: bool,
     /// Addressing of pools. Changes no hit.
     pub addressing: Addressing,
-    /// Fragments, or pages of them, to allocate for the first build; a guess from the resolution where absent.
+    /// Fragments, or pages of them, to allocate for the first build; a guess from the resolution where
+    /// absent.
     pub fragments: Option<u64>,
     /// Counters that rays record of their work. Changes no hit.
     pub counters: Counters,
@@ -193,13 +195,14 @@ pub const VOXEL_LEAVES_GRID: u32 = 256;
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The repaired structure: each triangle in the view it faces most, in all cells that it reaches into. Hits are
-    /// those of brute force.
+    /// The repaired structure: each triangle in the view it faces most, in all cells that it reaches into.
+    /// Hits are those of brute force.
     pub fn robust(resolution: u32) -> Self {
         Self { coverage: Coverage::Conservative, ..Self::at_centres(resolution) }
     }
 
-    /// Fragments alone: each triangle in the view it faces most, in cells whose centres it covers; every cell, planes.
+    /// Fragments alone: each triangle in the view it faces most, in cells whose centres it covers; every
+    /// cell, planes.
     pub fn at_centres(resolution: u32) -> Self {
         Self {
             resolution,
@@ -227,8 +230,8 @@ impl Config {
         }
     }
 
-    /// Hu et al.: everything in all views, linked in one pass and sorted, surface attributes in each fragment, three
-    /// steps per voxel, and parities.
+    /// Hu et al.: everything in all views, linked in one pass and sorted, surface attributes in each
+    /// fragment, three steps per voxel, and parities.
     pub fn published_hu(resolution: u32) -> Self {
         Self {
             axes: Axes::All,
@@ -241,7 +244,8 @@ impl Config {
         }
     }
 
-    /// Frid Kastrati and Goswami: voxels first, then each fragment in the view of its voxel, in pages of four.
+    /// Frid Kastrati and Goswami: voxels first, then each fragment in the view of its voxel, in pages of
+    /// four.
     pub fn published_selective(resolution: u32) -> Self {
         Self {
             axes: Axes::Voxel,
@@ -355,7 +359,8 @@ impl Config {
         Ok(())
     }
 
-    /// Words of a fragment: its depth, its payload, and the triangle that is kept for diagnostics; without links.
+    /// Words of a fragment: its depth, its payload, and the triangle that is kept for diagnostics; without
+    /// links.
     pub fn fragment_words(&self) -> u64 {
         let payload = match self.payload {
             Payload::Index => 1,

@@ -67,8 +67,8 @@ pub(crate) fn entry_words(config: &Config) -> u64 {
     }
 }
 
-/// Contents of the scratch pool: the sums of the scan where lists are counted, and the words that binning and sorting
-/// use.
+/// Contents of the scratch pool: the sums of the scan where lists are counted, and the words that binning and
+/// sorting use.
 pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
     let counted = config.storage == Storage::Contiguous && config.leaves == Leaves::Fragments;
     let sums = if counted { Scan::sums(list_count(config.resolution)) } else { 0 };
@@ -83,7 +83,8 @@ pub(crate) fn widest_view(config: &Config) -> u64 {
     if config.leaves == Leaves::Voxels { columns } else { cells(config.resolution).max(columns) }
 }
 
-/// Levels of the octree: 2^levels voxels along a side, blocks of 2x2x2 voxels and at least the root above them.
+/// Levels of the octree: 2^levels voxels along a side, blocks of 2x2x2 voxels and at least the root above
+/// them.
 pub(crate) fn levels(config: &Config) -> u32 {
     config.grid().next_power_of_two().trailing_zeros().max(2)
 }
@@ -93,7 +94,8 @@ pub(crate) fn upper_nodes(config: &Config) -> u64 {
     ((1 << (3 * (levels(config) - 1))) - 1) / 7
 }
 
-/// The first guess where nothing has been counted: one per cell of one view, and a node per voxel of a few slices.
+/// The first guess where nothing has been counted: one per cell of one view, and a node per voxel of a few
+/// slices.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let entries = config.fragments.unwrap_or_else(|| list_count(config.resolution) / 3);
     let nodes = 4 * u64::from(config.grid()).pow(2);
@@ -107,7 +109,8 @@ pub struct FormulaBytes {
     pub voxels: u64,
     /// Per cell of three views: 4. Where voxels are the leaves, per voxel: 4.
     pub lists: u64,
-    /// Per fragment: 8, or 16 with attributes; and 4 where it is linked. Per page: 4, and that of its fragments.
+    /// Per fragment: 8, or 16 with attributes; and 4 where it is linked. Per page: 4, and that of its
+    /// fragments.
     pub fragments: u64,
     /// With ids: 4 per fragment, or slot of a page.
     pub ids: u64,

@@ -1,17 +1,19 @@
-//! A voxel grid over three axis A-buffers: a structure of fragments, after Hu et al. and the selective variant. Hosts make one
-//! from their triangles and trace it as any [`rasray_ads::Structure`].
+//! A voxel grid over three axis A-buffers: a structure of fragments, after Hu et al. and the selective
+//! variant. Hosts make one from their triangles and trace it as any [`rasray_ads::Structure`].
 //!
-//! The rasterizer stores the fragments of three orthographic views of the scene's cube, and marks the voxels that they lie
-//! in. Rays step through the voxels, and search the views in those that are marked.
+//! The rasterizer stores the fragments of three orthographic views of the scene's cube, and marks the voxels
+//! that they lie in. Rays step through the voxels, and search the views in those that are marked.
 //!
-//! - [`Voxels`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to resize.
+//! - [`Voxels`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to
+//!   resize.
 //! - [`Config`] holds its options: [`Storage`], [`Payload`], [`Marking`], [`Leaves`], [`Accept`] and more.
 //! - [`plan`] and [`formula_bytes`] compute its memory without a device.
 //! - [`Contents`] and [`well_formed`] check its lists on the host, for tests.
 //!
-//! Sources: Hu, Huang, Zhang, Yuan, Li, "Ray tracing via GPU rasterization", The Visual Computer 30 (2014); Frid Kastrati,
-//! Goswami, "Selective rasterized raytracing", 2017, which keeps each fragment in one view only. `docs/systems/hu.md` and
-//! `docs/systems/selective.md` have passes, bytes, options, limits and departures.
+//! Sources: Hu, Huang, Zhang, Yuan, Li, "Ray tracing via GPU rasterization", The Visual Computer 30 (2014);
+//! Frid Kastrati, Goswami, "Selective rasterized raytracing", 2017, which keeps each fragment in one view
+//! only. `docs/systems/hu.md` and `docs/systems/selective.md` have passes, bytes, options, limits and
+//! departures.
 
 mod build;
 mod config;

@@ -133,8 +133,8 @@ impl Design for Build {
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         let config = &parts.config;
         // The cells of three views and the voxels along a ray, and lists: with bisection one that holds every
-        // triangle, else LONG_LISTS_PER_RAY of maximum length. A parity without bisection reads a list at each of its
-        // points: the entry of the voxel, its steps, the halvings, and the nearest fragment.
+        // triangle, else LONG_LISTS_PER_RAY of maximum length. A parity without bisection reads a list at
+        // each of its points: the entry of the voxel, its steps, the halvings, and the nearest fragment.
         let budget = u64::from(parts.work_budget);
         let looked_up = match config.traversal {
             Traversal::Dda => 1,

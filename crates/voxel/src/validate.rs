@@ -14,14 +14,16 @@ pub struct Contents {
     pub header: Header,
     /// Four bits per voxel: the axes it is searched along, and whether something lies in it.
     pub voxels: Vec<u32>,
-    /// Where voxels are the leaves, the complement of each voxel's triangle. Else of each cell: where its fragments end; or a link to the newest, the place + 1; or the word that leads
-    /// to the newest page. 0 where a linked list is empty.
+    /// Where voxels are the leaves, the complement of each voxel's triangle. Else of each cell: where its
+    /// fragments end; or a link to the newest, the place + 1; or the word that leads to the newest page. 0
+    /// where a linked list is empty.
     pub lists: Vec<u32>,
-    /// Depth and triangle of each fragment, or depth, triangle or terms of the material, colour and normal; where it is
-    /// linked its link behind these. Of a page the word that leads to the next one, and fragments.
+    /// Depth and triangle of each fragment, or depth, triangle or terms of the material, colour and normal;
+    /// where it is linked its link behind these. Of a page the word that leads to the next one, and
+    /// fragments.
     pub fragments: Vec<u32>,
-    /// Of the octree, in each level in the order of octants: which octants hold something, and the place of the first; of the
-    /// last level the bits of eight voxels.
+    /// Of the octree, in each level in the order of octants: which octants hold something, and the place of
+    /// the first; of the last level the bits of eight voxels.
     pub nodes: Vec<u32>,
 }
 
@@ -205,8 +207,8 @@ impl Contents {
         Ok(places)
     }
 
-    /// Counts the fragments in the cells of each view, then those in the voxels. A voxel is occupied where rays search
-    /// it; its layers are the fragments of all views at whose depths it lies.
+    /// Counts the fragments in the cells of each view, then those in the voxels. A voxel is occupied where
+    /// rays search it; its layers are the fragments of all views at whose depths it lies.
     ///
     /// # Errors
     /// As [`Contents::list`].
@@ -299,8 +301,8 @@ impl Contents {
 }
 
 /// Checks of a complete build that every counted fragment is in one list, has a depth within the cube and,
-/// where it has a triangle index, that of one of `triangles`, that lists are sorted where they should be, that
-/// voxels are searched if and only if they hold something, and that the octree says the same of each.
+/// where it has a triangle index, that of one of `triangles`, that lists are sorted where they should be,
+/// that voxels are searched if and only if they hold something, and that the octree says the same of each.
 ///
 /// # Errors
 /// The first fault found.

@@ -1,16 +1,16 @@
 //! Compiles GLSL to SPIR-V with shaderc, for build scripts.
 //!
 //! This crate exists to hold the link line that Debian 12's libshaderc needs (see its build script)
-//! and the options that every module of rasray is compiled with: Vulkan 1.2, no optimisation, debug names kept,
-//! `#include` resolved from root folders, by way of folders that macros name. Drivers optimise a module once more
-//! whatever it comes as: optimised here, a module takes seven times as long to compile, and drivers need as long as
-//! before to make a pipeline of it.
+//! and the options that every module of rasray is compiled with: Vulkan 1.2, no optimisation, debug names
+//! kept, `#include` resolved from root folders, by way of folders that macros name. Drivers optimise a module
+//! once more whatever it comes as: optimised here, a module takes seven times as long to compile, and drivers
+//! need as long as before to make a pipeline of it.
 //!
 //! # A shader of one's own
 //!
 //! The `build.rs` of a crate that traces from a shader of its own, `shaders/shadow.comp`, which includes
-//! `bricks/trace.glsl`. `rasray-shaders-glsl` is among its dependencies and tells it where the GLSL is; this crate is
-//! among its build dependencies.
+//! `bricks/trace.glsl`. `rasray-shaders-glsl` is among its dependencies and tells it where the GLSL is; this
+//! crate is among its build dependencies.
 //!
 //! ```no_run
 //! use std::path::{Path, PathBuf};
@@ -67,8 +67,8 @@ pub enum CompileError {
     Glsl(String),
 }
 
-/// Options of every module in addition to its text: words kept from before are of the same module only where these are
-/// equal as well.
+/// Options of every module in addition to its text: words kept from before are of the same module only where
+/// these are equal as well.
 const OPTIONS: &str = "// Vulkan 1.2, not optimised, what the entry point reaches\n";
 
 /// One module to compile.
@@ -80,8 +80,8 @@ pub struct Module<'a> {
     pub defines: &'a [(String, String)],
 }
 
-/// Compiles a module. Returns SPIR-V words: what its entry point reaches. The entry and what it includes are relative to
-/// the roots; the first root that has a file is the one it is read from.
+/// Compiles a module. Returns SPIR-V words: what its entry point reaches. The entry and what it includes are
+/// relative to the roots; the first root that has a file is the one it is read from.
 ///
 /// # Errors
 /// No root has the entry, its name has no stage, or the GLSL is wrong; the message then names
@@ -95,8 +95,8 @@ pub fn compile(roots: &[impl AsRef<Path>], module: &Module<'_>) -> Result<Vec<u3
     Ok(reduce::only_reached(artifact.as_binary()))
 }
 
-/// The text of a module with includes and macros expanded, after a line of options: all that its SPIR-V depends on, at
-/// a fraction of the cost of compiling it.
+/// The text of a module with includes and macros expanded, after a line of options: all that its SPIR-V
+/// depends on, at a fraction of the cost of compiling it.
 ///
 /// # Errors
 /// As [`compile`], as far as directives go.
@@ -158,7 +158,8 @@ fn options(roots: Vec<PathBuf>, module: &Module<'_>) -> Result<CompileOptions<'s
     let defines = module.defines.to_owned();
     options.set_include_callback(move |requested, kind, from, _depth| {
         let resolved_name = resolved(requested, &defines);
-        // A file that is requested with quotes and not found is requested again as if it were in angle brackets.
+        // A file that is requested with quotes and not found is requested again as if it were in angle
+        // brackets.
         if kind == IncludeType::Standard {
             return Err(format!(
                 "{from}: cannot include {resolved_name}: no root folder has it, or it is not in quotes"
@@ -171,8 +172,8 @@ fn options(roots: Vec<PathBuf>, module: &Module<'_>) -> Result<CompileOptions<'s
     Ok(options)
 }
 
-/// The file that an include names: one whose first folder is a macro's name in lower case is in the folder of its value.
-/// `structure/trace.glsl` with `STRUCTURE=bvh` is `bvh/trace.glsl`.
+/// The file that an include names: one whose first folder is a macro's name in lower case is in the folder of
+/// its value. `structure/trace.glsl` with `STRUCTURE=bvh` is `bvh/trace.glsl`.
 fn resolved(requested: &str, defines: &[(String, String)]) -> String {
     let (folder, file) = requested.split_once('/').unwrap_or(("", requested));
     match defines.iter().find(|(name, value)| name.to_lowercase() == folder && !value.is_empty()) {
@@ -203,8 +204,8 @@ impl Permutation {
         twin
     }
 
-    /// A module for each pair of `structures` where a macro is `A<B=*`: these are the values of A and B, which stand for
-    /// them in its name and features. Else the module itself.
+    /// A module for each pair of `structures` where a macro is `A<B=*`: these are the values of A and B,
+    /// which stand for them in its name and features. Else the module itself.
     ///
     /// # Errors
     /// `A<B` has another value than `*`.
@@ -233,8 +234,8 @@ impl Permutation {
     }
 }
 
-/// The lines that one with `{x,y}` stands for: one for each choice in the name, where the group at the same place behind the
-/// `=` is its choice at the same place. A choice may be empty.
+/// The lines that one with `{x,y}` stands for: one for each choice in the name, where the group at the same
+/// place behind the `=` is its choice at the same place. A choice may be empty.
 fn choices(line: &str) -> Result<Vec<String>, String> {
     let (name, rest) = line.split_once('=').ok_or("expected `name = entry MACRO=value ...`")?;
     let group = |text: &str| -> Option<[String; 3]> {
@@ -258,7 +259,8 @@ fn choices(line: &str) -> Result<Vec<String>, String> {
     Ok(lines)
 }
 
-/// Reads the permutation list, `permutations.txt` of `rasray-shaders-glsl`, which describes its lines. `#` starts a comment.
+/// Reads the permutation list, `permutations.txt` of `rasray-shaders-glsl`, which describes its lines. `#`
+/// starts a comment.
 ///
 /// # Errors
 /// Names the line that is none of these.

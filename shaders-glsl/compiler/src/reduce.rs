@@ -1,8 +1,9 @@
-//! Removal of unused parts of a module: functions that nothing calls, variables that nothing uses, debug text.
+//! Removal of unused parts of a module: functions that nothing calls, variables that nothing uses, debug
+//! text.
 //!
-//! GLSL that is included whole leaves most of itself unused, and a compiler that does not optimise hands all of it on.
-//! Drivers would drop it again, but a variable that is there counts as used where a device limits the buffers of a
-//! stage, and every byte lies in the program.
+//! GLSL that is included whole leaves most of itself unused, and a compiler that does not optimise hands all
+//! of it on. Drivers would drop it again, but a variable that is there counts as used where a device limits
+//! the buffers of a stage, and every byte lies in the program.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -17,15 +18,18 @@ const OP_FUNCTION_CALL: u32 = 57;
 const OP_VARIABLE: u32 = 59;
 const OP_DECORATE: u32 = 71;
 const OP_LABEL: u32 = 248;
-/// OpSourceContinued, OpSource, OpSourceExtension, OpName, OpMemberName, OpString, OpLine, OpNoLine, OpModuleProcessed.
+/// OpSourceContinued, OpSource, OpSourceExtension, OpName, OpMemberName, OpString, OpLine, OpNoLine,
+/// OpModuleProcessed.
 const DEBUG: [u32; 9] = [2, 3, 4, 5, 6, 7, 8, 317, 330];
-/// Instructions of functions that have no result: OpNop, OpLine, OpFunctionEnd, OpStore, OpCopyMemory, OpImageWrite,
-/// OpControlBarrier, OpMemoryBarrier, OpAtomicStore, OpLoopMerge, OpSelectionMerge, OpBranch, OpBranchConditional,
-/// OpSwitch, OpKill, OpReturn, OpReturnValue, OpUnreachable, OpNoLine, OpTerminateInvocation.
+/// Instructions of functions that have no result: OpNop, OpLine, OpFunctionEnd, OpStore, OpCopyMemory,
+/// OpImageWrite, OpControlBarrier, OpMemoryBarrier, OpAtomicStore, OpLoopMerge, OpSelectionMerge, OpBranch,
+/// OpBranchConditional, OpSwitch, OpKill, OpReturn, OpReturnValue, OpUnreachable, OpNoLine,
+/// OpTerminateInvocation.
 const WITHOUT_RESULT: [u32; 20] =
     [0, 8, 56, 62, 63, 99, 224, 225, 228, 246, 247, 249, 250, 251, 252, 253, 254, 255, 317, 4416];
-/// Instructions of functions whose operands are no variables, or numbers that could be taken for one: OpVectorShuffle,
-/// OpCompositeExtract, OpCompositeInsert, OpLoopMerge, OpSelectionMerge, OpBranchConditional, OpSwitch, OpLine.
+/// Instructions of functions whose operands are no variables, or numbers that could be taken for one:
+/// OpVectorShuffle, OpCompositeExtract, OpCompositeInsert, OpLoopMerge, OpSelectionMerge,
+/// OpBranchConditional, OpSwitch, OpLine.
 const NAMES_NO_VARIABLE: [u32; 8] = [8, 79, 81, 82, 246, 247, 250, 251];
 
 /// The instructions of a module; the last one is cut where the module is.
@@ -57,7 +61,8 @@ pub fn without_debug_text(words: &[u32]) -> Vec<u32> {
     filtered(words, |instruction| (!DEBUG.contains(&operation(instruction))).then(|| instruction.into()))
 }
 
-/// A module without the functions that its entry points do not reach, and without the variables that only those use.
+/// A module without the functions that its entry points do not reach, and without the variables that only
+/// those use.
 pub(crate) fn only_reached(words: &[u32]) -> Vec<u32> {
     let functions = Functions::of(words);
     let reached = functions.reached();

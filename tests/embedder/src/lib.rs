@@ -1,4 +1,5 @@
-//! Uses of rasray's packages by a crate of somebody else: a structure, its GLSL by name, and a shader of its own.
+//! Uses of rasray's packages by a crate of somebody else: a structure, its GLSL by name, and a shader of its
+//! own.
 
 use rasray_bricks::{Bricks, Config, Views};
 

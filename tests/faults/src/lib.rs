@@ -1,7 +1,7 @@
 //! Shared parts of the tests of faults: a device, a small picture, a few hits.
 //!
-//! The faults themselves are in `rasray_gpu::faults`, which exists only where the feature `fault-injection` of
-//! `rasray-gpu` is on: in the tests of this package.
+//! The faults themselves are in `rasray_gpu::faults`, which exists only where the feature `fault-injection`
+//! of `rasray-gpu` is on: in the tests of this package.
 
 mod child;
 mod error;

@@ -8,8 +8,8 @@ use rasray_tracer::build_until_complete;
 
 use crate::{Failure, stage};
 
-/// Uploads a scene, builds a structure, traces a path of one bounce in each of 16 x 16 pixels, and returns the bits of
-/// the radiance: equal pictures are equal bit for bit.
+/// Uploads a scene, builds a structure, traces a path of one bounce in each of 16 x 16 pixels, and returns
+/// the bits of the radiance: equal pictures are equal bit for bit.
 ///
 /// # Errors
 /// The device or the structure fails.

@@ -52,7 +52,8 @@ fn cornell() -> Scene {
     scene.expect("`cornell` is built in").expect("it needs no parameters")
 }
 
-/// The room of `cornell` with a texture on everything: an image of `size` x `size` texels, no two neighbours alike.
+/// The room of `cornell` with a texture on everything: an image of `size` x `size` texels, no two neighbours
+/// alike.
 pub fn textured_room(size: u32) -> Scene {
     let mut scene = cornell();
     let byte = |index: u32| (index.wrapping_mul(2_654_435_761) >> 25) as u8 + 128;

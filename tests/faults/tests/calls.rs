@@ -11,8 +11,8 @@ use rasray_tests::tier::Counts;
 /// More calls than a render has: every one.
 const ALL: usize = 100_000;
 
-/// Systems whose renders are failed, the smallest and one built by the rasterizer, with the number of calls that are
-/// spread over a render.
+/// Systems whose renders are failed, the smallest and one built by the rasterizer, with the number of calls
+/// that are spread over a render.
 const SYSTEMS: [(&str, Counts<usize>); 2] = [
     ("brute-force", Counts { quick: 25, software: ALL, full: ALL }),
     ("mmrt", Counts { quick: 8, software: 100, full: ALL }),
@@ -58,8 +58,8 @@ fn check_message(injected: Injected, error: &GpuError) {
     assert!(typed, "{injected:?} became {error:?}");
 }
 
-/// Indices of the calls to fail: `count` spread over the run, or all of them. The functions differ as much as they
-/// can: of each section of the run, the first call of the function that was chosen least so far.
+/// Indices of the calls to fail: `count` spread over the run, or all of them. The functions differ as much as
+/// they can: of each section of the run, the first call of the function that was chosen least so far.
 fn chosen(calls: &[&'static str], count: usize) -> Vec<usize> {
     let mut times: BTreeMap<&str, usize> = BTreeMap::new();
     let length = calls.len().div_ceil(count);
@@ -154,7 +154,8 @@ fn each_failing_call_of_making_a_device_is_one_typed_error_and_leaves_nothing_be
     assert_eq!(finish(device().expect("a device")), Vec::<String>::new());
 }
 
-/// The wait ended early, the work did not: the device must not be given up, and nothing may be destroyed too soon.
+/// The wait ended early, the work did not: the device must not be given up, and nothing may be destroyed too
+/// soon.
 #[test]
 fn a_wait_that_fails_is_made_again() {
     let device = device().expect("a device");
@@ -173,7 +174,8 @@ fn a_wait_that_fails_is_made_again() {
 /// Whatever is waited for, the wait has an end, and the error says what was waited for.
 #[test]
 fn a_timeout_of_any_wait_names_the_pass_and_gives_the_device_up() {
-    // Not under validation: a device that is given up is never destroyed, which the layer would report at exit.
+    // Not under validation: a device that is given up is never destroyed, which the layer would report at
+    // exit.
     let desc = rasray_gpu::DeviceDesc { requirements: rasray_faults::requirements(), ..Default::default() };
     let spec = spec("brute-force", "robust").expect("registered");
     let device = Device::create(&desc).expect("a device");
@@ -194,7 +196,8 @@ fn a_timeout_of_any_wait_names_the_pass_and_gives_the_device_up() {
     }
 }
 
-/// The checks above would notice a leak: of a buffer of this project, and of an object that only validation knows of.
+/// The checks above would notice a leak: of a buffer of this project, and of an object that only validation
+/// knows of.
 #[test]
 fn a_leak_is_noticed() {
     let device = device().expect("a device");
@@ -220,8 +223,8 @@ fn a_leak_is_noticed() {
     assert!(messages.iter().any(|message| message.contains("not been destroyed")), "{messages:?}");
 }
 
-/// Structures are made and grow between frames of a host, whose queue may be in use. A tree that the host builds reads back
-/// triangles where a build is prepared, and not here.
+/// Structures are made and grow between frames of a host, whose queue may be in use. A tree that the host
+/// builds reads back triangles where a build is prepared, and not here.
 #[test]
 fn structures_are_made_and_grow_without_a_submission() {
     let device = device().expect("a device");

@@ -26,7 +26,8 @@ fn name(spec: &Spec) -> String {
     format!("{} {}", spec.system().name, spec.preset().name())
 }
 
-/// True if hits of a preset are compared: the full tier compares those of all, the quick one of each system's own.
+/// True if hits of a preset are compared: the full tier compares those of all, the quick one of each system's
+/// own.
 fn is_compared(spec: &Spec) -> bool {
     is_full() || spec.preset() == Preset::Robust
 }
@@ -163,8 +164,8 @@ fn a_small_binding_is_refused_by_name_or_reached_by_address() {
     assert_eq!(finish(whole), Vec::<String>::new());
 }
 
-/// Texels beyond one binding lie in several buffers: the same picture. Where all of these are too few, a scene is
-/// refused by number, and fits with a smaller image.
+/// Texels beyond one binding lie in several buffers: the same picture. Where all of these are too few, a
+/// scene is refused by number, and fits with a smaller image.
 #[test]
 fn texels_beyond_one_binding_lie_in_several_or_are_fewer() {
     let spec = spec("brute-force", "robust").expect("registered");
@@ -248,7 +249,8 @@ fn films_beyond_one_binding_lie_in_several() {
 /// A limit that is too small, and what the error then says.
 type Small = (fn(&mut Limits), &'static str);
 
-/// Each limit that a pass needs, made too small: an error that states what was requested, and no message of the layer.
+/// Each limit that a pass needs, made too small: an error that states what was requested, and no message of
+/// the layer.
 #[test]
 fn small_limits_are_errors_with_a_name() {
     let small: [Small; 8] = [

@@ -1,4 +1,5 @@
-//! Losses of the published rules of DIRT: rates with the quick meshes, which do not fall with the size of tiles.
+//! Losses of the published rules of DIRT: rates with the quick meshes, which do not fall with the size of
+//! tiles.
 
 use super::Deviation;
 use super::deviations::deviation;

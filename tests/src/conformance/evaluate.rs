@@ -15,8 +15,8 @@ pub fn confidence() -> f64 {
 
 /// Faults of a measurement against the row's demand on this case; empty if it has none.
 ///
-/// Rates are known up to their interval at [`confidence`]: a limit is broken where all of the interval lies beyond.
-/// Exact rows have no such tolerance: one wrong answer is a fault.
+/// Rates are known up to their interval at [`confidence`]: a limit is broken where all of the interval lies
+/// beyond. Exact rows have no such tolerance: one wrong answer is a fault.
 pub fn evaluate(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String> {
     let mut faults = Vec::new();
     let case = &prepared.case;

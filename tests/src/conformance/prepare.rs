@@ -64,7 +64,8 @@ impl Prepared {
         }
     }
 
-    /// True for rays that are not evaluated: only what the camera sees is, and something that it may hit lies outside.
+    /// True for rays that are not evaluated: only what the camera sees is, and something that it may hit lies
+    /// outside.
     pub fn is_unseen(&self, index: usize) -> bool {
         let Some(camera) = self.viewpoint.camera.filter(|_| self.only_camera) else { return false };
         let (ray, verdict) = (&self.case.rays[index], &self.verdicts[index]);

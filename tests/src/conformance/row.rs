@@ -13,8 +13,8 @@ pub enum Demand {
         /// Relative to t.
         rounding: f64,
     },
-    /// The share of missed, false and (by `depth_tolerance`) wrong hits falls with the size of a cell: it is at
-    /// most `per_cell / resolution`, or what `laws` says for the case.
+    /// The share of missed, false and (by `depth_tolerance`) wrong hits falls with the size of a cell: it is
+    /// at most `per_cell / resolution`, or what `laws` says for the case.
     Law {
         /// Cells along a side of a face.
         resolution: u32,
@@ -25,8 +25,8 @@ pub enum Demand {
         /// Cases with a factor of their own.
         laws: &'static [Law],
     },
-    /// Rules of a paper lose hits of a structure that finds triangles: the share of missed, false and wrong hits is at
-    /// most `share`, whatever the size of a cell.
+    /// Rules of a paper lose hits of a structure that finds triangles: the share of missed, false and wrong
+    /// hits is at most `share`, whatever the size of a cell.
     Loss {
         /// Of the unambiguous rays.
         share: f64,
@@ -64,8 +64,8 @@ pub struct Law {
 pub enum Curve {
     /// `per_cell / N`: each ray hits one border, whose share of the rays is as wide as a cell.
     Line,
-    /// `1 - exp(-per_cell / N)`: a ray is right only if none of many borders spoils it, each with a chance that is
-    /// as wide as a cell and does not depend on the others.
+    /// `1 - exp(-per_cell / N)`: a ray is right only if none of many borders spoils it, each with a chance
+    /// that is as wide as a cell and does not depend on the others.
     Chances,
 }
 

@@ -26,10 +26,10 @@ pub const LARGE: &[&str] = &["E2-400", "E2-400-far", "C3", "C3-random"];
 /// [`SHARE`] of [`LARGE`] cases: no more than there are rows of either kind.
 const LARGE_SHARE: usize = 10;
 
-/// True if this run holds a row against a case: in the full tier every pair. In the quick one rows and cases go round
-/// against each other, apart for rows that find triangles without loss and for others, and apart for [`DEEP`], [`LARGE`]
-/// and other cases: each row has some of the deep and some of the other cases that it is held against, each case some
-/// rows of each kind.
+/// True if this run holds a row against a case: in the full tier every pair. In the quick one rows and cases
+/// go round against each other, apart for rows that find triangles without loss and for others, and apart for
+/// [`DEEP`], [`LARGE`] and other cases: each row has some of the deep and some of the other cases that it is
+/// held against, each case some rows of each kind.
 pub fn is_held(row: &Row, case: &str) -> bool {
     let is_alike = |other: &&Row| {
         other.is_exact() == row.is_exact() && other.tier == row.tier && other.cases.contain(case)

@@ -4,8 +4,8 @@ use super::row::{Cases, Row, Tier};
 
 /// All of them.
 pub(super) const ROWS: &[Row] = &[
-    // Faces of a cube: 16 columns along a side and few slices, then as many as a scene of three hundred thousand
-    // triangles gets.
+    // Faces of a cube: 16 columns along a side and few slices, then as many as a scene of three hundred
+    // thousand triangles gets.
     Row::exact(
         "bricks-cube-16",
         "bricks",

@@ -27,8 +27,8 @@ pub(super) const ROWS: &[Row] = &[
         Cases::All,
     ),
     Row::exact("dirt-lists-128", "dirt", &[("storage", "sb")], Tier::Full, Cases::Shallow),
-    // Tiles and buckets as the paper advises at least, and as its second table was measured; few tiles where lists
-    // are deep.
+    // Tiles and buckets as the paper advises at least, and as its second table was measured; few tiles where
+    // lists are deep.
     Row {
         cases: Cases::Deep,
         ..published(

@@ -23,8 +23,8 @@ fn schlick(f0: f64, cosine: f64) -> f64 {
     f0 + (1.0 - f0) * (1.0 - cosine).powi(5)
 }
 
-/// Mean over the upper hemisphere of `value(i . n, o . h, lobe)` weighted with the cosine, where `lobe` is D G over
-/// four cosines.
+/// Mean over the upper hemisphere of `value(i . n, o . h, lobe)` weighted with the cosine, where `lobe` is D
+/// G over four cosines.
 fn integrate(cosine_o: f64, roughness: f64, value: impl Fn(f64, f64, f64) -> f64) -> f64 {
     let alpha_squared = roughness.powi(4);
     let sine_o = (1.0 - cosine_o * cosine_o).sqrt();

@@ -71,8 +71,8 @@ pub fn convex_occlusion(point: DVec3, normal: DVec3, triangles: &[[DVec3; 3]]) -
     hidden.map(|triangle| polygon_irradiance(point, normal, triangle)).sum::<f64>() / PI
 }
 
-/// Such a share for a sphere of `radius` whose centre is `height` above the plane and `distance` aside; it must
-/// lie above the plane. Metres.
+/// Such a share for a sphere of `radius` whose centre is `height` above the plane and `distance` aside; it
+/// must lie above the plane. Metres.
 pub fn next_to_sphere(radius: f64, height: f64, distance: f64) -> f64 {
     let squared = height * height + distance * distance;
     height * radius * radius / (squared * squared.sqrt())

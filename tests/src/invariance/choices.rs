@@ -15,9 +15,9 @@ pub fn takes(
         })
 }
 
-/// The options of a subject that may not change a hit, each with the values that it takes alone or together with one
-/// other choice of these: pages go with paged lists only. Left out are values that make a structure of another kind: a
-/// payload that conservative lists do not go with takes fragments alone.
+/// The options of a subject that may not change a hit, each with the values that it takes alone or together
+/// with one other choice of these: pages go with paged lists only. Left out are values that make a structure
+/// of another kind: a payload that conservative lists do not go with takes fragments alone.
 pub fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)> {
     let mut rows = subject.spec.system().options();
     rows.retain(|row| !row.hits.may_change(subject.kind));
@@ -38,7 +38,8 @@ pub fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)
     options.collect()
 }
 
-/// Choices that pairs are made of; where values of an option exclude others', leaving it as it is comes first.
+/// Choices that pairs are made of; where values of an option exclude others', leaving it as it is comes
+/// first.
 pub fn choices<'a>(
     subject: &Subject,
     options: &[(&'a str, Vec<&'a str>)],

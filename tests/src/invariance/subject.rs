@@ -85,7 +85,8 @@ impl Subject {
             .collect()
     }
 
-    /// As [`all`](Self::all), but in the quick tier one of each system, by turns: for tests whose kernels no other test has.
+    /// As [`all`](Self::all), but in the quick tier one of each system, by turns: for tests whose kernels no
+    /// other test has.
     pub fn by_turns() -> Vec<Self> {
         let all = Self::all();
         let of_system = |system: &System| {

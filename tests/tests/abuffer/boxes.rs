@@ -13,8 +13,8 @@ use rasray_tests::tier::first;
 use rasray_tests::views::TURNED;
 use rasray_tracer::build_until_complete;
 
-/// Objects around the eyes below and beside them: large and small ones, some flat, fans of slivers that are seen edge-on
-/// from the origin, one without triangles.
+/// Objects around the eyes below and beside them: large and small ones, some flat, fans of slivers that are
+/// seen edge-on from the origin, one without triangles.
 fn objects() -> Vec<Vec<Triangle>> {
     let mut random = Random::new(0x626f_7865);
     let mut objects = vec![all_sizes(), Vec::new()];
@@ -72,8 +72,8 @@ fn fragments(contents: &Contents) -> Vec<Vec<(u32, u32)>> {
     cells.iter().map(sorted).collect()
 }
 
-/// Builds with bounds of both kinds. A fragment outside of its cell's bounds would be counted as corrupted and not be stored,
-/// so where depths are equal boxes enclose them.
+/// Builds with bounds of both kinds. A fragment outside of its cell's bounds would be counted as corrupted
+/// and not be stored, so where depths are equal boxes enclose them.
 fn compare(bench: &Bench, config: Config, objects: &[Vec<Triangle>], eye: [f32; 3], rays: &[Ray]) {
     let [geometry, boxes] =
         Bounds::ALL.map(|bounds| built(bench, Config { bounds, ..config }, objects, eye, rays));

@@ -91,7 +91,8 @@ fn both_builders_store_the_same_fragments() {
     assert_eq!(compared, if is_full() { 6 } else { 1 });
 }
 
-/// Large triangles beyond the capacity of their queue are counted, the queue grows, and no ray is answered before.
+/// Large triangles beyond the capacity of their queue are counted, the queue grows, and no ray is answered
+/// before.
 #[test]
 fn every_edge_capacity_of_large_triangles() {
     let bench = Bench::new();

@@ -1,5 +1,5 @@
-//! First hits of camera rays that are read from the camera's view: where a cell is a pixel, those of traces through the pixels'
-//! centres, however the lists are kept.
+//! First hits of camera rays that are read from the camera's view: where a cell is a pixel, those of traces
+//! through the pixels' centres, however the lists are kept.
 
 use rasray_ads::AdsError;
 use rasray_experiment::{Built, DeviceScene};

@@ -236,8 +236,8 @@ fn a_dda_is_a_march_of_enough_samples() {
     assert!(sampled > 0 && sampled < exact, "{sampled} of {exact} cells");
 }
 
-/// Skips leave out cells that hold nothing at a ray's depths, and no others: the searched cells and the intervals of
-/// the ray in them are the same, whatever fragments represent.
+/// Skips leave out cells that hold nothing at a ray's depths, and no others: the searched cells and the
+/// intervals of the ray in them are the same, whatever fragments represent.
 #[test]
 fn skips_change_no_hit() {
     let bench = Bench::new();
@@ -284,7 +284,8 @@ fn skips_follow_the_depths_of_blocks() {
     let mut contents = structure.download(bench.device()).expect("the device works");
     let cells = 4 * cell_count(structure.config()) as usize;
     contents.bounds[cells..].fill(0);
-    // SAFETY: the header's capacities and addresses are those that were downloaded, and nothing was resized since.
+    // SAFETY: the header's capacities and addresses are those that were downloaded, and nothing was resized
+    // since.
     unsafe { structure.upload(bench.device(), &contents) }.expect("it fits");
     assert!(traced(&structure).0.iter().all(|hit| !hit.is_hit()));
 }

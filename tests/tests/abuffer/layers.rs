@@ -1,4 +1,5 @@
-//! A single layer: of each cell the nearest fragments of all, whatever the storage, the builder and the coverage.
+//! A single layer: of each cell the nearest fragments of all, whatever the storage, the builder and the
+//! coverage.
 
 use std::collections::HashSet;
 

@@ -24,8 +24,8 @@ fn brute_force(bench: &Bench, triangles: &[Triangle], rays: &[Ray]) -> Vec<Hit> 
     bench.trace(&structure, rays).hits
 }
 
-/// Layers in cell 8 of 16, which spans 0 to 1/8 in x/z, drawn in a scrambled order; they leave its border free. The
-/// two triangles of a layer share the cell's centre and have a fragment each.
+/// Layers in cell 8 of 16, which spans 0 to 1/8 in x/z, drawn in a scrambled order; they leave its border
+/// free. The two triangles of a layer share the cell's centre and have a fragment each.
 fn layers(count: usize) -> Vec<Triangle> {
     let order = Random::new(7).shuffled(count);
     order.into_iter().flat_map(|layer| quad(side(layer), side(layer), layer_depth(layer))).collect()
@@ -53,8 +53,8 @@ fn rays_between_layers(layers: usize, count: usize) -> Vec<Ray> {
         .collect()
 }
 
-/// 10,000 fragments in one cell: every storage sorts them, with one bucket and with several, and finds each layer
-/// from both sides.
+/// 10,000 fragments in one cell: every storage sorts them, with one bucket and with several, and finds each
+/// layer from both sides.
 #[test]
 fn a_deep_cell_is_sorted_by_every_storage() {
     const LAYERS: usize = 5_000;

@@ -101,8 +101,8 @@ fn right_shares(named: &HashSet<u32>, hits: &[Hit], expected: &[Hit]) -> [f64; 2
     counts.map(|[right, all]| f64::from(right) / f64::from(all))
 }
 
-/// With all triangles kept in every cell that they reach into, hits are those of brute force, bit for bit; exact
-/// coverage loses nearly all triangles without a fragment.
+/// With all triangles kept in every cell that they reach into, hits are those of brute force, bit for bit;
+/// exact coverage loses nearly all triangles without a fragment.
 #[test]
 fn conservative_coverage_finds_what_brute_force_finds() {
     let bench = Bench::new();
@@ -134,8 +134,8 @@ fn conservative_coverage_finds_what_brute_force_finds() {
     }
 }
 
-/// Lost triangles and those seen edge-on go to conservative lists: nothing is lost then, triangles without a fragment
-/// are found like others, and conservative lists hold far fewer than with conservative coverage.
+/// Lost triangles and those seen edge-on go to conservative lists: nothing is lost then, triangles without a
+/// fragment are found like others, and conservative lists hold far fewer than with conservative coverage.
 #[test]
 fn edge_on_triangles_are_found() {
     let bench = Bench::new();

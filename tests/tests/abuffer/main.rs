@@ -1,4 +1,5 @@
-//! A-buffers: lists, layers, planes, views, both builders, pools of every edge capacity, options that change no hit.
+//! A-buffers: lists, layers, planes, views, both builders, pools of every edge capacity, options that change
+//! no hit.
 
 mod boxes;
 mod builders;

@@ -1,5 +1,5 @@
-//! The payload of planes: the plane of the fragment's triangle is stored, rays hit it as they would hit that of the
-//! triangle, and no ray reads the triangle.
+//! The payload of planes: the plane of the fragment's triangle is stored, rays hit it as they would hit that
+//! of the triangle, and no ray reads the triangle.
 
 use rasray_abuffer::{
     ABuffer, Accept, Addressing, Builder, Config, Coverage, Fragment, March, Payload, Storage, well_formed,
@@ -71,8 +71,9 @@ fn stored_planes_are_those_of_the_triangles() {
                 let offset = f64::from(f32::from_bits(words[3]));
                 let length = dot(normal, normal).sqrt();
                 assert!((length - 1.0).abs() < 1.0e-6, "length {length}");
-                // It is the plane of one of the cell's triangles at that depth. Around the fragment it is close, so its
-                // distance from the eye is off by as much as the normal is turned over the way to the fragment.
+                // It is the plane of one of the cell's triangles at that depth. Around the fragment it is
+                // close, so its distance from the eye is off by as much as the normal is turned over the way
+                // to the fragment.
                 let is_plane_of = |primitive: u32| {
                     let (unit, distance, turn) = exact_plane(&triangles[primitive as usize]);
                     let turned = (0..3).fold(0.0_f64, |far, axis| far.max((unit[axis] - normal[axis]).abs()));
@@ -90,8 +91,8 @@ fn stored_planes_are_those_of_the_triangles() {
     }
 }
 
-/// Where rays hit a plane with the payload `index`, they hit the stored one, except where a plane ends beyond its
-/// triangle.
+/// Where rays hit a plane with the payload `index`, they hit the stored one, except where a plane ends beyond
+/// its triangle.
 #[test]
 fn stored_planes_are_met_where_those_of_triangles_are() {
     let bench = Bench::new();

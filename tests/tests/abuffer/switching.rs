@@ -1,4 +1,5 @@
-//! Rays that pass from view to view: as published they lose what lies within a cell of a view's side, and nothing else.
+//! Rays that pass from view to view: as published they lose what lies within a cell of a view's side, and
+//! nothing else.
 
 use rasray_abuffer::{ABuffer, Config, March, ViewSwitching, Views};
 use rasray_ads::{CameraView, Hit, Ray, TraceMode, Viewpoint};
@@ -93,7 +94,8 @@ fn the_march_of_snapped_rays_may_pause_anywhere() {
     }
 }
 
-/// The faces have more cells than the camera's view, and other hits: none of them counts where the camera sees the ray.
+/// The faces have more cells than the camera's view, and other hits: none of them counts where the camera
+/// sees the ray.
 #[test]
 fn rays_that_the_camera_sees_are_searched_in_its_view_alone() {
     let bench = Bench::new();

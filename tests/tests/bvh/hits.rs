@@ -168,7 +168,8 @@ fn by_morton_codes_no_option_changes_a_hit() {
     options_change_no_hit(Builder::Lbvh);
 }
 
-/// A ray that hits thousands of boxes needs more rounds than rays are given at first: it gets them and an answer.
+/// A ray that hits thousands of boxes needs more rounds than rays are given at first: it gets them and an
+/// answer.
 #[test]
 fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
     let bench = Bench::new();
@@ -197,8 +198,8 @@ fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
     }
 }
 
-/// Triangles around one place, whose middles halve their way to it along each axis in turn, and a thousand in that
-/// place: a tree by Morton codes with 27 levels of one triangle each above ten levels.
+/// Triangles around one place, whose middles halve their way to it along each axis in turn, and a thousand in
+/// that place: a tree by Morton codes with 27 levels of one triangle each above ten levels.
 fn chain() -> Vec<Triangle> {
     let around = |middle: [f32; 3]| -> Triangle {
         [[-0.2, -0.2, -0.2], [0.2, 0.2, -0.2], [0.2, -0.2, 0.2]]
@@ -220,9 +221,9 @@ fn chain() -> Vec<Triangle> {
     triangles
 }
 
-/// Triangles of sizes that halve towards the origin, whose boxes all hold a piece of the diagonal and which all lie beside
-/// it, and a large one behind them across it: in a tree by surface area of four children per node each level has the next
-/// few sizes and all smaller ones. `mirror` turns axes around.
+/// Triangles of sizes that halve towards the origin, whose boxes all hold a piece of the diagonal and which
+/// all lie beside it, and a large one behind them across it: in a tree by surface area of four children per
+/// node each level has the next few sizes and all smaller ones. `mirror` turns axes around.
 fn scales(mirror: [f32; 3]) -> Vec<Triangle> {
     let mut triangles: Vec<Triangle> = (0..48)
         .map(|level| {
@@ -237,8 +238,8 @@ fn scales(mirror: [f32; 3]) -> Vec<Triangle> {
         .collect()
 }
 
-/// A ray from within all boxes, or towards larger and larger ones, remembers siblings at every level: more than its stack
-/// holds.
+/// A ray from within all boxes, or towards larger and larger ones, remembers siblings at every level: more
+/// than its stack holds.
 #[test]
 fn rays_that_remember_more_than_their_stack_lose_nothing() {
     let bench = Bench::new();

@@ -1,4 +1,5 @@
-//! Trees that keep the order of their first build: which builds may, that boxes are exact, and what they cost as they go on.
+//! Trees that keep the order of their first build: which builds may, that boxes are exact, and what they cost
+//! as they go on.
 
 use rasray_ads::{
     BoundsPass, BufferOffset, Counters, Geometry, GeometryDesc, Ray, Structure, TraceMode, Viewpoint,
@@ -190,8 +191,8 @@ fn small_trees_are_refitted() {
     }
 }
 
-/// A recorded build may never run, run later, or be incomplete: only a status that was read says that there is an
-/// order.
+/// A recorded build may never run, run later, or be incomplete: only a status that was read says that there
+/// is an order.
 #[test]
 fn only_an_order_that_is_known_to_exist_is_kept() {
     let triangles = scene();
@@ -285,8 +286,8 @@ fn what_the_device_counts_is_ordered_by_every_build() {
     stage.same_hits(&tree, &triangles[..shown], "half of the triangles");
 }
 
-/// The cost of trees by surface area and the nodes that rays read, along clips: of one that is refitted from frame to frame,
-/// and of those that are made anew.
+/// The cost of trees by surface area and the nodes that rays read, along clips: of one that is refitted from
+/// frame to frame, and of those that are made anew.
 #[test]
 fn a_tree_that_is_refitted_stays_better_than_those_by_codes() {
     let clips = [("walker:10k", 30), ("cloth-ball:1k", 30), ("walker:30k", 100), ("cloth-ball", 100)];

@@ -16,8 +16,8 @@ fn code(cell: [u32; 3]) -> u32 {
     })
 }
 
-/// Triangles without extent in the middles of cells, many of them in the same one: their order is that of their codes, and
-/// of their numbers where codes are equal.
+/// Triangles without extent in the middles of cells, many of them in the same one: their order is that of
+/// their codes, and of their numbers where codes are equal.
 #[test]
 fn triangles_are_in_the_order_of_a_stable_sort() {
     let bench = Bench::new();

@@ -1,4 +1,5 @@
-//! Trees of clusters, and trees whose treelets are restructured, cost less by surface area than the trees by Morton codes.
+//! Trees of clusters, and trees whose treelets are restructured, cost less by surface area than the trees by
+//! Morton codes.
 
 use rasray_bvh::{Builder, Config};
 use rasray_tests::harness::Bench;
@@ -39,8 +40,8 @@ fn better_trees_of_built_in_scenes_cost_less() {
     }
 }
 
-/// Seven triangles around one place, small and large in turn, so that codes do not tell them apart: halved by their places,
-/// every node is large. With the small ones together only those above both sizes are.
+/// Seven triangles around one place, small and large in turn, so that codes do not tell them apart: halved by
+/// their places, every node is large. With the small ones together only those above both sizes are.
 #[test]
 fn a_treelet_becomes_the_tree_of_smaller_boxes() {
     let bench = Bench::new();

@@ -98,8 +98,8 @@ fn all_trees_of(config: Config) {
     let bench = Bench::new();
     let twins = vec![[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]; 700];
     let points = vec![[[0.25; 3]; 3]; 65];
-    // In a row, each four times as large as the one before: the nearest of each is the one before, so that of clusters only the
-    // first two merge in a round.
+    // In a row, each four times as large as the one before: the nearest of each is the one before, so that of
+    // clusters only the first two merge in a round.
     let row = (0..60).map(|i| {
         let (e, x) = (2.0_f32.powi(2 * i - 60), 2.0_f32.powi(2 * i - 58));
         [[x, 0.0, 0.0], [x + e, e, 0.0], [x, 0.0, e]]
@@ -126,7 +126,8 @@ fn all_trees_of(config: Config) {
     }
     let mut by_descriptor = tree(&bench, config);
     let mut by_address = tree(&bench, Config { addressing: Addressing::Address, ..config });
-    // The tree that it is made of: that of two children per node, or that by codes, whose treelets are restructured.
+    // The tree that it is made of: that of two children per node, or that by codes, whose treelets are
+    // restructured.
     let made_of = match (config.made_children(), config.builder) {
         (Children::Four, _) => Some(of_two(config)),
         (Children::Two, Builder::Trbvh) => Some(of_two(Config::new(Builder::Lbvh))),

@@ -15,8 +15,8 @@ use rasray_tracer::build_until_complete;
 
 const RAYS: usize = 10_000;
 
-/// Structures that find triangles without loss, with pools beyond what one binding of many devices holds. The tree of
-/// the host is left out, which takes minutes.
+/// Structures that find triangles without loss, with pools beyond what one binding of many devices holds. The
+/// tree of the host is left out, which takes minutes.
 const TRIANGLES: &[(&str, &[(&str, &str)])] = &[
     ("bricks", &[("views", "cube"), ("addressing", "address")]),
     ("bvh", &[("addressing", "address"), ("builder", "lbvh")]),

@@ -59,8 +59,8 @@ fn half_of_the_rays_that_hit_a_wall_head_on_pass_between_its_samples() {
     assert!(missed.value().expect("rays hit") < 2.0 / 256.0, "{missed:?}");
 }
 
-/// With the depths that the wall takes in each cell no ray that hits it is lost, whatever the resolution, and t is
-/// wrong by what the ray takes through a cell: it falls as the cell's size. Without them half is lost.
+/// With the depths that the wall takes in each cell no ray that hits it is lost, whatever the resolution, and
+/// t is wrong by what the ray takes through a cell: it falls as the cell's size. Without them half is lost.
 #[test]
 fn slopes_close_the_gaps_of_a_wall_hit_head_on() {
     let bench = Bench::new();
@@ -119,9 +119,9 @@ fn rays_parallel_to_the_image_plane_need_planes() {
 ///
 /// A hit gets the wrong triangle where an edge parts it from its cell's centre. Along an edge of length l
 /// these points have the area l times the mean distance of a cell's points from its centre across the edge,
-/// which is h / 4 along the cells and 0.236 h across: a quarter of h = 2 / resolution bounds both. Lengths are
-/// measured on the face (x / z), where a solid angle has the density (1 + x^2 + y^2)^(-3/2). Each edge belongs
-/// to two triangles.
+/// which is h / 4 along the cells and 0.236 h across: a quarter of h = 2 / resolution bounds both. Lengths
+/// are measured on the face (x / z), where a solid angle has the density (1 + x^2 + y^2)^(-3/2). Each edge
+/// belongs to two triangles.
 fn wrong_ids_per_cell(triangles: &[Triangle]) -> f64 {
     let mut sum = 0.0;
     for triangle in triangles {
@@ -233,7 +233,8 @@ fn equal_depths_go_to_the_lowest_id_in_every_build() {
             let mut first: Option<Vec<(u32, u32)>> = None;
             for _ in 0..5 {
                 let hits = bench.build_and_trace(&mut structure, prepared.case.eye, &prepared.rays);
-                // Of all copies only the first may answer. Which of its two triangles, cells decide at the diagonal.
+                // Of all copies only the first may answer. Which of its two triangles, cells decide at the
+                // diagonal.
                 assert!(hits.iter().all(|hit| hit.primitive < 2), "{id}, {copies} copies, {config:?}");
                 let answers: Vec<_> = hits.iter().map(|hit| (hit.t.to_bits(), hit.primitive)).collect();
                 assert_eq!(first.get_or_insert_with(|| answers.clone()), &answers, "{id}: builds differ");

@@ -1,5 +1,6 @@
-//! Scenes that move, at several times: every structure over the vertices that the device has then, against the oracle.
-//! Structures are kept from one time to the next, as in an animation; the oracle reads the vertices back.
+//! Scenes that move, at several times: every structure over the vertices that the device has then, against
+//! the oracle. Structures are kept from one time to the next, as in an animation; the oracle reads the
+//! vertices back.
 
 use std::ffi::OsString;
 use std::fmt::Write as _;
@@ -126,8 +127,9 @@ const fn file(
     Moving { name, source: Source::File(path), times, tier, laws }
 }
 
-/// Meshes as fine as cells have a border in nearly every one, so that a ray is right only where none spoils it. For
-/// [`FRAGMENTS`], then for other rows: smaller cells lose more of a ray per cell, since fewer borders share one.
+/// Meshes as fine as cells have a border in nearly every one, so that a ray is right only where none spoils
+/// it. For [`FRAGMENTS`], then for other rows: smaller cells lose more of a ray per cell, since fewer borders
+/// share one.
 const fn laws(case: &'static str, per_cell: f64, others: f64) -> [[Law; 1]; 2] {
     const fn law(case: &'static str, per_cell: f64) -> Law {
         Law { case, reason: "triangles as small as cells", per_cell, curve: Curve::Chances }
@@ -138,8 +140,9 @@ const fn laws(case: &'static str, per_cell: f64, others: f64) -> [[Law; 1]; 2] {
 /// Rows of fragments in the quick tier, all with 64 cells along a side.
 const FRAGMENTS: [&str; 3] = ["mmrt-centres-64", "hu-centres-64", "ldc-planes-64"];
 
-/// Rows that find triangles, and those of fragments whose rules are robust: of each structure one in the quick tier. Those
-/// of a law are held to that of the scene, and where it states none only to what the structure answers when it is made anew.
+/// Rows that find triangles, and those of fragments whose rules are robust: of each structure one in the
+/// quick tier. Those of a law are held to that of the scene, and where it states none only to what the
+/// structure answers when it is made anew.
 fn rows(moving: &'static Moving) -> impl Iterator<Item = Row> {
     // A row that differs from another in smaller cells alone.
     const FINER: &str = "bricks-cube-128";

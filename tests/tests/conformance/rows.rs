@@ -23,7 +23,8 @@ use crate::conformance::report;
 /// Rays of a case for rows that find triangles without loss.
 const RAYS: Counts<usize> = Counts { quick: 1000, software: 20_000, full: 150_000 };
 
-/// Maximum product of rays and triangles of a case, for rows that find triangles without loss and build something.
+/// Maximum product of rays and triangles of a case, for rows that find triangles without loss and build
+/// something.
 const TESTS: Counts<usize> = Counts { quick: 250_000_000, software: 2_000_000_000, full: 10_000_000_000 };
 
 /// The share of that for brute force, which tests every triangle against every ray.
@@ -39,8 +40,8 @@ const REPEATED: &[&str] = &["Z4", "Z14", "C10"];
 /// Repetitions, in the quick tier and in the full one.
 const REPEATS: [usize; 2] = [1, 19];
 
-/// Rays of a case for rows that are evaluated by rates in the full tier, with the meshes of the quick one: bounds of rates
-/// hold for those.
+/// Rays of a case for rows that are evaluated by rates in the full tier, with the meshes of the quick one:
+/// bounds of rates hold for those.
 const RATES_FULL: Scale = Scale { rays: 20_000, ..Scale::QUICK };
 
 /// Results of rows on their cases.
@@ -72,8 +73,8 @@ fn progress(what: &str) {
 /// Names the rows to be run.
 const WANTED: &str = "RASRAY_ROWS";
 
-/// The rows to be run: with `RASRAY_ROWS` set only those whose name holds one of its words, which commas part. These go
-/// through all of their cases, in the quick tier as well.
+/// The rows to be run: with `RASRAY_ROWS` set only those whose name holds one of its words, which commas
+/// part. These go through all of their cases, in the quick tier as well.
 fn wanted_rows() -> Vec<&'static Row> {
     let words = std::env::var_os(WANTED).map(|words| words.to_string_lossy().into_owned());
     let (wanted, others): (Vec<&Row>, Vec<&Row>) = ROWS.iter().partition(|row| {
@@ -247,7 +248,8 @@ fn every_preset_has_a_row_and_every_deviation_names_a_case() {
             assert!(cases.insert(deviation.case), "{} twice in {}", deviation.case, row.name);
             assert!(0.0 < deviation.at_least_rate && deviation.at_least_rate <= deviation.at_most_rate);
             assert!(deviation.at_most_rate <= 1.0 && !deviation.reason.is_empty());
-            // Promises of the catalogue for fragments without a law are not negotiable, nor that hits are finite.
+            // Promises of the catalogue for fragments without a law are not negotiable, nor that hits are
+            // finite.
             let target = hard_cases::catalogue_row(deviation.case).expect("it is in the catalogue").target;
             let negotiable = match row.demand {
                 Demand::Loss { .. } => target.primitives != Target::Finite,
@@ -262,8 +264,8 @@ fn every_preset_has_a_row_and_every_deviation_names_a_case() {
     }
 }
 
-/// Triangles a hundred million times smaller than their distance from the ray, whose edges rounding cannot tell
-/// apart: only a structure that tests every triangle tests them.
+/// Triangles a hundred million times smaller than their distance from the ray, whose edges rounding cannot
+/// tell apart: only a structure that tests every triangle tests them.
 #[test]
 fn tiny_triangles_far_from_a_ray_are_not_hit() {
     let bench = Bench::new();

@@ -30,7 +30,8 @@ fn slope(p: [f64; 3], d: [f64; 3]) -> f64 {
     d[2] * p[2] * p[2] / (d[0] * p[2] - p[0] * d[2])
 }
 
-/// A ray across the tilted plane of V2 in the first row of pixels, with the share of rays like it that hit a sample.
+/// A ray across the tilted plane of V2 in the first row of pixels, with the share of rays like it that hit a
+/// sample.
 fn across(random: &mut Random, along: [f64; 3]) -> (Ray, f64) {
     let at = f64::from(random.between(-2.9, 2.9));
     let hit = [at * along[0], 0.001, 5.0 + at * along[2]];
@@ -161,7 +162,8 @@ fn halves_lose_pairs_that_floats_tell_apart() {
     }
 }
 
-/// Triangles over the outermost pixels; a single triangle where there is one pixel, since a sample names only one.
+/// Triangles over the outermost pixels; a single triangle where there is one pixel, since a sample names only
+/// one.
 fn outermost(size: u32) -> Vec<Triangle> {
     match size {
         1 => vec![[[-15.0, -5.0, 5.0], [15.0, -5.0, 5.0], [0.0, 25.0, 5.0]]],
@@ -186,13 +188,13 @@ fn aimed(random: &mut Random, triangles: &[Triangle]) -> Vec<Ray> {
     rays
 }
 
-/// Share of rays that the published steps may leave out: a step that ends behind the geometry may begin in one of a few
-/// large pixels and end in the next. 0.017 with three pixels along a side.
+/// Share of rays that the published steps may leave out: a step that ends behind the geometry may begin in
+/// one of a few large pixels and end in the next. 0.017 with three pixels along a side.
 const STEPPED_OVER: f64 = 0.03;
 
 /// Views of one, three, five and 511 pixels along a side with geometry in the outermost pixels only: where
-/// triangles are found every hit is brute force's, elsewhere no ray passes except a few over published steps. Published
-/// voxels are left out: what they lose of a flat scene has other reasons (the deviations of V16).
+/// triangles are found every hit is brute force's, elsewhere no ray passes except a few over published steps.
+/// Published voxels are left out: what they lose of a flat scene has other reasons (the deviations of V16).
 #[test]
 fn views_of_odd_sizes_keep_their_outermost_pixels() {
     let bench = Bench::new();
@@ -216,7 +218,8 @@ fn views_of_odd_sizes_keep_their_outermost_pixels() {
                     let given = system.without_scene.iter();
                     options.extend(given.map(|(name, word)| ((*name).to_owned(), (*word).to_owned())));
                 }
-                // As published, rays lose what lies in the outermost cells of a view, which is what is looked at here.
+                // As published, rays lose what lies in the outermost cells of a view, which is what is looked
+                // at here.
                 if preset == Preset::Published && system.has("view-switching") {
                     options.push(("view-switching".to_owned(), "exact".to_owned()));
                 }

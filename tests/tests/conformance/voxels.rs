@@ -33,8 +33,8 @@ fn is_where_it_begins(header: &Header, ray: &Ray, t: f32) -> bool {
     })
 }
 
-/// A voxel holds every part of every triangle: a ray that hits a triangle outside of the voxel in which it begins hits a
-/// voxel, and no later. Voxels that are coarser find hits earlier, not later.
+/// A voxel holds every part of every triangle: a ray that hits a triangle outside of the voxel in which it
+/// begins hits a voxel, and no later. Voxels that are coarser find hits earlier, not later.
 #[test]
 fn no_ray_of_a_hard_case_passes_the_voxel_of_its_hit() {
     let bench = Bench::new();

@@ -1,5 +1,5 @@
-//! More samples where there is more noise: the pixels of an image are those of images with as many samples, and their mean
-//! over many images is that of images with as many samples everywhere.
+//! More samples where there is more noise: the pixels of an image are those of images with as many samples,
+//! and their mean over many images is that of images with as many samples everywhere.
 
 use std::ops::ControlFlow;
 
@@ -95,15 +95,16 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// True if films that different kernels made are equal: bit for bit on a software device. Hardware may contract a
-/// product and a sum in one kernel and not in another.
+/// True if films that different kernels made are equal: bit for bit on a software device. Hardware may
+/// contract a product and a sum in one kernel and not in another.
 fn is_same(device: &Device, a: &FilmPixel, b: &FilmPixel) -> bool {
     let is_close = |(a, b): (&f32, &f32)| (a - b).abs() <= 1.0e-5 * b.abs();
     a.samples == b.samples
         && if device.is_software() { a.sum == b.sum } else { a.sum.iter().zip(&b.sum).all(is_close) }
 }
 
-/// Every pixel of an adaptive image is what it is in an image of as many samples everywhere; numbers of samples differ.
+/// Every pixel of an adaptive image is what it is in an image of as many samples everywhere; numbers of
+/// samples differ.
 fn check_pixels(stage: &Stage<'_>, spec: &IntegratorSpec) {
     // One ray decides between black and white in every pixel, or only the edges of surfaces have noise.
     let threshold = if spec.name() == "ao" { 0.35 } else { 0.1 };

@@ -1,4 +1,5 @@
-//! Scenes whose triangles change in number from frame to frame: pictures are those of renderers made for each.
+//! Scenes whose triangles change in number from frame to frame: pictures are those of renderers made for
+//! each.
 
 use std::ops::ControlFlow;
 
@@ -372,8 +373,8 @@ fn numbered_files_are_frames() {
     assert_eq!(seen.len(), 5, "files differ, or nothing could go wrong");
 }
 
-/// Frames in flight that were recorded with too few rounds are repeated, although those before them have allowed as many as
-/// there can be.
+/// Frames in flight that were recorded with too few rounds are repeated, although those before them have
+/// allowed as many as there can be.
 #[test]
 fn frames_in_flight_that_need_more_rounds_are_repeated() {
     let bench = Bench::new();

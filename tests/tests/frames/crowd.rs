@@ -1,5 +1,5 @@
-//! Triangles and rays that change with every frame, as a host hands them over: copied from memory of its own, with a
-//! frame in flight while the next is written.
+//! Triangles and rays that change with every frame, as a host hands them over: copied from memory of its own,
+//! with a frame in flight while the next is written.
 
 use rasray_ads::{
     BoundsPass, Domain, Draw, Geometry, GeometryDesc, GeometryParts, Hit, QueueCounters, QueueHeader, Ray,

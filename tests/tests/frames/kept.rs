@@ -52,7 +52,8 @@ impl Kept {
         panic!("the demand does not settle");
     }
 
-    /// Answers bit for bit, nearest and occluded; and cells visited, entries read and triangles tested for the nearest.
+    /// Answers bit for bit, nearest and occluded; and cells visited, entries read and triangles tested for
+    /// the nearest.
     pub fn answers(&self, bench: &Bench, rays: &[Ray]) -> (Vec<[u32; 4]>, Vec<bool>, [u64; 3]) {
         let structure = self.frames.structure();
         let traced = bench.trace(structure, rays);

@@ -1,4 +1,5 @@
-//! Frames in flight: nothing is shown that is not right, nothing is built that is not stale, and nothing is left behind.
+//! Frames in flight: nothing is shown that is not right, nothing is built that is not stale, and nothing is
+//! left behind.
 
 mod adaptive;
 mod bands;

@@ -1,5 +1,5 @@
-//! Structures that do not find every triangle, in parts: hits are the nearer of those that each part alone has, and what is
-//! shaded is the fragment that was hit.
+//! Structures that do not find every triangle, in parts: hits are the nearer of those that each part alone
+//! has, and what is shaded is the fragment that was hit.
 
 use std::ops::{ControlFlow, Range};
 
@@ -42,8 +42,8 @@ fn is_stored(hit: &Hit) -> bool {
     hit.is_hit() && (hit.primitive == PRIMITIVE_UNKNOWN || hit.b.to_bits() == HIT_STORED)
 }
 
-/// The nearer of what both parts alone have; where they are as near a triangle before a stored fragment, the one that is on its
-/// triangle, then the one with the lower id; of two stored fragments the static one.
+/// The nearer of what both parts alone have; where they are as near a triangle before a stored fragment, the
+/// one that is on its triangle, then the one with the lower id; of two stored fragments the static one.
 fn nearer<'a>(of_static: &'a Hit, of_moving: &'a Hit) -> &'a Hit {
     match (of_static.is_hit(), of_moving.is_hit()) {
         (_, false) => of_static,
@@ -58,7 +58,8 @@ fn nearer<'a>(of_static: &'a Hit, of_moving: &'a Hit) -> &'a Hit {
     }
 }
 
-/// A part of triangles as a geometry of its own, which knows nothing of the whole, and the ids that its triangles have there.
+/// A part of triangles as a geometry of its own, which knows nothing of the whole, and the ids that its
+/// triangles have there.
 struct Alone {
     geometry: Geometry,
     ids: Vec<u32>,
@@ -223,15 +224,15 @@ fn built(
     structure
 }
 
-/// Values of a surface that are the same in every build: where hits are triangles it is known as well as the coarser
-/// part says.
+/// Values of a surface that are the same in every build: where hits are triangles it is known as well as the
+/// coarser part says.
 fn shaded(surface: &Surface, is_stored: bool) -> Vec<u8> {
     let error = if is_stored { surface.position_error } else { 0.0 };
     bytemuck::bytes_of(&Surface { position_error: error, ..*surface }).to_vec()
 }
 
-/// Hits and surfaces of frames in which only the moving part is built are those of the nearer of two structures that are
-/// made for each frame.
+/// Hits and surfaces of frames in which only the moving part is built are those of the nearer of two
+/// structures that are made for each frame.
 fn hold(bench: &Bench, name: &str, scene: &Scene, times: &[f64], specs: &[Spec]) {
     let device = bench.device();
     let tables = SceneTables::new(scene, DVec3::ZERO, &Parts::ALL).expect("the scene is whole");
@@ -313,8 +314,8 @@ fn fragments_of_a_hall_swing_with_masks() {
 /// Rays that hit another place than exact ones, by more than this, metres.
 const PLACE: f32 = 0.02;
 
-/// Hits of two structures, each with cells around its own part, beside those of one over all: where rays err, and what a frame
-/// builds.
+/// Hits of two structures, each with cells around its own part, beside those of one over all: where rays err,
+/// and what a frame builds.
 fn compare(bench: &Bench, name: &str, scene: &Scene) {
     let device = bench.device();
     let tables = SceneTables::new(scene, DVec3::ZERO, &Parts::ALL).expect("the scene is whole");
@@ -397,8 +398,8 @@ fn parts_err_no_more_than_a_whole() {
     }
 }
 
-/// Pictures of frames of which three are in flight are those of one at a time, with light that is scattered from surfaces that
-/// fragments of either part store.
+/// Pictures of frames of which three are in flight are those of one at a time, with light that is scattered
+/// from surfaces that fragments of either part store.
 #[test]
 fn pictures_in_flight_are_those_of_one_at_a_time() {
     let bench = Bench::new();

@@ -1,5 +1,5 @@
-//! Objects in depth cubes of their own, which are built once: hits of every frame are those of brute force, and stored
-//! fragments are where their objects are.
+//! Objects in depth cubes of their own, which are built once: hits of every frame are those of brute force,
+//! and stored fragments are where their objects are.
 
 use glam::{DVec3, Vec3};
 use rasray_ads::{Combined, Counters, Domain, GeometryRigid, PRIMITIVE_UNKNOWN, Ray, RayQueue, Trace};

@@ -1,4 +1,5 @@
-//! Triangles in two parts, each with a structure of its own: hits are those of one structure over all, bit for bit.
+//! Triangles in two parts, each with a structure of its own: hits are those of one structure over all, bit
+//! for bit.
 
 use std::ops::Range;
 
@@ -127,7 +128,8 @@ fn hits_in_parts_are_those_of_all_triangles() {
                 assert_eq!(known.sum::<u64>(), structure.sizes().bytes());
             }
         }
-        // Nothing of this could go wrong unless rays hit what is there twice, with the lower id in either part.
+        // Nothing of this could go wrong unless rays hit what is there twice, with the lower id in either
+        // part.
         let (_, scattered) = divisions(triangles.len() as u32).pop().expect("there are some");
         let moves = |id: usize| scattered.iter().any(|ids| ids.contains(&(id as u32)));
         let mut ties = [0; 2];
@@ -145,7 +147,8 @@ fn hits_in_parts_are_those_of_all_triangles() {
     }
 }
 
-/// Five parts that move, of which one has a run in the middle, three have scattered triangles and one has none; the others stay.
+/// Five parts that move, of which one has a run in the middle, three have scattered triangles and one has
+/// none; the others stay.
 pub fn many(count: u32) -> Vec<Vec<Range<u32>>> {
     let scattered =
         |part| (0..count).filter(move |id| id % 5 == part && !(40..60).contains(id)).map(|id| id..id + 1);

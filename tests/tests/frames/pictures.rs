@@ -314,7 +314,8 @@ fn a_frame_that_is_not_complete_is_no_picture() {
     assert_eq!(found.len(), 2);
 }
 
-/// A frame without a pose shows what the one before it does, also where it is repeated after frames that moved on.
+/// A frame without a pose shows what the one before it does, also where it is repeated after frames that
+/// moved on.
 #[test]
 fn a_repeated_frame_without_a_pose_stays_where_it_was() {
     let bench = Bench::new();
@@ -350,7 +351,8 @@ fn a_repeated_frame_without_a_pose_stays_where_it_was() {
     }
 }
 
-/// A frame whose rays pass more surfaces than rounds were recorded for is not shown; those after it have enough.
+/// A frame whose rays pass more surfaces than rounds were recorded for is not shown; those after it have
+/// enough.
 #[test]
 fn frames_show_what_is_behind_many_clear_layers() {
     let bench = Bench::new();

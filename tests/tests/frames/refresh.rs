@@ -162,13 +162,15 @@ fn hold_parts(
         }
         let is_some = |part: u32, hits: usize| (part == 0) == (hits == 0);
         assert!(is_some(whole - moving, found[0]) && is_some(moving, found[1]), "{system}: {found:?}");
-        // The static part is built until its pools suffice, and not with every frame, unless the eye's move matters to it.
-        // That of the moving part alone is another question: it may be small, and the eye far away for it.
+        // The static part is built until its pools suffice, and not with every frame, unless the eye's move
+        // matters to it. That of the moving part alone is another question: it may be small, and the eye far
+        // away for it.
         let static_alone = spec.create(device, parts.static_part(), binding).expect("the options are valid");
         let eye_matters = static_alone.is_stale(first, viewpoint);
         assert!(eye_matters || counts.static_builds <= 4, "{system}: {counts:?}");
         still += usize::from(!eye_matters);
-        // Cells of a small part have margins for rays from anywhere in the whole, so that these need not test all of it.
+        // Cells of a small part have margins for rays from anywhere in the whole, so that these need not test
+        // all of it.
         let tests = work.map(|work| work[2]);
         assert!(objects.is_some() || eye_matters || tests[1] <= 2 * tests[0], "{system}: {tests:?} tests");
         if objects.is_none() {
@@ -295,7 +297,8 @@ fn pictures_are_the_same() {
     }
 }
 
-/// Moving parts grow from frame to frame, and their pools with them; those of the static part keep their contents.
+/// Moving parts grow from frame to frame, and their pools with them; those of the static part keep their
+/// contents.
 #[test]
 fn what_moves_outgrows_its_pools() {
     let bench = Bench::new();

@@ -64,7 +64,8 @@ pub fn among(mut moving: Scene, other: &Scene) -> Scene {
     moving
 }
 
-/// The hall whose banners and plants are cut out by masks; every third instance swings. With nothing of it, or everything.
+/// The hall whose banners and plants are cut out by masks; every third instance swings. With nothing of it,
+/// or everything.
 pub fn swinging_hall(moves: impl Fn(usize) -> bool) -> Scene {
     let mut scene = made("atrium:detail=0.25");
     let count = scene.instances.len();
@@ -89,8 +90,9 @@ pub fn swinging_hall(moves: impl Fn(usize) -> bool) -> Scene {
     scene
 }
 
-/// The hall, of which every third instance turns about itself, grows and moves in a time of its own, between 0 and 2 s, and stands still in
-/// all others; two hang on one that moves. Every other one of these is mirrored while it moves.
+/// The hall, of which every third instance turns about itself, grows and moves in a time of its own, between
+/// 0 and 2 s, and stands still in all others; two hang on one that moves. Every other one of these is
+/// mirrored while it moves.
 pub fn hall_of_objects() -> Scene {
     let mut scene = swinging_hall(|_| false);
     let mut channels = Vec::new();

@@ -1,5 +1,5 @@
-//! Shadow maps over frames in flight: drawn where lights or triangles have moved, and only then; pictures are those of
-//! maps that are drawn for one frame alone.
+//! Shadow maps over frames in flight: drawn where lights or triangles have moved, and only then; pictures are
+//! those of maps that are drawn for one frame alone.
 
 use glam::{DQuat, DVec3};
 use rasray_frame::{FrameInput, FrameRenderer, FrameScene};

@@ -1,5 +1,5 @@
-//! Frame after frame with other triangles elsewhere: hits are those of the oracle or there is no picture, and memory is
-//! bounded.
+//! Frame after frame with other triangles elsewhere: hits are those of the oracle or there is no picture, and
+//! memory is bounded.
 
 use std::collections::VecDeque;
 
@@ -42,7 +42,8 @@ fn no_frame_is_wrong_and_nothing_is_left_behind() {
     }
 }
 
-/// A tree that keeps the order of its triangles: in most frames they only move, with the frame before still in flight.
+/// A tree that keeps the order of its triangles: in most frames they only move, with the frame before still
+/// in flight.
 #[test]
 fn a_tree_is_refitted_with_frames_in_flight() {
     let bench = Bench::new();
@@ -50,13 +51,13 @@ fn a_tree_is_refitted_with_frames_in_flight() {
     let subject = bvh.and_then(|bvh| bvh.with(&[("builder", "refit")])).expect("it has the option");
     let frames = FRAMES[1].on(bench.device(), "frames");
     let refits = soak(&bench, &subject, frames, |frame| !frame.is_multiple_of(6), "bvh/build_9_refit");
-    // Of six frames the first two order for themselves: a status of theirs is read when the third is recorded. Now and then
-    // other triangles are as many as before, so that they count as moved.
+    // Of six frames the first two order for themselves: a status of theirs is read when the third is
+    // recorded. Now and then other triangles are as many as before, so that they count as moved.
     assert!(refits >= frames * 2 / 3 && refits < frames * 5 / 6, "{refits} of {frames}");
 }
 
-/// Answers in how many frames there was a pass of that label. `only_moves` says whether a frame keeps the number of
-/// triangles of the one before.
+/// Answers in how many frames there was a pass of that label. `only_moves` says whether a frame keeps the
+/// number of triangles of the one before.
 fn soak(
     bench: &Bench,
     subject: &Subject,
@@ -153,8 +154,8 @@ fn overhead(device: &rasray_gpu::Device, frames: &Frames) -> u64 {
     device.allocated_bytes().saturating_sub(frames.structure().structure().sizes().bytes())
 }
 
-/// Compares hits: on triangles with the oracle, of fragments with those of a structure made for this frame, now and then.
-/// Returns how many rays have several right answers.
+/// Compares hits: on triangles with the oracle, of fragments with those of a structure made for this frame,
+/// now and then. Returns how many rays have several right answers.
 fn check(bench: &Bench, subject: &Subject, shown: &Shown, hits: &[rasray_ads::Hit], frame: u64) -> u64 {
     let name = subject.name();
     if subject.kind != StructureKind::Primitive {

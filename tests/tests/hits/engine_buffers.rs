@@ -1,5 +1,6 @@
-//! Triangles as an engine has them: one buffer for everything, vertices with more than a position, indices of 16 bits, base
-//! vertices, a number of triangles that only the device knows. Hits are those of packed buffers, bit for bit.
+//! Triangles as an engine has them: one buffer for everything, vertices with more than a position, indices of
+//! 16 bits, base vertices, a number of triangles that only the device knows. Hits are those of packed
+//! buffers, bit for bit.
 
 use rasray_ads::{
     BoundsPass, BufferOffset, Draw, Geometry, GeometryDesc, GeometryHeader, IndexFormat, IndexRange,
@@ -43,8 +44,8 @@ struct Engine {
 }
 
 impl Engine {
-    /// Puts values at the first multiple of `alignment` that leaves something before them, which no larger power of two
-    /// below 256 divides.
+    /// Puts values at the first multiple of `alignment` that leaves something before them, which no larger
+    /// power of two below 256 divides.
     fn place<T: bytemuck::NoUninit>(&mut self, values: &[T], alignment: usize) -> u64 {
         let mut offset = (self.bytes.len() + 1).next_multiple_of(alignment);
         if alignment < 256 && offset.is_multiple_of(2 * alignment) {
@@ -210,8 +211,8 @@ fn triangles_beyond_the_count_of_the_device_do_not_exist() {
     let (whole, counter) = geometry(&bench, &triangles, layout);
     let counter = counter.expect("it is counted");
     let bounds = whole.desc().bounds;
-    // Geometry whose number of triangles the host knows; cells are laid out for the same maximum where that decides
-    // hits.
+    // Geometry whose number of triangles the host knows; cells are laid out for the same maximum where that
+    // decides hits.
     let alone = |count: u32| {
         let desc = GeometryDesc { triangle_count: count, count: None, bounds, ..whole.desc().clone() };
         Geometry::new(bench.device(), desc).expect("it is part of it")

@@ -1,5 +1,5 @@
-//! Pools larger than what one binding holds: refused by name through descriptors, and reached by address with the
-//! same hits; and, in the full tier, a million triangles through every system.
+//! Pools larger than what one binding holds: refused by name through descriptors, and reached by address with
+//! the same hits; and, in the full tier, a million triangles through every system.
 
 use rasray_ads::{AdsError, BruteForce, Hit, Ray, Structure, StructureKind};
 use rasray_bvh::{Builder, Bvh};
@@ -116,8 +116,8 @@ fn many_spheres(count: usize) -> Vec<Triangle> {
 }
 
 /// Trees grow with triangles alone, and so do bricks where their cells follow from these: with more of
-/// them than a binding has capacity for, both builders and the bricks are refused by name or reached by address,
-/// and find the same.
+/// them than a binding has capacity for, both builders and the bricks are refused by name or reached by
+/// address, and find the same.
 #[test]
 fn trees_and_bricks_of_many_triangles_are_reached_by_address() {
     if !is_full() {

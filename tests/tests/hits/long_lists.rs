@@ -1,5 +1,5 @@
-//! Capacity for the lists that one dispatch does not sort, at every edge capacity, in every structure that sorts lists; and
-//! rounds for rays that read long ones.
+//! Capacity for the lists that one dispatch does not sort, at every edge capacity, in every structure that
+//! sorts lists; and rounds for rays that read long ones.
 
 use rasray_ads::{Ray, Structure, TraceMode};
 use rasray_gpu::Timing;
@@ -31,7 +31,8 @@ fn rays() -> Vec<Ray> {
         .collect()
 }
 
-/// Lists for which a thread that sorts several has no steps left, and contiguous lists beyond the limit of a dispatch.
+/// Lists for which a thread that sorts several has no steps left, and contiguous lists beyond the limit of a
+/// dispatch.
 #[test]
 fn every_edge_capacity_of_long_lists_of_a_buffers() {
     use rasray_abuffer::{ABuffer, Config, Demand, Storage, plan};
@@ -52,7 +53,8 @@ fn every_edge_capacity_of_long_lists_of_a_buffers() {
     }
 }
 
-/// A ray that reads a long list needs more rounds than rays are given at first: it gets them, and the same answer.
+/// A ray that reads a long list needs more rounds than rays are given at first: it gets them, and the same
+/// answer.
 #[test]
 fn rays_through_long_lists_are_given_the_rounds_they_need() {
     use rasray_abuffer::{ABuffer, Config};

@@ -1,5 +1,5 @@
-//! Hits of all systems where something is unusual: surfaces as origins, masks, backs that rays pass, long lists, motion, huge pools, buffers of an
-//! engine, replayed rays.
+//! Hits of all systems where something is unusual: surfaces as origins, masks, backs that rays pass, long
+//! lists, motion, huge pools, buffers of an engine, replayed rays.
 
 mod engine_buffers;
 mod hard_transforms;

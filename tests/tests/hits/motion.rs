@@ -1,7 +1,7 @@
 //! Hits do not know where a scene lies where that is exact, nor how a ray is cut: scenes scaled by powers of
 //! two and turned by right angles, rays split in two, segments traced from both ends. Structures that find
-//! triangles, hits compared bit for bit. And of all structures: where the device moved the vertices, hits are those of a
-//! structure that was made for where they are.
+//! triangles, hits compared bit for bit. And of all structures: where the device moved the vertices, hits are
+//! those of a structure that was made for where they are.
 
 use rasray_ads::{BoundsPass, GeometryHeader, PRIMITIVE_NONE, Ray, StructureKind};
 use rasray_metrics::Truth;
@@ -152,7 +152,8 @@ fn positions_that_the_device_moved_are_built_where_they_are() {
     }
 }
 
-/// Bounds as the device measures them are those of the host: of corners that are numbers, zeros of none, both zeros alike.
+/// Bounds as the device measures them are those of the host: of corners that are numbers, zeros of none, both
+/// zeros alike.
 #[test]
 fn bounds_are_measured_exactly() {
     let bench = Bench::new();

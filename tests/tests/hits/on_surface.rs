@@ -1,5 +1,5 @@
-//! Rays that start on a surface and exclude nothing, as tools that know no triangle ids make them: origins uniform
-//! over the area and rounded to f32, directions uniform, t_min 0.
+//! Rays that start on a surface and exclude nothing, as tools that know no triangle ids make them: origins
+//! uniform over the area and rounded to f32, directions uniform, t_min 0.
 
 use rasray_ads::{Ray, StructureKind};
 use rasray_metrics::{DeviceHit, HitConfusion};

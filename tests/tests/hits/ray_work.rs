@@ -61,7 +61,8 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
             assert_eq!(per_ray.work.len(), rays.len());
             assert_eq!(off.counters, QueueCounters::default());
             // Threads fill lists in another order in each build: any hit ends at the first one, and whether a
-            // triangle is one of the last two tested, which are not tested again, depends on the entries before it.
+            // triangle is one of the last two tested, which are not tested again, depends on the entries
+            // before it.
             if mode == TraceMode::Closest {
                 let of_any_order = |counters: QueueCounters| QueueCounters { tests: 0, ..counters };
                 assert_eq!(of_any_order(sums.counters), of_any_order(per_ray.counters), "{name}, {mode:?}");
@@ -97,7 +98,8 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
     }
 }
 
-/// A wall on the face +z, a ray in front of it that crosses its cells, and what else stretches the bounds so far.
+/// A wall on the face +z, a ray in front of it that crosses its cells, and what else stretches the bounds so
+/// far.
 #[test]
 fn cells_are_rejected_by_their_bounds_and_by_nothing_else() {
     const SIDE: u32 = 16;
@@ -147,7 +149,8 @@ fn cells_are_rejected_by_their_bounds_and_by_nothing_else() {
     assert_eq!(bench.trace(&cube, &[ray]).work[0].views, 3);
 }
 
-/// A structure that counts per ray may trace a queue without capacity for it: nothing is written past its end.
+/// A structure that counts per ray may trace a queue without capacity for it: nothing is written past its
+/// end.
 #[test]
 fn a_queue_without_a_buffer_for_work_is_left_alone() {
     let bench = Bench::new();

@@ -214,8 +214,9 @@ fn the_replay_of_a_lost_hit_shows_the_cell_that_lost_it() {
                 ),
             }
         }
-        // Planes answer about half of those rays right (the others hit triangles that are edge-on or small as seen from
-        // the eye), and no loss is reported for these: the option explains the loss, not the replay.
+        // Planes answer about half of those rays right (the others hit triangles that are edge-on or small as
+        // seen from the eye), and no loss is reported for these: the option explains the loss, not the
+        // replay.
         let mut found = 0;
         for &index in &lost {
             let (ray, truth) = (&rays[index], &truths[index]);

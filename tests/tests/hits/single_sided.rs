@@ -1,5 +1,6 @@
-//! Rays that pass the backs of single-sided surfaces, in every structure: against the oracle where it finds every hit, bit for bit
-//! against brute force, and where fragments stand for triangles by how many rays a back still stops.
+//! Rays that pass the backs of single-sided surfaces, in every structure: against the oracle where it finds
+//! every hit, bit for bit against brute force, and where fragments stand for triangles by how many rays a
+//! back still stops.
 
 use glam::{DAffine3, DVec3};
 use rasray_ads::{BruteForce, Combined, Hit, RAY_CULL_BACK_FACES, Ray, Structure, StructureKind, TraceMode};
@@ -46,8 +47,8 @@ fn ball(middle: DVec3, radius: f64, material: usize) -> Mesh {
     mesh
 }
 
-/// A room whose walls have no outside, with balls in it: one of a mesh that its instance mirrors, one with both sides; a lamp
-/// below the ceiling, a panel with both sides, a mirrored panel, and a heap of slivers.
+/// A room whose walls have no outside, with balls in it: one of a mesh that its instance mirrors, one with
+/// both sides; a lamp below the ceiling, a panel with both sides, a mirrored panel, and a heap of slivers.
 fn room() -> Scene {
     let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
     let mut meshes: Vec<(Mesh, bool)> = [(x, y, z), (y, z, x), (z, x, y)]
@@ -89,8 +90,8 @@ fn stage(bench: &Bench, scene: &Scene, eye: DVec3) -> GpuScene {
     GpuScene::upload(bench.device(), &tables, &view).expect("the scene fits")
 }
 
-/// Rays that pass backs: from far outside into the bounds, from within them, and from outside at edges, where the sides of
-/// triangles change.
+/// Rays that pass backs: from far outside into the bounds, from within them, and from outside at edges, where
+/// the sides of triangles change.
 fn rays(bench: &Bench, scene: &GpuScene) -> Vec<Ray> {
     let (positions, indices) = scene.geometry().download(bench.device()).expect("readable");
     let [lower, upper] = scene.geometry().bounds();
@@ -360,13 +361,14 @@ fn fragments_of_backs_are_passed() {
             without: share(&met, 1),
         };
         println!("{system} {preset} {options:?}: {shares:?}");
-        // Rules of papers lose many of the surfaces that rays meet, with the flag and without it; and parities take the
-        // fragment that is nearest to a crossing, which may be of another wall.
+        // Rules of papers lose many of the surfaces that rays meet, with the flag and without it; and
+        // parities take the fragment that is nearest to a crossing, which may be of another wall.
         assert!(shares.without > 0.4, "{system} {preset} {options:?}: {shares:?}");
         assert!(shares.stopped < 0.03, "{system} {preset} {options:?}: {shares:?}");
-        // Beside silhouettes a fragment of a back may stand for a front, and a third of these rays is aimed at edges.
-        // Published voxels decide by parity, and selective has each fragment in one view alone, so that fewer stand near
-        // a crossing. Measured: 0.848 (selective), 0.883 (hu), 0.926 (mmrt), 0.959 to 0.975 of the others.
+        // Beside silhouettes a fragment of a back may stand for a front, and a third of these rays is aimed
+        // at edges. Published voxels decide by parity, and selective has each fragment in one view alone, so
+        // that fewer stand near a crossing. Measured: 0.848 (selective), 0.883 (hu), 0.926 (mmrt), 0.959 to
+        // 0.975 of the others.
         let least = match (*system, *preset) {
             ("selective", "published") => 0.84,
             ("hu", "published") => 0.87,

@@ -1,5 +1,5 @@
-//! Needles, whose planes rounding turns, through structures whose cells keep depths of triangles: hits are those of brute
-//! force, bit for bit.
+//! Needles, whose planes rounding turns, through structures whose cells keep depths of triangles: hits are
+//! those of brute force, bit for bit.
 
 use rasray_ads::{BruteForce, Ray, StructureKind};
 use rasray_gpu::Timing;

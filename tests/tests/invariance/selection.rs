@@ -65,7 +65,8 @@ fn selected_slots_are_traced_and_no_others() {
     let subjects = Subject::all();
     assert!(subjects.len() >= 8);
     for subject in subjects {
-        // A small budget makes rays pause, so that lists of paused rays and of selected slots are used together.
+        // A small budget makes rays pause, so that lists of paused rays and of selected slots are used
+        // together.
         let spec = subject.spec.clone().with_work_budget(BUDGET);
         let mut structure = spec.create(device, &geometry, None).expect("it can be made");
         build_until_complete(device, structure.as_mut(), [0.1, 0.2, 0.3], rasray_gpu::Timing::None)

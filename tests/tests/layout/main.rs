@@ -1,5 +1,6 @@
-//! Every record that Rust and shaders share, and the push constants of every module, held against two readers of the compiled modules: names,
-//! offsets, sizes and strides. Rust has records from the text of the GLSL; the readers know compiled modules alone.
+//! Every record that Rust and shaders share, and the push constants of every module, held against two readers
+//! of the compiled modules: names, offsets, sizes and strides. Rust has records from the text of the GLSL;
+//! the readers know compiled modules alone.
 
 mod reader;
 
@@ -33,8 +34,9 @@ fn members_of(record: &RecordLayout) -> Vec<Member> {
     record.members.iter().map(|(name, offset, size)| ((*name).to_owned(), *offset, *size)).collect()
 }
 
-/// Records that shaders write word by word, in the order of their members, behind lists whose number only the device
-/// knows; so no module declares them. `pictures::photons` of the integrators tests that their words are those members.
+/// Records that shaders write word by word, in the order of their members, behind lists whose number only the
+/// device knows; so no module declares them. `pictures::photons` of the integrators tests that their words
+/// are those members.
 const AS_WORDS: &[&str] = &["Photon"];
 
 /// Whatever module a record is declared in, it is what Rust has; and no record is of Rust alone.
@@ -62,7 +64,8 @@ fn every_record_in_every_module() {
     }
 }
 
-/// The records that a structure says it shares are of its folder, and all of its modules that trace have its header.
+/// The records that a structure says it shares are of its folder, and all of its modules that trace have its
+/// header.
 #[test]
 fn records_of_every_structure() {
     for system in SYSTEMS {

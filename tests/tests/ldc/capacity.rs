@@ -1,5 +1,5 @@
-//! Pools of every edge capacity: exact demands, no partial answers, bytes as the formula says, lists well formed;
-//! and the check of lists notices every fault.
+//! Pools of every edge capacity: exact demands, no partial answers, bytes as the formula says, lists well
+//! formed; and the check of lists notices every fault.
 
 use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
 use rasray_gpu::Timing;
@@ -220,7 +220,8 @@ fn every_fault_of_a_list_is_noticed() {
             Depth::Bits16 => c.depths[place / 2] = 0x7E00_7E00,
         });
         assert!(matches!(lost, Fault::Depth { .. }), "{lost:?}");
-        // A slice that is missing in a block of either level: the last word of the first level, and the very last.
+        // A slice that is missing in a block of either level: the last word of the first level, and the very
+        // last.
         let blocks = good.blocks.len();
         for words in [0..4, blocks - 12..blocks] {
             let missing =

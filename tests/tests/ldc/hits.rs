@@ -1,4 +1,5 @@
-//! Answers of the layered depth cube: rooms, layers, edges between views, long traversals, pauses, limits, bad rays.
+//! Answers of the layered depth cube: rooms, layers, edges between views, long traversals, pauses, limits,
+//! bad rays.
 
 use rasray_ads::{BruteForce, Counters, Hit, Ray, Structure, Surface, TraceMode};
 use rasray_gpu::Timing;
@@ -79,7 +80,8 @@ fn a_lamp_is_not_taken_for_its_ceiling() {
     build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
         .expect("the build completes");
     let every_triangle = BruteForce::new(bench.device(), geometry, binding, false).expect("pipelines");
-    // The lamp's corners in `cornell`, metres; rays end up to a cell of 17 mm from its border, on either side.
+    // The lamp's corners in `cornell`, metres; rays end up to a cell of 17 mm from its border, on either
+    // side.
     let (half, near, far, height) = (0.065, -0.227, -0.332, 0.5488);
     let mut random = Random::new(17);
     let rays: Vec<Ray> = (0..2000)
@@ -112,14 +114,15 @@ fn a_lamp_is_not_taken_for_its_ceiling() {
         }
     }
     println!("{wrong} of {} rays take one for the other", rays.len());
-    // Planes of both are at the same t but for rounding, by which the wrong one may be nearer: every ray ends at t = 1.
-    // Where fragments of any draw represent a triangle, 139 rays are wrong; by the rounding of hardware 27.
+    // Planes of both are at the same t but for rounding, by which the wrong one may be nearer: every ray ends
+    // at t = 1. Where fragments of any draw represent a triangle, 139 rays are wrong; by the rounding of
+    // hardware 27.
     let share = if bench.device().is_software() { 100 } else { 50 };
     assert!(wrong <= rays.len() / share, "{wrong} rays take one for the other");
 }
 
-/// On planes depth is at the level of rounding, whatever the size of a cell; with 16-bit depths too, since t is the
-/// triangle's.
+/// On planes depth is at the level of rounding, whatever the size of a cell; with 16-bit depths too, since t
+/// is the triangle's.
 #[test]
 fn depth_on_walls_is_that_of_the_triangles() {
     let bench = Bench::new();
@@ -135,7 +138,8 @@ fn depth_on_walls_is_that_of_the_triangles() {
     }
 }
 
-/// The share of wrong answers on a closed mesh falls as the size of a cell, and depth is right where the triangle is.
+/// The share of wrong answers on a closed mesh falls as the size of a cell, and depth is right where the
+/// triangle is.
 #[test]
 fn errors_on_a_closed_mesh_fall_with_the_size_of_a_cell() {
     let bench = Bench::new();
@@ -213,8 +217,8 @@ fn a_deep_cell_finds_every_layer() {
     }
 }
 
-/// Two thousand triangles in one cell, none of which covers its centre: a ray finds those at its depths by bisection, and
-/// reads no others.
+/// Two thousand triangles in one cell, none of which covers its centre: a ray finds those at its depths by
+/// bisection, and reads no others.
 #[test]
 fn triangles_beside_a_centre_are_searched_by_depth() {
     const LAYERS: usize = 2000;
@@ -347,7 +351,8 @@ fn invalid_rays_miss_and_finish() {
     assert_eq!(hits[0], hits[last]);
 }
 
-/// Cells are 0.56 wide and walls lean, so fragments of the wall that a ray leaves or ends on lie on either side of its ends.
+/// Cells are 0.56 wide and walls lean, so fragments of the wall that a ray leaves or ends on lie on either
+/// side of its ends.
 #[test]
 fn rays_with_clear_ends_hit_neither_what_they_leave_nor_what_they_end_on() {
     let bench = Bench::new();

@@ -1,4 +1,5 @@
-//! Layers that are peeled are those that one pass makes, to the bit; those beyond the maximum are counted and refused.
+//! Layers that are peeled are those that one pass makes, to the bit; those beyond the maximum are counted and
+//! refused.
 
 use rasray_ads::{Check, Geometry, Hit, Ray, Structure, TraceMode, Viewpoint};
 use rasray_gpu::Timing;

@@ -1,5 +1,5 @@
-//! The traversal over a flat grid of layered depth cubes: stopped and resumed at any square, it goes on as if it
-//! had not been, columns without rows included.
+//! The traversal over a flat grid of layered depth cubes: stopped and resumed at any square, it goes on as if
+//! it had not been, columns without rows included.
 
 use rasray_ads::Ray;
 use rasray_shaders_glsl::LDC_TEST_MARCH;
@@ -11,8 +11,8 @@ use rasray_tests::visits::{run_kernel, runs};
 /// A square, and how many rows its column has left; none or less where the column has none.
 type Visit = [i32; 3];
 
-/// Rays through the surroundings of an area from `first` to `last`: across it, close along its borders, and through its
-/// corners, where a column is touched by rounding alone.
+/// Rays through the surroundings of an area from `first` to `last`: across it, close along its borders, and
+/// through its corners, where a column is touched by rounding alone.
 fn rays(random: &mut Random, first: i32, last: i32) -> Vec<Ray> {
     let (low, high) = (first as f32, (last + 1) as f32);
     let side = high - low;
@@ -53,7 +53,8 @@ fn a_traversal_resumes_wherever_it_was_stopped() {
             &constants,
         );
         let traversals = runs(&found, &counts, limit);
-        // Squares; columns without rows, and of those such as stand before the first row or past the last, by side.
+        // Squares; columns without rows, and of those such as stand before the first row or past the last, by
+        // side.
         let (mut squares, mut without_rows, mut outside) = (0, 0, [0; 2]);
         for (ray, traversal) in rays.iter().zip(traversals.chunks(2)) {
             let [Some(whole), Some(stopped)] = traversal else {

@@ -9,7 +9,8 @@ use rasray_tracer::{BatchTracer, build_until_complete};
 
 use crate::misuse::unbuilt::{EYE, rays};
 
-/// Structures that can be built by computing. The quick tier has those whose kernels other tests have as well, and one more.
+/// Structures that can be built by computing. The quick tier has those whose kernels other tests have as
+/// well, and one more.
 const COMPUTED: &[&str] = &["bricks", "bvh", "grid", "brute-force", "abuffer", "primitive", "voxel", "ldc"];
 
 /// Number of [`COMPUTED`] tried in the quick tier.

@@ -1,5 +1,5 @@
-//! Several frames of one structure: builds that are pending together, structures that are dropped or resized while they
-//! are in use, demand that increases.
+//! Several frames of one structure: builds that are pending together, structures that are dropped or resized
+//! while they are in use, demand that increases.
 
 use ash::vk;
 use rasray_ads::{AdsError, BuildStatus, Check, Domain, Hit, Ray, RayQueue, Trace};
@@ -12,8 +12,8 @@ use rasray_tracer::build_until_complete;
 
 use crate::misuse::{dirty_memory, larger};
 
-/// Each recording has its own header, and each slot keeps the demand of its build: the second one's are not the first
-/// one's.
+/// Each recording has its own header, and each slot keeps the demand of its build: the second one's are not
+/// the first one's.
 #[test]
 fn builds_that_wait_for_the_device_together_keep_their_eyes() {
     let bench = Bench::new();
@@ -59,7 +59,8 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
         });
         submitted.expect("the device works").value.expect("it is recorded");
         let found = [1, 2].map(|slot| structure.status(slot).expect("the header is readable"));
-        // The number of begun pages depends slightly on which threads collide: demands may differ by an eighth.
+        // The number of begun pages depends slightly on which threads collide: demands may differ by an
+        // eighth.
         for (found, expected) in found.iter().zip(statuses) {
             assert!(found.complete && expected.complete, "{}", subject.name());
             for (found, expected) in found.pools.iter().zip(&expected.pools) {
@@ -87,7 +88,8 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
     assert!(statuses_differ > 0, "no structure's demand depends on the eye: the test cannot fail");
 }
 
-/// Objects that a recording for a host uses live as long as the recording, whatever happens to structure and queue.
+/// Objects that a recording for a host uses live as long as the recording, whatever happens to structure and
+/// queue.
 #[test]
 fn a_structure_may_be_dropped_or_resized_while_the_device_has_yet_to_use_it() {
     let bench = Bench::new();

@@ -1,4 +1,5 @@
-//! Safe functions called as they should not be: each is impossible, an error with a name, or a status that says so.
+//! Safe functions called as they should not be: each is impossible, an error with a name, or a status that
+//! says so.
 
 mod devices;
 mod frames;
@@ -64,8 +65,8 @@ fn structures_that_were_never_built_say_so() {
             let mut structure = subject.spec.create(device, &geometry, None).expect("it can be made");
             let status = structure.status(0).expect("the header is readable");
             assert!(!status.complete && status.outside == 0, "{}: {status:?}", subject.name());
-            // A build whose status was lost demands no more than the capacity, so that those after it are not lost,
-            // too.
+            // A build whose status was lost demands no more than the capacity, so that those after it are not
+            // lost, too.
             let wanted = structure.check(&status, 50).expect("there are sizes");
             assert_eq!(wanted, Check::Grow(structure.sizes().clone()), "{}", subject.name());
             for mode in [TraceMode::Closest, TraceMode::Occluded] {

@@ -143,7 +143,8 @@ fn a_queue_on_a_device_that_cannot_submit_selects_nothing() {
         memory: None,
         memory_limit: None,
     };
-    // SAFETY: all of it is the bench's, which goes last, with the features that it enabled; nothing is submitted.
+    // SAFETY: all of it is the bench's, which goes last, with the features that it enabled; nothing is
+    // submitted.
     let device = unsafe { Device::from_raw(raw) }.expect("it is a device");
     let parts = QueueParts { steps: 4, ..QueueParts::default() };
     let queue = RayQueue::with_parts(&device, "of a host", 9, parts).expect("it fits");

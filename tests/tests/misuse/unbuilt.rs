@@ -1,5 +1,5 @@
-//! Structures built for one input and traced with another: other triangles, another scene, frames that were never
-//! recorded.
+//! Structures built for one input and traced with another: other triangles, another scene, frames that were
+//! never recorded.
 
 use rasray_ads::{
     AdsError, BoundsPass, BruteForce, BufferOffset, Combined, Geometry, GeometryDesc, Hit, IndexFormat, Ray,
@@ -265,7 +265,8 @@ fn brute_force_waits_for_indices_of_triangles_that_were_counted_for_their_bounds
     assert!(hits.iter().all(Hit::is_hit) && !six.iter().all(Hit::is_hit), "{hits:?}");
 }
 
-/// Structures of fragments hold what the scene was when they were built: its masks and what they keep of its surfaces.
+/// Structures of fragments hold what the scene was when they were built: its masks and what they keep of its
+/// surfaces.
 #[test]
 fn a_scene_that_nothing_was_built_for_is_not_traced() {
     let bench = Bench::new();

@@ -10,7 +10,8 @@ use rasray_tracer::build_until_complete;
 
 use crate::payloads::published::{SIZE, made};
 
-/// Ids kept for diagnostics give the triangle of a hit and change nothing else: t and surfaces are the same to the bit.
+/// Ids kept for diagnostics give the triangle of a hit and change nothing else: t and surfaces are the same
+/// to the bit.
 #[test]
 fn ids_name_triangles_and_change_nothing_else() {
     let bench = Bench::new();
@@ -75,7 +76,8 @@ fn ids_name_triangles_and_change_nothing_else() {
             }
         }
         println!("{name}: {} of {} hit the wall, {diagnostic} bytes", compared.1, compared.0);
-        // Where walls touch, a fragment may be a neighbour's; more often where fragments are as thick as cells.
+        // Where walls touch, a fragment may be a neighbour's; more often where fragments are as thick as
+        // cells.
         let thick = *system == "mmrt" && !options.contains(&("accept", "plane"));
         let least = if thick { 0.9 } else { 0.95 };
         assert!(compared.0 > 500 && compared.1 as f64 >= least * compared.0 as f64, "{name}: {compared:?}");

@@ -1,5 +1,6 @@
-//! Ambient occlusion, paths and photons through every system in every preset: where triangles are found without loss
-//! the images are those of brute force, bit for bit; elsewhere they are as bright as errors of hits allow.
+//! Ambient occlusion, paths and photons through every system in every preset: where triangles are found
+//! without loss the images are those of brute force, bit for bit; elsewhere they are as bright as errors of
+//! hits allow.
 
 use rasray_ads::StructureKind;
 use rasray_gpu::Timing;
@@ -16,8 +17,9 @@ const SIZE: u32 = 32;
 const SAMPLES: u32 = 4;
 const BOUNCES: u32 = 2;
 
-/// Least and largest relative errors of the means of occlusion and of light, where hits may be off, so that what passes
-/// unexpectedly is noticed. Published fragments of mmrt are as thick as half a step, which hides more than there is.
+/// Least and largest relative errors of the means of occlusion and of light, where hits may be off, so that
+/// what passes unexpectedly is noticed. Published fragments of mmrt are as thick as half a step, which hides
+/// more than there is.
 const ALLOWED: &[(&str, Preset, [[f32; 2]; 2])] = &[
     ("mmrt", Preset::Published, [[0.2, 0.8], [0.03, 0.2]]),
     ("dirt", Preset::Published, [[0.0, 0.12], [0.0, 0.03]]),

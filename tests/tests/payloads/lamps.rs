@@ -1,5 +1,5 @@
-//! Lamps behind mirrors through fragments that store surfaces in place of triangles: an emitter keeps its triangle, by
-//! which paths know the light that photons brought, so that none counts twice.
+//! Lamps behind mirrors through fragments that store surfaces in place of triangles: an emitter keeps its
+//! triangle, by which paths know the light that photons brought, so that none counts twice.
 
 use glam::DVec3;
 use rasray_gpu::Timing;

@@ -1,5 +1,5 @@
-//! Published payloads: surfaces come from what fragments store, hits stay where they are, and secondary rays hit
-//! fragments that do not say which triangle they are of.
+//! Published payloads: surfaces come from what fragments store, hits stay where they are, and secondary rays
+//! hit fragments that do not say which triangle they are of.
 
 use rasray_ads::{Hit, PRIMITIVE_UNKNOWN, Structure, Surface};
 use rasray_gpu::Timing;
@@ -78,8 +78,8 @@ fn secondary_rays_hit_fragments_without_ids() {
 
 /// Parities lose little of a room, so that occlusion is near the truth with ids and without. All rays start a
 /// cell off a surface; only those that know its triangle exclude it, and the others may hit it again.
-/// A-buffers by their paper's rules are as near; where fragments have no thickness they lose most of the walls,
-/// which shows that the comparison would notice.
+/// A-buffers by their paper's rules are as near; where fragments have no thickness they lose most of the
+/// walls, which shows that the comparison would notice.
 #[test]
 fn secondary_rays_of_parities_come_near_the_truth() {
     let bench = Bench::new();
@@ -97,7 +97,8 @@ fn secondary_rays_of_parities_come_near_the_truth() {
         println!("{system}, {options:?}: {found} of {truth}");
         (found - truth).abs()
     };
-    // The renders draw the same random numbers; even if they did not, this is four standard deviations of such a mean.
+    // The renders draw the same random numbers; even if they did not, this is four standard deviations of
+    // such a mean.
     for payload in ["index", "attributes"] {
         assert!(error_of("hu", &[("payload", payload)]) < 0.03, "{payload}");
     }
@@ -112,7 +113,8 @@ fn largest(color: [f32; 3]) -> f32 {
     color.into_iter().fold(0.0, f32::max)
 }
 
-/// True if a hit is a fragment's, not that of a triangle close to the eye, of which the A-buffer alone has a list.
+/// True if a hit is a fragment's, not that of a triangle close to the eye, of which the A-buffer alone has a
+/// list.
 fn is_fragment(system: &str, hit: &Hit) -> bool {
     system != "mmrt" || hit.primitive == PRIMITIVE_UNKNOWN
 }
@@ -140,9 +142,10 @@ fn difference(left: [f32; 3], right: [f32; 3]) -> f32 {
 /// Answer to a ray: t, the triangle, and where it hits something position, normal and error of the position.
 type Answer = (f32, u32, Option<([f32; 3], [f32; 3], f32)>);
 
-/// Attributes that the paper stores for ambient occlusion are enough for it: hits are those of all attributes, bit for
-/// bit, and so are normals except for one ray in a hundred where fragments have the same t: a ray that enters a cell
-/// behind several of them within their thickness hits all of these where it enters.
+/// Attributes that the paper stores for ambient occlusion are enough for it: hits are those of all
+/// attributes, bit for bit, and so are normals except for one ray in a hundred where fragments have the same
+/// t: a ray that enters a cell behind several of them within their thickness hits all of these where it
+/// enters.
 #[test]
 fn normals_alone_serve_ambient_occlusion() {
     let bench = Bench::new();
@@ -193,7 +196,8 @@ fn normals_alone_serve_ambient_occlusion() {
                 Some((expected, mean_of_all)) => {
                     assert!((mean - mean_of_all).abs() < 1.0e-3, "{name}: {mean}, {mean_of_all} with all");
                     let pairs = || expected.iter().zip(&answers);
-                    // Payloads are of different kernels, of which hardware may contract a product and a sum in one.
+                    // Payloads are of different kernels, of which hardware may contract a product and a sum
+                    // in one.
                     let (rounding, turn) =
                         if bench.device().is_software() { (0.0, None) } else { (1.0e-5, Some(1.0e-3)) };
                     let is_same_hit = |(all, one): (&Answer, &Answer)| {
@@ -249,8 +253,8 @@ fn both_builders_store_the_same_attributes() {
     }
 }
 
-/// Rays hit fragments where they would if those had triangle ids, and see their colours and normals, except for the
-/// quantisation and the other material terms that a fragment stores.
+/// Rays hit fragments where they would if those had triangle ids, and see their colours and normals, except
+/// for the quantisation and the other material terms that a fragment stores.
 #[test]
 fn stored_surfaces_are_those_of_the_triangles() {
     const HALF_A_STEP: f32 = 0.51 / 255.0;
@@ -275,8 +279,8 @@ fn stored_surfaces_are_those_of_the_triangles() {
                     (hit.t.to_bits(), surface.primitive, met)
                 };
                 assert!(stored.iter().map(key).eq(by_address.iter().map(key)), "{system} by address");
-                // However lists are made and kept: fragments without ids are identified by their words. Systems
-                // of voxels share what keeps lists, so that the quick tier tries one way for each.
+                // However lists are made and kept: fragments without ids are identified by their words.
+                // Systems of voxels share what keeps lists, so that the quick tier tries one way for each.
                 let kept = match system {
                     "mmrt" => &[("storage", "sb"), ("storage", "ll"), ("storage", "paged")][..],
                     "hu" => first(&[("storage", "paged"), ("storage", "sb"), ("storage", "ll")], 1),
@@ -299,8 +303,8 @@ fn stored_surfaces_are_those_of_the_triangles() {
                     continue;
                 }
                 met += 1;
-                // Of what emits, from behind as well, the triangle is kept: how bright it is, and how likely light
-                // sampling finds it.
+                // Of what emits, from behind as well, the triangle is kept: how bright it is, and how likely
+                // light sampling finds it.
                 let named = system != "selective" && surface.primitive != PRIMITIVE_UNKNOWN;
                 if largest(expected.emission) > 0.0 || named {
                     lamps += 1;

@@ -1,5 +1,5 @@
-//! Mirrors that face each other, through every system: what they show of each other is that of brute force, bit for bit,
-//! where triangles are found without loss, and elsewhere as bright as errors of hits allow.
+//! Mirrors that face each other, through every system: what they show of each other is that of brute force,
+//! bit for bit, where triangles are found without loss, and elsewhere as bright as errors of hits allow.
 
 use glam::{DAffine3, DQuat, DVec3};
 use rasray_ads::StructureKind;
@@ -94,8 +94,8 @@ fn mirror_under_a_sky() -> Scene {
     }
 }
 
-/// The frame that the paper publishes: drawn first hits, rays from what mirrors alone. Those that hit nothing show the
-/// environment in their direction.
+/// The frame that the paper publishes: drawn first hits, rays from what mirrors alone. Those that hit nothing
+/// show the environment in their direction.
 #[test]
 fn rays_that_miss_a_layered_depth_cube_show_the_environment() {
     let bench = Bench::new();

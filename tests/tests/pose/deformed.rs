@@ -90,7 +90,8 @@ fn the_cloth_is_where_the_host_has_it() {
     }
 }
 
-/// A lamp that grows, shown at a node that moves, at one that stays and, without a rig, where its instances are.
+/// A lamp that grows, shown at a node that moves, at one that stays and, without a rig, where its instances
+/// are.
 #[test]
 fn a_shape_goes_where_its_nodes_go() {
     let bench = Bench::new();

@@ -52,8 +52,8 @@ fn positions_are_as_exact_as_their_size_allows() {
 /// Joints of both skins of [`two_skins`].
 const JOINTS: usize = 5;
 
-/// Two meshes around (1, -0.5, 2), each with a skin, whose joints come in another order (`turned`); `idle` puts a joint that
-/// no vertex has weight of at these places of the first skin.
+/// Two meshes around (1, -0.5, 2), each with a skin, whose joints come in another order (`turned`); `idle`
+/// puts a joint that no vertex has weight of at these places of the first skin.
 fn two_skins(turned: usize, idle: &[(usize, DVec3)]) -> Scene {
     let place = DVec3::new(1.0, -0.5, 2.0);
     let meshes = [cloud(40, [0.0; 3], 21), cloud(40, [0.0; 3], 22)];
@@ -85,7 +85,8 @@ fn two_skins(turned: usize, idle: &[(usize, DVec3)]) -> Scene {
     scene(meshes.into(), Rig { nodes, skins, deformed, ..Rig::default() }, channels)
 }
 
-/// A joint that moves nothing costs no digits, wherever it is, on the host and on the device; neither does the order of joints.
+/// A joint that moves nothing costs no digits, wherever it is, on the host and on the device; neither does
+/// the order of joints.
 #[test]
 fn a_far_joint_without_weight_costs_no_digits() {
     let bench = Bench::new();
@@ -116,7 +117,8 @@ fn a_far_joint_without_weight_costs_no_digits() {
     }
 }
 
-/// Two meshes of one skin far from each other, and one whose joints are: each keeps the digits of its own coordinates.
+/// Two meshes of one skin far from each other, and one whose joints are: each keeps the digits of its own
+/// coordinates.
 #[test]
 fn meshes_of_a_skin_are_as_exact_as_each_of_them_allows() {
     let bench = Bench::new();
@@ -126,7 +128,8 @@ fn meshes_of_a_skin_are_as_exact_as_each_of_them_allows() {
     let (mut nodes, skin, channels) = skin(8, 3, DVec3::new(0.5, 1.0, 0.0), DVec3::ZERO);
     nodes.splice(0..0, [0; 3].map(|_| node(None, DVec3::ZERO)));
     let mut far_nodes = skin.joint_from_mesh.clone();
-    // Joints 4 to 7 take what is far away in the space of the mesh to where the others are, for the second mesh alone.
+    // Joints 4 to 7 take what is far away in the space of the mesh to where the others are, for the second
+    // mesh alone.
     for step in &mut far_nodes[4..] {
         *step *= DAffine3::from_translation(-apart);
     }

@@ -186,8 +186,8 @@ impl<'a> DeviceScene<'a> {
         assert_eq!(emissive, fresh.emissive_triangles);
     }
 
-    /// Bounds on the device are those of the vertices there that triangles name, to the bit. Answers what a unit in the
-    /// last place of either corner makes of their size, relatively.
+    /// Bounds on the device are those of the vertices there that triangles name, to the bit. Answers what a
+    /// unit in the last place of either corner makes of their size, relatively.
     fn hold_bounds(&self) -> f32 {
         let device = self.bench.device();
         let (positions, indices) = self.gpu.geometry().download(device).expect("readable");

@@ -1,4 +1,5 @@
-//! Scenes made in code: mirrored over time, flattened, many joints, morph targets, splines, values that no number holds.
+//! Scenes made in code: mirrored over time, flattened, many joints, morph targets, splines, values that no
+//! number holds.
 
 use glam::{DAffine3, DQuat, DVec3};
 use rasray_scene::animation::{Channel, ChannelValues, Interpolation, NodeTransform, Placement, Rig};
@@ -51,7 +52,8 @@ fn a_scale_that_changes_its_sign_mirrors() {
     assert_eq!([mirrored(0.1), mirrored(0.9)], [vec![false, false], vec![true, false]]);
 }
 
-/// Shapes that many joints and two morph targets move; a third target is never shown, a fourth only at the end.
+/// Shapes that many joints and two morph targets move; a third target is never shown, a fourth only at the
+/// end.
 #[test]
 fn morph_targets_come_before_eight_joints() {
     let bench = Bench::new();
@@ -108,7 +110,8 @@ fn splines_of_translation_and_rotation() {
     assert_close("splines", worst(&stage), 150, 1.0e-5);
 }
 
-/// Copies of a mesh at two nodes, one of which shows other targets for a while: the host has another mesh then.
+/// Copies of a mesh at two nodes, one of which shows other targets for a while: the host has another mesh
+/// then.
 #[test]
 fn instances_of_a_mesh_have_weights_of_their_own() {
     let bench = Bench::new();
@@ -123,7 +126,8 @@ fn instances_of_a_mesh_have_weights_of_their_own() {
     let channels =
         vec![linear(1, weights), linear(2, ChannelValues::Scale(vec![[1.0; 3], [-2.0, 1.0, 1.0]]))];
     let mut made = scene(vec![mesh, cloud(30, [0.0; 3], 16)], rig, channels);
-    // The first mesh twice at the animated node, apart, once at the one that stays; the second one twice at the last.
+    // The first mesh twice at the animated node, apart, once at the one that stays; the second one twice at
+    // the last.
     let copy =
         |node, x| Placement { node, node_from_mesh: DAffine3::from_translation(DVec3::new(x, 0.0, 0.0)) };
     made.animation.rig.placements =
@@ -166,7 +170,8 @@ fn what_leaves_the_range_of_numbers_is_counted() {
     assert_eq!(stage.fresh(&at(&stage.scene, 1.0)).posed.dropped_triangles, 7, "as the host counts them");
 }
 
-/// Meshes hidden at rest by a scale of 0, of a node or of a joint, are whole when shown, with normals and tangents.
+/// Meshes hidden at rest by a scale of 0, of a node or of a joint, are whole when shown, with normals and
+/// tangents.
 #[test]
 fn what_is_hidden_at_rest_is_whole_when_it_is_shown() {
     let bench = Bench::new();

@@ -1,4 +1,5 @@
-//! Poses and views in recordings that are pending at the same time, and structures that are built after a pose.
+//! Poses and views in recordings that are pending at the same time, and structures that are built after a
+//! pose.
 
 use ash::vk;
 use glam::DVec3;
@@ -63,7 +64,8 @@ fn pending_recordings_have_poses_and_views_of_their_own() {
     });
     let views = [DVec3::X, DVec3::Y].map(view);
     let (raw, queue) = (device.raw(), device.raw_queue());
-    // SAFETY: pool and command buffers are this test's alone, and what was recorded is dropped after the wait.
+    // SAFETY: pool and command buffers are this test's alone, and what was recorded is dropped after the
+    // wait.
     unsafe {
         let info = vk::CommandPoolCreateInfo::default().queue_family_index(device.queue_family());
         let pool = raw.create_command_pool(&info, None).expect("a pool");
@@ -124,7 +126,8 @@ fn what_was_made_for_another_scene_is_refused() {
     assert!(matches!(pass, Err(GpuSceneError::Malformed { limit: 1, .. })), "{pass:?}");
 }
 
-/// One structure, built again after each pose, answers as the oracle does on the positions that are on the device.
+/// One structure, built again after each pose, answers as the oracle does on the positions that are on the
+/// device.
 #[test]
 fn structures_are_built_from_what_was_posed() {
     let bench = Bench::new();

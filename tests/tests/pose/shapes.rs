@@ -99,7 +99,8 @@ pub fn scene(meshes: Vec<Mesh>, rig: Rig, channels: Vec<Channel>) -> Scene {
     scene.at(&Moment::default()).expect("a rig")
 }
 
-/// A skin of a chain of joints in the world around `place`, which turn, for a mesh around `centre` of its own space.
+/// A skin of a chain of joints in the world around `place`, which turn, for a mesh around `centre` of its own
+/// space.
 pub fn skin(
     joints: usize,
     first_node: usize,

@@ -1,5 +1,5 @@
-//! Pools of bricks at every edge capacity: exact demands, no partial answers, bytes as the formula says, bricks and lists
-//! well formed; and the check of both notices every fault.
+//! Pools of bricks at every edge capacity: exact demands, no partial answers, bytes as the formula says,
+//! bricks and lists well formed; and the check of both notices every fault.
 
 use rasray_ads::{Check, Structure, TraceMode};
 use rasray_bricks::{
@@ -60,7 +60,8 @@ fn every_edge_capacity_of_bricks_by_address() {
     edges_of(Config { addressing: Addressing::Address, ..config(Views::Cube) });
 }
 
-/// Records and lists of bricks at every edge: whatever there is capacity for, the next build completes, with the same hits.
+/// Records and lists of bricks at every edge: whatever there is capacity for, the next build completes, with
+/// the same hits.
 #[test]
 fn bricks_grow_from_any_capacity_to_what_they_need() {
     configs().into_iter().for_each(bricks_grow);

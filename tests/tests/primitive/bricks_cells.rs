@@ -47,7 +47,8 @@ fn mixed(random: &mut Random) -> Vec<Triangle> {
     triangles
 }
 
-/// True if a triangle reaches into the box between two corners; in double precision, by cutting it at the six sides.
+/// True if a triangle reaches into the box between two corners; in double precision, by cutting it at the six
+/// sides.
 fn reaches_into(triangle: &[[f64; 3]; 3], lower: [f64; 3], upper: [f64; 3]) -> bool {
     let mut polygon = triangle.to_vec();
     for axis in 0..3 {
@@ -69,8 +70,8 @@ fn reaches_into(triangle: &[[f64; 3]; 3], lower: [f64; 3], upper: [f64; 3]) -> b
     !polygon.is_empty()
 }
 
-/// Counts of [`check_lists`]: cells of each level, entries, and those of a triangle that reaches into the cell without
-/// margins.
+/// Counts of [`check_lists`]: cells of each level, entries, and those of a triangle that reaches into the
+/// cell without margins.
 #[derive(Debug)]
 struct Listed {
     of_levels: [usize; 4],
@@ -170,8 +171,8 @@ fn crowded(random: &mut Random) -> Vec<Triangle> {
     triangles
 }
 
-/// Every cell that a triangle reaches into lists it, and none that is farther from it than the margins; also those of divided
-/// cells.
+/// Every cell that a triangle reaches into lists it, and none that is farther from it than the margins; also
+/// those of divided cells.
 #[test]
 fn cells_list_what_reaches_into_them_and_nothing_else() {
     let bench = Bench::new();
@@ -218,7 +219,8 @@ fn cells_of_a_flat_scene_are_divided_within_its_plane() {
     }
 }
 
-/// Rays from within the bounds and from outside of them, some along an axis and some along the scene's planes.
+/// Rays from within the bounds and from outside of them, some along an axis and some along the scene's
+/// planes.
 fn rays_at(random: &mut Random, [lower, upper]: [[f32; 3]; 2], count: usize) -> Vec<Ray> {
     let extent: [f32; 3] = std::array::from_fn(|axis| upper[axis] - lower[axis]);
     let longest = extent.into_iter().fold(0.0, f32::max);

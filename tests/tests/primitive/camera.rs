@@ -1,5 +1,5 @@
-//! Lists of what the camera sees alone: hits within its view are those of brute force, bit for bit, and what lies outside
-//! is missed.
+//! Lists of what the camera sees alone: hits within its view are those of brute force, bit for bit, and what
+//! lies outside is missed.
 
 use rasray_ads::{AdsError, BruteForce, CameraView, Hit, Ray, Structure, StructureKind, Viewpoint};
 use rasray_gpu::Timing;

@@ -1,5 +1,5 @@
-//! Pools of primitive lists at every edge capacity: exact demands, no partial answers, bytes as the formula says, lists
-//! well formed; and the check of lists notices every fault.
+//! Pools of primitive lists at every edge capacity: exact demands, no partial answers, bytes as the formula
+//! says, lists well formed; and the check of lists notices every fault.
 
 use rasray_ads::{Check, Structure};
 use rasray_primitive::{

@@ -1,5 +1,5 @@
-//! Shared parts of tests of pools of either structure: the scene, the rays, and every edge capacity of entries and of
-//! the near-region list.
+//! Shared parts of tests of pools of either structure: the scene, the rays, and every edge capacity of
+//! entries and of the near-region list.
 
 use rasray_ads::kit::{Design, Pooled};
 use rasray_ads::{BuildStatus, Check, Geometry, Hit, Ray, Structure, TraceMode};
@@ -30,8 +30,8 @@ pub trait Capacity: Sized {
     fn capacity(entries: u64, near: u64, triangles: &[Triangle]) -> Self;
 }
 
-/// Whatever capacity there is for entries and near triangles, demands are exact, no answer is partial, and what was grown
-/// from there completes with the same hits. `check` holds lists well formed.
+/// Whatever capacity there is for entries and near triangles, demands are exact, no answer is partial, and
+/// what was grown from there completes with the same hits. `check` holds lists well formed.
 pub fn every_edge_capacity<D>(config: D::Config, near_triangles: u64, check: impl Fn(&D::Contents, u32))
 where
     D: Design,

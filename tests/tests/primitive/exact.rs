@@ -1,5 +1,5 @@
-//! Lists of triangles, per tile and in bricks, against brute force, bit for bit: at every size of cells, from every eye
-//! and origin, with every budget; and lists that cover too little are noticed.
+//! Lists of triangles, per tile and in bricks, against brute force, bit for bit: at every size of cells, from
+//! every eye and origin, with every budget; and lists that cover too little are noticed.
 
 use rasray_ads::{BruteForce, Counters, Hit, Ray, Structure, TraceMode};
 use rasray_bricks::{Bricks, Config as BricksConfig, Views};
@@ -40,7 +40,8 @@ impl Made {
         structure
     }
 
-    /// The structure with options that change no hit: the other builder, pools by address, no blocks of tiles.
+    /// The structure with options that change no hit: the other builder, pools by address, no blocks of
+    /// tiles.
     fn otherwise(self) -> Self {
         let other = |builder| match builder {
             Builder::Raster => Builder::Binning,
@@ -254,8 +255,8 @@ fn every_published_rule_loses_hits() {
     assert!(refusing > 10 * jumping, "{refusing} hits differ with the rule, {jumping} without");
 }
 
-/// Conservative rasterization by the device lists a triangle in no tile that the shared function leaves out, and in most that
-/// it does not; what is lost lies in front. Without the feature it is refused.
+/// Conservative rasterization by the device lists a triangle in no tile that the shared function leaves out,
+/// and in most that it does not; what is lost lies in front. Without the feature it is refused.
 #[test]
 fn what_the_extension_touches_is_part_of_conservative_lists() {
     let bench = Bench::new();
@@ -287,8 +288,8 @@ fn what_the_extension_touches_is_part_of_conservative_lists() {
     assert!(lost.iter().all(|&ray| !hits[ray].is_hit() || hits[ray].t >= expected[ray].t));
 }
 
-/// Blocks of tiles are searched from either end of the pyramid for the largest that holds nothing: a ray visits the same
-/// tiles, and without blocks more of them.
+/// Blocks of tiles are searched from either end of the pyramid for the largest that holds nothing: a ray
+/// visits the same tiles, and without blocks more of them.
 #[test]
 fn the_pyramid_skips_the_same_from_either_end() {
     let bench = Bench::new();

@@ -16,7 +16,8 @@ fn rays() -> Vec<Ray> {
     Random::new(0x6178).rays(RAYS, -9.0, 9.0)
 }
 
-/// Builds, and checks that the bytes are those of the formula: hits, and the demand for the large-triangle queue.
+/// Builds, and checks that the bytes are those of the formula: hits, and the demand for the large-triangle
+/// queue.
 fn built(bench: &Bench, structure: &mut dyn Structure, name: &str) -> (Vec<[u32; 4]>, u64) {
     build_until_complete(bench.device(), structure, [0.0; 3], Timing::None).expect("the build completes");
     let report = structure.report().expect("the header is readable");

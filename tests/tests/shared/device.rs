@@ -1,5 +1,5 @@
-//! The device floor: missing features are named, features that were not requested are not enabled, and structures run
-//! with exactly what they require.
+//! The device floor: missing features are named, features that were not requested are not enabled, and
+//! structures run with exactly what they require.
 
 use std::collections::BTreeSet;
 

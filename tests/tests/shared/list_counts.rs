@@ -1,4 +1,5 @@
-//! Contents of lists, counted from closed forms: k parallel triangles are k layers in every cell that they cover.
+//! Contents of lists, counted from closed forms: k parallel triangles are k layers in every cell that they
+//! cover.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -52,7 +53,8 @@ fn is_covered(point: [f64; 2]) -> bool {
     edges.iter().all(|edge| *edge > 0.0)
 }
 
-/// Cells of a square view of which the flat triangle covers the centre; `at` is where a row or column has its centre.
+/// Cells of a square view of which the flat triangle covers the centre; `at` is where a row or column has its
+/// centre.
 fn covered(at: impl Fn(u32) -> f64) -> u64 {
     let cells = (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| [column, row]));
     cells.filter(|cell| is_covered(cell.map(&at))).count() as u64
@@ -111,7 +113,8 @@ fn parallel_triangles_are_layers_of_an_a_buffer() {
             assert_eq!((view.slots, u64::from(header.demand)), (view.layers, view.layers));
         }
     }
-    // The camera looks along the same axis, with a right angle: the same cells once more, in a view of its own.
+    // The camera looks along the same axis, with a right angle: the same cells once more, in a view of its
+    // own.
     let camera = CameraView {
         right: [1.0, 0.0, 0.0],
         up: [0.0, 1.0, 0.0],
@@ -246,7 +249,8 @@ fn a_tile_has_each_triangle_once_however_many_of_its_buckets_list_it() {
     assert!(several > 0, "no triangle reached into two buckets of a tile");
 }
 
-/// Bounds that hold for every structure: no cell holds more than the stated maximum, and nothing is counted twice.
+/// Bounds that hold for every structure: no cell holds more than the stated maximum, and nothing is counted
+/// twice.
 #[test]
 fn counts_of_every_structure_agree_with_what_it_reports() {
     let bench = Bench::new();

@@ -1,5 +1,5 @@
-//! Shared parts of structures, alone on the device: triangle test, marches, grids, buckets, coverage, pages, parity,
-//! builders.
+//! Shared parts of structures, alone on the device: triangle test, marches, grids, buckets, coverage, pages,
+//! parity, builders.
 
 mod axis_builders;
 mod bucket;

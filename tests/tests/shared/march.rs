@@ -14,9 +14,9 @@ use rasray_tests::visits::{
 
 use crate::shared::march_cases;
 
-/// Maximum number of visits of one ray. A traversal is monotone in columns and rows, and a line crosses at most three
-/// faces at length, so there are at most 4 (resolution + 2) steps and a few for the border. Each visits at
-/// most the eight cells around it as well, which happens only where cells are as small as rounding.
+/// Maximum number of visits of one ray. A traversal is monotone in columns and rows, and a line crosses at
+/// most three faces at length, so there are at most 4 (resolution + 2) steps and a few for the border. Each
+/// visits at most the eight cells around it as well, which happens only where cells are as small as rounding.
 fn visit_limit(resolution: u32) -> usize {
     9 * 4 * (resolution as usize + 2) + 64
 }
@@ -50,7 +50,8 @@ fn traverse_within(
     all
 }
 
-/// The visits of each ray. Few rays need capacity for more than they would without rounding; those are traversed again.
+/// The visits of each ray. Few rays need capacity for more than they would without rounding; those are
+/// traversed again.
 fn traverse(bench: &Bench, rays: &[Ray], resolution: u32, near: f32) -> Vec<Vec<Visit>> {
     let first = traverse_within(bench, rays, resolution, near, 4 * (resolution as usize + 2) + 64);
     let long: Vec<Ray> =

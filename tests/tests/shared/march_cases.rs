@@ -1,4 +1,5 @@
-//! Rays that cube traversals find hard; letters and numbers are those of the list of hard cases (view geometry).
+//! Rays that cube traversals find hard; letters and numbers are those of the list of hard cases (view
+//! geometry).
 
 use rasray_ads::Ray;
 use rasray_tests::random::Random;

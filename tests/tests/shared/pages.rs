@@ -6,8 +6,8 @@ use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::visits::run_kernel;
 
-/// The words of the lists and pages after `threads` threads put an entry each into one of `lists` lists, and the slot
-/// that each was given.
+/// The words of the lists and pages after `threads` threads put an entry each into one of `lists` lists, and
+/// the slot that each was given.
 fn fill(bench: &Bench, lists: &[u32], list_count: usize, page: u32, capacity: u32) -> (Vec<u32>, Vec<u32>) {
     let words = 1 + list_count + (capacity * (1 + page)) as usize;
     let constants = PageTestConstants {
@@ -75,7 +75,8 @@ fn every_entry_is_in_its_list_once() {
     }
 }
 
-/// Threads that do not collide begin no more pages than they need, and demand is counted past the end of the pool.
+/// Threads that do not collide begin no more pages than they need, and demand is counted past the end of the
+/// pool.
 #[test]
 fn demand_is_exact_where_threads_do_not_collide_and_counted_past_the_end() {
     const LISTS: usize = 640;

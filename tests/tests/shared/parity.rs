@@ -1,5 +1,6 @@
-//! Several structures in one shader that is not ours: their GLSL functions called side by side find what the queue
-//! kernels find; every pair of structures, with pools in descriptors and by address, and two of a kind by address.
+//! Several structures in one shader that is not ours: their GLSL functions called side by side find what the
+//! queue kernels find; every pair of structures, with pools in descriptors and by address, and two of a kind
+//! by address.
 
 use std::collections::BTreeMap;
 
@@ -107,8 +108,8 @@ impl Traced {
     }
 }
 
-/// The default of every structure that can be called from another shader, by its folder of shaders, reached as
-/// `addressing` says.
+/// The default of every structure that can be called from another shader, by its folder of shaders, reached
+/// as `addressing` says.
 fn structures(bench: &Bench, geometry: &Geometry, addressing: &str) -> BTreeMap<&'static str, Traced> {
     let mut structures = BTreeMap::new();
     for system in SYSTEMS.iter().filter(|system| system.has("addressing")) {

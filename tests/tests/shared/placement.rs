@@ -1,4 +1,5 @@
-//! Placement of views and cells by header passes (`ads/placement.glsl`), on the device and held against arithmetic in f64.
+//! Placement of views and cells by header passes (`ads/placement.glsl`), on the device and held against
+//! arithmetic in f64.
 
 use bytemuck::cast_slice;
 use rasray_shaders_glsl::ADS_TEST_PLACEMENT;
@@ -152,7 +153,8 @@ fn cells_hold_the_geometry_with_its_margins() {
     }
 }
 
-/// Cells of a part have margins for rays from anywhere in the whole, and those of a whole none that it does not need.
+/// Cells of a part have margins for rays from anywhere in the whole, and those of a whole none that it does
+/// not need.
 #[test]
 fn rays_may_start_anywhere_around_a_part() {
     let bounds = [[-1.0, 0.0, -1.0], [1.0, 2.0, 1.0]];

@@ -20,8 +20,8 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|axis| a[axis] * b[axis]).sum()
 }
 
-/// Hit of the ray on the triangle's plane, within the range of its corners along the ray's longest axis, and how far
-/// double precision may be off.
+/// Hit of the ray on the triangle's plane, within the range of its corners along the ray's longest axis, and
+/// how far double precision may be off.
 fn truth(case: &Case) -> (f64, f64) {
     let wide = |p: [f32; 3]| p.map(f64::from);
     let [a, b, c] = case.triangle.map(wide);
@@ -121,7 +121,8 @@ fn grazed(random: &mut Random) -> Case {
     let scale = [1.0_f32, 3.0, 10.0][random.bits() as usize % 3];
     let (slope, far) = (random.between(0.1, 0.9), 1000.0 * scale);
     let width = random.between(0.5, 2.0);
-    // Seen along (0, slope, 1), the first corner is half as far below the ray as the others are above it, or about.
+    // Seen along (0, slope, 1), the first corner is half as far below the ray as the others are above it, or
+    // about.
     let triangle = [
         [0.0, -step * random.between(0.5, 2.0), 0.0],
         [width, slope * far + step, far],

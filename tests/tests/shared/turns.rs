@@ -1,4 +1,5 @@
-//! Loops with different numbers of iterations per invocation of a workgroup, on which traversals and builds depend.
+//! Loops with different numbers of iterations per invocation of a workgroup, on which traversals and builds
+//! depend.
 
 use rasray_shaders_glsl::{ADS_TEST_TURNS, ADS_TEST_TURNS_BARRIER, Shader};
 use rasray_tests::harness::Bench;

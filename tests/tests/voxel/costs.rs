@@ -22,8 +22,8 @@ fn milliseconds(repeats: u32, mut call: impl FnMut()) -> Option<f64> {
     Some((processor_seconds()? - begun) * 1e3 / f64::from(repeats))
 }
 
-/// Fragments in voxels, by DDA and by the octree; and voxels as fine as the cells of the fragments, both ways: the paper
-/// compares its fragments with rays traced down to the leaves of an octree of that size.
+/// Fragments in voxels, by DDA and by the octree; and voxels as fine as the cells of the fragments, both
+/// ways: the paper compares its fragments with rays traced down to the leaves of an octree of that size.
 fn compared(cells: u32) -> [(&'static str, Config); 4] {
     let fragments = Config { counters: Counters::Sums, ..Config::at_centres(cells) };
     let voxels = Config { leaves: Leaves::Voxels, grid: Some(cells), ..fragments };

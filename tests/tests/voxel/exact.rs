@@ -1,5 +1,5 @@
-//! Voxels whose cells keep every triangle that reaches into them against brute force, bit for bit; and cells that
-//! keep less are noticed.
+//! Voxels whose cells keep every triangle that reaches into them against brute force, bit for bit; and cells
+//! that keep less are noticed.
 
 use rasray_ads::{BruteForce, Ray, Structure, StructureKind};
 use rasray_gpu::Timing;
@@ -72,7 +72,8 @@ fn cells_that_keep_all_that_reaches_into_them_lose_no_hit() {
     );
 }
 
-/// Depths that rounding leaves open are stored as none, in some cells of long needles and in no cell of others.
+/// Depths that rounding leaves open are stored as none, in some cells of long needles and in no cell of
+/// others.
 #[test]
 fn some_slivers_are_tested_at_all_depths_of_their_cells() {
     let bench = Bench::new();

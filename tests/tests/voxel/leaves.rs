@@ -47,7 +47,8 @@ fn place(contents: &Contents, ray: &Ray, t: f64) -> [f64; 3] {
     })
 }
 
-/// The running index of the voxel with a point; absent outside of the grid, and within `margin` voxels of a voxel's side.
+/// The running index of the voxel with a point; absent outside of the grid, and within `margin` voxels of a
+/// voxel's side.
 fn voxel_at(grid: f64, p: [f64; 3], margin: f64) -> Option<usize> {
     let is_clear = |x: &f64| (x - x.round()).abs() > margin && (0.0..grid).contains(x);
     p.iter().all(is_clear).then(|| {
@@ -78,8 +79,9 @@ fn crossed(contents: &Contents, ray: &Ray) -> Vec<(f64, Option<usize>)> {
     sides.windows(2).map(between).collect()
 }
 
-/// A hit is on the side of the first occupied voxel that the ray enters after that in which it begins, and names that
-/// voxel's triangle. Where the ray passes an edge within rounding, either voxel next to it may be first.
+/// A hit is on the side of the first occupied voxel that the ray enters after that in which it begins, and
+/// names that voxel's triangle. Where the ray passes an edge within rounding, either voxel next to it may be
+/// first.
 #[test]
 fn rays_hit_the_first_occupied_voxel_that_they_enter() {
     let bench = Bench::new();
@@ -118,7 +120,8 @@ fn rays_hit_the_first_occupied_voxel_that_they_enter() {
     }
 }
 
-/// A voxel holds every part of every triangle, so a ray from outside that hits a triangle hits a voxel, and no later.
+/// A voxel holds every part of every triangle, so a ray from outside that hits a triangle hits a voxel, and
+/// no later.
 #[test]
 fn no_ray_passes_a_triangle() {
     let bench = Bench::new();

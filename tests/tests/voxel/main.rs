@@ -1,5 +1,5 @@
-//! Voxels over A-buffers along the axes: marks, storages, exactness, voxels as leaves, the octree, pools of every edge
-//! capacity.
+//! Voxels over A-buffers along the axes: marks, storages, exactness, voxels as leaves, the octree, pools of
+//! every edge capacity.
 
 mod capacity;
 mod costs;

@@ -1,5 +1,5 @@
-//! The octree over the voxels: it says of each voxel what the grid says, and rays that skip its empty nodes find the hits of
-//! rays that go from voxel to voxel, bit for bit.
+//! The octree over the voxels: it says of each voxel what the grid says, and rays that skip its empty nodes
+//! find the hits of rays that go from voxel to voxel, bit for bit.
 
 use rasray_ads::{Addressing, Builder, Check, Counters, Ray, Structure, TraceMode};
 use rasray_gpu::Timing;
@@ -34,7 +34,8 @@ fn sparse() -> Vec<Triangle> {
     triangles
 }
 
-/// Rays in every direction; along axes; along sides and edges of voxels, exactly and nearly; through corners of voxels.
+/// Rays in every direction; along axes; along sides and edges of voxels, exactly and nearly; through corners
+/// of voxels.
 fn rays(structure: &Voxels, count: usize) -> Vec<Ray> {
     let header = structure.header().expect("the header is readable");
     let mut random = Random::new(52);
@@ -116,8 +117,8 @@ fn hits_are_those_of_rays_that_visit_every_voxel() {
         ];
         let tried = configs.into_iter().enumerate().filter(|(place, _)| is_pair(scene, *place, 2));
         for (_, config) in tried {
-            // By either traversal, so small a budget gives up a ray along the edges of voxels through lists as long as those
-            // of all sizes.
+            // By either traversal, so small a budget gives up a ray along the edges of voxels through lists
+            // as long as those of all sizes.
             if scene == 1 && config.work_budget.is_some() {
                 continue;
             }
@@ -173,7 +174,8 @@ fn the_octree_says_of_each_voxel_what_the_grid_says() {
     }
 }
 
-/// With less capacity than it takes no ray is answered, the pool grows to what it takes, and bytes are those of the page.
+/// With less capacity than it takes no ray is answered, the pool grows to what it takes, and bytes are those
+/// of the page.
 #[test]
 fn nodes_grow_to_what_they_take() {
     let bench = Bench::new();

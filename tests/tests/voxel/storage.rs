@@ -1,5 +1,5 @@
-//! Contents of voxels and axis A-buffers, and what follows for rays: fragments saved against what geometry allows,
-//! builds that repeat, and hits that do not depend on budgets and on how lists are kept.
+//! Contents of voxels and axis A-buffers, and what follows for rays: fragments saved against what geometry
+//! allows, builds that repeat, and hits that do not depend on budgets and on how lists are kept.
 
 use rasray_ads::{Hit, Ray, Structure};
 use rasray_scene::facing::Facing;
@@ -27,8 +27,9 @@ fn tilted(triangles: &[Triangle]) -> Vec<Triangle> {
     triangles.iter().map(|triangle| triangle.map(turn).map(lean)).collect()
 }
 
-/// The paper reports 64 to 66 %. What can be saved follows from the directions of surfaces: nothing on a box along the
-/// axes, whose walls leave fragments in one view anyway, a third and more on others. More than that is lost coverage.
+/// The paper reports 64 to 66 %. What can be saved follows from the directions of surfaces: nothing on a box
+/// along the axes, whose walls leave fragments in one view anyway, a third and more on others. More than that
+/// is lost coverage.
 #[test]
 fn fragments_saved_are_those_that_geometry_allows() {
     const RESOLUTION: u32 = 256;
@@ -56,15 +57,16 @@ fn fragments_saved_are_those_that_geometry_allows() {
             100.0 * bound
         );
         assert!(bound >= least, "{name}: {bound}");
-        // A closed surface leaves as many fragments as its projections have cells, give or take its silhouettes.
+        // A closed surface leaves as many fragments as its projections have cells, give or take its
+        // silhouettes.
         let silhouettes = 8.0 / f64::from(RESOLUTION);
         assert!(
             saved <= bound + silhouettes,
             "{name} saves {saved} of its fragments, and {bound} is possible"
         );
         assert!(saved >= bound - silhouettes, "{name} saves {saved} of its fragments of {bound} possible");
-        // A voxel on an edge between surfaces of two axes keeps those of one only: what is saved beyond the bound is
-        // what rays will miss there.
+        // A voxel on an edge between surfaces of two axes keeps those of one only: what is saved beyond the
+        // bound is what rays will miss there.
         let edges = 2.0 / f64::from(Config::at_centres(RESOLUTION).grid());
         assert!((by_voxel - bound).abs() <= edges + silhouettes, "{name}: {by_voxel} of {bound}");
     }
@@ -165,7 +167,8 @@ fn budgets_change_no_hit() {
     }
 }
 
-/// However lists are kept, and in whatever order they are read: the same hits, of triangles that coincide as well.
+/// However lists are kept, and in whatever order they are read: the same hits, of triangles that coincide as
+/// well.
 #[test]
 fn storages_change_no_hit() {
     let bench = Bench::new();

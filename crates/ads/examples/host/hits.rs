@@ -1,13 +1,13 @@
-//! A structure in the command buffers of the host, the same for every one: built, traced, and resized where a build
-//! needs more capacity.
+//! A structure in the command buffers of the host, the same for every one: built, traced, and resized where a
+//! build needs more capacity.
 
 use rasray_ads::{Check, Domain, Hit, RayQueue, Structure, Trace};
 use rasray_gpu::{Device, Recorder};
 
 use super::{Host, Result, rays};
 
-/// Builds after which a demand counts as not stable. Most structures need two; one whose demand is known only once an
-/// earlier pool sufficed needs a few more.
+/// Builds after which a demand counts as not stable. Most structures need two; one whose demand is known only
+/// once an earlier pool sufficed needs a few more.
 const BUILDS: u32 = 9;
 
 /// Builds and traces in one command buffer of the host, and again where a build needs more capacity.
@@ -19,7 +19,8 @@ pub fn hits(host: &Host, device: &Device, structure: &mut dyn Structure) -> Resu
     for _ in 0..BUILDS {
         structure.prepare_build(device)?;
         let recorded = host.submit(0, |commands| {
-            // SAFETY: the command buffer is being recorded by nobody else, and `recorded` outlives the wait below.
+            // SAFETY: the command buffer is being recorded by nobody else, and `recorded` outlives the wait
+            // below.
             let mut recorder = unsafe { Recorder::from_raw(device, commands) };
             queue.record_reset(&mut recorder);
             structure.record_build(&mut recorder, 0, [0.5, 0.5, -0.5].into())?;

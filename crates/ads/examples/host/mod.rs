@@ -1,6 +1,6 @@
-//! The host of the examples: a small renderer with a Vulkan instance, device, queue, command buffers and buffers of its
-//! own, and some triangles. [`Host::raw_device`] and [`Host::geometry`] say what rasray is handed; `hits.rs` is the loop that
-//! builds and traces.
+//! The host of the examples: a small renderer with a Vulkan instance, device, queue, command buffers and
+//! buffers of its own, and some triangles. [`Host::raw_device`] and [`Host::geometry`] say what rasray is
+//! handed; `hits.rs` is the loop that builds and traces.
 
 #![allow(dead_code)] // Each example uses some of it.
 
@@ -53,11 +53,12 @@ pub struct HostBuffer {
 }
 
 impl Host {
-    /// Makes a device with those features and a queue for compute, and for graphics where a feature is about drawing.
+    /// Makes a device with those features and a queue for compute, and for graphics where a feature is about
+    /// drawing.
     pub fn new(features: &[Feature]) -> Result<Self> {
         let draws = features.contains(&Feature::DynamicRendering);
-        // SAFETY: every handle is used with the instance or device that it was made from, by this thread alone, and what
-        // the calls point to outlives them.
+        // SAFETY: every handle is used with the instance or device that it was made from, by this thread
+        // alone, and what the calls point to outlives them.
         unsafe {
             let entry = ash::Entry::load()?;
             let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
@@ -220,7 +221,8 @@ impl Host {
         Ok(buffer)
     }
 
-    /// A compute pipeline, its layout, and a set at number 0 with one buffer; `sets` are the layouts of sets 1 and up.
+    /// A compute pipeline, its layout, and a set at number 0 with one buffer; `sets` are the layouts of sets
+    /// 1 and up.
     pub fn pipeline(
         &self,
         spirv: &[u32],

@@ -69,8 +69,8 @@ pub struct CampaignArguments {
     /// Leave the runs alone that the folder holds. A line of another program, device or plan is refused
     #[arg(long)]
     pub resume: bool,
-    /// One of N shares of the work, I from 1 to N: each Nth set of rays or list of images, whose systems take turns. Writes
-    /// cells.I-of-N.jsonl alone
+    /// One of N shares of the work, I from 1 to N: each Nth set of rays or list of images, whose systems take
+    /// turns. Writes cells.I-of-N.jsonl alone
     #[arg(long, value_name = "I/N", value_parser = values::shard)]
     pub shard: Option<Shard>,
     /// Device that does the work.

@@ -45,8 +45,8 @@ const SHARES: &str = "Resuming and shares";
           mut_arg("primary", |argument| argument.help("Method of first hits of images [default: trace]")),
           mut_arg("occluder", |argument| argument.help("Occluder of shadow rays to lights without extent, of images [default: structure]")))]
 pub struct CompareArguments {
-    /// A file (.gltf .glb .obj .ply), numbered files ('a.####.ply'), a built-in scene with parameters, or a hard case
-    /// (hard:E5, hard:all)
+    /// A file (.gltf .glb .obj .ply), numbered files ('a.####.ply'), a built-in scene with parameters, or a
+    /// hard case (hard:E5, hard:all)
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
     /// Options for one system, such as mmrt.march=samples; of several values each takes part
@@ -82,7 +82,8 @@ pub struct CompareArguments {
     /// Also count what the lists of each structure hold: layers per cell, slots that pages waste
     #[arg(long)]
     pub statistics: bool,
-    /// JSON with everything that was measured; - is standard output; a .jsonl takes a line per run as soon as it is whole
+    /// JSON with everything that was measured; - is standard output; a .jsonl takes a line per run as soon as
+    /// it is whole
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
     /// Page with tables, pictures and graphs, whole in one file
@@ -91,12 +92,12 @@ pub struct CompareArguments {
     /// Markdown table of all ray sets, a line a run
     #[arg(long, value_name = "FILE")]
     pub markdown: Option<PathBuf>,
-    /// Go on with a --report .jsonl: runs that it holds are left alone. A line of another program, device or comparison is
-    /// refused
+    /// Go on with a --report .jsonl: runs that it holds are left alone. A line of another program, device or
+    /// comparison is refused
     #[arg(long, requires = "report", conflicts_with_all = ["replay", "save_rays", "save_hits"], help_heading = SHARES)]
     pub resume: bool,
-    /// One of N shares of the work, I from 1 to N, for rasray merge: each Nth set of rays or hard case, whose systems take
-    /// turns; all images count as one
+    /// One of N shares of the work, I from 1 to N, for rasray merge: each Nth set of rays or hard case, whose
+    /// systems take turns; all images count as one
     #[arg(long, value_name = "I/N", value_parser = values::shard, requires = "report",
           conflicts_with_all = ["replay", "save_rays", "save_hits"], help_heading = SHARES)]
     pub shard: Option<Shard>,
@@ -112,8 +113,8 @@ pub struct CompareArguments {
 }
 
 impl CompareArguments {
-    /// Systems to compare: every named system with every named preset that it has, and with each of the values that are
-    /// addressed to it.
+    /// Systems to compare: every named system with every named preset that it has, and with each of the
+    /// values that are addressed to it.
     ///
     /// # Errors
     /// A preset or an option that none of the systems has, values that are not taken or do not go together.

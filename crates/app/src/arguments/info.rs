@@ -39,8 +39,8 @@ pub struct InfoArguments {
     /// With a scene: time of its animation, seconds [default: at rest]
     #[arg(long, value_name = "SECONDS", value_parser = Quantity::SECONDS.parser::<f64>(), allow_hyphen_values = true, requires = "scene")]
     pub time: Option<f64>,
-    /// With --time: the clip that moves the scene, by name or by position from 0 [default: all that do not move the same
-    /// thing]
+    /// With --time: the clip that moves the scene, by name or by position from 0 [default: all that do not
+    /// move the same thing]
     #[arg(long, value_name = "NAME", requires = "time")]
     pub clip: Option<String>,
     /// With a scene: the integrator whose needs are shown
@@ -73,8 +73,8 @@ impl InfoArguments {
     /// The system that something is wanted of.
     ///
     /// # Errors
-    /// A preset or an option that the system does not have, a value that it does not take, or options where nothing is
-    /// wanted of a system.
+    /// A preset or an option that the system does not have, a value that it does not take, or options where
+    /// nothing is wanted of a system.
     pub fn system(&self) -> Result<Option<SystemConfig>, AppError> {
         if self.passes || self.statistics {
             return Ok(Some(self.system.config(self.preset, &self.structure.0)?));

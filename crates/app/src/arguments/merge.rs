@@ -25,7 +25,8 @@ again; all runs of the comparison are to be there, of one program and device.";
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct MergeArguments {
-    /// File to write: .png or .exr of shares of the samples, .jsonl of reports, .json, .md or .html of comparisons
+    /// File to write: .png or .exr of shares of the samples, .jsonl of reports, .json, .md or .html of
+    /// comparisons
     #[arg(value_name = "OUT")]
     pub out: PathBuf,
     /// Files to put together
@@ -34,8 +35,8 @@ pub struct MergeArguments {
     /// Colours of a .png.
     #[command(flatten)]
     pub tone: ToneArguments,
-    /// Take what noise is left out of the picture, with the library Open Image Denoise where it is installed; shares are to
-    /// have --aov albedo,normal
+    /// Take what noise is left out of the picture, with the library Open Image Denoise where it is installed;
+    /// shares are to have --aov albedo,normal
     #[arg(long)]
     pub denoise: bool,
 }

@@ -153,8 +153,8 @@ fn read(arguments: &[OsString]) -> Result<CommandLine, clap::Error> {
     Ok(line)
 }
 
-/// The words, with negative numbers behind long options as their values: `--spp -1` as `--spp=-1`. The parser would take
-/// them for short options that it does not know, and blame these.
+/// The words, with negative numbers behind long options as their values: `--spp -1` as `--spp=-1`. The parser
+/// would take them for short options that it does not know, and blame these.
 fn with_negative_values(words: &[OsString]) -> Vec<OsString> {
     let mut joined: Vec<OsString> = Vec::with_capacity(words.len());
     let mut options = true;

@@ -8,7 +8,8 @@ use std::path::PathBuf;
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Files of rays and hits")]
 pub struct RayFileArguments {
-    /// Rays to trace: a .rays file, or a .npy array of N x 6, 7 or 8 numbers (origin, direction, t_min, t_max)
+    /// Rays to trace: a .rays file, or a .npy array of N x 6, 7 or 8 numbers (origin, direction, t_min,
+    /// t_max)
     #[arg(long, value_name = "FILE")]
     pub rays_file: Option<PathBuf>,
     /// Hits that another tracer found for the only set of rays; compared like a system's

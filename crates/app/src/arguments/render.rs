@@ -81,8 +81,8 @@ pub struct RenderArguments {
     /// Builds that are timed after the first, for the medians of a report, 1 to 10000 [default: none]
     #[arg(long, value_name = "N", value_parser = values::whole(1, 10_000))]
     pub repetitions: Option<u32>,
-    /// Frames of an animation, numbers as in 0-99: one image each, at number / --fps seconds. In the names of --output and
-    /// --report a run of # is the number; a report .jsonl without one takes a row per frame
+    /// Frames of an animation, numbers as in 0-99: one image each, at number / --fps seconds. In the names of
+    /// --output and --report a run of # is the number; a report .jsonl without one takes a row per frame
     #[arg(long, value_name = "FIRST-LAST", value_parser = values::frames, requires = "output", conflicts_with = "time",
           help_heading = FRAMES)]
     pub frames: Option<RangeInclusive<u32>>,
@@ -90,11 +90,12 @@ pub struct RenderArguments {
     #[arg(long, value_parser = refresh_parser(), default_value = Refresh::All.name(), requires = "frames", conflicts_with = "time",
           help_heading = FRAMES)]
     pub refresh: Refresh,
-    /// Leave whole images alone that this command would make again, by the key that they carry: it goes on where it was
-    /// stopped, and replaces what was made of another scene or with other options
+    /// Leave whole images alone that this command would make again, by the key that they carry: it goes on
+    /// where it was stopped, and replaces what was made of another scene or with other options
     #[arg(long, requires = "output", help_heading = FRAMES)]
     pub resume: bool,
-    /// One of N shares of the work, I from 1 to N: of --frames each Nth; else of the samples, as an .exr for rasray merge
+    /// One of N shares of the work, I from 1 to N: of --frames each Nth; else of the samples, as an .exr for
+    /// rasray merge
     #[arg(long, value_name = "I/N", value_parser = values::shard, help_heading = FRAMES)]
     pub shard: Option<Shard>,
     /// The image, the camera, the scene, the structure and the device.
@@ -103,11 +104,13 @@ pub struct RenderArguments {
     /// Take what noise is left out of the picture, with the library Open Image Denoise where it is installed
     #[arg(long, requires = "output", help_heading = IMAGE)]
     pub denoise: bool,
-    /// More samples where there is more noise: each pixel gets as many, up to --spp, as the first samples of the pixels around
-    /// it need for this standard error, as a share of their radiance, such as 0.02. The image is as unbiased as without
+    /// More samples where there is more noise: each pixel gets as many, up to --spp, as the first samples of
+    /// the pixels around it need for this standard error, as a share of their radiance, such as 0.02. The
+    /// image is as unbiased as without
     #[arg(long, value_name = "SHARE", value_parser = Quantity::NOISE.parser::<f64>(), help_heading = IMAGE)]
     pub adaptive: Option<f64>,
-    /// Samples that every pixel gets and that say how many more are needed, 2 to 1048576 [default: 16, at most --spp]
+    /// Samples that every pixel gets and that say how many more are needed, 2 to 1048576 [default: 16, at
+    /// most --spp]
     #[arg(long, value_name = "N", value_parser = values::whole(2, 1_048_576), requires = "adaptive", help_heading = IMAGE)]
     pub least_samples: Option<u32>,
 }
@@ -126,8 +129,8 @@ impl RenderArguments {
         Ok(self.system.config(self.preset, &self.work.structure.0)?)
     }
 
-    /// The image that was asked for; where nothing is said of it and the scene's own camera sees it, the one that suits a
-    /// built-in scene.
+    /// The image that was asked for; where nothing is said of it and the scene's own camera sees it, the one
+    /// that suits a built-in scene.
     ///
     /// # Errors
     /// An option of an integrator that was not chosen, or what adaptive samples do not go with.

@@ -44,7 +44,8 @@ pub struct TalkArguments {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Image")]
 pub struct FrameArguments {
-    /// Integrator [default: path; with --preset published the frame of its paper: integrator, primary, occluder]
+    /// Integrator [default: path; with --preset published the frame of its paper: integrator, primary,
+    /// occluder]
     #[arg(long, value_parser = integrator_parser())]
     pub integrator: Option<&'static IntegratorRow>,
     /// Pixels [default: 640x360; pictures of cornell: 256x256]
@@ -71,7 +72,8 @@ pub struct FrameArguments {
     /// Texels along a side of a shadow map, with --occluder shadow-maps, 16 to 16384 [default: 1024]
     #[arg(long, value_name = "N", value_parser = values::whole(OccluderKind::RESOLUTIONS[0], OccluderKind::RESOLUTIONS[1]))]
     pub shadow_resolution: Option<u32>,
-    /// Points on each emitting triangle with a cube of maps each, with --occluder shadow-maps [default: 0, rays are traced]
+    /// Points on each emitting triangle with a cube of maps each, with --occluder shadow-maps [default: 0,
+    /// rays are traced]
     #[arg(long, value_name = "N", value_parser = values::whole(0, OccluderKind::MOST_POINTS))]
     pub shadow_points: Option<u32>,
     /// Rays that pass the backs of single-sided surfaces, as glTF has them (doubleSided: false)
@@ -133,11 +135,12 @@ pub struct ViewArguments {
     /// Full vertical angle of view, with --eye and --target [default: 45]
     #[arg(long, value_name = "DEGREES", value_parser = Quantity::ANGLE_OF_VIEW.parser::<f64>(), requires = "eye")]
     pub fov: Option<f64>,
-    /// Diameter of the lens's opening, metres: what is not in focus is blurred. A lens of 50 mm at f/1.8 has 0.05 / 1.8
-    /// [default: 0, a pinhole]
+    /// Diameter of the lens's opening, metres: what is not in focus is blurred. A lens of 50 mm at f/1.8 has
+    /// 0.05 / 1.8 [default: 0, a pinhole]
     #[arg(long, value_name = "METRES", value_parser = Quantity::LENGTH.parser::<f64>())]
     pub aperture: Option<f64>,
-    /// With an aperture: distance of the plane in focus, metres along the view, above 0 [default: that of --target]
+    /// With an aperture: distance of the plane in focus, metres along the view, above 0 [default: that of
+    /// --target]
     #[arg(long, value_name = "METRES", value_parser = Quantity::DISTANCE.parser::<f64>(), requires = "aperture")]
     pub focus: Option<f64>,
 }
@@ -172,23 +175,26 @@ pub enum NeedsName {
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Scene")]
 pub struct SceneArguments {
-    /// Radiance from outside: a latitude-longitude map (.hdr), or one colour, black too [default: the scene's; where
-    /// nothing lights the scene, a neutral sky with a soft key light. Surfaces that emit light it from a mean
-    /// radiance of 0.05 over all surfaces on: lamps in a room do, marks that glow on an object do not]
+    /// Radiance from outside: a latitude-longitude map (.hdr), or one colour, black too [default: the
+    /// scene's; where nothing lights the scene, a neutral sky with a soft key light. Surfaces that emit light
+    /// it from a mean radiance of 0.05 over all surfaces on: lamps in a room do, marks that glow on an object
+    /// do not]
     #[arg(long, value_name = "FILE.hdr|R,G,B")]
     pub environment: Option<String>,
     /// Let alpha cut holes and blend; off makes every surface opaque
     #[arg(long, value_enum, default_value_t = Switch::On)]
     pub alpha: Switch,
-    /// Show the scene at this time of its animation, seconds from -1e9 to 1e9; before the first and after the last key it
-    /// stands still. Of numbered files, the last that has begun is shown [default: at rest, as the file places everything]
+    /// Show the scene at this time of its animation, seconds from -1e9 to 1e9; before the first and after the
+    /// last key it stands still. Of numbered files, the last that has begun is shown [default: at rest, as
+    /// the file places everything]
     #[arg(long, value_name = "SECONDS", value_parser = Quantity::SECONDS.parser::<f64>(), allow_hyphen_values = true)]
     pub time: Option<f64>,
-    /// With a time: the clip that moves the scene, by name or by position from 0 [default: all that do not move the same
-    /// thing]
+    /// With a time: the clip that moves the scene, by name or by position from 0 [default: all that do not
+    /// move the same thing]
     #[arg(long, value_name = "NAME")]
     pub clip: Option<String>,
-    /// Frames per second: number n of --frames, or of a scene in numbered files, is shown at n / this [default: 25]
+    /// Frames per second: number n of --frames, or of a scene in numbered files, is shown at n / this
+    /// [default: 25]
     #[arg(long, value_name = "N", value_parser = Quantity::FRAMES_PER_SECOND.parser::<f64>())]
     pub fps: Option<f64>,
     /// Parts of the scene that are uploaded, compiled in and stored
@@ -269,8 +275,8 @@ pub struct WorkArguments {
 }
 
 impl WorkArguments {
-    /// The image that was asked for; `defaults` where nothing is said of it and no integrator is named. First hits are drawn
-    /// through a pinhole, and of all pixels; else they are traced unless told.
+    /// The image that was asked for; `defaults` where nothing is said of it and no integrator is named. First
+    /// hits are drawn through a pinhole, and of all pixels; else they are traced unless told.
     ///
     /// # Errors
     /// An option of an integrator or an occluder that was not chosen.

@@ -32,8 +32,8 @@ const MOST_FRAMES: u32 = 9_999_999;
 /// Largest side of an image, in pixels.
 const SIDE_LIMIT: u32 = 16_384;
 
-/// Largest distance of a point from the origin of the world along an axis, metres: farther away squares of distances
-/// exceed single precision.
+/// Largest distance of a point from the origin of the world along an axis, metres: farther away squares of
+/// distances exceed single precision.
 const FARTHEST: f64 = 1.0e18;
 
 /// Text that is no value of an argument.

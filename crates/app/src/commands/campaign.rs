@@ -57,12 +57,12 @@ pub(super) fn read_plan(path: &Path, small: bool) -> Result<Plan, AppError> {
 }
 
 impl<'a> Campaign<'a> {
-    /// Makes the cells that are missing, and of all of them the files of the folder. The lines of all cells, if all are
-    /// there; of a share and of a dry run none.
+    /// Makes the cells that are missing, and of all of them the files of the folder. The lines of all cells,
+    /// if all are there; of a share and of a dry run none.
     ///
     /// # Errors
-    /// Options that a comparison does not take, by the experiment's name; what is wrong with a scene; a folder that takes no
-    /// files; a signal.
+    /// Options that a comparison does not take, by the experiment's name; what is wrong with a scene; a
+    /// folder that takes no files; a signal.
     pub(super) fn make(
         &self,
         open: &mut OpenBackend<'_>,

@@ -32,7 +32,8 @@ impl Pictures<'_> {
         }
         if let Some(rows) = &mut self.rows {
             if numbers.is_empty() || rows.is_changed() {
-                // A share without frames has a report without rows, so that reports of all shares can be merged.
+                // A share without frames has a report without rows, so that reports of all shares can be
+                // merged.
                 rows.write(self.interrupt)?;
             }
             terminal::note(&format!("{} has a row of each frame", rows.place().named().display()));
@@ -43,8 +44,8 @@ impl Pictures<'_> {
         Ok(())
     }
 
-    /// The frame before one, where anything of it is wanted: also of the first, so that no frame depends on which others
-    /// are made. The scene is shown as it is then.
+    /// The frame before one, where anything of it is wanted: also of the first, so that no frame depends on
+    /// which others are made. The scene is shown as it is then.
     fn frame_before(&mut self, number: u32) -> Result<Option<FrameBefore>, AppError> {
         if !self.aovs.contains(Aov::Motion) {
             return Ok(None);

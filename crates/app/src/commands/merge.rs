@@ -76,8 +76,8 @@ fn read(path: &Path) -> Result<PartFile, AppError> {
     decode_part(bytes).map_err(|error| AppError::input(path, error, help))
 }
 
-/// The parts in the order of their first samples, in which they are added whatever order they were named in. Refuses parts
-/// that do not make one whole picture.
+/// The parts in the order of their first samples, in which they are added whatever order they were named in.
+/// Refuses parts that do not make one whole picture.
 fn in_order(parts: &[PathBuf]) -> Result<Vec<&Path>, AppError> {
     let mut first: Option<(&Path, String)> = None;
     let mut holders: Vec<Option<&Path>> = Vec::new();
@@ -128,8 +128,8 @@ fn in_order(parts: &[PathBuf]) -> Result<Vec<&Path>, AppError> {
     Ok(ordered)
 }
 
-/// Adds the parts: one after the other in f64, so that the sums of the parts are the only ones that are rounded. Further
-/// images are those of the part with the first sample.
+/// Adds the parts: one after the other in f64, so that the sums of the parts are the only ones that are
+/// rounded. Further images are those of the part with the first sample.
 fn add(parts: &[&Path]) -> Result<(RenderOutput, Metadata), AppError> {
     let mut sums: Vec<[f64; 3]> = Vec::new();
     let mut counts: Vec<u32> = Vec::new();
@@ -205,7 +205,8 @@ struct FrameRequest<'a> {
     of: Option<u32>,
 }
 
-/// Refuses rows of different commands, and rows that are not all that one of these commands and its other shares make.
+/// Refuses rows of different commands, and rows that are not all that one of these commands and its other
+/// shares make.
 fn check_rows(rows: &BTreeMap<u32, (Row, &Path)>) -> Result<(), AppError> {
     let Some((first, from)) = rows.values().next() else { return Ok(()) };
     let mut asked: BTreeMap<(u32, u32), FrameRequest<'_>> = BTreeMap::new();

@@ -77,8 +77,8 @@ pub(super) fn rows(given: &RenderArguments) -> Result<Option<Rows>, AppError> {
     Ok(Some(rows))
 }
 
-/// The path with a number in place of the last run of # in its file name, with as many digits or more; absent where it
-/// has none.
+/// The path with a number in place of the last run of # in its file name, with as many digits or more; absent
+/// where it has none.
 fn numbered(path: &Path, number: u32) -> Option<PathBuf> {
     let name = path.file_name()?.to_str()?;
     let end = name.rfind('#')? + 1;

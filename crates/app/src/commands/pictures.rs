@@ -63,7 +63,8 @@ impl Pictures<'_> {
         }
     }
 
-    /// The images that are rendered in addition to the colours: those that were asked for, and what a denoiser needs.
+    /// The images that are rendered in addition to the colours: those that were asked for, and what a
+    /// denoiser needs.
     fn rendered_aovs(&self) -> AovSelection {
         self.aovs.with(self.denoiser.iter().flat_map(|_| Aov::FOR_DENOISING))
     }
@@ -74,8 +75,8 @@ impl Pictures<'_> {
         key_of_denoised(key, self.denoiser.as_ref())
     }
 
-    /// Renders the scene as it is and writes what was asked for; `key` is the picture's. `keeps_part`: a signal keeps
-    /// the samples done so far.
+    /// Renders the scene as it is and writes what was asked for; `key` is the picture's. `keeps_part`: a
+    /// signal keeps the samples done so far.
     pub(super) fn render(
         &mut self,
         targets: &Targets,

@@ -29,7 +29,8 @@ pub(crate) fn render(
     let system = given.system()?.serving(frame.workload());
     let denoiser = denoiser(given.denoise)?;
     let shard = samples_shard(given)?;
-    // All shares of the frames begin alike: a camera that nothing moves stays where it is for the first of all.
+    // All shares of the frames begin alike: a camera that nothing moves stays where it is for the first of
+    // all.
     let first = given.frames.as_ref().map(|range| *range.start());
     let numbers = given.frames.as_ref().map(|range| dealt(range, given.shard));
     // Of frames this refuses what is wrong with the first.

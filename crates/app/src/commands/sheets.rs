@@ -15,8 +15,8 @@ const GAP: u32 = 4;
 /// Smaller pictures are magnified, each pixel to a square, as long as they stay within it; pixels.
 const WIDTH: u32 = 300;
 
-/// Writes a sheet into the folder of a campaign, of the pictures that are there. Warns of those that are not: lines of cells may
-/// come from elsewhere.
+/// Writes a sheet into the folder of a campaign, of the pictures that are there. Warns of those that are not:
+/// lines of cells may come from elsewhere.
 ///
 /// # Errors
 /// A file that is no picture; a folder that takes no file.

@@ -73,7 +73,8 @@ pub(super) struct Shown {
     pub(super) times: Vec<f64>,
 }
 
-/// Reads a scene as the command line asks, shown at a time or at rest, and chooses the camera; warns of what was left out of it.
+/// Reads a scene as the command line asks, shown at a time or at rest, and chooses the camera; warns of what
+/// was left out of it.
 pub(super) fn read_scene(
     name: &OsStr,
     reading: &SceneArguments,
@@ -156,8 +157,8 @@ pub(super) fn fit_images(
     Ok(())
 }
 
-/// Does `work` with a progress line; a signal asks it to end early. `is_kept` says from which progress on something
-/// is finished that an early end keeps: before that, a signal does not wait for it.
+/// Does `work` with a progress line; a signal asks it to end early. `is_kept` says from which progress on
+/// something is finished that an early end keeps: before that, a signal does not wait for it.
 pub(super) fn with_progress<T>(
     interrupt: &Interrupt,
     is_kept: impl Fn(&Progress<'_>) -> bool,

@@ -6,8 +6,8 @@ use rasray_experiment::{
     AdsError, ExperimentError, FrameError, GpuSceneError, Holder, IntegratorError, TracerError,
 };
 
-/// The exit code: where the advice is to report a defect [`EXIT_DEFECT`], whatever failed; of all others only what a
-/// device lacks or fails at is [`EXIT_DEVICE`].
+/// The exit code: where the advice is to report a defect [`EXIT_DEFECT`], whatever failed; of all others only
+/// what a device lacks or fails at is [`EXIT_DEVICE`].
 pub(crate) fn exit_code(error: &ExperimentError) -> u8 {
     if help(error) == DEFECT {
         return EXIT_DEFECT;

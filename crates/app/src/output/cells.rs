@@ -25,8 +25,8 @@ pub(crate) struct CellLines {
     is_torn: bool,
 }
 
-/// Reads the cells of a file; none where there is no file. A last line that was cut short by a kill is left out, with a
-/// warning.
+/// Reads the cells of a file; none where there is no file. A last line that was cut short by a kill is left
+/// out, with a warning.
 ///
 /// # Errors
 /// The file cannot be read, or another line of it is no report of a cell.
@@ -80,8 +80,8 @@ pub(crate) fn difference(line: &Report, other: &Report) -> Option<String> {
     })
 }
 
-/// The report of the runs of these lines, in the order of their places; `None` without any. What they have in common is as
-/// the first one says it.
+/// The report of the runs of these lines, in the order of their places; `None` without any. What they have in
+/// common is as the first one says it.
 pub(crate) fn assembled<'a>(lines: impl IntoIterator<Item = &'a Report>) -> Option<Report> {
     let mut lines = lines.into_iter().peekable();
     let first = (*lines.peek()?).clone();
@@ -116,11 +116,12 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    /// The cells of `list`, as this program (`origin`) makes them on a device. A file takes a line for each; `resume` keeps
-    /// the lines that are there.
+    /// The cells of `list`, as this program (`origin`) makes them on a device. A file takes a line for each;
+    /// `resume` keeps the lines that are there.
     ///
     /// # Errors
-    /// The file cannot be read, another command writes it, or a line of it is of another program, device or comparison.
+    /// The file cannot be read, another command writes it, or a line of it is of another program, device or
+    /// comparison.
     pub(crate) fn open(
         list: CellList,
         (origin, device): (Origin, Device),
@@ -198,7 +199,8 @@ impl Cells {
         Ok(groups.flat_map(|(_, places)| places.clone()).filter(missing).collect())
     }
 
-    /// Adds the run of a cell, with its line in the file; a run that is not whole gets none, so that it is made again.
+    /// Adds the run of a cell, with its line in the file; a run that is not whole gets none, so that it is
+    /// made again.
     ///
     /// # Errors
     /// The file takes no line, or another command writes it.

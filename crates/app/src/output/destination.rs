@@ -9,7 +9,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// Suffix of the names of unfinished files: that of no file of anybody else, since what is left of them is removed.
+/// Suffix of the names of unfinished files: that of no file of anybody else, since what is left of them is
+/// removed.
 const UNFINISHED: &str = ".rasray-tmp";
 
 /// Random letters and digits in their names.
@@ -128,8 +129,8 @@ impl Destination {
         Ok(())
     }
 
-    /// Puts a file with these bytes in place. Whatever fails, a file that was there before stays as it was and nothing
-    /// else is left behind; an end at once through `interrupt` leaves nothing either.
+    /// Puts a file with these bytes in place. Whatever fails, a file that was there before stays as it was
+    /// and nothing else is left behind; an end at once through `interrupt` leaves nothing either.
     ///
     /// # Errors
     /// [`AppError::Refused`], as the bytes exist and could not be kept.
@@ -171,7 +172,8 @@ impl Destination {
         Ok(())
     }
 
-    /// A file in the same folder under a name of its own, with the permissions of any new file; removed when it is dropped.
+    /// A file in the same folder under a name of its own, with the permissions of any new file; removed when
+    /// it is dropped.
     fn begin(&self) -> io::Result<NamedTempFile> {
         tempfile::Builder::new()
             .prefix(&self.unfinished_prefix())
@@ -194,8 +196,8 @@ impl Destination {
         name
     }
 
-    /// Removes what runs that were killed while they wrote this very file have left. A file that somebody still
-    /// writes is locked and stays.
+    /// Removes what runs that were killed while they wrote this very file have left. A file that somebody
+    /// still writes is locked and stays.
     fn sweep(&self) {
         let prefix = self.unfinished_prefix();
         let Ok(entries) = std::fs::read_dir(self.folder()) else { return };

@@ -1,6 +1,6 @@
-//! OpenEXR: linear 32-bit floats in one part, losslessly compressed. Channels: R, G, B, and those that [`Aov::channels`]
-//! names, of which a layer is what precedes the last dot; whole numbers have 32 bits without a sign. A share of the samples
-//! has sums in R, G, B, and in samples how many each sum holds.
+//! OpenEXR: linear 32-bit floats in one part, losslessly compressed. Channels: R, G, B, and those that
+//! [`Aov::channels`] names, of which a layer is what precedes the last dot; whole numbers have 32 bits
+//! without a sign. A share of the samples has sums in R, G, B, and in samples how many each sum holds.
 //!
 //! [`Aov::channels`]: rasray_experiment::Aov::channels
 

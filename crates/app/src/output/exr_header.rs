@@ -1,5 +1,5 @@
-//! The header of an EXR file of one part, byte by byte: what the encoder leaves open is fixed, and a checksum makes
-//! damage show. The format itself has none.
+//! The header of an EXR file of one part, byte by byte: what the encoder leaves open is fixed, and a checksum
+//! makes damage show. The format itself has none.
 
 use sha2::{Digest, Sha256};
 use std::ops::Range;
@@ -67,8 +67,9 @@ fn checksum(bytes: &[u8], place: &Range<usize>) -> String {
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Orders the attributes by their names, since the encoder keeps them in a map that has no order, and equal images are to
-/// be equal files; then fills in the checksum. `None` where the header is cut short or has no space for a checksum.
+/// Orders the attributes by their names, since the encoder keeps them in a map that has no order, and equal
+/// images are to be equal files; then fills in the checksum. `None` where the header is cut short or has no
+/// space for a checksum.
 pub(super) fn finish(bytes: &mut [u8]) -> Option<()> {
     let (found, end) = attributes(bytes)?;
     let mut begin = FIRST;

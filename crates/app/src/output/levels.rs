@@ -4,8 +4,8 @@ use super::format::ImageFormat;
 use rasray_experiment::RenderOutput;
 use rasray_metrics::Tone;
 
-/// The mean of a PNG's linear values, clamped to 0 to 1, below which it is nearly black. Single bright pixels, as noise
-/// makes them, do not hide that.
+/// The mean of a PNG's linear values, clamped to 0 to 1, below which it is nearly black. Single bright
+/// pixels, as noise makes them, do not hide that.
 const DARK: f64 = 0.015;
 /// The share of pixels that makes an image white.
 const NEARLY_ALL: f64 = 0.98;

@@ -1,5 +1,5 @@
-//! PNG: 8-bit sRGB. Colours times 2^exposure, clamped to [0, 1] or through the curve that was asked for, then the sRGB
-//! curve, rounded to the nearest step. No dithering: other programs can reproduce every value.
+//! PNG: 8-bit sRGB. Colours times 2^exposure, clamped to [0, 1] or through the curve that was asked for, then
+//! the sRGB curve, rounded to the nearest step. No dithering: other programs can reproduce every value.
 
 use super::exr::Metadata;
 use super::stamp::{DENOISED, KEY, TONE, tone_text};
@@ -8,7 +8,8 @@ use rasray_experiment::RenderOutput;
 use rasray_metrics::{Tone, tone_map};
 use std::io::Write;
 
-/// The bytes of a PNG file of the colours, with how they are shown, and with a key and what denoised them where there is.
+/// The bytes of a PNG file of the colours, with how they are shown, and with a key and what denoised them
+/// where there is.
 ///
 /// # Errors
 /// The message of the encoder.

@@ -9,8 +9,8 @@ use rasray_scene_source::KeyHash;
 use std::io::{Cursor, ErrorKind};
 use std::path::Path;
 
-/// The key of an image: an attribute of an EXR, a tEXt chunk of a PNG. It belongs to the whole file, with the way in
-/// which it shows the picture.
+/// The key of an image: an attribute of an EXR, a tEXt chunk of a PNG. It belongs to the whole file, with the
+/// way in which it shows the picture.
 pub const KEY: &str = "rasrayKey";
 
 /// Tone of a PNG, a tEXt chunk: the curve, and the stops of exposure before it.
@@ -27,8 +27,8 @@ pub fn tone_text(tone: Tone) -> String {
     }
 }
 
-/// The key of a file that shows the picture with the key `picture`: as a PNG in a certain tone, as an EXR, or as
-/// an EXR of a share of the samples.
+/// The key of a file that shows the picture with the key `picture`: as a PNG in a certain tone, as an EXR, or
+/// as an EXR of a share of the samples.
 pub fn image_key(picture: &str, format: ImageFormat, tone: Tone, shard: Option<Shard>) -> String {
     let hash = KeyHash::default().with("picture", picture);
     match (format, shard) {
@@ -77,7 +77,8 @@ impl ImageState {
     }
 }
 
-/// Reads the file at `path` and says whether it is the image with this key. Its pixels are only looked at if it says so.
+/// Reads the file at `path` and says whether it is the image with this key. Its pixels are only looked at if
+/// it says so.
 ///
 /// # Errors
 /// There is a file that cannot be read.

@@ -1,4 +1,5 @@
-//! Comparisons whose runs are lines of a file: stopped, resumed, divided and merged, they are the report of one process.
+//! Comparisons whose runs are lines of a file: stopped, resumed, divided and merged, they are the report of
+//! one process.
 
 use std::path::Path;
 use std::time::{Duration, Instant};

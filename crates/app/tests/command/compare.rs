@@ -110,8 +110,8 @@ fn a_page_has_figures_and_a_hard_case_its_verdict() {
     assert_eq!(report.scene.name, "hard:E5");
 }
 
-/// Times of passes and host add up to the figures, also where a pass is dispatched often, the host builds, and the
-/// number of repetitions is even.
+/// Times of passes and host add up to the figures, also where a pass is dispatched often, the host builds,
+/// and the number of repetitions is even.
 #[test]
 fn passes_add_up_to_the_figures_of_a_run() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -183,8 +183,8 @@ fn a_table_is_as_wide_as_columns_say() {
     }
 }
 
-/// Rays through hundreds of thousands of triangles in one place need more rounds than rays are given at first: in a
-/// batch, in an image and for what is stored beside its colours.
+/// Rays through hundreds of thousands of triangles in one place need more rounds than rays are given at
+/// first: in a batch, in an image and for what is stored beside its colours.
 #[test]
 fn a_ray_through_very_many_triangles_has_its_answer() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -235,8 +235,8 @@ fn what_does_not_fit_on_the_disk_leaves_what_was_there() {
     }
 }
 
-/// Where nothing was said of addressing, a pool beyond one binding is reached by address; where descriptors were asked
-/// for, it is refused with the pool and the fix.
+/// Where nothing was said of addressing, a pool beyond one binding is reached by address; where descriptors
+/// were asked for, it is refused with the pool and the fix.
 #[test]
 fn a_pool_beyond_a_binding_is_reached_by_address_unless_told() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -69,8 +69,8 @@ fn a_scene_is_described_without_a_device() {
     assert!(text.contains("scene cornell") && text.contains("triangles"), "{text}");
 }
 
-/// The shipped command cannot be made to fail on demand: no feature of `rasray-gpu` is on in it. That this would be
-/// seen is shown by the package of the tests of faults, which has it on.
+/// The shipped command cannot be made to fail on demand: no feature of `rasray-gpu` is on in it. That this
+/// would be seen is shown by the package of the tests of faults, which has it on.
 #[test]
 fn what_ships_has_no_faults_on_demand() {
     let features = |package: &str, edges: &str| {

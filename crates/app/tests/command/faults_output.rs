@@ -1,4 +1,5 @@
-//! Files that cannot be written, are cut short, or whose writer is killed: never a wrong file under the right name.
+//! Files that cannot be written, are cut short, or whose writer is killed: never a wrong file under the right
+//! name.
 #![cfg(target_os = "linux")]
 
 use crate::scripted::{command, entries, stderr};
@@ -95,8 +96,8 @@ fn kill_writers(in_place: bool, enough: impl Fn(&Remains) -> bool) -> Remains {
     panic!("60 writers were killed, hardly one while it wrote: {remains:?}");
 }
 
-/// SIGKILL cannot be handled: what counts is that a whole file, old or new, is all that its name ever shows, and that
-/// what was left beside it goes with the next run.
+/// SIGKILL cannot be handled: what counts is that a whole file, old or new, is all that its name ever shows,
+/// and that what was left beside it goes with the next run.
 #[test]
 fn a_writer_that_is_killed_leaves_the_old_file_or_the_new_one() {
     let remains = kill_writers(false, |remains| remains.extra >= 3 || remains.torn > 0);

@@ -1,5 +1,5 @@
-//! The built command on the hard cases: what it makes of their triangles is what they are, to the last bit, for all of
-//! them in one run.
+//! The built command on the hard cases: what it makes of their triangles is what they are, to the last bit,
+//! for all of them in one run.
 
 use rasray_report::Report;
 use std::process::Command;
@@ -22,7 +22,8 @@ fn held(line: &str) -> Report {
 fn every_hard_case_is_run_and_held() {
     // Files that readers refuse are cases too.
     let cases = rasray_hard_cases::ids().len() + rasray_hard_cases::file_ids().len();
-    // Of the systems of triangles it is the one that builds nothing; the full tier builds lists of every case.
+    // Of the systems of triangles it is the one that builds nothing; the full tier builds lists of every
+    // case.
     let is_full = std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1");
     let system = if is_full { "dirt" } else { "brute-force" };
     let report = held(&format!("compare hard:all --systems {system} --rays 3"));

@@ -1,5 +1,5 @@
-//! Pages of comparisons as the built command writes them, in a browser without a window. Skipped by name where no browser
-//! is installed.
+//! Pages of comparisons as the built command writes them, in a browser without a window. Skipped by name
+//! where no browser is installed.
 
 #[path = "../../../report-html/tests/page/visit.rs"]
 mod visit;

@@ -1,5 +1,5 @@
-//! Decisions for the moment that is shown: which key, whether a sky is added, what is warned of; and what a camera
-//! frames.
+//! Decisions for the moment that is shown: which key, whether a sky is added, what is warned of; and what a
+//! camera frames.
 
 use std::path::Path;
 

@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 
 use crate::scripted::{rasray, stderr};
 
-/// A triangle that rises from z = 0 to 4 m within two seconds, and a second clip that lets it rise from there.
+/// A triangle that rises from z = 0 to 4 m within two seconds, and a second clip that lets it rise from
+/// there.
 pub const RISING: &str = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"name":"sheet","mesh":0}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
 "animations":[
@@ -148,8 +149,8 @@ fn frames_are_the_pictures_of_their_times() {
     }
 }
 
-/// In parts, structures that store fragments have views around what moves and around what does not: the same picture whichever
-/// frames came before, and no farther from that of exact hits than through one structure.
+/// In parts, structures that store fragments have views around what moves and around what does not: the same
+/// picture whichever frames came before, and no farther from that of exact hits than through one structure.
 #[test]
 fn frames_of_fragments_in_parts_do_not_depend_on_those_before() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -40,7 +40,8 @@ fn frames_by_maps_are_the_pictures_of_their_times() {
     assert_eq!(text.lines().count(), 2);
 }
 
-/// The lamp of cornell by maps of points on its two triangles: the more points, the nearer to the picture that is traced.
+/// The lamp of cornell by maps of points on its two triangles: the more points, the nearer to the picture
+/// that is traced.
 #[test]
 fn a_lamp_with_an_extent_is_served_by_maps_of_its_points() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,5 +1,5 @@
-//! Destinations of results, and messages beside them: standard output, quiet and verbose runs, names that a terminal
-//! would obey, completions and pages.
+//! Destinations of results, and messages beside them: standard output, quiet and verbose runs, names that a
+//! terminal would obey, completions and pages.
 
 use crate::scripted::{HARNESS, command, entries, scripted, stderr, stdout};
 use rasray_report::Report;

@@ -1,5 +1,5 @@
-//! Work that is divided: shares of samples that add up to the picture, shares of frames, and what goes on where it was
-//! stopped.
+//! Work that is divided: shares of samples that add up to the picture, shares of frames, and what goes on
+//! where it was stopped.
 
 use std::path::Path;
 
@@ -54,8 +54,8 @@ fn shares_of_the_samples_add_up_to_the_picture() {
     let mut lit = 0;
     for name in ["R", "G", "B"] {
         for (whole, merged) in channel(&whole, name).into_iter().zip(channel(&merged, name)) {
-            // Radiance is not negative, so each of n additions and the division change the sum by 2^-24 at most: n for the
-            // whole, fewer for the largest share, one when the sum of shares is rounded.
+            // Radiance is not negative, so each of n additions and the division change the sum by 2^-24 at
+            // most: n for the whole, fewer for the largest share, one when the sum of shares is rounded.
             let bound = f64::from(2 * spp + 2) * 2.0_f64.powi(-24) * f64::from(whole);
             let difference = (f64::from(whole) - f64::from(merged)).abs();
             assert!(difference <= bound, "{name}: {whole} and {merged} lie {difference} apart");

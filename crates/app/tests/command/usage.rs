@@ -267,7 +267,8 @@ fn info_shows_a_scene_without_a_device() {
     };
     let text = info("info cornell");
     assert!(text.contains("triangles") && text.contains("cornell"), "{text}");
-    // Walls along the axes, 1.6 square metres of 2 as the axes see them, save nothing; sides of the turned boxes do.
+    // Walls along the axes, 1.6 square metres of 2 as the axes see them, save nothing; sides of the turned
+    // boxes do.
     assert!(text.contains("one view of three  saves 4.8"), "{text}");
     let needed = |text: &str| text.lines().filter(|line| line.contains("  needed  ")).count();
     // Occlusion looks at no material.

@@ -1,5 +1,5 @@
-//! The window as a person uses it: on a display of its own, with real keys and drags. Built with the feature `viewer` alone:
-//! `tests/README.md` has the command. Skipped by name without Xvfb or xdotool.
+//! The window as a person uses it: on a display of its own, with real keys and drags. Built with the feature
+//! `viewer` alone: `tests/README.md` has the command. Skipped by name without Xvfb or xdotool.
 
 mod moving;
 mod panel;

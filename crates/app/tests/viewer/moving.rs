@@ -11,7 +11,8 @@ fn time(line: &str) -> Option<f64> {
     rest.split(' ').next()?.parse().ok()
 }
 
-/// A walker, and a cloth that the host simulates. Pictures while it plays are not compared: they are of the moment.
+/// A walker, and a cloth that the host simulates. Pictures while it plays are not compared: they are of the
+/// moment.
 #[test]
 fn what_plays_and_is_put_to_a_time_is_what_render_makes_of_that_time() {
     let Some(display) = Display::start("what_plays_and_is_put_to_a_time_is_what_render_makes_of_that_time")

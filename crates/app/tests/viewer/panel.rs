@@ -1,4 +1,5 @@
-//! The panel: systems, options and maps, chosen with the mouse. Places are those in a window for a small picture.
+//! The panel: systems, options and maps, chosen with the mouse. Places are those in a window for a small
+//! picture.
 
 use std::path::Path;
 
@@ -16,7 +17,8 @@ const TONE: [i32; 2] = [580, 119];
 /// Switch of denoising.
 const DENOISE: [i32; 2] = [442, 188];
 
-/// The list of systems, what opens the options of `bvh`, and its list of builders, of a scene that does not move.
+/// The list of systems, what opens the options of `bvh`, and its list of builders, of a scene that does not
+/// move.
 const SYSTEM: [i32; 2] = [430, 314];
 const OPTIONS: [i32; 2] = [390, 360];
 const BUILDER: [i32; 2] = [470, 383];
@@ -111,7 +113,8 @@ fn noise_is_taken_out_with_the_mouse() {
     assert_eq!(window.end().code(), Some(0), "a message of the validation layers is an error");
 }
 
-/// Typed at the top of the panel. What cannot be read changes nothing, and the new scene is the one of its command line.
+/// Typed at the top of the panel. What cannot be read changes nothing, and the new scene is the one of its
+/// command line.
 #[test]
 fn another_scene_is_opened_by_its_name() {
     let Some(display) = Display::start("another_scene_is_opened_by_its_name") else { return };

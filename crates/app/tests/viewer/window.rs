@@ -126,7 +126,8 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// Saves a map, of which there is no command line: its place, and what was said of its scale, which has a word.
+    /// Saves a map, of which there is no command line: its place, and what was said of its scale, which has a
+    /// word.
     pub fn save_map(&self, word: &str) -> (PathBuf, String) {
         let began = Instant::now();
         loop {

@@ -75,7 +75,8 @@ fn point(output: &RenderOutput, aov: Aov, pixel: usize) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|axis| floats(output, aov)[axis][pixel].into()))
 }
 
-/// A triangle of a scene by its global id: its instance, its corners in the world and their texture coordinates.
+/// A triangle of a scene by its global id: its instance, its corners in the world and their texture
+/// coordinates.
 fn triangle(scene: &Scene, id: u32) -> (usize, [DVec3; 3], Option<[DVec2; 3]>) {
     let mut local = id as usize;
     for (place, instance) in scene.instances.iter().enumerate() {
@@ -200,7 +201,8 @@ fn the_variance_is_that_of_pictures_with_other_random_numbers() {
             render(&mut *backend, &job(&loaded, "bvh", &frame, Aov::Variance.into()))
         })
         .collect();
-    // Without the lamp's edges: places within a pixel are spread evenly over its samples, and not independent.
+    // Without the lamp's edges: places within a pixel are spread evenly over its samples, and not
+    // independent.
     let is_dim = |pixel: usize| pictures.iter().all(|picture| picture.beauty[pixel].iter().all(|x| *x < 1.0));
     let dim: Vec<_> = (0..(SIZE[0] * SIZE[1]) as usize).filter(|pixel| is_dim(*pixel)).collect();
     assert!(dim.len() > 800, "{}", dim.len());

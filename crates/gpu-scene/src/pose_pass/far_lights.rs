@@ -12,7 +12,8 @@ use rasray_shaders_glsl::records::{PoseLightConstants, PoseLightPower};
 use crate::kinds::punctual_power;
 use crate::{GpuScene, GpuSceneError, SceneTables};
 
-/// The pass `scene/pose_lights`: directional lights and the environment count by the circle around the bounds.
+/// The pass `scene/pose_lights`: directional lights and the environment count by the circle around the
+/// bounds.
 #[derive(Debug)]
 pub struct FarLights {
     pipeline: ComputePipeline,

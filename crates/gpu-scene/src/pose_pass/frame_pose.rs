@@ -38,8 +38,8 @@ impl FramePose {
         &self.cameras
     }
 
-    /// Bytes that [`PosePass::record`](super::PosePass::record) stores in the command buffer, but for fewer than 100.
-    /// Shapes are not among them: see [`FramePose::shape_bytes`].
+    /// Bytes that [`PosePass::record`](super::PosePass::record) stores in the command buffer, but for fewer
+    /// than 100. Shapes are not among them: see [`FramePose::shape_bytes`].
     pub fn bytes(&self) -> u64 {
         let bytes = size_of_val(&self.placements[..])
             + size_of_val(&self.joints[..])
@@ -50,8 +50,8 @@ impl FramePose {
         bytes as u64
     }
 
-    /// Bytes that [`PosePass::record`](super::PosePass::record) writes to memory of the slot: positions and normals that a
-    /// simulation or a file has.
+    /// Bytes that [`PosePass::record`](super::PosePass::record) writes to memory of the slot: positions and
+    /// normals that a simulation or a file has.
     pub fn shape_bytes(&self) -> u64 {
         size_of_val(&self.shapes[..]) as u64
     }
@@ -69,9 +69,9 @@ pub(super) struct Placer<'a> {
 }
 
 impl Placer<'_> {
-    /// Appends the matrices of the joints of a mesh, and answers what they are relative to, world, metres: a place from which
-    /// single precision reaches all that they move. That is the frame origin where it is no farther away than they are from
-    /// each other, and else the mean of all vertices.
+    /// Appends the matrices of the joints of a mesh, and answers what they are relative to, world, metres: a
+    /// place from which single precision reaches all that they move. That is the frame origin where it is no
+    /// farther away than they are from each other, and else the mean of all vertices.
     pub fn joints(&self, place: &SkinPlace, joints: &mut Vec<PoseMatrix>) -> DVec3 {
         let skin = &self.rig.skins[place.skin];
         let step = |of: &JointPlace| {
@@ -91,7 +91,8 @@ impl Placer<'_> {
         anchor
     }
 
-    /// The placement of a draw; `anchors` are those of the joints, `pivots` of the shapes. Targets that count are appended.
+    /// The placement of a draw; `anchors` are those of the joints, `pivots` of the shapes. Targets that count
+    /// are appended.
     pub fn draw(
         &self,
         place: &DrawPlace,

@@ -44,8 +44,8 @@ impl Moving {
         self.carrier(node).is_some()
     }
 
-    /// The nearest node, itself or above it, that a clip changes: what hangs on nodes with the same one keeps its place there.
-    /// Absent where it stays.
+    /// The nearest node, itself or above it, that a clip changes: what hangs on nodes with the same one keeps
+    /// its place there. Absent where it stays.
     pub fn carrier(&self, node: usize) -> Option<usize> {
         self.nodes.get(node).copied().flatten()
     }
@@ -75,7 +75,8 @@ mod tests {
         let node = |parent, transform| RigNode { name: String::new(), parent, transform };
         let channel =
             |node, values| Channel { node, interpolation: Interpolation::Step, times: vec![0.0], values };
-        // 0 hangs on 2, that on 3, which is animated; 1 and 4 are still: a matrix cannot be animated, weights move no node.
+        // 0 hangs on 2, that on 3, which is animated; 1 and 4 are still: a matrix cannot be animated, weights
+        // move no node.
         let rig = Rig {
             nodes: vec![
                 node(Some(2), parts),

@@ -37,8 +37,8 @@ impl DrawTriangles {
 /// Triangles that move, in parts that may move apart from each other.
 #[derive(Clone, Debug)]
 pub struct MovingTriangles {
-    /// At least one, which has no triangles where nothing moves; with bounds at rest, metres relative to the frame origin, of
-    /// all triangles where it has none. Ids are in order, no range empty, none that touch.
+    /// At least one, which has no triangles where nothing moves; with bounds at rest, metres relative to the
+    /// frame origin, of all triangles where it has none. Ids are in order, no range empty, none that touch.
     pub parts: Vec<MovingPart>,
     /// Bounds of all others; of all triangles where there are none.
     pub static_bounds: [[f32; 3]; 2],
@@ -54,8 +54,8 @@ impl MovingTriangles {
         Self::divided(draws, places, vec![0; places.len()], Vec::new())
     }
 
-    /// A part for each object that its node alone moves: all draws that the same node carries. Of those the `most` largest
-    /// have parts, the largest first; one more, the last, has all others and what deforms.
+    /// A part for each object that its node alone moves: all draws that the same node carries. Of those the
+    /// `most` largest have parts, the largest first; one more, the last, has all others and what deforms.
     pub fn objects(draws: &[DrawTriangles], places: &[DrawPlace], most: usize) -> Self {
         let mut sizes: BTreeMap<usize, usize> = BTreeMap::new();
         for place in places {

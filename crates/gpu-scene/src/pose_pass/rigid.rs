@@ -10,8 +10,8 @@ use super::sources::DrawPlace;
 /// Half a unit of rounding of f32, as a share of the number.
 const HALF_UNIT: f64 = 1.0 / 16_777_216.0;
 
-/// An object that its node alone moves, in a space that is that of the node but for its origin, which is the middle of the
-/// object. Metres.
+/// An object that its node alone moves, in a space that is that of the node but for its origin, which is the
+/// middle of the object. Metres.
 #[derive(Clone, Debug)]
 pub struct RigidObject {
     carrier: usize,
@@ -34,7 +34,8 @@ struct RigidDraw {
 }
 
 impl RigidObject {
-    /// The object of these draws, whose positions are written to their vertices. Absent where some are not finite.
+    /// The object of these draws, whose positions are written to their vertices. Absent where some are not
+    /// finite.
     pub fn new(
         scene: &Scene,
         carrier: usize,
@@ -71,8 +72,8 @@ impl RigidObject {
         (radius.is_finite() && is_finite).then_some(Self { carrier, centre, radius, draws, bounds })
     }
 
-    /// The map from where a pose has it, relative to the frame origin. Where its node is flat or a number is beyond f32, the
-    /// map has an infinite error.
+    /// The map from where a pose has it, relative to the frame origin. Where its node is flat or a number is
+    /// beyond f32, the map has an infinite error.
     pub fn map(&self, pose: &Pose, frame_origin: DVec3) -> GeometryRigid {
         let world = pose.world(self.carrier);
         let centre = world.transform_point3(self.centre) - frame_origin;
@@ -85,7 +86,8 @@ impl RigidObject {
         };
         let stretch = norm(linear);
         let reach = stretch * norm(world.matrix3) * self.radius;
-        // Products and sums of the pose's kernel, the rounded matrix and what it moves, then the way to the frame origin.
+        // Products and sums of the pose's kernel, the rounded matrix and what it moves, then the way to the
+        // frame origin.
         let posed = self.draws.iter().map(|draw| {
             let place = world * draw.carrier_from_mesh;
             let moved = (0..3).map(|row| place.matrix3.row(row).abs().dot(draw.half)).fold(0.0, f64::max);

@@ -1,4 +1,5 @@
-//! Shapes that no clip makes: what a deformer computes on the host for each frame, and how it gets to the device.
+//! Shapes that no clip makes: what a deformer computes on the host for each frame, and how it gets to the
+//! device.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
@@ -20,7 +21,8 @@ const WORD: u64 = size_of::<f32>() as u64;
 pub struct ShapePlace {
     /// Index into the meshes of the scene.
     pub mesh: usize,
-    /// Rest positions, rest normals: first words; absent where no draw shows the mesh, or nothing reads normals.
+    /// Rest positions, rest normals: first words; absent where no draw shows the mesh, or nothing reads
+    /// normals.
     words: [Option<u32>; 2],
     vertex_count: usize,
     has_normals: bool,
@@ -175,7 +177,8 @@ impl Shapes {
         Ok(FrameShapes { words: words.into(), pivots, positions: all })
     }
 
-    /// Writes the shapes of a frame to the memory of its slot and records their copies into the tables at rest.
+    /// Writes the shapes of a frame to the memory of its slot and records their copies into the tables at
+    /// rest.
     pub fn record(&self, recorder: &mut Recorder<'_>, slot: u32, words: &[f32]) {
         if words.is_empty() {
             return;

@@ -60,8 +60,8 @@ pub struct DrawPlace {
     pub carrier: Option<usize>,
 }
 
-/// The joints of a mesh and their place in the joint matrices. Each mesh has its own, so that what other meshes of a skin
-/// are bound to costs it no digits.
+/// The joints of a mesh and their place in the joint matrices. Each mesh has its own, so that what other
+/// meshes of a skin are bound to costs it no digits.
 #[derive(Clone, Debug)]
 pub struct SkinPlace {
     /// Index into the skins of the rig.
@@ -232,8 +232,8 @@ impl Sources {
         self.skins.len() - 1
     }
 
-    /// Packs a mesh; normals and tangents where `is_shaded` asks for them. Tangents of a mesh that a deformer changes would
-    /// lie in the surface that was: without a direction, shading derives one.
+    /// Packs a mesh; normals and tangents where `is_shaded` asks for them. Tangents of a mesh that a deformer
+    /// changes would lie in the surface that was: without a direction, shading derives one.
     fn mesh(
         &mut self,
         mesh: &Mesh,
@@ -275,8 +275,8 @@ impl Sources {
         Ok(MeshWords { rest_positions, rest_normals, rest_tangents, skin, targets })
     }
 
-    /// Of each vertex its joints, by their place among those with weight, then their weights: of a sum that is 1 but for the
-    /// rounding of each.
+    /// Of each vertex its joints, by their place among those with weight, then their weights: of a sum that
+    /// is 1 but for the rounding of each.
     fn append_skin(&mut self, binding: &SkinBinding, place: usize) -> Result<u32, GpuSceneError> {
         let first = self.skin_words.len();
         let (count, limit) = (first as u64 + 2 * binding.joints.len() as u64, u64::from(ATTRIBUTE_NONE));

@@ -1,4 +1,5 @@
-//! Texels that exceed what is there: images lose their finest levels, and nothing else changes. Without a device.
+//! Texels that exceed what is there: images lose their finest levels, and nothing else changes. Without a
+//! device.
 
 use rasray_gpu_scene::{GpuSceneError, Parts, SceneTables, SmallerImage, TEXEL_BYTES, TexelDemand, layout};
 use rasray_scene::{AlphaMode, Filter, Image, Material, Scene, Texture, TextureRef, Wrap};

@@ -137,7 +137,8 @@ fn texels_lie_in_runs_that_count_as_one_part() {
     assert_eq!(device.validation_messages(), Vec::<String>::new());
 }
 
-/// A built-in scene with everything that parts leave out: a map around it, all attributes, rough glass, a lamp.
+/// A built-in scene with everything that parts leave out: a map around it, all attributes, rough glass, a
+/// lamp.
 fn scene_with_all_parts() -> Scene {
     let mut scene = builtin::builtin("atrium").expect("a name").expect("no parameters");
     scene.environment = Environment::LatLong { width: 4, height: 2, radiance: vec![[0.5; 3]; 8] };

@@ -19,7 +19,8 @@ pub(super) fn entry() -> std::result::Result<ash::Entry, String> {
     });
     loader.as_ref().map_err(Clone::clone)?;
     let functions = ash::StaticFn { get_instance_proc_addr: instance_function };
-    // SAFETY: the function answers as the loader does, which stays loaded; functions that it leaves out are not used.
+    // SAFETY: the function answers as the loader does, which stays loaded; functions that it leaves out are
+    // not used.
     Ok(unsafe { ash::Entry::from_static_fn(functions) })
 }
 
@@ -62,8 +63,9 @@ unsafe fn leave_none<T: Handle>(made: *mut T, count: u32) {
     }
 }
 
-/// Functions that return `VkResult`: for each a function of the same type that asks the schedule first. Listed are the
-/// codes that the function may return; of those of creation, how many objects are in the last argument.
+/// Functions that return `VkResult`: for each a function of the same type that asks the schedule first.
+/// Listed are the codes that the function may return; of those of creation, how many objects are in the last
+/// argument.
 macro_rules! fallible {
     ($($name:ident($($argument:ident: $type:ty),*) [$($code:ident),*] $(makes($made:ident, $count:expr))?;)*) => {
         /// Names of the functions that can fail.
@@ -86,8 +88,8 @@ macro_rules! fallible {
                     }
                     type Function = unsafe extern "system" fn($($type),*) -> Code;
                     let original = ORIGINAL.load(Ordering::Acquire);
-                    // SAFETY: this function is handed out only once the loader's of the same name, which has this
-                    // type, is stored.
+                    // SAFETY: this function is handed out only once the loader's of the same name, which has
+                    // this type, is stored.
                     let original = unsafe { std::mem::transmute::<*mut c_void, Function>(original) };
                     // SAFETY: the caller keeps the conditions of the function of this name.
                     let code = unsafe { original($($argument),*) };
@@ -251,8 +253,8 @@ unsafe extern "system" fn instance_function(
 /// The loader's `vkGetDeviceProcAddr`.
 static DEVICE_LOOKUP: AtomicPtr<c_void> = AtomicPtr::new(std::ptr::null_mut());
 
-/// Stands for `vkGetDeviceProcAddr`. Functions with a schedule forward to the loader's own, which find the device by
-/// the handle they are called with: they serve every device, with layers or without.
+/// Stands for `vkGetDeviceProcAddr`. Functions with a schedule forward to the loader's own, which find the
+/// device by the handle they are called with: they serve every device, with layers or without.
 ///
 /// # Safety
 /// `device` is a device that is not destroyed, and `name` points to a NUL-terminated string.

@@ -20,8 +20,8 @@ impl Recorder<'_> {
         self.bind_pipeline(&pipeline.inner);
     }
 
-    /// Binds sets from number `first` up, for the bound pipeline. Binding a pipeline with other set layouts or
-    /// push constants in front of a set makes Vulkan forget the set: bind sets after the pipeline.
+    /// Binds sets from number `first` up, for the bound pipeline. Binding a pipeline with other set layouts
+    /// or push constants in front of a set makes Vulkan forget the set: bind sets after the pipeline.
     pub fn bind_sets(&mut self, first: u32, sets: &[&BindingSet]) {
         if !self.is_recording() || sets.is_empty() {
             return;
@@ -96,8 +96,8 @@ impl Recorder<'_> {
     }
 
     fn emit_sets(&self, pipeline: &PipelineInner, first: u32, sets: &[vk::DescriptorSet]) {
-        // SAFETY: recording; sets and pipeline layout were found compatible, and live as the caller promises (or
-        // as long as the submission, which keeps them).
+        // SAFETY: recording; sets and pipeline layout were found compatible, and live as the caller promises
+        // (or as long as the submission, which keeps them).
         unsafe {
             self.raw_device().cmd_bind_descriptor_sets(
                 self.command,

@@ -7,19 +7,19 @@ use crate::access::Access;
 use crate::binding::BufferRange;
 
 impl Recorder<'_> {
-    /// Takes ranges of buffers over from another queue family, for accesses `to` after it: the second half of a transfer
-    /// of ownership. The first half, over the same ranges, is recorded for a queue of that family, and a semaphore
-    /// orders the two. No byte is in two ranges. Nothing is recorded where the family is
-    /// that of the device.
+    /// Takes ranges of buffers over from another queue family, for accesses `to` after it: the second half of
+    /// a transfer of ownership. The first half, over the same ranges, is recorded for a queue of that family,
+    /// and a semaphore orders the two. No byte is in two ranges. Nothing is recorded where the family is that
+    /// of the device.
     pub fn acquire(&mut self, ranges: &[BufferRange<'_>], from_family: u32, to: Access) {
         let half = acquiring(from_family, self.core().queue_family, to, self.core().graphics);
         self.transfer(ranges, half);
     }
 
-    /// Hands ranges of buffers over to another queue family, after accesses `from` to them: the first half of a transfer
-    /// of ownership. The second half, over the same ranges, is recorded for a queue of that family, and a semaphore
-    /// orders the two. No byte is in two ranges. Nothing is recorded where the family is
-    /// that of the device.
+    /// Hands ranges of buffers over to another queue family, after accesses `from` to them: the first half of
+    /// a transfer of ownership. The second half, over the same ranges, is recorded for a queue of that
+    /// family, and a semaphore orders the two. No byte is in two ranges. Nothing is recorded where the family
+    /// is that of the device.
     pub fn release(&mut self, ranges: &[BufferRange<'_>], to_family: u32, from: Access) {
         let half = releasing(self.core().queue_family, to_family, from, self.core().graphics);
         self.transfer(ranges, half);
@@ -41,13 +41,15 @@ impl Recorder<'_> {
             return;
         }
         let info = vk::DependencyInfo::default().buffer_memory_barriers(&barriers);
-        // SAFETY: recording, outside of rendering; the ranges lie within their buffers, the stages are known to the queue.
-        // That the families exist and the other half is recorded is the caller's to see to (validation checks it).
+        // SAFETY: recording, outside of rendering; the ranges lie within their buffers, the stages are known
+        // to the queue. That the families exist and the other half is recorded is the caller's to see to
+        // (validation checks it).
         unsafe { (self.core().commands.pipeline_barrier)(self.command, &info) };
     }
 }
 
-/// Barrier of a queue of `own` for a transfer from another family. Accesses before it are those of the other half.
+/// Barrier of a queue of `own` for a transfer from another family. Accesses before it are those of the other
+/// half.
 fn acquiring(from: u32, own: u32, to: Access, graphics: bool) -> vk::BufferMemoryBarrier2<'static> {
     let (stages, access) = scope_of_queue(to, graphics);
     // All stages before: whichever the semaphore is waited for in.
@@ -59,7 +61,8 @@ fn acquiring(from: u32, own: u32, to: Access, graphics: bool) -> vk::BufferMemor
         .dst_queue_family_index(own)
 }
 
-/// Barrier of a queue of `own` for a transfer to another family. Accesses after it are those of the other half.
+/// Barrier of a queue of `own` for a transfer to another family. Accesses after it are those of the other
+/// half.
 fn releasing(own: u32, to: u32, from: Access, graphics: bool) -> vk::BufferMemoryBarrier2<'static> {
     let (stages, access) = scope_of_queue(from, graphics);
     vk::BufferMemoryBarrier2::default()
@@ -122,8 +125,8 @@ mod tests {
         }
     }
 
-    /// The first half makes writes available and nothing visible, the second the other way round. All stages of either
-    /// are ordered with the semaphore between them.
+    /// The first half makes writes available and nothing visible, the second the other way round. All stages
+    /// of either are ordered with the semaphore between them.
     #[test]
     fn each_half_has_the_accesses_of_its_side() {
         let [released, acquired] = halves(&ranges());

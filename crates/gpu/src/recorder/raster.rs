@@ -75,7 +75,8 @@ impl Recorder<'_> {
         });
     }
 
-    /// Draws with four u32 read from a buffer (vertices, instances, 0, 0), at an offset that is a multiple of 4.
+    /// Draws with four u32 read from a buffer (vertices, instances, 0, 0), at an offset that is a multiple of
+    /// 4.
     pub fn draw_indirect(&mut self, buffer: &Buffer, offset: u64) {
         if !self.can_draw() || !self.indirect_arguments(buffer, offset, 16) {
             return;

@@ -27,8 +27,8 @@ impl Recorder<'_> {
         self.count(|pass| pass.transfers += 1);
     }
 
-    /// Writes bytes to a buffer. They travel within the command buffer, so that each recording has its own; offset and
-    /// length are multiples of 4, and at most 65,536 bytes go at a time.
+    /// Writes bytes to a buffer. They travel within the command buffer, so that each recording has its own;
+    /// offset and length are multiples of 4, and at most 65,536 bytes go at a time.
     pub fn update(&mut self, buffer: &Buffer, offset: u64, bytes: &[u8]) {
         const MOST: usize = 65_536;
         if !self.outside_rendering("update") || bytes.is_empty() {

@@ -23,8 +23,8 @@ fn raw(host: &Device) -> RawDevice {
 }
 
 fn adopt(raw: RawDevice) -> Result<Device> {
-    // SAFETY: `raw` describes a device made by this crate, which the tests keep until the adopted one is gone and
-    // whose queue they do not use meanwhile.
+    // SAFETY: `raw` describes a device made by this crate, which the tests keep until the adopted one is gone
+    // and whose queue they do not use meanwhile.
     unsafe { Device::from_raw(raw) }
 }
 

@@ -34,7 +34,8 @@ const DISTANCE: OptionRow = OptionRow::new(
 )
 .trying(&["0.5", "2"]);
 
-/// One occlusion ray per sample from the surface that the camera ray hits; the background is 1. Two traces per wave.
+/// One occlusion ray per sample from the surface that the camera ray hits; the background is 1. Two traces
+/// per wave.
 #[derive(Debug)]
 pub struct AmbientOcclusion {
     range: f32,

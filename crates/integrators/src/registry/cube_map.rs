@@ -1,4 +1,5 @@
-//! Environment mapping: mirrored and refracted rays are looked up by their direction in a cube map of the scene.
+//! Environment mapping: mirrored and refracted rays are looked up by their direction in a cube map of the
+//! scene.
 
 use bytemuck::bytes_of;
 use rasray_ads::{Domain, RayQueue};
@@ -63,7 +64,8 @@ const BOUNDS_INVOCATIONS: u32 = 4096;
 pub struct CubeMapOptions {
     /// Texels along a side of a face, from 1 to [`CUBE_MAP_LIMIT`].
     pub resolution: u32,
-    /// Centre of projection of the map, world, metres; the centre of the bounds of what is perfectly smooth where absent.
+    /// Centre of projection of the map, world, metres; the centre of the bounds of what is perfectly smooth
+    /// where absent.
     pub position: Option<[f32; 3]>,
     /// Surfaces that trace shadow rays: with [`Shadows::First`] those that the map shows do not.
     pub shadows: Shadows,
@@ -93,14 +95,14 @@ impl CubeMapOptions {
     }
 }
 
-/// Surfaces that the camera sees, lit directly, with one mirrored and one refracted ray each that a cube map answers by
-/// their direction alone. Each sample draws a map of its own: what is seen from one point, lit directly, perfectly
-/// smooth surfaces that are seen from behind left out. The map is traced through the structure, once per sample, in
-/// waves of its own.
+/// Surfaces that the camera sees, lit directly, with one mirrored and one refracted ray each that a cube map
+/// answers by their direction alone. Each sample draws a map of its own: what is seen from one point, lit
+/// directly, perfectly smooth surfaces that are seen from behind left out. The map is traced through the
+/// structure, once per sample, in waves of its own.
 ///
-/// Where surfaces let rays pass, rays of the map may need more rounds than are recorded, and what the camera sees can be
-/// looked up only after them: [`Integrator::render_wave`] waits for them, and frames are repeated with more rounds
-/// ([`Integrator::allow_more_rounds`]).
+/// Where surfaces let rays pass, rays of the map may need more rounds than are recorded, and what the camera
+/// sees can be looked up only after them: [`Integrator::render_wave`] waits for them, and frames are repeated
+/// with more rounds ([`Integrator::allow_more_rounds`]).
 #[derive(Debug)]
 pub struct CubeMap {
     position: Option<[f32; 3]>,

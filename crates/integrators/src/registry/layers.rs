@@ -56,9 +56,9 @@ const LAYERS_STATES: u32 = 9;
 /// Rounds that a wave has at first.
 const USUAL_LAYERS: u32 = 8;
 
-/// Shows all surfaces along a ray in the colours of [`Raycast`](crate::Raycast), front to back: each adds its colour
-/// by its opacity and lets the rest of 1 pass. A round per surface, as many as it takes ([`Integrator::record_rest`],
-/// [`Integrator::allow_more_rounds`]).
+/// Shows all surfaces along a ray in the colours of [`Raycast`](crate::Raycast), front to back: each adds its
+/// colour by its opacity and lets the rest of 1 pass. A round per surface, as many as it takes
+/// ([`Integrator::record_rest`], [`Integrator::allow_more_rounds`]).
 #[derive(Debug)]
 pub struct Layers {
     /// Surfaces that are there for a ray; `u32::MAX`: all.
@@ -74,12 +74,12 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// Makes queue and kernels. For a ray the first `limit` surfaces are there, all of them without a limit; each has
-    /// `opacity` times the opacity of its material.
+    /// Makes queue and kernels. For a ray the first `limit` surfaces are there, all of them without a limit;
+    /// each has `opacity` times the opacity of its material.
     ///
     /// # Errors
-    /// A limit that is not from 1 to [`PATH_LAYER_LIMIT`], an opacity that is not above 0 and at most 1, sizes that do not
-    /// fit, out of memory, or the device refuses a pipeline.
+    /// A limit that is not from 1 to [`PATH_LAYER_LIMIT`], an opacity that is not above 0 and at most 1,
+    /// sizes that do not fit, out of memory, or the device refuses a pipeline.
     pub fn new(desc: &IntegratorDesc<'_>, limit: Option<u32>, opacity: f32) -> Result<Self, IntegratorError> {
         limit.map(|limit| LAYER_LIMIT.check(Value::Whole(limit))).transpose()?;
         LAYER_OPACITY.check(Value::Number(opacity))?;

@@ -58,8 +58,8 @@ pub(super) const ROUND_LIMIT: u32 = 2 * BOUNCE_LIMIT + 1 + 2 * PATH_LAYER_LIMIT;
 /// Paths of at most so many scatterings. In every round each path that goes on traces one
 /// closest-hit ray and at most one shadow ray; paths that have ended take part in no pass.
 ///
-/// Where surfaces let light pass in a straight line, blended ones and smooth thin panes, shadow rays go through them as
-/// paths do: a round traces either for each path, and there are as many as it takes
+/// Where surfaces let light pass in a straight line, blended ones and smooth thin panes, shadow rays go
+/// through them as paths do: a round traces either for each path, and there are as many as it takes
 /// ([`Integrator::record_rest`], [`Integrator::allow_more_rounds`]).
 #[derive(Debug)]
 pub struct Path {
@@ -109,8 +109,8 @@ impl Path {
         Self::gathering(desc, options.into(), None)
     }
 
-    /// Makes paths, which gather photons where there are any: light then goes through panes by scattering alone, and
-    /// surfaces are in the queue.
+    /// Makes paths, which gather photons where there are any: light then goes through panes by scattering
+    /// alone, and surfaces are in the queue.
     pub(super) fn gathering(
         desc: &IntegratorDesc<'_>,
         options: PathOptions,
@@ -178,9 +178,9 @@ impl Path {
     }
 }
 
-/// Rounds that a wave has at first. A path needs one closest-hit round per scattering and one for what the last scattered
-/// ray hits. Where its shadow rays take part, they need one per scattering as well, and so does every surface that a ray
-/// passes, of which there may be more: the rest of the wave.
+/// Rounds that a wave has at first. A path needs one closest-hit round per scattering and one for what the
+/// last scattered ray hits. Where its shadow rays take part, they need one per scattering as well, and so
+/// does every surface that a ray passes, of which there may be more: the rest of the wave.
 fn rounds(bounces: u32, passing: bool) -> u32 {
     if passing { 2 * bounces + 1 + USUAL_LAYERS } else { bounces + 1 }
 }
@@ -218,7 +218,8 @@ impl Path {
                 traced.record_closest(recorder, paths, live)?;
             }
             self.bindings.record(recorder, &self.shade, paths, live, &constants);
-            // In the last round every path has reached the maximum number of scatterings and samples no light.
+            // In the last round every path has reached the maximum number of scatterings and samples no
+            // light.
             if round + 1 < rounds {
                 paths.record_take(recorder);
                 shadows.record_take(recorder);
@@ -231,7 +232,8 @@ impl Path {
         Ok(())
     }
 
-    /// Rounds in which rays may pass surfaces, of a new wave or of the rest of one. Paths that end add to the film.
+    /// Rounds in which rays may pass surfaces, of a new wave or of the rest of one. Paths that end add to the
+    /// film.
     fn record_passing(
         &self,
         recorder: &mut Recorder<'_>,

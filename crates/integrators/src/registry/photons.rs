@@ -30,13 +30,13 @@ pub(super) const ROW: IntegratorRow = IntegratorRow {
     make: |desc, spec| Ok(Box::new(Photons::new(desc, PhotonOptions::of(spec))?)),
 };
 
-/// Paths that gather photons at rough surfaces. Each sample has a map of its own with a smaller radius than the one before,
-/// so that the mean over samples has no bias in the limit. The map is traced through the structure, once per sample, in waves
-/// of its own; it does not depend on how the picture is cut into waves.
+/// Paths that gather photons at rough surfaces. Each sample has a map of its own with a smaller radius than
+/// the one before, so that the mean over samples has no bias in the limit. The map is traced through the
+/// structure, once per sample, in waves of its own; it does not depend on how the picture is cut into waves.
 ///
-/// Where surfaces blend, photons may need more rounds than are recorded, and what the camera sees can be gathered only after
-/// them: [`Integrator::render_wave`] waits for them, and frames are repeated with more rounds
-/// ([`Integrator::allow_more_rounds`]).
+/// Where surfaces blend, photons may need more rounds than are recorded, and what the camera sees can be
+/// gathered only after them: [`Integrator::render_wave`] waits for them, and frames are repeated with more
+/// rounds ([`Integrator::allow_more_rounds`]).
 #[derive(Debug)]
 pub struct Photons {
     map: MapPasses,

@@ -26,8 +26,8 @@ pub(super) const ROW: IntegratorRow = IntegratorRow {
     make: |desc, _| Ok(Box::new(Raycast::new(desc)?)),
 };
 
-/// Emission plus base colour times the cosine between shading normal and ray; the environment where nothing is hit. One
-/// trace per wave.
+/// Emission plus base colour times the cosine between shading normal and ray; the environment where nothing
+/// is hit. One trace per wave.
 #[derive(Debug)]
 pub struct Raycast {
     film: Film,

@@ -47,12 +47,13 @@ const USUAL_LAYERS: u32 = 8;
 /// Most rounds that one recording of a wave has where surfaces may be passed; more are recorded as its rest.
 const ROUND_LIMIT: u32 = 1 << 14;
 
-/// Trees of rays: of each surface that a ray meets, its emission and one light sample, and the rays that it mirrors, refracts
-/// and lets pass. Every round traces one ray of each tree that has one left, and its shadow ray. The other rays of a surface
-/// wait, for no longer than it takes to trace the trees of those before them.
+/// Trees of rays: of each surface that a ray meets, its emission and one light sample, and the rays that it
+/// mirrors, refracts and lets pass. Every round traces one ray of each tree that has one left, and its shadow
+/// ray. The other rays of a surface wait, for no longer than it takes to trace the trees of those before
+/// them.
 ///
-/// Where surfaces let light pass in a straight line, shadow rays go through them and are traced in rounds of their own, as
-/// with [`Path`](crate::Path).
+/// Where surfaces let light pass in a straight line, shadow rays go through them and are traced in rounds of
+/// their own, as with [`Path`](crate::Path).
 #[derive(Debug)]
 pub struct Whitted {
     options: WhittedOptions,
@@ -66,8 +67,8 @@ pub struct Whitted {
     queue: RayQueue,
     states: Buffer,
     waiting: Buffer,
-    /// Queue and kernel of the tests of light samples where whatever a ray hits stops it; else shadow rays are in the
-    /// queue of all others.
+    /// Queue and kernel of the tests of light samples where whatever a ray hits stops it; else shadow rays
+    /// are in the queue of all others.
     shadows: Option<(RayQueue, Kernel)>,
     bindings: Bindings,
     first_rays: Kernel,
@@ -126,8 +127,9 @@ impl Trees {
         }
     }
 
-    /// Most rays of a tree that wait at a time. Above the surface that is shaded, each one of the way there has as many rays
-    /// waiting as it sends on beside the first. Where surfaces are passed, all rays of the one shaded wait as well.
+    /// Most rays of a tree that wait at a time. Above the surface that is shaded, each one of the way there
+    /// has as many rays waiting as it sends on beside the first. Where surfaces are passed, all rays of the
+    /// one shaded wait as well.
     fn waiting(self, depth: u32) -> u32 {
         match self {
             Self::Chains => 0,
@@ -236,7 +238,8 @@ impl Whitted {
     }
 }
 
-/// Slots of which each has so many bytes in a buffer that one binding holds: at most `capacity`, at least one.
+/// Slots of which each has so many bytes in a buffer that one binding holds: at most `capacity`, at least
+/// one.
 fn fitting(capacity: u32, slot_bytes: u64, limit: u64) -> u32 {
     let fitting = limit.checked_div(slot_bytes).unwrap_or(u64::MAX).max(1);
     capacity.min(u32::try_from(fitting).unwrap_or(u32::MAX))

@@ -1,5 +1,5 @@
-//! Surfaces fetched by drawing, against those of the structure: they must be the same in every bit, in every round of a
-//! path.
+//! Surfaces fetched by drawing, against those of the structure: they must be the same in every bit, in every
+//! round of a path.
 
 use crate::kept_pictures::Compared;
 use crate::pictures::common::{

@@ -11,7 +11,8 @@ use crate::pictures::common::{
     *,
 };
 
-/// With directions from a texture over a normal map, from texture coordinates alone, and on a mirrored instance.
+/// With directions from a texture over a normal map, from texture coordinates alone, and on a mirrored
+/// instance.
 fn brushed_room() -> Scene {
     let mut scene = textured_room();
     let direction = TextureRef { texture: 2, uv_set: 0, uv_transform: [[2.0, 0.1, 0.0], [0.3, 1.5, 0.2]] };
@@ -64,7 +65,8 @@ fn brushed_surfaces_are_those_of_the_naive_integrator() {
     found.assert_within(0.02, 5e-3, "anisotropy");
 }
 
-/// Glass that light is refracted by, a smooth pane that is one no more, and meshes that nothing says the tangents of.
+/// Glass that light is refracted by, a smooth pane that is one no more, and meshes that nothing says the
+/// tangents of.
 #[test]
 fn brushed_glass_is_that_of_the_naive_integrator() {
     let mut scene = glass_room();

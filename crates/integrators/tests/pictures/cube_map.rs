@@ -68,7 +68,8 @@ fn an_environment_alone_is_that_of_whitted_up_to_the_filter_of_texels() {
     assert_silent(&device);
 }
 
-/// Surroundings at a distance, of six colours, as they are seen from the centre and from the surface of a ball.
+/// Surroundings at a distance, of six colours, as they are seen from the centre and from the surface of a
+/// ball.
 #[test]
 fn the_error_falls_as_the_surroundings_recede() {
     let device = device();

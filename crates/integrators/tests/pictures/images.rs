@@ -298,7 +298,8 @@ fn shadow_rays_say_which_light_they_lead_to() {
     let mut scene = busy_scene();
     scene.materials[2].transmission = 0.0;
     scene.materials[3].alpha_mode = rasray_scene::AlphaMode::Opaque;
-    // The last round replaces the shadow rays of paths that go on; facets of rough metal end some in the first.
+    // The last round replaces the shadow rays of paths that go on; facets of rough metal end some in the
+    // first.
     (scene.materials[0].metallic, scene.materials[0].roughness) = (1.0, 1.0);
     let places = [DVec3::new(-0.8, 0.5, 0.2), DVec3::new(0.7, -0.6, 0.4)];
     for position in places {

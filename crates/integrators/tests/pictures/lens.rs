@@ -25,9 +25,10 @@ fn lamp(half: f64, depth: f64) -> Scene {
     scene(vec![square], vec![material], [0.0; 3])
 }
 
-/// A lamp of side s at depth z lights, in the plane in focus at depth f, a square of side `s f / z` spread over a disk of the
-/// diameter of the circle of confusion, `aperture |f - z| / z`. The mean of the squared distance from the middle is that of the
-/// disk, `diameter^2 / 8`, plus that of the square and of a pixel, `side^2 / 6` each.
+/// A lamp of side s at depth z lights, in the plane in focus at depth f, a square of side `s f / z` spread
+/// over a disk of the diameter of the circle of confusion, `aperture |f - z| / z`. The mean of the squared
+/// distance from the middle is that of the disk, `diameter^2 / 8`, plus that of the square and of a pixel,
+/// `side^2 / 6` each.
 #[test]
 fn what_is_out_of_focus_is_spread_over_a_circle_of_confusion() {
     let device = device();
@@ -57,7 +58,8 @@ fn what_is_out_of_focus_is_spread_over_a_circle_of_confusion() {
         let hits = light * f64::from(samples);
         let found = moment / light;
         println!("aperture {aperture}, focus {focus}, lamp at {depth}: {hits} hits, {found} for {expected}");
-        // The squared distance in a disk has a standard deviation of `diameter^2 / (8 sqrt 3)`: five of those of the mean.
+        // The squared distance in a disk has a standard deviation of `diameter^2 / (8 sqrt 3)`: five of those
+        // of the mean.
         let error = 5.0 * (diameter * diameter / 8.0) / 3f64.sqrt() / hits.sqrt();
         assert!((found - expected).abs() < error && error < 0.1 * expected, "{found}, not {expected}");
         // A pinhole sees as much of it.

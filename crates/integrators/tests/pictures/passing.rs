@@ -78,7 +78,8 @@ fn the_rest_of_a_wave_is_counted_until_it_is_rendered() {
 #[test]
 fn rounds_end_and_so_do_rays_which_is_counted() {
     let device = device();
-    // Two layers more than the camera's ray may pass; the wall's shadow ray would have passed them all as well.
+    // Two layers more than the camera's ray may pass; the wall's shadow ray would have passed them all as
+    // well.
     let layered = stage(&device, &behind(PATH_LAYER_LIMIT + 2, 0.01, veil(0.0)));
     let path = Path::new(&layered.desc(), 1).expect("valid");
     let wave = Wave { first_pixel: 0, pixel_count: 2, sample: 0 };
@@ -132,7 +133,8 @@ fn shadows_follow_the_alpha_of_textures() {
     assert_silent(&device);
 }
 
-/// Without a smooth thin pane or a blended material nothing is recorded that was not; with one, options decide.
+/// Without a smooth thin pane or a blended material nothing is recorded that was not; with one, options
+/// decide.
 #[test]
 fn only_scenes_that_let_light_pass_record_more() {
     let device = device();

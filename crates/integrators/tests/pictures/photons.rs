@@ -107,7 +107,8 @@ fn a_furnace_keeps_its_flux() {
             .sum();
         let expected = emitted * ALBEDO.powi(bounce as i32);
         println!("after {bounce} scatterings: {flux} W, expected {expected}");
-        // Paths may be ended at random from the scattering after the third on: a binomial number of them is left.
+        // Paths may be ended at random from the scattering after the third on: a binomial number of them is
+        // left.
         let left = ALBEDO.powi(if bounce > 3 { 4 } else { 0 }) * ALBEDO.powi((bounce as i32 - 4).max(0));
         let deviation = ((1.0 - left) / (left * f64::from(PATHS))).sqrt();
         assert!((flux / expected - 1.0).abs() < 1.0e-4 + 4.0 * deviation, "{bounce}: {flux}, not {expected}");
@@ -254,8 +255,9 @@ fn naive(photons: &[Photon], place: Vec3, radius: f64) -> f64 {
     photons.iter().map(of_photon).sum()
 }
 
-/// Means of whole pictures differ by their noise, and by what photons are short of along edges: a band as wide as the radius
-/// along the four sides of a square lacks less than half of them, and the boxes have as many edges again.
+/// Means of whole pictures differ by their noise, and by what photons are short of along edges: a band as
+/// wide as the radius along the four sides of a square lacks less than half of them, and the boxes have as
+/// many edges again.
 #[test]
 fn all_light_in_a_room_is_that_of_paths() {
     let (scene, eye) = cornell();
@@ -279,8 +281,8 @@ fn all_light_in_a_room_is_that_of_paths() {
     assert_silent(&device);
 }
 
-/// A ball of glass with smooth normals under a lamp that paths find as well. The picture is of the floor around all of the
-/// light that comes through the ball, so that the kernel moves next to none out of it.
+/// A ball of glass with smooth normals under a lamp that paths find as well. The picture is of the floor
+/// around all of the light that comes through the ball, so that the kernel moves next to none out of it.
 #[test]
 fn caustics_of_a_ball_are_those_that_paths_find() {
     let device = device();
@@ -311,8 +313,8 @@ fn caustics_of_a_ball_are_those_that_paths_find() {
     assert_silent(&device);
 }
 
-/// A floor and a wall beyond it, lit once more by what they scatter. Each kind of light emits as much as light samples find;
-/// half of the light within a radius of the edge between the two is missing, at most.
+/// A floor and a wall beyond it, lit once more by what they scatter. Each kind of light emits as much as
+/// light samples find; half of the light within a radius of the edge between the two is missing, at most.
 #[test]
 fn photons_carry_what_each_kind_of_light_sends() {
     let device = device();
@@ -486,8 +488,8 @@ fn exponent(points: &[(f64, f64)]) -> f64 {
     along / logarithms().map(|(a, _)| (a - x).powi(2)).sum::<f64>()
 }
 
-/// The variance of a mean of samples over that of the first, where it is as one over the area that photons are gathered
-/// in.
+/// The variance of a mean of samples over that of the first, where it is as one over the area that photons
+/// are gathered in.
 fn variance(samples: u32) -> f64 {
     let (mut of_sample, mut sum) = (1.0, 0.0);
     for sample in 1..=samples {
@@ -497,8 +499,8 @@ fn variance(samples: u32) -> f64 {
     sum / f64::from(samples).powi(2)
 }
 
-/// Squared errors of light by a plane mirror on the floor, in its middle and where it ends. In the middle they are
-/// noise.
+/// Squared errors of light by a plane mirror on the floor, in its middle and where it ends. In the middle
+/// they are noise.
 #[test]
 fn squared_errors_fall_as_the_page_says() {
     const SIDE: u32 = 32;

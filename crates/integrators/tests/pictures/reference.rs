@@ -110,7 +110,8 @@ fn backs_are_passed_by_the_rays_that_are_asked_to() {
     }
 }
 
-/// A coarse smooth ball under a sun from the side: the border of its shadow is that of a ball, not of its triangles.
+/// A coarse smooth ball under a sun from the side: the border of its shadow is that of a ball, not of its
+/// triangles.
 #[test]
 fn a_coarse_ball_is_lit_as_a_ball() {
     let (columns, rows, albedo, irradiance) = (16, 9, 0.8, 2.0);

@@ -36,7 +36,8 @@ fn every_integrator_has_a_naive_one_of_its_name() {
 #[test]
 fn every_option_does_on_the_device_what_it_does_in_the_naive_integrator() {
     let eye = forward_camera(DVec3::new(0.0, 0.0, 0.9));
-    // Open to one side, so that not everything is occluded; walls shine, so that something is seen without bounces.
+    // Open to one side, so that not everything is occluded; walls shine, so that something is seen without
+    // bounces.
     let mut scene = veiled_room();
     scene.instances.remove(0);
     scene.environment = Environment::Constant([0.3, 0.4, 0.5]);

@@ -38,7 +38,8 @@ fn plate(front: f64, back: f64, half: f64, material: usize) -> [Mesh; 2] {
     ]
 }
 
-/// Shares of light by Schlick's curve, the device's: at the boundary of an index of 1.5, by the cosine in air.
+/// Shares of light by Schlick's curve, the device's: at the boundary of an index of 1.5, by the cosine in
+/// air.
 pub(super) fn reflected(cosine: f64) -> f64 {
     0.04 + 0.96 * (1.0 - cosine).powi(5)
 }
@@ -137,7 +138,8 @@ fn a_plate_of_glass_moves_what_is_behind_it_and_reflects_at_both_faces() {
     assert_silent(&device);
 }
 
-/// Under an even sky a plate shows its reflection, and what comes through after none, two, four... reflections inside.
+/// Under an even sky a plate shows its reflection, and what comes through after none, two, four...
+/// reflections inside.
 #[test]
 fn a_plate_of_glass_in_a_white_furnace_gives_the_geometric_series() {
     let device = device();
@@ -214,7 +216,8 @@ fn a_ball_of_glass_is_that_of_the_naive_integrator() {
     }
 }
 
-/// From the left: a mirror, a wall, glass that reflects nothing. All before a wall in the light of a lamp, in a room.
+/// From the left: a mirror, a wall, glass that reflects nothing. All before a wall in the light of a lamp, in
+/// a room.
 fn three_parts() -> (Scene, Camera) {
     let dull_glass = Material { specular: 0.0, ..glass() };
     let third =
@@ -281,8 +284,8 @@ fn rays(stage: &Setup, triangles: u64, options: WhittedOptions) -> (u64, Vec<[f3
     (tests / triangles, image)
 }
 
-/// A mirror covers some of eight columns of the view, a wall the others. Full tracing sends a ray on from every pixel; a
-/// selection from those of the mirror.
+/// A mirror covers some of eight columns of the view, a wall the others. Full tracing sends a ray on from
+/// every pixel; a selection from those of the mirror.
 #[test]
 fn rays_are_as_many_as_pixels_and_pixels_of_mirrors() {
     let device = device();

@@ -205,7 +205,8 @@ fn waves_smaller_than_the_image_see_the_same() {
 #[test]
 fn triangles_that_cross_the_plane_of_the_eye_are_seen() {
     let (device, _turn) = drawing_device();
-    // A floor whose triangles reach behind the eye, walls beside it, and triangles with one corner or two behind it.
+    // A floor whose triangles reach behind the eye, walls beside it, and triangles with one corner or two
+    // behind it.
     let floor = |height: f64, half: f64| {
         let corner = |x: f64, z: f64| DVec3::new(x * half, height, z * half);
         [
@@ -239,7 +240,8 @@ fn triangles_that_cross_the_plane_of_the_eye_are_seen() {
 fn triangles_of_every_size_around_the_camera_are_seen() {
     let (device, _turn) = drawing_device();
     let mut random = Random(11);
-    // A closed sphere around the camera, and triangles from far larger than the view to far smaller than a pixel.
+    // A closed sphere around the camera, and triangles from far larger than the view to far smaller than a
+    // pixel.
     let mut triangles: Vec<[DVec3; 3]> = Vec::new();
     for _ in 0..250 {
         let middle = random.point().normalize() * 10.0_f64.powf(1.5 * random.next());

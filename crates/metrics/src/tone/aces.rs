@@ -1,6 +1,6 @@
-//! ACES 1 for a standard screen: the reference rendering transform and the output transform for sRGB at 100 cd/m^2, in
-//! Stephen Hill's fit (<https://github.com/TheRealMJP/BakingLab>, MIT). Its greys lie within a step of 255 of the
-//! transforms themselves, other colours within twelve.
+//! ACES 1 for a standard screen: the reference rendering transform and the output transform for sRGB at 100
+//! cd/m^2, in Stephen Hill's fit (<https://github.com/TheRealMJP/BakingLab>, MIT). Its greys lie within a
+//! step of 255 of the transforms themselves, other colours within twelve.
 
 use super::transform;
 
@@ -26,8 +26,8 @@ mod tests {
 
     #[test]
     fn colours_are_near_those_of_aces() {
-        // OpenColorIO 2.6, cg-config-v2.1.0_aces-v1.3: Linear Rec.709 to sRGB - Display, ACES 1.0 - SDR Video; of 255 steps,
-        // clamped.
+        // OpenColorIO 2.6, cg-config-v2.1.0_aces-v1.3: Linear Rec.709 to sRGB - Display, ACES 1.0 - SDR
+        // Video; of 255 steps, clamped.
         let grey = [
             ([0.0; 3], [0.0; 3]),
             ([0.18; 3], [90.77; 3]),

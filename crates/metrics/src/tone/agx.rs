@@ -1,10 +1,11 @@
 //! AgX: picture formation by Troy Sobotka, in the version of Eary Chow that Blender 4 ships as a table.
 //!
-//! Colours are brought closer to grey in Rec. 2020, each channel goes through a sigmoid of its logarithm, part of the shift
-//! of hue that this makes is taken back, and colours are moved away from grey again. All numbers are those that the
-//! authors publish (<https://github.com/EaryChow/AgX_LUT_Gen>, <https://github.com/sobotka/SB2383-Configuration-Generation>);
-//! the sigmoid is Jed Smith's. It is computed here, where Blender interpolates in a table of 57 x 57 x 57 entries: values
-//! differ by 0.2 steps of 255 on average, and in single saturated colours by up to twelve.
+//! Colours are brought closer to grey in Rec. 2020, each channel goes through a sigmoid of its logarithm,
+//! part of the shift of hue that this makes is taken back, and colours are moved away from grey again. All
+//! numbers are those that the authors publish (<https://github.com/EaryChow/AgX_LUT_Gen>,
+//! <https://github.com/sobotka/SB2383-Configuration-Generation>); the sigmoid is Jed Smith's. It is computed
+//! here, where Blender interpolates in a table of 57 x 57 x 57 entries: values differ by 0.2 steps of 255 on
+//! average, and in single saturated colours by up to twelve.
 
 use super::transform;
 
@@ -93,7 +94,8 @@ fn hue([red, green, blue]: [f32; 3]) -> (f32, f32, f32) {
     (least, most, sixths / 6.0)
 }
 
-/// A colour with its hue turned towards that of another: what of their difference is not [`HUE_SHIFT`], the shorter way.
+/// A colour with its hue turned towards that of another: what of their difference is not [`HUE_SHIFT`], the
+/// shorter way.
 fn with_hue_towards(colour: [f32; 3], other: [f32; 3]) -> [f32; 3] {
     let ((least, most, own), (_, _, other)) = (hue(colour), hue(other));
     let turn = (other - own + 0.5).rem_euclid(1.0) - 0.5;

@@ -1,4 +1,5 @@
-//! Environment mapping, as `docs/cube-map.md` defines it. No map is stored: each lookup makes the four texels that it blends.
+//! Environment mapping, as `docs/cube-map.md` defines it. No map is stored: each lookup makes the four texels
+//! that it blends.
 
 use glam::{DVec3, Vec3};
 use rasray_options::{OptionValues, Value};

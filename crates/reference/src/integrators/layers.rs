@@ -43,8 +43,8 @@ impl Tracer<'_> {
 }
 
 impl PosedScene<'_> {
-    /// The first `limit` surfaces along camera rays, lit from the eye, each with `opacity` times the opacity of its
-    /// material; W/(sr m^2), with a light of 1 at the eye.
+    /// The first `limit` surfaces along camera rays, lit from the eye, each with `opacity` times the opacity
+    /// of its material; W/(sr m^2), with a light of 1 at the eye.
     ///
     /// # Errors
     /// If the image is empty or the scene has more triangles than ids.

@@ -135,8 +135,8 @@ impl PosedScene<'_> {
         self.render_smoothed(view, (passes_panes, 0.0), sample)
     }
 
-    /// `smoothed`: whether light goes straight through smooth thin panes, and the roughness below which surfaces are
-    /// perfectly smooth.
+    /// `smoothed`: whether light goes straight through smooth thin panes, and the roughness below which
+    /// surfaces are perfectly smooth.
     fn render_smoothed(
         &self,
         view: &View,

@@ -24,8 +24,8 @@ pub(super) const ROW: NaiveIntegrator = NaiveIntegrator {
 pub struct PathOptions {
     /// At most this many scatterings.
     pub bounces: u32,
-    /// True if light goes straight through smooth thin panes and takes their tint, unless there are no bounces; else
-    /// panes stop shadow rays, and going through is a scattering.
+    /// True if light goes straight through smooth thin panes and takes their tint, unless there are no
+    /// bounces; else panes stop shadow rays, and going through is a scattering.
     pub passes_panes: bool,
     /// Origin of shadow rays of smooth surfaces.
     pub shadow_terminator: ShadowTerminator,
@@ -66,7 +66,8 @@ pub(super) struct PathState {
     radiance: Vec3,
     /// 1/sr of the last scattering; `None`: emission hit next counts fully.
     bsdf_pdf: Option<f32>,
-    /// Photons bring the light that light samples know: the last scatterings were perfectly smooth and one before was not.
+    /// Photons bring the light that light samples know: the last scatterings were perfectly smooth and one
+    /// before was not.
     is_of_photons: bool,
     /// Material whose inside the path is in.
     pub medium: Option<usize>,
@@ -243,8 +244,8 @@ impl Tracer<'_> {
     }
 }
 
-/// Light that the surface sends along `o` of an unoccluded light sample, weighted; `is_found` where scattered rays find
-/// it, too.
+/// Light that the surface sends along `o` of an unoccluded light sample, weighted; `is_found` where scattered
+/// rays find it, too.
 fn reflected(surface: &Surface, o: Vec3, light: &LightSample, is_found: bool) -> Vec3 {
     let value = bsdf_times_cosine(surface, o, light.direction);
     let weight = if light.delta || !is_found {

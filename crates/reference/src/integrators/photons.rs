@@ -83,7 +83,8 @@ impl Map {
     }
 }
 
-/// Ratio of the radiance that photons carry on along `i` to that which paths see along it, at a shading normal.
+/// Ratio of the radiance that photons carry on along `i` to that which paths see along it, at a shading
+/// normal.
 fn shading_normal_share(surface: &Surface, o: Vec3, i: Vec3) -> f32 {
     let (shading, geometric) = (surface.normal, surface.geometric_normal);
     let leaving = shading.dot(i).abs() * geometric.dot(o);

@@ -14,7 +14,8 @@ impl Surface {
 }
 
 impl Tracer<'_> {
-    /// One sample: emission plus base colour times the cosine between shading normal and ray, or the environment.
+    /// One sample: emission plus base colour times the cosine between shading normal and ray, or the
+    /// environment.
     pub(super) fn raycast(&self, view: &View, random: Numbers) -> Vec3 {
         let ray = self.camera_ray(view, random);
         match self.closest(&ray) {

@@ -165,8 +165,8 @@ impl Tracer<'_> {
     }
 }
 
-/// The mirrored and the refracted lobe of a perfectly smooth surface, where there is one: the random numbers that choose a
-/// lobe are set to the ends of their ranges.
+/// The mirrored and the refracted lobe of a perfectly smooth surface, where there is one: the random numbers
+/// that choose a lobe are set to the ends of their ranges.
 fn perfect_lobes(surface: &Surface, o: Vec3) -> [Option<BsdfSample>; 2] {
     let last = 1.0_f32.next_down();
     let lobe = |side| bsdf_sample(surface, o, [last, side, 0.5, 0.5]).filter(|lobe| lobe.delta);

@@ -9,9 +9,9 @@ use super::t_bound::SeenTriangle;
 const U: f64 = 1.0 / (1_u64 << 24) as f64;
 /// Unit roundoff of double precision.
 const EPSILON: f64 = f64::EPSILON / 2.0;
-/// Largest error of a careful single-precision test, in units of U times the sum of absolute values of what it adds.
-/// Shearing a vertex costs at most 4 (difference, slope, product, difference), the products of an edge function 2 more;
-/// the rest is headroom for tests that shear in another order.
+/// Largest error of a careful single-precision test, in units of U times the sum of absolute values of what
+/// it adds. Shearing a vertex costs at most 4 (difference, slope, product, difference), the products of an
+/// edge function 2 more; the rest is headroom for tests that shear in another order.
 const SINGLE_ERROR: f64 = 8.0 * U;
 /// That count of roundings in double precision, doubled.
 const DOUBLE_ERROR: f64 = 16.0 * EPSILON;
@@ -134,7 +134,8 @@ impl ContactTest {
             sheared: vertices.map(|v| [v.x, v.y]),
             depths: vertices.map(|v| v.z),
         };
-        // A test that mixes the vertices' t with weights that are off by the edges' errors, whatever else it knows.
+        // A test that mixes the vertices' t with weights that are off by the edges' errors, whatever else it
+        // knows.
         let mixing: f64 =
             (0..3).map(|i| SINGLE_ERROR * edges[i].scale * (vertices[i].z - t).abs()).sum::<f64>()
                 / sum.abs();
@@ -149,7 +150,8 @@ impl ContactTest {
             return None;
         }
         let hit = inside && self.t_min < t && t < self.t_max;
-        // The device answers no hit nearer than its own bound: it could be the surface that the ray starts on.
+        // The device answers no hit nearer than its own bound: it could be the surface that the ray starts
+        // on.
         let in_range = self.t_min.max(bound) < t_low && t_high < self.t_max;
         let facing = if inside { signs.contains(&1) } else { sum > 0.0 };
         let scale: f64 = edges.iter().map(|edge| edge.scale).sum();

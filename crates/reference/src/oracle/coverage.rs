@@ -14,8 +14,8 @@ struct Member {
     angle: f64,
 }
 
-/// True if the unsure triangles share edges all around the ray, so that a test which rounds every vertex in one way and
-/// decides every edge in one way must find one of them.
+/// True if the unsure triangles share edges all around the ray, so that a test which rounds every vertex in
+/// one way and decides every edge in one way must find one of them.
 ///
 /// Rounding moves vertices by less than their distance from untouched edges. If all touched edges
 /// cancel, the boundary of what the ray touches consists of untouched edges; its winding number about

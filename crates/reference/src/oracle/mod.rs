@@ -79,8 +79,8 @@ impl<'a> Oracle<'a> {
     /// Takes posed positions (metres, as uploaded) and three indices a triangle.
     ///
     /// Triangles with a coordinate that is not finite or beyond [`COORDINATE_LIMIT`] are never hit;
-    /// they are counted in [`Oracle::dropped`], and the ids of others do not change. `accept` is the alpha test; `None`
-    /// accepts everything.
+    /// they are counted in [`Oracle::dropped`], and the ids of others do not change. `accept` is the alpha
+    /// test; `None` accepts everything.
     ///
     /// # Errors
     /// If the number of indices is no multiple of three, an index has no position, or there are more
@@ -150,8 +150,8 @@ impl<'a> Oracle<'a> {
         Ok(Self { triangles, primitives, bvh, accept, backs: Vec::new(), dropped, collapsed })
     }
 
-    /// With triangles that have a back, which rays that cull back faces pass. `back_of` says which side it is by the id of
-    /// the triangle; `None` where both sides are there for every ray.
+    /// With triangles that have a back, which rays that cull back faces pass. `back_of` says which side it is
+    /// by the id of the triangle; `None` where both sides are there for every ray.
     #[must_use]
     pub fn with_backs(self, back_of: impl Fn(u32) -> Option<Side>) -> Self {
         let backs: Vec<_> = self.primitives.iter().map(|&primitive| back_of(primitive)).collect();
@@ -230,8 +230,8 @@ impl<'a> Oracle<'a> {
         found.contacts.push((slot, contact));
     }
 
-    /// The contact as it counts for a ray that passes backs: none with a back that single precision sees as well.
-    /// Where rounding decides the side, the triangle may be reported, and promises nothing.
+    /// The contact as it counts for a ray that passes backs: none with a back that single precision sees as
+    /// well. Where rounding decides the side, the triangle may be reported, and promises nothing.
     fn met(&self, ray: &Ray, slot: usize, contact: Contact) -> Option<Contact> {
         let back = self.backs.get(slot).copied().flatten().filter(|_| ray.culls_back_faces);
         let Some(back) = back else { return Some(contact) };

@@ -33,8 +33,8 @@ impl Ray {
         Self::new(origin, std::array::from_fn(|axis| point[axis] - origin[axis]))
     }
 
-    /// True if origin and direction are finite, the direction is not zero, and no end is NaN. (An empty range is valid
-    /// and hits nothing.)
+    /// True if origin and direction are finite, the direction is not zero, and no end is NaN. (An empty range
+    /// is valid and hits nothing.)
     pub fn is_valid(&self) -> bool {
         self.origin.iter().chain(&self.direction).all(|x| x.is_finite())
             && self.direction.iter().any(|x| *x != 0.0)

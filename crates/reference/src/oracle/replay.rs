@@ -41,8 +41,8 @@ pub struct TestedTriangle {
     pub signs: [i32; 3],
     /// Its relation to the ray.
     pub class: TestClass,
-    /// t of the plane, and the interval that single precision may report; `None` where the ray passes outside of
-    /// by more than rounding.
+    /// t of the plane, and the interval that single precision may report; `None` where the ray passes outside
+    /// of by more than rounding.
     pub t: Option<[f64; 3]>,
 }
 

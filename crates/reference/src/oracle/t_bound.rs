@@ -1,23 +1,28 @@
-//! Upper bounds of the error of the device's test in t, and of the bound of that error which it computes itself.
+//! Upper bounds of the error of the device's test in t, and of the bound of that error which it computes
+//! itself.
 //!
-//! The device's test (`shaders-glsl/ads/triangle.glsl`) takes t from the plane of a triangle or from a mix of its
-//! corners, whichever has the smaller bound of its error, and answers a hit only where t exceeds that bound, so that a
-//! ray which starts on a surface does not hit the surface by rounding alone. What is here bounds *the bound that it
-//! computes*: the same sums in double precision, each constant raised by what rounding may add to it. It therefore
-//! holds for the error of the device's t too. A hit is certain only if it lies above this bound by as much.
+//! The device's test (`shaders-glsl/ads/triangle.glsl`) takes t from the plane of a triangle or from a mix of
+//! its corners, whichever has the smaller bound of its error, and answers a hit only where t exceeds that
+//! bound, so that a ray which starts on a surface does not hit the surface by rounding alone. What is here
+//! bounds *the bound that it computes*: the same sums in double precision, each constant raised by what
+//! rounding may add to it. It therefore holds for the error of the device's t too. A hit is certain only if
+//! it lies above this bound by as much.
 
 use super::exact::Point;
 
 /// Unit roundoff of single precision.
 const U: f64 = 1.0 / (1_u64 << 24) as f64;
-/// Sums of positive products that single precision computes exceed those computed here by less than this factor.
+/// Sums of positive products that single precision computes exceed those computed here by less than this
+/// factor.
 const SUMS: f64 = 1.0 + 64.0 * U;
 /// Above half of this the device trusts no divisor (`TRIANGLE_LARGEST_DIVISOR`).
 const LARGEST_DIVISOR: f64 = 8.0e37;
-/// Twice the smallest sum of products, per unit of the vector they are taken with, that underflow cannot have spoilt.
+/// Twice the smallest sum of products, per unit of the vector they are taken with, that underflow cannot have
+/// spoilt.
 const TINY: f64 = 2.0e-30;
 
-/// The corners of a triangle as a ray sees them, all relative to the ray's origin with its longest direction last.
+/// The corners of a triangle as a ray sees them, all relative to the ray's origin with its longest direction
+/// last.
 pub(super) struct SeenTriangle {
     /// Corners, metres.
     pub corners: [Point; 3],
@@ -40,8 +45,8 @@ impl SeenTriangle {
         if bound.is_nan() { f64::INFINITY } else { bound }
     }
 
-    /// As `triangle_plane_t`. Its slope is off by up to 12 u of `facing_reach`, and is trusted less by as much; the
-    /// quotient that it bounds by may itself be off by the bound, which takes another 12 u.
+    /// As `triangle_plane_t`. Its slope is off by up to 12 u of `facing_reach`, and is trusted less by as
+    /// much; the quotient that it bounds by may itself be off by the bound, which takes another 12 u.
     fn plane(&self, t: f64) -> f64 {
         let [a, b, c] = &self.corners;
         let difference = |p: &Point, q: &Point| -> Point { std::array::from_fn(|axis| p[axis] - q[axis]) };
@@ -67,9 +72,9 @@ impl SeenTriangle {
         (12.0 * U * (height_reach + t.abs() * facing_reach) / certain + 9.0 * U * t.abs()) * SUMS
     }
 
-    /// As `triangle_mixing_error`. Sheared corners are off by `dx` and `dy`, edges by `delta`: the device's own
-    /// determinant is less than this one by up to the sum of them, it takes that sum off again, and the t that it
-    /// compares depths with is off by the bound, which takes it a third time.
+    /// As `triangle_mixing_error`. Sheared corners are off by `dx` and `dy`, edges by `delta`: the device's
+    /// own determinant is less than this one by up to the sum of them, it takes that sum off again, and the t
+    /// that it compares depths with is off by the bound, which takes it a third time.
     fn mixing(&self, t: f64, max_depth: f64) -> f64 {
         let [dx, dy, dz] = self.direction;
         let slopes = [(dx / dz).abs(), (dy / dz).abs()];

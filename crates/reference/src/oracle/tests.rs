@@ -165,8 +165,8 @@ fn a_ray_in_a_triangles_plane_passes_it() {
     assert!(verdict.candidates.iter().any(|candidate| candidate.primitive == 12 && !candidate.certain));
 }
 
-/// Whole numbers that single precision holds: t is a quotient of two integers. Every second ray nearly lies in the plane,
-/// where double precision alone is not enough.
+/// Whole numbers that single precision holds: t is a quotient of two integers. Every second ray nearly lies
+/// in the plane, where double precision alone is not enough.
 #[test]
 fn t_is_that_of_exact_arithmetic() {
     const BOUND: f64 = 1.0 / (1_u64 << 38) as f64;
@@ -395,7 +395,8 @@ fn bad_input_is_refused_or_dropped() {
 
 #[test]
 fn a_hit_nearer_than_the_devices_bound_may_be_missed() {
-    // The device bounds the error of this t by 1.1e-8 m and takes the hit for the surface that the ray starts on.
+    // The device bounds the error of this t by 1.1e-8 m and takes the hit for the surface that the ray starts
+    // on.
     let triangle = [
         [-0.246_709_5, -0.341_158_4, -0.676_100_1],
         [-0.234_160_1, -0.349_085, -0.668_141_3],

@@ -1,5 +1,5 @@
-//! Share of light that a rough surface of facets sends back in one scattering, as polynomials fitted to the integrals,
-//! and what becomes of the rest after more than one. After Kulla and Conty 2017.
+//! Share of light that a rough surface of facets sends back in one scattering, as polynomials fitted to the
+//! integrals, and what becomes of the rest after more than one. After Kulla and Conty 2017.
 
 use glam::{Vec3, Vec4};
 
@@ -47,7 +47,8 @@ pub fn loss_mean(alpha: f32) -> f32 {
     (r * (0.0204 + r * (-0.4171 + r * (2.5315 + r * (-1.7591 + 0.2196 * r))))).max(1.0e-4)
 }
 
-/// Share of light that facets send back that reflect (1 - x)^5 under their own cosine x; `loss` is that of [`loss`].
+/// Share of light that facets send back that reflect (1 - x)^5 under their own cosine x; `loss` is that of
+/// [`loss`].
 pub fn schlick(cosine: f32, alpha: f32, loss: f32) -> f32 {
     let x = cosine / (cosine + alpha);
     let r = alpha.sqrt();

@@ -11,7 +11,8 @@ use super::{
 };
 
 impl PosedScene<'_> {
-    /// The surface with its anisotropy: none where the triangle is not known, or nothing says where its tangents point.
+    /// The surface with its anisotropy: none where the triangle is not known, or nothing says where its
+    /// tangents point.
     pub(super) fn with_anisotropy(&self, surface: Surface) -> Surface {
         let isotropic = Surface { anisotropy: 0.0, ..surface };
         let Some(primitive) = surface.primitive else { return isotropic };

@@ -110,8 +110,8 @@ impl Terms {
     }
 }
 
-/// Side that the direction leads to, `cosine` being its cosine at a normal; `None` if that normal and the geometric one
-/// disagree or the direction grazes.
+/// Side that the direction leads to, `cosine` being its cosine at a normal; `None` if that normal and the
+/// geometric one disagree or the direction grazes.
 fn side_of(surface: &Surface, world_i: Vec3, cosine: f32) -> Option<Side> {
     let geometric = surface.geometric_normal.dot(world_i);
     if cosine > 0.0 && geometric > 0.0 {
@@ -123,8 +123,8 @@ fn side_of(surface: &Surface, world_i: Vec3, cosine: f32) -> Option<Side> {
     }
 }
 
-/// Light that leaves towards a direction, cosine included, in 1/sr: families lie around different normals where one was
-/// bent. And the density with which [`bsdf_sample`] answers it. Delta lobes are left out.
+/// Light that leaves towards a direction, cosine included, in 1/sr: families lie around different normals
+/// where one was bent. And the density with which [`bsdf_sample`] answers it. Delta lobes are left out.
 fn towards(terms: &Terms, surface: &Surface, i: Vec3) -> (Vec3, f32) {
     let (mut value, mut pdf) = (Vec3::ZERO, 0.0);
     if terms.o.z <= 0.0 {
@@ -148,8 +148,8 @@ fn towards(terms: &Terms, surface: &Surface, i: Vec3) -> (Vec3, f32) {
     (value + facets.value * local.z.abs() * colour, pdf + (1.0 - family) * facets.pdf * share)
 }
 
-/// Light from `o` that leaves towards `i`, times the cosine of `i` at the normal of its lobe; 1/sr. Delta lobes are
-/// left out. `o` and `i` are unit and point away.
+/// Light from `o` that leaves towards `i`, times the cosine of `i` at the normal of its lobe; 1/sr. Delta
+/// lobes are left out. `o` and `i` are unit and point away.
 pub fn bsdf_times_cosine(surface: &Surface, o: Vec3, i: Vec3) -> Vec3 {
     towards(&Terms::new(surface, o), surface, i).0
 }
@@ -171,8 +171,8 @@ pub fn bsdf_is_rough(surface: &Surface, o: Vec3) -> bool {
     terms.cosine_probability().family > 0.0 || !terms.mirror
 }
 
-/// Share of the light that goes straight through a pane ([`Surface::is_pane`]) towards `o`, and the probability with which
-/// paths take it; 0 for every other surface.
+/// Share of the light that goes straight through a pane ([`Surface::is_pane`]) towards `o`, and the
+/// probability with which paths take it; 0 for every other surface.
 pub fn bsdf_straight(surface: &Surface, o: Vec3) -> (Vec3, f32) {
     if surface.is_pane { Terms::new(surface, o).straight() } else { (Vec3::ZERO, 0.0) }
 }

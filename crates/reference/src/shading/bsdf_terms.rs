@@ -1,5 +1,5 @@
-//! Terms of scattering at one surface towards one direction: shares, probabilities and the light that leaves the facets
-//! after several scatterings.
+//! Terms of scattering at one surface towards one direction: shares, probabilities and the light that leaves
+//! the facets after several scatterings.
 
 use std::f32::consts::PI;
 
@@ -93,7 +93,8 @@ pub struct CosineProbability {
     pub through: f32,
 }
 
-/// A frame along whose x axis facets are rougher, and the alphas along x and y; `None` where they are as rough in all directions.
+/// A frame along whose x axis facets are rougher, and the alphas along x and y; `None` where they are as
+/// rough in all directions.
 fn anisotropy(surface: &Surface, normal: Vec3) -> Option<(Mat3, Vec2)> {
     let along = surface.rougher - normal * normal.dot(surface.rougher);
     if !(surface.anisotropy > 0.0) || !(along.length_squared() > 0.0) {
@@ -154,7 +155,8 @@ impl Terms {
         terms
     }
 
-    /// Lost light goes through as facets let it, but no more than is lost for light that takes the same way back.
+    /// Lost light goes through as facets let it, but no more than is lost for light that takes the same way
+    /// back.
     fn glass(&self, ior: f32, surface: &Surface) -> Glass {
         let table = glass_albedo::table(ior, self.f0.max_element(), self.f90);
         let roughness = if self.alphas.is_some() { self.alpha.sqrt() } else { surface.roughness };
@@ -273,7 +275,8 @@ impl Terms {
         self.base_color * (self.volume_share() * through)
     }
 
-    /// Share of the light that a pane lets through in a straight line, and the probability with which paths take it.
+    /// Share of the light that a pane lets through in a straight line, and the probability with which paths
+    /// take it.
     pub fn straight(&self) -> (Vec3, f32) {
         let share = if self.pane && self.o.z > 0.0 { self.facet_transmitted(self.o.z) } else { Vec3::ZERO };
         let through = luminance(share);

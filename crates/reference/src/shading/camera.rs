@@ -54,8 +54,8 @@ pub fn lens_numbers(random: Numbers) -> Vec2 {
     Vec2::new(random.float(RANDOM_LENS_U), random.float(RANDOM_LENS_V))
 }
 
-/// A ray through a place on the lens, uniform over it for two uniform numbers, that meets `ray`, which goes through its centre,
-/// in the plane in focus; the ray itself where the camera has no lens.
+/// A ray through a place on the lens, uniform over it for two uniform numbers, that meets `ray`, which goes
+/// through its centre, in the plane in focus; the ray itself where the camera has no lens.
 pub fn through_lens(camera: &Camera, ray: Ray, random: Vec2) -> Ray {
     let (Some(lens), Projection::Perspective { .. }) = (camera.lens, camera.projection) else { return ray };
     if !(lens.aperture > 0.0) {
@@ -79,8 +79,9 @@ fn axes(camera: &Camera) -> [Vec3; 3] {
     [axis(axes.x_axis, DVec3::X), axis(axes.y_axis, DVec3::Y), axis(-axes.z_axis, DVec3::NEG_Z)]
 }
 
-/// The ray through the centre of the lens and `position` (pixels from the top left corner; the first pixel's centre is
-/// (0.5, 0.5)), relative to `frame_origin` (world, metres). Its cone is that of one sample of the pixel; it passes no backs.
+/// The ray through the centre of the lens and `position` (pixels from the top left corner; the first pixel's
+/// centre is (0.5, 0.5)), relative to `frame_origin` (world, metres). Its cone is that of one sample of the
+/// pixel; it passes no backs.
 pub fn camera_ray(view: &View, frame_origin: DVec3, position: Vec2) -> Ray {
     let [right, up, forward] = axes(&view.camera);
     let eye = (view.camera.world_from_camera.translation - frame_origin).as_vec3();

@@ -50,8 +50,8 @@ impl PosedScene<'_> {
         (upper - lower).length()
     }
 
-    /// A photon, by random numbers for each of: kind, light or row, place; and for: side, unused, direction. `None` where
-    /// nothing is emitted.
+    /// A photon, by random numbers for each of: kind, light or row, place; and for: side, unused, direction.
+    /// `None` where nothing is emitted.
     pub fn emit_photon(&self, place: [f32; 4], towards: [f32; 4]) -> Option<Emission> {
         let [kind, pick, u, v] = place;
         let [side, _, x, y] = towards;

@@ -4,12 +4,13 @@ use glam::Vec3;
 
 /// Cosine to which the facets' normal is bent where the shading normal faces away from the viewer.
 const NORMAL_COSINE: f32 = 0.01;
-/// Least height of a mirrored direction over the geometric surface, or this share of that of the viewer where it grazes.
+/// Least height of a mirrored direction over the geometric surface, or this share of that of the viewer where
+/// it grazes.
 const MIRRORED_HEIGHT: f32 = 0.01;
 const MIRRORED_SHARE: f32 = 0.9;
 
-/// The normal that facets lie around: the shading normal, bent until it faces `o`, and then just so far that `o` mirrored
-/// at it leaves the geometric surface.
+/// The normal that facets lie around: the shading normal, bent until it faces `o`, and then just so far that
+/// `o` mirrored at it leaves the geometric surface.
 pub(super) fn facet_normal(normal: Vec3, geometric_normal: Vec3, o: Vec3) -> Vec3 {
     let cosine = normal.dot(o);
     let facing =

@@ -1,6 +1,6 @@
-//! Light that rough glass loses in one scattering, tabulated for every index and reflectance that is asked for. After
-//! Kulla and Conty 2017. The points are those of the shaders' tables, so that the two differ by rounding alone; tests
-//! integrate in another way.
+//! Light that rough glass loses in one scattering, tabulated for every index and reflectance that is asked
+//! for. After Kulla and Conty 2017. The points are those of the shaders' tables, so that the two differ by
+//! rounding alone; tests integrate in another way.
 
 use std::{
     collections::HashMap,

@@ -136,8 +136,8 @@ fn punctual_power(light: &Light, disk: f64) -> f64 {
     }
 }
 
-/// Corners of the box of all triangles, metres relative to the frame origin; the upper ones are below the lower ones where
-/// there are none.
+/// Corners of the box of all triangles, metres relative to the frame origin; the upper ones are below the
+/// lower ones where there are none.
 pub(super) fn bounds(posed: &PosedScene<'_>) -> [DVec3; 2] {
     let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for index in posed.indices() {

@@ -43,7 +43,8 @@ pub fn ggx_visibility_one(cosine_o: f32, alpha: f32) -> f32 {
     0.5 / (cosine_o + ggx_root(cosine_o, alpha))
 }
 
-/// [`ggx_distribution`] for facets of another alpha along x than along y; o and i are directions, on either side.
+/// [`ggx_distribution`] for facets of another alpha along x than along y; o and i are directions, on either
+/// side.
 pub fn ggx_distribution_along(h: Vec3, alpha: Vec2) -> f32 {
     let slope = (h.truncate() / alpha).extend(h.z).length_squared();
     1.0 / (PI * alpha.x * alpha.y * slope * slope)

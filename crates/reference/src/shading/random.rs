@@ -220,8 +220,9 @@ mod tests {
         }
     }
 
-    /// Any power of two of samples of a pixel: each dimension has one in each of as many equal parts, and a place
-    /// has one in each rectangle of as many equal ones. Owen's scrambling keeps that, independent numbers do not.
+    /// Any power of two of samples of a pixel: each dimension has one in each of as many equal parts, and a
+    /// place has one in each rectangle of as many equal ones. Owen's scrambling keeps that, independent
+    /// numbers do not.
     #[test]
     fn samples_of_a_pixel_are_spread_evenly() {
         for (pixel, group) in [(0, 0), (17, 1), (100_000, 4), (3, 16_384)] {
@@ -248,8 +249,8 @@ mod tests {
         }
     }
 
-    /// Pixels, groups and seeds share nothing: the first sample is uniform over each of them and neighbours do not
-    /// correlate, within five standard deviations of independent numbers.
+    /// Pixels, groups and seeds share nothing: the first sample is uniform over each of them and neighbours
+    /// do not correlate, within five standard deviations of independent numbers.
     #[test]
     fn points_of_neighbours_are_independent() {
         let count = 1 << 14;

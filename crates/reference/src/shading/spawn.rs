@@ -24,7 +24,8 @@ pub(super) fn spawn_position(position: Vec3, position_error: f32, normal: Vec3, 
     Vec3::new(outward(moved.x, offset.x), outward(moved.y, offset.y), outward(moved.z, offset.z))
 }
 
-/// A ray from the surface along the unit `direction`, `t_max` in metres, with an empty cone, that passes no backs.
+/// A ray from the surface along the unit `direction`, `t_max` in metres, with an empty cone, that passes no
+/// backs.
 pub fn spawn_ray(surface: &Surface, direction: Vec3, t_max: f32) -> Ray {
     Ray {
         origin: spawn_position(surface.position, surface.position_error, surface.geometric_normal, direction),

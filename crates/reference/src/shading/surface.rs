@@ -43,7 +43,8 @@ pub struct Surface {
     pub opacity: f32,
     /// Metres; 0 is a thin wall.
     pub thickness: f32,
-    /// Light through it in a straight line, as through a smooth thin wall, is followed apart: scattering leaves it out.
+    /// Light through it in a straight line, as through a smooth thin wall, is followed apart: scattering
+    /// leaves it out.
     pub is_pane: bool,
     /// Reflects by Ward's lobe where it lets no light through.
     pub is_ward: bool,
@@ -150,8 +151,8 @@ fn mapped_normal(normal: Vec3, tangent: Vec4, texel: Vec3, scale: f32) -> Vec3 {
     if mapped.length_squared() > 0.0 { mapped / mapped.length() } else { normal }
 }
 
-/// The shading normal on the side of the geometric normal. It may face away from the ray; facets lie around one that does
-/// not.
+/// The shading normal on the side of the geometric normal. It may face away from the ray; facets lie around
+/// one that does not.
 fn shading_normal(interpolated: Vec3, geometric_normal: Vec3) -> Vec3 {
     let squared = interpolated.length_squared();
     if !(squared > 0.0) {
@@ -163,7 +164,8 @@ fn shading_normal(interpolated: Vec3, geometric_normal: Vec3) -> Vec3 {
 }
 
 impl PosedScene<'_> {
-    /// Surface that `ray` hits at `t` metres on a triangle; `barycentrics` are the weights of vertices 1 and 2.
+    /// Surface that `ray` hits at `t` metres on a triangle; `barycentrics` are the weights of vertices 1 and
+    /// 2.
     pub fn surface(&self, ray: &Ray, t: f32, primitive: u32, barycentrics: Vec2) -> Surface {
         let draw = self.draw_of(primitive);
         let material = self.material(draw);

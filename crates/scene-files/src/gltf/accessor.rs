@@ -205,7 +205,8 @@ fn resolve<'a>(document: &'a Document<'_>, index: usize) -> Result<Resolved<'a>,
     };
     let Checked::Valid(kind) = accessor.type_ else { return Err(unknown("type")) };
     let stream = draco::elements(document, index)?;
-    // Small integers and indices are as wide as their stream has them; what is normalized is a share of its own type.
+    // Small integers and indices are as wide as their stream has them; what is normalized is a share of its
+    // own type.
     let component = match stream {
         Some(stream) if !accessor.normalized && component != ComponentType::F32 => stream.component,
         _ => component,

@@ -187,8 +187,8 @@ fn path_name(path: Property) -> &'static str {
     }
 }
 
-/// Number of morph targets of the mesh at a node: of the primitive that has most, since others are not displaced by those
-/// that they lack. Else why there is none.
+/// Number of morph targets of the mesh at a node: of the primitive that has most, since others are not
+/// displaced by those that they lack. Else why there is none.
 fn target_count(document: &Document<'_>, node: usize) -> Result<usize, String> {
     let Some(mesh) = document.root.nodes[node].mesh.map(|mesh| mesh.value()) else {
         return Err(format!("it animates the weights of nodes[{node}], which has no mesh"));

@@ -9,8 +9,8 @@ use ::gltf::json::validation::Checked;
 use rasray_scene::pose::rigid;
 use rasray_scene::{Camera, Projection};
 
-/// The cameras of the nodes in `order`, each with its node. Scale and shear of the nodes are taken off. Clip planes are not
-/// used: rays see at any distance.
+/// The cameras of the nodes in `order`, each with its node. Scale and shear of the nodes are taken off. Clip
+/// planes are not used: rays see at any distance.
 pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usize]) -> Vec<(usize, Camera)> {
     let mut cameras = Vec::new();
     for &node in order {

@@ -1,7 +1,7 @@
 //! `EXT_meshopt_compression` and `KHR_meshopt_compression`: buffer views whose bytes are stored compressed.
 //!
-//! meshoptimizer decodes the streams. It refuses those that are malformed; sizes, strides and words, which it takes for
-//! granted, are checked here before.
+//! meshoptimizer decodes the streams. It refuses those that are malformed; sizes, strides and words, which it
+//! takes for granted, are checked here before.
 
 use ::gltf::json::Value;
 use meshopt::ffi;
@@ -177,9 +177,10 @@ impl Compressed {
         let (count, stride) = (self.count as usize, self.stride);
         assert!(count * stride <= size_of_val(decoded));
         let (to, from, size) = (decoded.as_mut_ptr().cast(), stream.as_ptr(), stream.len());
-        // SAFETY: `to` has room for `count` elements of `stride` bytes and is aligned for the widest numbers that are
-        // written, those of 32 bits; `from` has `size` bytes. Strides and counts are those that the functions allow for
-        // their mode and filter (`check`), and their decoders promise to stay inside of both ranges whatever the bytes are.
+        // SAFETY: `to` has room for `count` elements of `stride` bytes and is aligned for the widest numbers
+        // that are written, those of 32 bits; `from` has `size` bytes. Strides and counts are those that the
+        // functions allow for their mode and filter (`check`), and their decoders promise to stay inside of
+        // both ranges whatever the bytes are.
         unsafe {
             let status = match self.mode {
                 Mode::Attributes => ffi::meshopt_decodeVertexBuffer(to, count, stride, from, size),

@@ -1,7 +1,7 @@
 //! `KHR_draco_mesh_compression`: primitives whose indices and attributes are one stream in a buffer view.
 //!
-//! The accessors of such a primitive say what they hold; their elements are those of the stream. Morph targets are never
-//! in it.
+//! The accessors of such a primitive say what they hold; their elements are those of the stream. Morph
+//! targets are never in it.
 
 use std::cell::OnceCell;
 use std::collections::HashMap;

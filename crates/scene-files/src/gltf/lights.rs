@@ -12,8 +12,8 @@ use super::punctual;
 use rasray_scene::Light;
 use rasray_scene::pose::light_direction;
 
-/// The lights of the nodes in `order`, each with its node. Scale moves a light but does not change how bright it is or
-/// how far it reaches.
+/// The lights of the nodes in `order`, each with its node. Scale moves a light but does not change how bright
+/// it is or how far it reaches.
 pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usize]) -> Vec<(usize, Light)> {
     let mut lights = Vec::new();
     for &node in order {

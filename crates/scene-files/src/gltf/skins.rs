@@ -86,8 +86,8 @@ pub(super) fn remark(document: &Document<'_>, place: &str, primitive: &Primitive
     }
 }
 
-/// Reads which joints move the vertices of a primitive. `sets` are the accessors of joints and weights, four joints per
-/// vertex each.
+/// Reads which joints move the vertices of a primitive. `sets` are the accessors of joints and weights, four
+/// joints per vertex each.
 pub(super) fn read_binding(
     document: &Document<'_>,
     place: &str,

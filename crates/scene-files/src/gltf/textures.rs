@@ -45,8 +45,8 @@ impl<'a> Use<'a> {
     }
 }
 
-/// The image of a texture, that of `KHR_texture_basisu` before one that stands in for it; `None` if only another extension
-/// names one.
+/// The image of a texture, that of `KHR_texture_basisu` before one that stands in for it; `None` if only
+/// another extension names one.
 pub(super) fn source(texture: &JsonTexture) -> Option<usize> {
     let basis = texture.extensions.as_ref().and_then(|found| found.others.get("KHR_texture_basisu"));
     match basis.and_then(|found| found.get("source")).and_then(Value::as_u64) {
@@ -170,8 +170,8 @@ impl<'a, 'd> TextureReader<'a, 'd> {
 }
 
 impl TextureReader<'_, '_> {
-    /// Resolves the reference of an image. One that cannot be followed is a missing texture, which a scene can do
-    /// without: `None`, with a remark, unless a file of its name stands in.
+    /// Resolves the reference of an image. One that cannot be followed is a missing texture, which a scene
+    /// can do without: `None`, with a remark, unless a file of its name stands in.
     fn image_reference(&self, place: &str, uri: &str) -> Result<Option<Reference>, SceneError> {
         let Document { path, limits, remarks, .. } = self.document;
         match resolve(path, place, uri, limits.file_bytes) {

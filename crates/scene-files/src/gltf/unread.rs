@@ -15,8 +15,8 @@ pub(super) struct Unread {
     displacements: Vec<String>,
 }
 
-/// Attributes of primitives that are not read, by mesh and primitive, where there are any. The typed tree has no place
-/// for them.
+/// Attributes of primitives that are not read, by mesh and primitive, where there are any. The typed tree has
+/// no place for them.
 pub(super) fn find(tree: &Value) -> HashMap<(usize, usize), Unread> {
     let mut found = HashMap::new();
     for (mesh, source) in tree.get("meshes").and_then(Value::as_array).into_iter().flatten().enumerate() {
@@ -45,8 +45,8 @@ fn add(names: &mut Vec<String>, attributes: &Value, is_read: impl Fn(&str) -> bo
     }
 }
 
-/// True if an attribute is read, or named elsewhere where it is needed: further texture coordinates by the textures
-/// that ask for them, joints and weights by the skin.
+/// True if an attribute is read, or named elsewhere where it is needed: further texture coordinates by the
+/// textures that ask for them, joints and weights by the skin.
 fn is_read(name: &str) -> bool {
     let is_numbered =
         |prefix: &str| name.strip_prefix(prefix).is_some_and(|number| number.parse::<u32>().is_ok());

@@ -31,7 +31,8 @@ pub(super) struct Geometry {
     pub vertices: usize,
 }
 
-/// Reads the statements of an OBJ file. `divides` says whether meshes are divided where their groups lie far apart.
+/// Reads the statements of an OBJ file. `divides` says whether meshes are divided where their groups lie far
+/// apart.
 pub(super) fn read(
     path: &Path,
     bytes: &[u8],

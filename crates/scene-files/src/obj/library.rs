@@ -11,8 +11,8 @@ pub(super) struct Library {
 }
 
 impl Library {
-    /// Names of files and where they lead. The statement may name one file with spaces or several files: one if that exists,
-    /// or one of its name beside the scene does.
+    /// Names of files and where they lead. The statement may name one file with spaces or several files: one
+    /// if that exists, or one of its name beside the scene does.
     pub fn files(&self, folder: &Path) -> Vec<(&str, Place)> {
         let is_one = match place(folder, &self.name) {
             Place::Below(file) => file.is_file(),

@@ -2,21 +2,22 @@
 //!
 //! Read are `v`, `vt`, `vn`, `f` (all index forms, negative indices too), `o`, `g`, `s`, `usemtl` and
 //! `mtllib`. A polygon is a fan from its first corner where that fills it, as for every convex one; others
-//! are cut along their ears, into as many triangles. Triangles keep the order of the file; a new mesh begins where
-//! the material changes, or where faces begin or cease to have texture coordinates or normals. Each mesh is placed
-//! once, where the file has it: coordinates are read in double precision, and those of a file far from the origin
-//! are kept relative to an origin that the instance carries, so that single precision suffices; a mesh whose groups
-//! (`g`, `o`) lie too far apart for one origin is divided. Files whose coordinates are single-precision numbers keep
-//! every bit.
+//! are cut along their ears, into as many triangles. Triangles keep the order of the file; a new mesh begins
+//! where the material changes, or where faces begin or cease to have texture coordinates or normals. Each
+//! mesh is placed once, where the file has it: coordinates are read in double precision, and those of a file
+//! far from the origin are kept relative to an origin that the instance carries, so that single precision
+//! suffices; a mesh whose groups (`g`, `o`) lie too far apart for one origin is divided. Files whose
+//! coordinates are single-precision numbers keep every bit.
 //!
-//! Faces without normals are flat, unless they are in a smoothing group: then the normal of a vertex is the sum of
-//! those of the group's faces there, weighted by area. Lines, points, colours of vertices and free-form surfaces are
-//! not read, and named in a warning.
+//! Faces without normals are flat, unless they are in a smoothing group: then the normal of a vertex is the
+//! sum of those of the group's faces there, weighted by area. Lines, points, colours of vertices and
+//! free-form surfaces are not read, and named in a warning.
 //!
 //! The v coordinate is turned over: OBJ counts from the bottom of the image, [`rasray_scene::Image`] from
 //! the top. Bytes that are not UTF-8 are tolerated in names.
 //!
-//! Materials become metallic-roughness ones. Colours are taken as linear and limited to [0, 1], emission to at least 0.
+//! Materials become metallic-roughness ones. Colours are taken as linear and limited to [0, 1], emission to
+//! at least 0.
 //!
 //! | MTL | here |
 //! |---|---|
@@ -32,15 +33,16 @@
 //! | `Pr`, `Pm` | perceptual roughness and metallic, in place of what follows from the others |
 //! | `norm` | normal map; `-bm` is its strength |
 //!
-//! **Glass or not.** The four numbers of transparency say that light passes, but exporters write them for surfaces that are
-//! only faded or even opaque. Blender writes `illum 9` (6 for metals) wherever `d` is below 1, with `Kd` for the colour and no
-//! `Tf`; Maya writes `illum 4`, `Tf 1 1 1` and `Ni 1` for what is opaque. So such a material is glass only where
+//! **Glass or not.** The four numbers of transparency say that light passes, but exporters write them for
+//! surfaces that are only faded or even opaque. Blender writes `illum 9` (6 for metals) wherever `d` is below
+//! 1, with `Kd` for the colour and no `Tf`; Maya writes `illum 4`, `Tf 1 1 1` and `Ni 1` for what is opaque.
+//! So such a material is glass only where
 //! - it has no colour of its own: neither a `Kd` that is not black nor a `map_Kd`, or
 //! - it has a `Tf`, and no `Ni` of at most 1, which would bend no light, or
 //! - it has no `Tf`, an `Ni` above 1, and no `d` between 0 and 1.
 //!
-//! With a black `Tf` it never is. What is no glass is shown by `Kd` and `d`, as with any other `illum`. A glass that has a
-//! `Kd` or a `d` between 0 and 1 all the same has a warning that they are not shown.
+//! With a black `Tf` it never is. What is no glass is shown by `Kd` and `d`, as with any other `illum`. A
+//! glass that has a `Kd` or a `d` between 0 and 1 all the same has a warning that they are not shown.
 
 mod apart;
 mod geometry;
@@ -73,8 +75,9 @@ use textures::Textures;
 /// Loads an OBJ file, the material libraries it names, and the textures that these name.
 ///
 /// A library, material or texture that is missing is a warning; the triangles are shown in light
-/// grey, or without the texture. One that is named by an absolute path or by `..` is never followed; a file of its name
-/// beside the file that names it stands in. A file without faces is a scene without triangles, with a warning.
+/// grey, or without the texture. One that is named by an absolute path or by `..` is never followed; a file
+/// of its name beside the file that names it stands in. A file without faces is a scene without triangles,
+/// with a warning.
 ///
 /// # Errors
 /// - [`SceneError::Read`] if the file cannot be read; [`SceneError::TooLarge`] beyond a limit.

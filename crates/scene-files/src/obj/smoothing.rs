@@ -18,7 +18,8 @@ pub(super) struct Smoothing {
 }
 
 impl Smoothing {
-    /// Reads a statement `s`: the number of a group, or `off`. A word that is no number is a group of its own.
+    /// Reads a statement `s`: the number of a group, or `off`. A word that is no number is a group of its
+    /// own.
     pub fn take(&mut self, statement: &Statement<'_>) {
         self.group = match statement.words().next() {
             None | Some(b"off") => 0,
@@ -33,7 +34,8 @@ impl Smoothing {
         self.group != 0
     }
 
-    /// Adds the normal of a face, as long as twice its area, to that of a vertex in the group, and says which that is.
+    /// Adds the normal of a face, as long as twice its area, to that of a vertex in the group, and says which
+    /// that is.
     pub fn add(&mut self, vertex: u32, normal: DVec3) -> u32 {
         let Self { group, places, sums } = self;
         let place = *places.entry((vertex, *group)).or_insert_with(|| {

@@ -134,7 +134,8 @@ pub(super) fn number(word: &[u8]) -> Option<f32> {
     }
 }
 
-/// A number in double precision: the nearest number to the text that, rounded once more, is that of [`number`].
+/// A number in double precision: the nearest number to the text that, rounded once more, is that of
+/// [`number`].
 fn wide_number(word: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(word).ok()?;
     let wide: f64 = match text.parse() {
@@ -142,8 +143,8 @@ fn wide_number(word: &[u8]) -> Option<f64> {
         Err(_) if text.contains(".#") => return Some(f64::NAN),
         Err(_) => return None,
     };
-    // Only half-way between two single-precision numbers can the text lie on the other side than its double did. The low 29
-    // bits say so, but for the subnormal ones.
+    // Only half-way between two single-precision numbers can the text lie on the other side than its double
+    // did. The low 29 bits say so, but for the subnormal ones.
     let is_half_way =
         wide.to_bits() & 0x1FFF_FFFF == 0x1000_0000 || wide.abs() < f64::from(f32::MIN_POSITIVE);
     if is_half_way && wide != 0.0 {

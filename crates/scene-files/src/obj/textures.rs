@@ -59,7 +59,8 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// The base colour of a material, with its `map_d` as alpha, and whether it has that. A mask without a colour cuts white.
+    /// The base colour of a material, with its `map_d` as alpha, and whether it has that. A mask without a
+    /// colour cuts white.
     pub fn base_color(
         &mut self,
         found: &MtlMaterial,

@@ -23,8 +23,8 @@ const END: u32 = u32::MAX;
 pub(super) enum Shape {
     /// A polygon.
     Face,
-    /// Triangle strips: each corner closes a triangle with the two before it. An index below zero ends a strip, and
-    /// the next begins.
+    /// Triangle strips: each corner closes a triangle with the two before it. An index below zero ends a
+    /// strip, and the next begins.
     Strip,
 }
 
@@ -223,8 +223,8 @@ impl Faces {
         self.triangles += corners.len() as u64 - 2;
     }
 
-    /// Every second triangle is turned over, so that all face one way. A corner that repeats one of the last two is how
-    /// strips are joined, and shows nothing.
+    /// Every second triangle is turned over, so that all face one way. A corner that repeats one of the last
+    /// two is how strips are joined, and shows nothing.
     fn add_strip(&mut self, group: usize, corners: &[u32]) {
         self.short += usize::from((1..3).contains(&corners.len()));
         for (index, corners) in corners.windows(3).enumerate() {
@@ -295,7 +295,8 @@ fn index_list(path: &Path, element: &Element) -> Result<usize, SceneError> {
     Ok(list)
 }
 
-/// The next index of a list. It may be beyond the vertices, which may stand behind: the finished mesh is checked.
+/// The next index of a list. It may be beyond the vertices, which may stand behind: the finished mesh is
+/// checked.
 fn corner(body: &mut Body<'_>, scalar: Scalar, shape: Shape) -> Result<u32, SceneError> {
     let index = body.number(scalar)?;
     if (0.0..f64::from(END)).contains(&index) {

@@ -18,8 +18,8 @@ use rasray_scene::{Mesh, SceneError};
 /// Contents of a file.
 #[derive(Default)]
 pub(super) struct Content {
-    /// One for each texture that faces use, without positions, texture coordinates, names and materials. None if there are
-    /// no triangles.
+    /// One for each texture that faces use, without positions, texture coordinates, names and materials. None
+    /// if there are no triangles.
     pub meshes: Vec<Mesh>,
     /// Positions of each mesh as the file has them.
     pub positions: Vec<Vec<DVec3>>,

@@ -1,21 +1,23 @@
 //! PLY meshes: ASCII, and binary of either byte order.
 //!
-//! Of the element `vertex` are read `x y z`, `nx ny nz`, texture coordinates (`s t`, `u v`, `texture_u texture_v` or
-//! `texture_s texture_t`), and `red green blue alpha` (also `r g b a` and `diffuse_red` and so on); of `face` the list
-//! `vertex_indices` or `vertex_index`, and its colour under the same names. Any scalar type will do. Where the header names
-//! images (`comment TextureFile NAME`), the list `texcoord` and the number `texnumber` of faces are read, too. Polygons
-//! become triangles as in OBJ files. The same lists of `tristrips` are triangle strips, which a negative index ends.
-//! Everything else is skipped, with a warning that names it.
+//! Of the element `vertex` are read `x y z`, `nx ny nz`, texture coordinates (`s t`, `u v`, `texture_u
+//! texture_v` or `texture_s texture_t`), and `red green blue alpha` (also `r g b a` and `diffuse_red` and so
+//! on); of `face` the list `vertex_indices` or `vertex_index`, and its colour under the same names. Any
+//! scalar type will do. Where the header names images (`comment TextureFile NAME`), the list `texcoord` and
+//! the number `texnumber` of faces are read, too. Polygons become triangles as in OBJ files. The same lists
+//! of `tristrips` are triangle strips, which a negative index ends. Everything else is skipped, with a
+//! warning that names it.
 //!
-//! Faces with colours or texture coordinates of their own have vertices of their own: those of the file, once for each
-//! colour and coordinate that faces give them. Colours of faces stand in place of those of vertices, and so do texture
-//! coordinates. Each texture is a mesh with a material of its own, with its triangles in the order of the file.
+//! Faces with colours or texture coordinates of their own have vertices of their own: those of the file, once
+//! for each colour and coordinate that faces give them. Colours of faces stand in place of those of vertices,
+//! and so do texture coordinates. Each texture is a mesh with a material of its own, with its triangles in
+//! the order of the file.
 //!
 //! The v coordinate is turned over, as for OBJ. Colours in whole numbers are sRGB and become linear,
 //! colours in floating point are taken as linear; alpha is linear either way, and not shown.
 //!
-//! Coordinates are read in double precision, and those of a file far from the origin are kept relative to an origin that
-//! the instance carries, as for OBJ.
+//! Coordinates are read in double precision, and those of a file far from the origin are kept relative to an
+//! origin that the instance carries, as for OBJ.
 
 mod body;
 mod faces;

@@ -123,7 +123,8 @@ pub(super) fn read(
     })
 }
 
-/// A colour as linear values; a channel without a type is 1. Whole numbers span their type and are sRGB, but for alpha.
+/// A colour as linear values; a channel without a type is 1. Whole numbers span their type and are sRGB, but
+/// for alpha.
 pub(super) fn color(values: [f64; 4], scalars: [Option<Scalar>; 4]) -> [f32; 4] {
     std::array::from_fn(|channel| match scalars[channel] {
         Some(scalar) => linear(values[channel], scalar, channel == 3),

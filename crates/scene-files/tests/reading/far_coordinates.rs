@@ -1,4 +1,5 @@
-//! Coordinates far from the origin keep the precision of their file: OBJ text, PLY doubles and whole numbers, numbered files.
+//! Coordinates far from the origin keep the precision of their file: OBJ text, PLY doubles and whole numbers,
+//! numbered files.
 
 use std::fmt::Write;
 use std::fs;
@@ -156,8 +157,8 @@ fn doubles_and_whole_numbers_far_from_the_origin_are_what_they_are() {
     }
 }
 
-/// Coordinates that single precision holds are not touched, wherever they are; nor are meshes that are large against
-/// their distance.
+/// Coordinates that single precision holds are not touched, wherever they are; nor are meshes that are large
+/// against their distance.
 #[test]
 fn what_loses_nothing_keeps_its_bits() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -208,8 +209,8 @@ fn what_loses_nothing_keeps_its_bits() {
     assert_eq!(float.instances[0].world_from_mesh, DAffine3::IDENTITY);
 }
 
-/// Meshes of one file that touch share an origin, so that their common corners are the same points; one that stands apart
-/// keeps its own precision.
+/// Meshes of one file that touch share an origin, so that their common corners are the same points; one that
+/// stands apart keeps its own precision.
 #[test]
 fn parts_of_a_file_stay_together() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -231,7 +232,8 @@ fn parts_of_a_file_stay_together() {
     assert_close(&corners(&scene)[3..], &truth(&values(&far)), 1.0, "the plate");
 }
 
-/// Faces of one material are one mesh, unless groups of it lie so far apart that one origin cannot serve both.
+/// Faces of one material are one mesh, unless groups of it lie so far apart that one origin cannot serve
+/// both.
 #[test]
 fn groups_of_one_material_that_lie_apart_have_origins_of_their_own() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -276,7 +278,8 @@ fn groups_of_one_material_that_lie_apart_have_origins_of_their_own() {
             alone.meshes[0].normals.as_ref().map(|normals| &normals[mesh * count..][..count])
         );
     }
-    // Groups that are near one another, as against their size, stay one mesh, wherever they are; so does what is exact.
+    // Groups that are near one another, as against their size, stay one mesh, wherever they are; so does what
+    // is exact.
     let beside = plate([UTM[0] + 20.0, UTM[1], UTM[2]]);
     let whole = |vertices: &[[f64; 3]]| -> Vec<[String; 3]> {
         vertices.iter().map(|vertex| vertex.map(|x| (x * 10.0).round().to_string())).collect()
@@ -320,8 +323,8 @@ fn numbered_files_share_an_origin() {
     }
 }
 
-/// Texture coordinates that follow from such positions, as planar projections make them: whole repeats of a texture say
-/// nothing, and cost precision.
+/// Texture coordinates that follow from such positions, as planar projections make them: whole repeats of a
+/// texture say nothing, and cost precision.
 #[test]
 fn texture_coordinates_far_from_zero_are_what_they_say() {
     let folder = tempfile::tempdir().expect("a folder");

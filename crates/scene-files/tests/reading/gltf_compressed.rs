@@ -1,5 +1,5 @@
-//! Scenes as exporters for the web compress them, against the plain scene that they were made of: the files of
-//! `tests/compressed`, which its `make.mjs` makes.
+//! Scenes as exporters for the web compress them, against the plain scene that they were made of: the files
+//! of `tests/compressed`, which its `make.mjs` makes.
 
 use std::path::{Path, PathBuf};
 
@@ -133,13 +133,15 @@ fn compare(file: &str, plain: &Scene, twin: &Scene) -> Error {
     worst
 }
 
-/// Compressed scenes equal those that exporters were given, to the numbers of bits that they were told to keep.
+/// Compressed scenes equal those that exporters were given, to the numbers of bits that they were told to
+/// keep.
 #[test]
 fn compressed_scenes_equal_their_plain_twins() {
     let plain = read("plain.glb");
     let clips = plain.animation.rig.compatible_clips();
-    // Bounds follow from the bits that exporters keep. Normals in radians: 8 bits in octahedra (1/127 on either axis), 8 bits
-    // an axis, 10 bits, floats of 8 bits, 16 bits. Colours: the filter keeps 7 of 8 bits of green and of chroma.
+    // Bounds follow from the bits that exporters keep. Normals in radians: 8 bits in octahedra (1/127 on
+    // either axis), 8 bits an axis, 10 bits, floats of 8 bits, 16 bits. Colours: the filter keeps 7 of 8 bits
+    // of green and of chroma.
     for (file, normal, color) in [
         ("gltf-transform-high.glb", 0.015, 0.0),
         ("gltf-transform-medium.glb", 0.0025, 0.0),
@@ -160,7 +162,8 @@ fn compressed_scenes_equal_their_plain_twins() {
             worst = worst.or(compare(file, &at(&plain), &at(&twin)));
         }
         println!("{file}: {worst:?}");
-        // Weights of joints have 8 bits, and joints move what they hold by up to 1.3; rotations of copies, 5 long, have 12.
+        // Weights of joints have 8 bits, and joints move what they hold by up to 1.3; rotations of copies, 5
+        // long, have 12.
         assert!(worst.position < 0.0026, "{file}: {worst:?}");
         // 12 bits of 3.
         assert!(worst.texture < 0.5 * 3.0 / 4095.0 + 1e-6, "{file}: {worst:?}");
@@ -168,8 +171,8 @@ fn compressed_scenes_equal_their_plain_twins() {
     }
 }
 
-/// Without a filter, decoding gives back every bit: what the same exporter writes with and without compression is the same
-/// scene, but for the order of triangles and their first corners.
+/// Without a filter, decoding gives back every bit: what the same exporter writes with and without
+/// compression is the same scene, but for the order of triangles and their first corners.
 #[test]
 fn compression_without_filters_loses_nothing() {
     let quantized = read("gltfpack-quantized.glb");
@@ -278,7 +281,8 @@ fn what_accessors_claim_of_draco_streams_is_checked() {
     assert!(error.to_string().contains("too large for the limits of scenes"), "{error}");
 }
 
-/// Bytes that are decoded count as bytes of buffers, and none are held for a stream that is too short for them.
+/// Bytes that are decoded count as bytes of buffers, and none are held for a stream that is too short for
+/// them.
 #[test]
 fn decoded_bytes_are_bounded() {
     let path = folder().join("gltfpack-cc.glb");

@@ -1,4 +1,5 @@
-//! Clips of a glTF file: keys at the times of frames, channels that cannot be played and why, and what of it is not read.
+//! Clips of a glTF file: keys at the times of frames, channels that cannot be played and why, and what of it
+//! is not read.
 
 use glam::DVec3;
 use rasray_scene::Scene;
@@ -7,7 +8,8 @@ use rasray_scene::animation::ChannelValues;
 use crate::gltf_support::load_bytes;
 use crate::gltf_support::moving::{File, TRIANGLE, corners, messages};
 
-/// An exporter writes frame k at k / fps, rounded to f32: that is where frame k is shown, in every interpolation.
+/// An exporter writes frame k at k / fps, rounded to f32: that is where frame k is shown, in every
+/// interpolation.
 #[test]
 fn a_frame_shows_the_key_that_was_written_for_it() {
     for fps in [12.0, 23.976, 24.0, 25.0, 29.97, 30.0, 48.0, 50.0, 59.94, 60.0, 120.0] {
@@ -146,7 +148,8 @@ fn a_channel_that_cannot_be_played_says_why() {
     );
 }
 
-/// Of two channels for one property the later one counts, and the other is named; rotations without direction, too.
+/// Of two channels for one property the later one counts, and the other is named; rotations without
+/// direction, too.
 #[test]
 fn channels_that_are_played_in_part_are_named() {
     let mut file = File::new();

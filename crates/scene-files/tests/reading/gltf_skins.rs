@@ -1,4 +1,5 @@
-//! Skins of a glTF file: joints far away, without weight or of no size, and nodes that a skin or a clip makes harmless.
+//! Skins of a glTF file: joints far away, without weight or of no size, and nodes that a skin or a clip makes
+//! harmless.
 
 use glam::DVec3;
 use rasray_scene::{Moment, Scene};
@@ -6,7 +7,8 @@ use rasray_scene::{Moment, Scene};
 use crate::gltf_support::kinds;
 use crate::gltf_support::moving::{File, TRIANGLE, corners, messages};
 
-/// A triangle that follows joints at these places, by these weights; the joints turn by half a turn about z in a second.
+/// A triangle that follows joints at these places, by these weights; the joints turn by half a turn about z
+/// in a second.
 fn skinned(places: &[[f32; 3]], joints: [u8; 4], weights: [f32; 4], mesh_node: &str) -> Scene {
     let mut file = File::new();
     let of = file.accessor(&joints.repeat(3), 5121, "VEC4", 3);
@@ -61,7 +63,8 @@ fn a_far_joint_without_weight_costs_no_digits() {
     }
 }
 
-/// Vertices keep their digits where joints with weight are far from those of other vertices, and far from the origin.
+/// Vertices keep their digits where joints with weight are far from those of other vertices, and far from the
+/// origin.
 #[test]
 fn positions_of_skins_keep_their_digits_anywhere() {
     for place in [[0.0; 3], [3.0e5, 0.0, -2.0e6], [-40.0, 8.0e6, 0.5]] {
@@ -80,7 +83,8 @@ fn positions_of_skins_keep_their_digits_anywhere() {
                 corners(&scene, 0, seconds).into_iter().zip([DVec3::ZERO, DVec3::X, DVec3::Y])
             {
                 let expected = origin + glam::DMat3::from_rotation_z(angle) * corner;
-                // Weights are rounded once more, and keys hold single precision; the way from the origin plays no part.
+                // Weights are rounded once more, and keys hold single precision; the way from the origin
+                // plays no part.
                 assert!((found - expected).length() < 4.0e-7, "{found} {expected}");
             }
         }
@@ -103,8 +107,8 @@ fn weights_that_move_nothing_are_named() {
     assert_eq!(kinds(&scene), ["skin-without-joints"]);
 }
 
-/// A node with a scale of 0 is worth a warning where it flattens something: not the node of a skin, which plays no part, not
-/// a joint without weight, and not one that a clip that plays scales.
+/// A node with a scale of 0 is worth a warning where it flattens something: not the node of a skin, which
+/// plays no part, not a joint without weight, and not one that a clip that plays scales.
 #[test]
 fn only_what_flattens_something_is_named() {
     let zero = r#","scale":[0,0,0]"#;
@@ -132,7 +136,8 @@ fn only_what_flattens_something_is_named() {
     assert!(messages(&scene, "zero-scale")[0].contains("1 more"));
 }
 
-/// A mesh that a joint hides at rest by a scale of 0 is not at fault: triangles and normals are there when it is shown.
+/// A mesh that a joint hides at rest by a scale of 0 is not at fault: triangles and normals are there when it
+/// is shown.
 #[test]
 fn what_a_joint_hides_at_rest_is_not_said_to_be_broken() {
     let mut file = File::new();

@@ -275,7 +275,8 @@ proptest! {
             let scene = read("property", &writer.bytes).expect("scene");
             let mesh = &scene.meshes[0];
             prop_assert_eq!(&mesh.positions, &points);
-            // The filling of polygons is tested elsewhere; here they are what they are, in the order of the file.
+            // The filling of polygons is tested elsewhere; here they are what they are, in the order of the
+            // file.
             let mut triangles = mesh.indices.chunks_exact(3);
             for face in &faces {
                 let face: Vec<u32> = face.iter().map(|index| index % points.len() as u32).collect();

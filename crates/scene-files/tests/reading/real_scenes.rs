@@ -35,7 +35,8 @@ fn real_scenes_are_classified_right() {
     }
 }
 
-/// Real scenes at several times: well formed, as many triangles, moved, and the same where they begin and are at rest.
+/// Real scenes at several times: well formed, as many triangles, moved, and the same where they begin and are
+/// at rest.
 #[test]
 fn animated_scenes_are_well_formed_at_all_times() {
     let Some(folder) = scenes_folder("animated_scenes_are_well_formed_at_all_times") else { return };

@@ -59,9 +59,10 @@ const GRASS: usize = 3;
 /// Meshes that the wind moves: leaves and grass.
 const MOVING: [usize; 2] = [2, 3];
 
-/// Five trees and a meadow in a hollow, in a wind ([`Scene::at`]). Two thirds of the leaves asked for are on the trees, each a folded
-/// outline of six triangles, or a card of two with an alpha mask; the others are blades of grass of five. More than half
-/// of these triangles are narrower than a pixel of a picture of 640 by 360.
+/// Five trees and a meadow in a hollow, in a wind ([`Scene::at`]). Two thirds of the leaves asked for are on
+/// the trees, each a folded outline of six triangles, or a card of two with an alpha mask; the others are
+/// blades of grass of five. More than half of these triangles are narrower than a pixel of a picture of 640
+/// by 360.
 pub fn foliage(parameters: Foliage) -> Scene {
     let leaves = parameters.leaves.clamp(*Foliage::LEAVES.start(), *Foliage::LEAVES.end());
     let plants = Plants::grow(leaves, parameters.cards);

@@ -1,7 +1,7 @@
 //! Closed forms that things in scenes are made of: turned, swept, cut from a block, folded.
 //!
-//! Arithmetic is additions, multiplications, divisions and square roots in f64 alone, so the bits are the same on every
-//! machine.
+//! Arithmetic is additions, multiplications, divisions and square roots in f64 alone, so the bits are the
+//! same on every machine.
 
 use std::f64::consts::TAU;
 use std::ops::{Add, Mul, Sub};
@@ -24,8 +24,8 @@ impl Fineness {
     }
 }
 
-/// Sine and cosine of a share of a full turn, within 2^-51; the same bits everywhere, which a mathematics library's
-/// are not.
+/// Sine and cosine of a share of a full turn, within 2^-51; the same bits everywhere, which a mathematics
+/// library's are not.
 pub(super) fn turn(share: f64) -> (f64, f64) {
     let quarter = (4.0 * share).round();
     let angle = (share - quarter / 4.0) * TAU;
@@ -72,7 +72,8 @@ where
     along
 }
 
-/// An arc of a profile around `centre`, from one share of a turn to another; 0 points along +x, 0.25 along +y.
+/// An arc of a profile around `centre`, from one share of a turn to another; 0 points along +x, 0.25 along
+/// +y.
 pub(super) fn arc(centre: DVec2, radius: f64, from: f64, to: f64, steps: usize) -> Vec<DVec2> {
     let at = |step: usize| {
         let (sin, cos) = turn(from + (to - from) * step as f64 / steps as f64);
@@ -101,9 +102,9 @@ pub(super) fn along(axis: DVec3, origin: DVec3) -> DAffine3 {
 }
 
 impl Shapes {
-    /// A surface of revolution about the y axis of `place`. `profile` lists (radius, height) so that the front is to the
-    /// right: upwards on the outside. It is smooth but for edges of more than 40 degrees, and closed where the profile
-    /// begins and ends on the axis, or ends where it began.
+    /// A surface of revolution about the y axis of `place`. `profile` lists (radius, height) so that the
+    /// front is to the right: upwards on the outside. It is smooth but for edges of more than 40 degrees, and
+    /// closed where the profile begins and ends on the axis, or ends where it began.
     pub fn revolve(&mut self, place: DAffine3, segments: usize, profile: &[DVec2], repeat: DVec2) {
         let steps = profile.len() - 1;
         let across: Vec<DVec2> = profile
@@ -159,8 +160,8 @@ impl Shapes {
         }
     }
 
-    /// A closed tube along `path`; `radius` is told the share of the points that is behind. A radius of 0 at an end is a
-    /// tip, any other is closed by a flat disc.
+    /// A closed tube along `path`; `radius` is told the share of the points that is behind. A radius of 0 at
+    /// an end is a tip, any other is closed by a flat disc.
     pub fn tube(&mut self, path: &[DVec3], segments: usize, radius: impl Fn(f64) -> f64, repeat: DVec2) {
         let last = path.len() - 1;
         let tangent =
@@ -218,8 +219,8 @@ impl Shapes {
         }
     }
 
-    /// A closed block around the origin of `place` with its edges cut off over `bevel` metres and shaded round.
-    /// Texture coordinates grow by `repeat` per metre, u along the longer side of a face.
+    /// A closed block around the origin of `place` with its edges cut off over `bevel` metres and shaded
+    /// round. Texture coordinates grow by `repeat` per metre, u along the longer side of a face.
     pub fn block_with_bevel(&mut self, place: DAffine3, half: DVec3, bevel: f64, repeat: f64) {
         let normal_from_form = place.matrix3.inverse().transpose();
         let shift = place.translation.x + 0.7 * place.translation.y + 1.3 * place.translation.z;
@@ -276,9 +277,9 @@ impl Shapes {
         }
     }
 
-    /// A closed solid between two surfaces over (u, v) in [0, 1]^2, `columns` by `rows` quads each: cloth with its
-    /// thickness, or water over its ground. The front of `top` is on the side of d/du x d/dv; where both meet on the
-    /// border there is no wall between.
+    /// A closed solid between two surfaces over (u, v) in [0, 1]^2, `columns` by `rows` quads each: cloth
+    /// with its thickness, or water over its ground. The front of `top` is on the side of d/du x d/dv; where
+    /// both meet on the border there is no wall between.
     pub fn between(
         &mut self,
         columns: usize,

@@ -54,11 +54,11 @@ impl Default for MirrorHall {
     }
 }
 
-/// A hall of 12 m by 30 m between two rows of fluted columns, under a roof of glass. In a 16:9 picture of its camera the
-/// given share of the pixels shows a perfect mirror first, within a quarter of a percentage point. Parts become mirrors one
-/// after the other: the panes of the walls, the balls, the panes of the far end, the dark tiles, the light ones, columns,
-/// ceiling, and what is between. All other surfaces are Lambertian and without specular reflection; the same triangles
-/// are there at every share.
+/// A hall of 12 m by 30 m between two rows of fluted columns, under a roof of glass. In a 16:9 picture of its
+/// camera the given share of the pixels shows a perfect mirror first, within a quarter of a percentage point.
+/// Parts become mirrors one after the other: the panes of the walls, the balls, the panes of the far end, the
+/// dark tiles, the light ones, columns, ceiling, and what is between. All other surfaces are Lambertian and
+/// without specular reflection; the same triangles are there at every share.
 pub fn mirror_hall(parameters: MirrorHall) -> Scene {
     let share = parameters.share.clamp(*MirrorHall::SHARE.start(), *MirrorHall::SHARE.end());
     let materials = vec![
@@ -97,8 +97,8 @@ pub fn mirror_hall(parameters: MirrorHall) -> Scene {
     }
 }
 
-/// Candidates that are mirrors: in order, up to the first that shows more pixels than are still wanted; then those that
-/// fill the rest. What the camera does not see is so as what comes before it.
+/// Candidates that are mirrors: in order, up to the first that shows more pixels than are still wanted; then
+/// those that fill the rest. What the camera does not see is so as what comes before it.
 fn choose(candidates: &[Shapes], fixed: &[Shapes], camera: &Camera, share: f64) -> Vec<bool> {
     let meshes: Vec<Mesh> = candidates.iter().chain(fixed).cloned().map(Shapes::finish).collect();
     let scene = Scene { instances: place_each(&meshes), meshes, ..Scene::default() };

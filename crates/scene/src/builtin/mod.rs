@@ -93,8 +93,8 @@ pub struct Picture {
     pub samples: u32,
 }
 
-/// The picture that suits the built-in scene that `spec` names, seen by its own camera. `cornell` is square and hard to
-/// light: fewer pixels that all show it, with more samples.
+/// The picture that suits the built-in scene that `spec` names, seen by its own camera. `cornell` is square
+/// and hard to light: fewer pixels that all show it, with more samples.
 pub fn picture(spec: &str) -> Option<Picture> {
     (spec.split(':').next() == Some("cornell")).then_some(Picture { size: [256, 256], samples: 32 })
 }

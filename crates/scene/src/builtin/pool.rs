@@ -52,10 +52,10 @@ const CUSHION: usize = 9;
 const LEAF: usize = 10;
 const CLAY: usize = 11;
 
-/// A pool of 10 m by 5 m under the sun: tiles, steps, a ladder, a board, around it a deck of slabs, loungers, a pergola
-/// before a white wall. The water is a closed volume with an index of refraction of 1.33 that reaches a little into the
-/// walls, so that water meets tiles without air between. Its waves move ([`Scene::at`]), each with the speed that its
-/// length has in deep water.
+/// A pool of 10 m by 5 m under the sun: tiles, steps, a ladder, a board, around it a deck of slabs, loungers,
+/// a pergola before a white wall. The water is a closed volume with an index of refraction of 1.33 that
+/// reaches a little into the walls, so that water meets tiles without air between. Its waves move
+/// ([`Scene::at`]), each with the speed that its length has in deep water.
 pub fn pool() -> Scene {
     let mut meshes = vec![water_at(0.0)];
     basin(&mut meshes);

@@ -57,9 +57,10 @@ impl Default for Ruins {
     }
 }
 
-/// Five heaps of faceted stones on a square of ground, stones buried in stones, with stumps of columns among them,
-/// under a low sun and a blue sky. Radii follow a power law, so that a ray hits many layers of triangles of every
-/// size; large stones have 320 triangles, middle ones 80, crumbs 20. The camera stands at the edge of the ground.
+/// Five heaps of faceted stones on a square of ground, stones buried in stones, with stumps of columns among
+/// them, under a low sun and a blue sky. Radii follow a power law, so that a ray hits many layers of
+/// triangles of every size; large stones have 320 triangles, middle ones 80, crumbs 20. The camera stands at
+/// the edge of the ground.
 pub fn ruins(parameters: Ruins) -> Scene {
     let triangles = parameters.triangles.clamp(*Ruins::TRIANGLES.start(), *Ruins::TRIANGLES.end());
     let units: Vec<Icosphere> = (0..=2).map(Icosphere::new).collect();

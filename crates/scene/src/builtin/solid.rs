@@ -61,11 +61,11 @@ pub(super) struct Surface {
 /// Cells along a side of a block, which is left out as a whole where the surface is far.
 const BLOCK: i32 = 8;
 
-/// The surface of a solid between two corners, which must hold all of it, in about two triangles for each square with
-/// sides of `cell` metres.
+/// The surface of a solid between two corners, which must hold all of it, in about two triangles for each
+/// square with sides of `cell` metres.
 ///
-/// Surface nets: each cell of a grid that the surface passes has a vertex, which is moved onto the surface. `distance`
-/// must nowhere change faster than the place does.
+/// Surface nets: each cell of a grid that the surface passes has a vertex, which is moved onto the surface.
+/// `distance` must nowhere change faster than the place does.
 pub(super) fn surface(distance: &impl Fn(DVec3) -> f64, low: DVec3, high: DVec3, cell: f64) -> Surface {
     let counts = ((high - low) / cell).ceil().as_ivec3() + IVec3::splat(2);
     let corner = |at: IVec3| low + (at.as_dvec3() - 0.5) * cell;

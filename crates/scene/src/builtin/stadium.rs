@@ -57,9 +57,9 @@ const MARBLE: usize = 6;
 const GOLD: usize = 7;
 const SEATS: usize = 8;
 
-/// A bowl of benches in three colours around a pitch, under a ring of roof, and in the middle on a pedestal a silver teapot
-/// of 24 cm with a string of golden beads whose triangles measure less than a millimetre. The camera stands half a metre
-/// from the pot. Benches of ten seats are instances of three meshes.
+/// A bowl of benches in three colours around a pitch, under a ring of roof, and in the middle on a pedestal a
+/// silver teapot of 24 cm with a string of golden beads whose triangles measure less than a millimetre. The
+/// camera stands half a metre from the pot. Benches of ten seats are instances of three meshes.
 pub fn stadium(parameters: Stadium) -> Scene {
     let seats = parameters.seats.clamp(*Stadium::SEATS.start(), *Stadium::SEATS.end());
     let paint =

@@ -52,9 +52,10 @@ const WAX: usize = 13;
 const STALK: usize = 14;
 const WINDOW: usize = 15;
 
-/// A table with a glass bowl of fruit, a bottle, a carafe, two glasses of wine, a silver jug, a candlestick, grapes and a
-/// cloth over the table's edge, lit by a window from the left. Every thing is a closed solid: glass has an outer and an
-/// inner side, and what is in it is a volume of its own that nowhere touches it. About 291,000 triangles at detail 1.
+/// A table with a glass bowl of fruit, a bottle, a carafe, two glasses of wine, a silver jug, a candlestick,
+/// grapes and a cloth over the table's edge, lit by a window from the left. Every thing is a closed solid:
+/// glass has an outer and an inner side, and what is in it is a volume of its own that nowhere touches it.
+/// About 291,000 triangles at detail 1.
 pub fn still_life(parameters: StillLife) -> Scene {
     let fineness = Fineness(parameters.detail.clamp(*StillLife::DETAIL.start(), *StillLife::DETAIL.end()));
     let materials = materials();

@@ -4,7 +4,8 @@ use glam::{DAffine3, DVec2, DVec3};
 
 use super::shape::Shapes;
 
-/// Control points of one curve of a patch of revolution: radius, radius times the bow of a quarter circle, height.
+/// Control points of one curve of a patch of revolution: radius, radius times the bow of a quarter circle,
+/// height.
 type Profile = [[f64; 3]; 4];
 
 /// Rim, body in two parts, bottom, knob and lid, from where each begins to where it ends below.
@@ -17,8 +18,8 @@ const PROFILES: [Profile; 6] = [
     [[0.2, 0.112, 2.7], [0.4, 0.224, 2.55], [1.3, 0.728, 2.55], [1.3, 0.728, 2.4]],
 ];
 
-/// Control points (x, z) of the two sides in the plane of symmetry, and how far the half tube swells between them: two
-/// patches of the handle, two of the spout, each in four rows.
+/// Control points (x, z) of the two sides in the plane of symmetry, and how far the half tube swells between
+/// them: two patches of the handle, two of the spout, each in four rows.
 type Half = [[f64; 5]; 4];
 
 const HALVES: [Half; 4] = [
@@ -51,8 +52,9 @@ const HALVES: [Half; 4] = [
 /// Width of the body in the units of the control points; it is 3.15 high, and 6.5 from handle to spout.
 pub(super) const BODY: f64 = 4.0;
 
-/// Adds a teapot that stands on the origin of `place` with its spout towards +x, each patch as `steps` by `steps` quads.
-/// As it was designed, the body is open below the edge of the lid, and handle and spout reach into it.
+/// Adds a teapot that stands on the origin of `place` with its spout towards +x, each patch as `steps` by
+/// `steps` quads. As it was designed, the body is open below the edge of the lid, and handle and spout reach
+/// into it.
 pub(super) fn teapot(shapes: &mut Shapes, place: DAffine3, steps: usize) {
     for profile in PROFILES {
         for quarter in 0..4 {
@@ -81,7 +83,8 @@ pub(super) fn teapot(shapes: &mut Shapes, place: DAffine3, steps: usize) {
     }
 }
 
-/// One patch, with up the z axis of its control points; its front is on the other side where it is `mirrored`.
+/// One patch, with up the z axis of its control points; its front is on the other side where it is
+/// `mirrored`.
 fn patch(shapes: &mut Shapes, place: &DAffine3, rows: &[[DVec3; 4]; 4], steps: usize, mirrored: bool) {
     let upright = |point: DVec3| DVec3::new(point.x, point.z, -point.y);
     let normal_from_form = place.matrix3.inverse().transpose();

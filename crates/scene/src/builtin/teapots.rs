@@ -69,8 +69,8 @@ fn place(index: u64) -> (f64, f64) {
     (distance * cos, distance * sin)
 }
 
-/// Utah teapots of seven glazes and metals in a spiral on a plane mirror or beside a mirroring ball, under large lamps
-/// or a sky. All are instances of one shape, with a mesh for each material.
+/// Utah teapots of seven glazes and metals in a spiral on a plane mirror or beside a mirroring ball, under
+/// large lamps or a sky. All are instances of one shape, with a mesh for each material.
 pub fn teapots(parameters: Teapots) -> Scene {
     let pots = parameters.pots.clamp(*Teapots::POTS.start(), *Teapots::POTS.end());
     let glaze = |name: &str, color: [f32; 3], roughness: f32| Material {

@@ -13,9 +13,9 @@ const PLACES: [[f64; 3]; 4] = [
     [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
 ];
 
-/// The mean over the area of all placed triangles of the luminance of the radiance they emit, W/(sr m^2); a side
-/// that does not emit adds nothing, one that does counts in full. 0 without area. Textures are looked up at four
-/// places of each triangle; holes that alpha cuts are not.
+/// The mean over the area of all placed triangles of the luminance of the radiance they emit, W/(sr m^2); a
+/// side that does not emit adds nothing, one that does counts in full. 0 without area. Textures are looked up
+/// at four places of each triangle; holes that alpha cuts are not.
 pub(super) fn mean_emission(scene: &Scene) -> f64 {
     // Most scenes have nothing that glows, and some have millions of triangles.
     if !shown_materials(scene).any(emits) {

@@ -5,22 +5,23 @@ use super::emitters::{emits, shines, shown_materials};
 use super::sky::sky;
 use crate::{Environment, Light, Motion, Scene, Warning};
 
-/// Least emission that lights a scene: the mean radiance over all of its surfaces, W/(sr m^2). The lamp of a Cornell
-/// box gives the box 0.09; a white surface that saw 0.05 all around would be shown as a dark grey.
+/// Least emission that lights a scene: the mean radiance over all of its surfaces, W/(sr m^2). The lamp of a
+/// Cornell box gives the box 0.09; a white surface that saw 0.05 all around would be shown as a dark grey.
 const LEAST_EMISSION: f64 = 0.05;
 
-/// True if anything lights the scene: a punctual light that is not black, an environment that is not black, or
-/// surfaces that emit a mean radiance of at least 0.05 W/(sr m^2). That mean is over the area of all placed
-/// triangles, with emission by luminance, as textures shape it, once for each side that emits; surfaces of unlit
-/// materials emit their base colour on both sides.
+/// True if anything lights the scene: a punctual light that is not black, an environment that is not black,
+/// or surfaces that emit a mean radiance of at least 0.05 W/(sr m^2). That mean is over the area of all
+/// placed triangles, with emission by luminance, as textures shape it, once for each side that emits;
+/// surfaces of unlit materials emit their base colour on both sides.
 ///
-/// So lamps light a room, while eyes, screens and marks that glow on an object leave it to somebody else's light.
+/// So lamps light a room, while eyes, screens and marks that glow on an object leave it to somebody else's
+/// light.
 pub fn is_lit(scene: &Scene) -> bool {
     is_lit_always(scene) || mean_emission(scene) >= LEAST_EMISSION
 }
 
-/// True if [`is_lit`] depends on the time at which the scene is shown: nothing but surfaces may light it, and how much
-/// of all surfaces those are that emit changes with what moves.
+/// True if [`is_lit`] depends on the time at which the scene is shown: nothing but surfaces may light it, and
+/// how much of all surfaces those are that emit changes with what moves.
 pub fn is_lit_at_times(scene: &Scene) -> bool {
     scene.motion() != Motion::Still && scene.materials.iter().any(emits) && !is_lit_always(scene)
 }
@@ -34,9 +35,9 @@ fn is_lit_always(scene: &Scene) -> bool {
     environment || scene.lights.iter().any(light_shines)
 }
 
-/// The light of a scene that brings none, as a map of 256 x 128 texels: a neutral sky, grey at the horizon, with a
-/// broad soft key light half way up, to the left of a camera that looks along -z. A surface of base colour 0.8
-/// that faces the key light has a radiance of about 0.7 W/(sr m^2).
+/// The light of a scene that brings none, as a map of 256 x 128 texels: a neutral sky, grey at the horizon,
+/// with a broad soft key light half way up, to the left of a camera that looks along -z. A surface of base
+/// colour 0.8 that faces the key light has a radiance of about 0.7 W/(sr m^2).
 pub fn default_light() -> Environment {
     sky()
 }

@@ -18,16 +18,17 @@ const DIRECTIONS: usize = 96;
 /// hollow thing with walls of its own, such as a helmet, lacks the floor.
 const FRONTS: f64 = 0.6;
 const FRONTS_BELOW: f64 = 0.9;
-/// To be stood in, a room must be one in all directions: of those that do not rise by more than 30 degrees this
-/// share ends on fronts, in each quarter of the horizon. The face of a mask is open.
+/// To be stood in, a room must be one in all directions: of those that do not rise by more than 30 degrees
+/// this share ends on fronts, in each quarter of the horizon. The face of a mask is open.
 const FRONTS_AROUND: f64 = 0.75;
 /// Cosine between straight up and the steepest of them.
 const STEEPEST: f64 = 0.5;
-/// The share of the surface that may lie outside. Of a hollow thing that is lined, such as a helmet or the shell
-/// of a machine, more than half does, since a lining is smaller than what it lines; of a building that is modelled
-/// for its inside, with its outer walls, a third and less.
+/// The share of the surface that may lie outside. Of a hollow thing that is lined, such as a helmet or the
+/// shell of a machine, more than half does, since a lining is smaller than what it lines; of a building that
+/// is modelled for its inside, with its outer walls, a third and less.
 const OUTER: f64 = 0.42;
-/// Places on the surface that are looked at for that, and directions from each of which three in four must be free.
+/// Places on the surface that are looked at for that, and directions from each of which three in four must be
+/// free.
 const PLACES_ON_SURFACE: usize = 1024;
 const DIRECTIONS_FROM_SURFACE: usize = 12;
 /// An open side, as a box for show has one, takes at least this share of the directions, and the
@@ -124,8 +125,8 @@ impl Room<'_> {
         all.iter().zip(fronts).all(|(&all, fronts)| f64::from(fronts) >= FRONTS_AROUND * f64::from(all))
     }
 
-    /// The share of the surface, by area, whose front is open to the outside: from where three in four directions,
-    /// by the cosine law, hit nothing.
+    /// The share of the surface, by area, whose front is open to the outside: from where three in four
+    /// directions, by the cosine law, hit nothing.
     fn outer_share(&self) -> f64 {
         let places = self.sight.places(PLACES_ON_SURFACE);
         // A hit closer than this is on the surface that the place lies on.

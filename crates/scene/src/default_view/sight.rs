@@ -140,8 +140,8 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// So many places evenly over the area of the surfaces, each with the unit normal of its front. Fewer where
-    /// triangles are too thin to have a normal, none without area.
+    /// So many places evenly over the area of the surfaces, each with the unit normal of its front. Fewer
+    /// where triangles are too thin to have a normal, none without area.
     pub fn places(&self, count: usize) -> Vec<(DVec3, DVec3)> {
         let placed = |triangle: &[u32; 2]| {
             let (points, mirrored) = corners(self.scene, *triangle).unwrap_or_default();

@@ -6,16 +6,16 @@ use glam::DVec3;
 
 use crate::Environment;
 
-/// Texels of the map: fine enough that neighbours differ by less than a step of an 8-bit image, but for the rim of
-/// the key light.
+/// Texels of the map: fine enough that neighbours differ by less than a step of an 8-bit image, but for the
+/// rim of the key light.
 const WIDTH: u32 = 256;
 const HEIGHT: u32 = 128;
 /// Radiance straight down, at the horizon and straight up, W/(sr m^2).
 const NADIR: f64 = 0.11;
 const HORIZON: f64 = 0.2;
 const ZENITH: f64 = 0.3;
-/// The middle of the key light: where it comes from, not normalised. 50 degrees up, 25 degrees to the left of -z
-/// turned round, so that it stands behind the left shoulder of the default camera.
+/// The middle of the key light: where it comes from, not normalised. 50 degrees up, 25 degrees to the left of
+/// -z turned round, so that it stands behind the left shoulder of the default camera.
 const KEY: DVec3 = DVec3::new(-0.42, 1.19, 0.91);
 /// Radiance in its middle, above the sky's.
 const KEY_RADIANCE: f64 = 5.0;

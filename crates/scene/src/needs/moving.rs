@@ -4,8 +4,8 @@ use crate::Scene;
 use crate::animation::{ChannelValues, Rig};
 
 /// For each instance, in scene order, whether a clip moves or deforms it (a clip animates its node or
-/// one above it, a joint of its skin or one above that, or the weights of its morph targets), or the deformer changes its
-/// mesh.
+/// one above it, a joint of its skin or one above that, or the weights of its morph targets), or the deformer
+/// changes its mesh.
 pub fn moving_instances(scene: &Scene) -> Vec<bool> {
     let mut moving = moved_by_clips(scene);
     if let Some(deformer) = &scene.animation.deformer {

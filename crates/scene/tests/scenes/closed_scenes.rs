@@ -6,7 +6,8 @@ use rasray_scene::{Mesh, Moment, Scene};
 
 use crate::made::scene;
 
-/// Directed edges, by the bits of positions, that do not have exactly one triangle along and one against them.
+/// Directed edges, by the bits of positions, that do not have exactly one triangle along and one against
+/// them.
 fn unmatched_edges(mesh: &Mesh) -> usize {
     let key = |vertex: u32| mesh.positions[vertex as usize].map(|value| (value + 0.0).to_bits());
     let mut along: HashMap<_, u32> = HashMap::new();

@@ -220,7 +220,8 @@ fn what_is_broken_or_too_large_is_seen_from_outside() {
     assert!(!stands_inside(&heavy), "more than 2^23 triangles");
 }
 
-/// A sky of one colour everywhere is no sky, and one that outshines white surfaces or leaves them dark no default.
+/// A sky of one colour everywhere is no sky, and one that outshines white surfaces or leaves them dark no
+/// default.
 #[test]
 fn the_default_light_shows_grey_things_before_grey() {
     let Environment::LatLong { width, height, radiance } = default_light() else { panic!("a map") };
@@ -252,7 +253,8 @@ fn the_default_light_shows_grey_things_before_grey() {
     }
 }
 
-/// Two triangles of a square metre each: one grey, and one of this material with these corners in the texture.
+/// Two triangles of a square metre each: one grey, and one of this material with these corners in the
+/// texture.
 fn next_to(material: Material, uv: [f32; 2]) -> Scene {
     let triangle = |x: f32, material| Mesh {
         positions: vec![[x, 0.0, 0.0], [x + 2.0, 0.0, 0.0], [x, 1.0, 0.0]],

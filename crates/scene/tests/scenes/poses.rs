@@ -1,4 +1,5 @@
-//! Scenes at a time: keys and what lies between them, clips that compete, skins, morph targets, cameras and lights.
+//! Scenes at a time: keys and what lies between them, clips that compete, skins, morph targets, cameras and
+//! lights.
 
 use glam::{DAffine3, DQuat, DVec3};
 use rasray_scene::animation::{
@@ -94,7 +95,8 @@ fn clips_that_animate_the_same_property_are_not_played_at_once() {
     assert_eq!(rig.compatible_clips(), [0, 2, 3]);
 }
 
-/// Two nodes show one mesh with a morph target, of which one is animated; a third has a mesh that two joints hold.
+/// Two nodes show one mesh with a morph target, of which one is animated; a third has a mesh that two joints
+/// hold.
 fn crowd() -> Scene {
     let triangle = |name: &str| Mesh {
         name: name.to_owned(),
@@ -138,7 +140,8 @@ fn crowd() -> Scene {
                     skin: 0,
                     per_vertex: 8,
                     joints: [0, 1, 0, 0, 0, 0, 0, 1].repeat(3),
-                    // The first vertex follows the still joint, the second the other, the third a half of each.
+                    // The first vertex follows the still joint, the second the other, the third a half of
+                    // each.
                     weights: [
                         [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
                         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
@@ -185,8 +188,8 @@ fn meshes_cameras_and_lights_are_where_their_nodes_are() {
     assert_eq!(corners(0), [DVec3::ZERO, DVec3::X, DVec3::Y]);
     let half = DVec3::new(0.0, 1.0, 0.5);
     assert_eq!(corners(1), [half, half + DVec3::X, half + DVec3::Y]);
-    // Half a turn in the whole clip, a quarter now: the second joint takes x to y, the mean of (0, 1) and (-1, 0) is
-    // exact, and none of it is rounded at a million metres.
+    // Half a turn in the whole clip, a quarter now: the second joint takes x to y, the mean of (0, 1) and
+    // (-1, 0) is exact, and none of it is rounded at a million metres.
     let far = DVec3::new(1.0e6, 0.0, 0.0);
     for (found, expected) in corners(2).into_iter().zip([DVec3::ZERO, DVec3::Y, DVec3::new(-0.5, 0.5, 0.0)]) {
         assert!((found - far).abs_diff_eq(expected, 1.0e-7), "{found}");

@@ -43,7 +43,8 @@ pub struct Opening {
     pub output: PathBuf,
 }
 
-/// The cameras of a scene as [`Opening::cameras`] has them: by name where the command line finds them by it, else by position.
+/// The cameras of a scene as [`Opening::cameras`] has them: by name where the command line finds them by it,
+/// else by position.
 pub fn camera_names(loaded: &LoadedScene) -> Vec<(usize, String)> {
     let words = loaded.scene.cameras.iter().enumerate().filter_map(|(index, camera)| {
         let is_it = |word: &String| loaded.named_view(word).is_ok_and(|chosen| chosen.index == Some(index));
@@ -91,8 +92,8 @@ impl Session {
         self.not_opened = None;
     }
 
-    /// Goes on with another scene. What was chosen of the picture stays, and of the structure what is not as the scene
-    /// before had it at first.
+    /// Goes on with another scene. What was chosen of the picture stays, and of the structure what is not as
+    /// the scene before had it at first.
     pub(super) fn begin(&mut self, opening: Opening) {
         let Settings { system, seconds, .. } = &opening.settings;
         if is_same(&self.config, &self.opening.settings.system) {

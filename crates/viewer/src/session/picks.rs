@@ -8,8 +8,8 @@ use super::Session;
 use crate::picked::{Answer, Pick, Picked};
 
 impl Session {
-    /// Asks what is at a place of the picture that is shown, as shares of its width and height from the left top corner.
-    /// Nothing before the first picture, of which there is then nothing.
+    /// Asks what is at a place of the picture that is shown, as shares of its width and height from the left
+    /// top corner. Nothing before the first picture, of which there is then nothing.
     pub fn pick(&mut self, place: [f32; 2]) {
         let Some(picture) = &self.picture else { return };
         let settings = &picture.settings;

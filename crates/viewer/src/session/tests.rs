@@ -338,7 +338,8 @@ fn cameras_are_named_as_the_command_line_finds_them() {
     let camera = |name: &str| camera_looking_at(name, DVec3::Z, DVec3::ZERO, 0.5);
     loaded.scene.cameras = ["door", "", "door", "1", "0"].map(camera).to_vec();
     let names: Vec<_> = camera_names(&loaded).into_iter().collect();
-    // The second is neither found by its name, which it has not, nor by its position, which is another's name.
+    // The second is neither found by its name, which it has not, nor by its position, which is another's
+    // name.
     let expected = [(0, "door"), (2, "2"), (3, "1"), (4, "0")];
     assert_eq!(names, expected.map(|(index, word)| (index, word.to_owned())));
     for (index, word) in names {

@@ -1,7 +1,8 @@
 //! The Vulkan instance and device that draw the window.
 //!
-//! The window has a device of its own: on one queue its frames would wait behind waves of rays, which take seconds on a
-//! software driver, and where the renderer's device is lost the window still says so. Pictures come through the host.
+//! The window has a device of its own: on one queue its frames would wait behind waves of rays, which take
+//! seconds on a software driver, and where the renderer's device is lost the window still says so. Pictures
+//! come through the host.
 
 use std::ffi::CStr;
 
@@ -72,7 +73,8 @@ impl WindowInstance {
         };
         if validation {
             let functions = ash::ext::debug_utils::Instance::new(&made._entry, &made.instance);
-            // SAFETY: the extension is enabled, and the log is boxed in the value that destroys the messenger.
+            // SAFETY: the extension is enabled, and the log is boxed in the value that destroys the
+            // messenger.
             let messenger = unsafe { functions.create_debug_utils_messenger(&made.log.messenger(), None) }
                 .map_err(|error| window_error("vkCreateDebugUtilsMessengerEXT", error))?;
             made.messenger = Some((functions, messenger));
@@ -122,8 +124,8 @@ impl WindowInstance {
         let extensions = [ash::khr::swapchain::NAME.as_ptr()];
         let info =
             vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&extensions);
-        // SAFETY: the physical device belongs to the instance and has the queue family; pointers live until the call
-        // returns.
+        // SAFETY: the physical device belongs to the instance and has the queue family; pointers live until
+        // the call returns.
         unsafe { self.instance.create_device(physical, &info, None) }
             .map_err(|error| window_error("vkCreateDevice", error))
     }
@@ -131,7 +133,8 @@ impl WindowInstance {
 
 impl Drop for WindowInstance {
     fn drop(&mut self) {
-        // SAFETY: everything that was made from instance and surface is gone, and the library is still loaded.
+        // SAFETY: everything that was made from instance and surface is gone, and the library is still
+        // loaded.
         unsafe {
             self.surfaces.destroy_surface(self.surface, None);
             if let Some((functions, messenger)) = self.messenger.take() {
@@ -152,7 +155,8 @@ pub(super) struct WindowDevice {
 }
 
 impl WindowDevice {
-    /// Makes it for a window, of the physical device of the name where that can present, else of the first that can.
+    /// Makes it for a window, of the physical device of the name where that can present, else of the first
+    /// that can.
     pub(super) fn new(window: &Window, name: &str, validation: bool) -> Result<Self, ViewerError> {
         let owner = WindowInstance::new(window, validation)?;
         let (physical, family) = owner.choose(name)?;
@@ -162,7 +166,8 @@ impl WindowDevice {
         Ok(Self { physical, device, queue, family, owner })
     }
 
-    /// Messages of the validation layer so far, and to come; the log outlives the device. Empty without validation.
+    /// Messages of the validation layer so far, and to come; the log outlives the device. Empty without
+    /// validation.
     pub(super) fn validation_log(&self) -> ValidationLog {
         ValidationLog::clone(&self.owner.log)
     }

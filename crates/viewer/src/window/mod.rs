@@ -74,8 +74,8 @@ fn no_window(source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Vie
     ViewerError::NoWindow { source: source.into() }
 }
 
-/// That there is a display, before anything is done for it: without one some window systems fail in ways that nothing can
-/// catch.
+/// That there is a display, before anything is done for it: without one some window systems fail in ways that
+/// nothing can catch.
 ///
 /// # Errors
 /// Nothing names a display.
@@ -236,7 +236,8 @@ impl Shown<'_> {
         }
     }
 
-    /// Asks for a frame where one is due. A window that is hidden may not get it, and must not ask all the time.
+    /// Asks for a frame where one is due. A window that is hidden may not get it, and must not ask all the
+    /// time.
     fn request_due_frame(&mut self) {
         if Instant::now() >= self.wake_at {
             self.wake_at = Instant::now() + HIDDEN;

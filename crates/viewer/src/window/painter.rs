@@ -139,8 +139,8 @@ impl Painter {
         Ok(())
     }
 
-    /// Draws a frame and waits for it. False where the window has no pixels or another size than its images, so that
-    /// nothing was drawn. `size` is the window's in pixels.
+    /// Draws a frame and waits for it. False where the window has no pixels or another size than its images,
+    /// so that nothing was drawn. `size` is the window's in pixels.
     pub(super) fn paint(
         &mut self,
         size: [u32; 2],
@@ -265,7 +265,8 @@ impl Painter {
     }
 
     fn wait_idle(&self) {
-        // SAFETY: the queue is used by this thread alone. What cannot be waited for is lost, and nothing runs there.
+        // SAFETY: the queue is used by this thread alone. What cannot be waited for is lost, and nothing runs
+        // there.
         _ = unsafe { self.device.device.device_wait_idle() };
     }
 }

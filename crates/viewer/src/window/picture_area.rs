@@ -33,7 +33,8 @@ pub(super) struct PictureArea {
     colours: Vec<Color32>,
     colours_of: Option<Of>,
     texture: Option<TextureHandle>,
-    /// Of what the texture is: the picture's pixels, or those of the window where a picture lies whose pixels are squares.
+    /// Of what the texture is: the picture's pixels, or those of the window where a picture lies whose pixels
+    /// are squares.
     texture_of: Option<(Of, Option<Squares>)>,
     /// The scene that the picture is laid for.
     scene: u32,
@@ -100,8 +101,8 @@ impl PictureArea {
         }
     }
 
-    /// Takes the picture over where it is another. The window's renderer interpolates between pixels; where a pixel of the
-    /// texture is one of the window, that changes none.
+    /// Takes the picture over where it is another. The window's renderer interpolates between pixels; where a
+    /// pixel of the texture is one of the window, that changes none.
     fn update(&mut self, context: &egui::Context, picture: &Picture, of: Of, squares: Option<Squares>) {
         if self.texture_of == Some((of, squares)) {
             return;

@@ -17,7 +17,8 @@ pub struct SavedPicture<'a> {
     pub tone: Option<Tone>,
     /// Name and version of its denoiser; absent without one.
     pub denoised: Option<&'a str>,
-    /// The command line that makes it when its refinement has ended; absent for maps, which `rasray compare --html` makes.
+    /// The command line that makes it when its refinement has ended; absent for maps, which `rasray compare
+    /// --html` makes.
     pub command_line: Option<&'a str>,
     /// Meaning of the colours of a map, in a sentence; absent for pictures.
     pub scale: Option<String>,

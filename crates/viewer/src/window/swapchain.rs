@@ -6,7 +6,8 @@ use crate::error::ViewerError;
 
 use super::device::{WindowDevice, window_error};
 
-/// The format of a surface's images: an sRGB one, so that bytes of pictures arrive as they are; else its first.
+/// The format of a surface's images: an sRGB one, so that bytes of pictures arrive as they are; else its
+/// first.
 pub(super) fn surface_format(device: &WindowDevice) -> Result<vk::SurfaceFormatKHR, ViewerError> {
     // SAFETY: physical device and surface belong to one instance.
     let formats = unsafe {
@@ -43,8 +44,8 @@ pub(super) struct Swapchain {
 }
 
 impl Swapchain {
-    /// Makes one of a window's size in pixels; nothing where the window has no pixels, as while it is minimised. The one
-    /// before is retired and stays its owner's to destroy.
+    /// Makes one of a window's size in pixels; nothing where the window has no pixels, as while it is
+    /// minimised. The one before is retired and stays its owner's to destroy.
     pub(super) fn new(
         device: &WindowDevice,
         format: vk::SurfaceFormatKHR,

@@ -1,4 +1,5 @@
-//! Pictures of an engine on a device, without a window: those of a render, bit by bit, after every kind of change.
+//! Pictures of an engine on a device, without a window: those of a render, bit by bit, after every kind of
+//! change.
 
 mod denoised;
 mod viewing;
@@ -334,7 +335,8 @@ fn exact_systems_have_no_difference_and_work_is_counted() {
     }
 }
 
-/// A stack of clear sheets before the eye, two more than a ray may pass: the picture says how many rays were cut.
+/// A stack of clear sheets before the eye, two more than a ray may pass: the picture says how many rays were
+/// cut.
 #[test]
 fn cut_rays_are_told_when_refinement_has_ended() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -219,7 +219,8 @@ fn error_as_shown(picture: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
     apart.sum::<f64>() / truth.len() as f64
 }
 
-/// Against converged direct light: a preview has half of the sides, and is far nearer to it than the sample it is made of.
+/// Against converged direct light: a preview has half of the sides, and is far nearer to it than the sample
+/// it is made of.
 #[test]
 fn a_preview_can_be_read() {
     let mut backend = open(&VALIDATED).expect("a device");

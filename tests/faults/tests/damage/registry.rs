@@ -1,6 +1,6 @@
-//! Every system of the registry with pools that hold anything at all: traces end within their bounds, and what was built
-//! is found again once it is back. Which damage is reported, and how, is tested for each structure that has a file
-//! here.
+//! Every system of the registry with pools that hold anything at all: traces end within their bounds, and
+//! what was built is found again once it is back. Which damage is reported, and how, is tested for each
+//! structure that has a file here.
 
 use rasray_ads::TraceMode;
 use rasray_faults::{device, finish, in_child, rays, scrambled, spec, stage};

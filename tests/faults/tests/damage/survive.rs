@@ -25,7 +25,8 @@ pub enum Flag {
 /// Damage by its name, and what traces say of it.
 pub type Damage<C> = (&'static str, fn(&mut C), Flag);
 
-/// Changes the link of every node of a conservative list (`ads/conservative.glsl`); `change` is given the node's own link.
+/// Changes the link of every node of a conservative list (`ads/conservative.glsl`); `change` is given the
+/// node's own link.
 pub fn each_conservative_node(conservative: &mut [u32], count: u32, change: impl Fn(u32) -> u32) {
     for (index, node) in conservative.chunks_exact_mut(3).take(count as usize).enumerate() {
         node[1] = change(index as u32 + 1);
@@ -47,7 +48,8 @@ pub fn survive<D: Design<Contents: Clone>>(
         tracer.trace(structure, &rays, mode, Timing::None).map(|outcome| outcome.hits)
     };
     let upload = |structure: &Pooled<D>, contents: &D::Contents| {
-        // SAFETY: damages leave the header's capacities and addresses alone, and nothing was resized since the download.
+        // SAFETY: damages leave the header's capacities and addresses alone, and nothing was resized since
+        // the download.
         unsafe { structure.upload(&device, contents) }.expect("contents");
     };
     let triangles = scene.geometry().triangle_count();

@@ -40,7 +40,8 @@ fn every_fault_of_a_conservative_list_is_noticed() {
     for cell in 0..cells {
         dangling.bounds[(cell + 1) * stride - 1] = u32::MAX;
     }
-    // SAFETY: the header's capacities and addresses are those that were downloaded, and nothing was resized since.
+    // SAFETY: the header's capacities and addresses are those that were downloaded, and nothing was resized
+    // since.
     unsafe { structure.upload(bench.device(), &dangling) }.expect("the device works");
     // Rays from the eye pass no other cell than their own.
     let mut random = Random::new(900);

@@ -154,7 +154,8 @@ fn every_edge_capacity_with_addresses() {
     }
 }
 
-/// Triangles beyond the capacity of the conservative list are counted, whether or not the lists have capacity.
+/// Triangles beyond the capacity of the conservative list are counted, whether or not the lists have
+/// capacity.
 #[test]
 fn every_edge_capacity_of_the_conservative_lists() {
     let edge_on = Config { coverage: Coverage::EdgeOn, ..config(Storage::Dllb) };

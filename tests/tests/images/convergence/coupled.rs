@@ -65,8 +65,8 @@ fn exact_hits_leave_rounding_and_fragments_leave_their_law() {
     assert!(shares[2] < 0.8 * shares[1], "four times the cells: {shares:?}");
 }
 
-/// One occlusion ray per pixel: the share of wrong answers is at most 12 over the cells along a side, a bound of
-/// regression.
+/// One occlusion ray per pixel: the share of wrong answers is at most 12 over the cells along a side, a bound
+/// of regression.
 #[test]
 fn wrong_occlusion_falls_with_the_size_of_a_cell() {
     let bench = Bench::new();

@@ -43,8 +43,8 @@ fn a_closed_room_adds_up_the_series_of_its_albedo() {
     }
 }
 
-/// Facets of glass hold light for long: after 24 scatterings half a percent is still inside, after 96 nothing that
-/// more would let out.
+/// Facets of glass hold light for long: after 24 scatterings half a percent is still inside, after 96 nothing
+/// that more would let out.
 const SCATTERINGS: u32 = 96;
 
 /// A mirror, a solid sphere of glass and a hollow one, side by side under a white sky.

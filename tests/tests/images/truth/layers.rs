@@ -208,7 +208,8 @@ fn blended_emitters_shine_through_each_other() {
     }
 }
 
-/// A small lamp, half of it there, far away: light samples find it, where scattered rays would meet it once in ten thousand.
+/// A small lamp, half of it there, far away: light samples find it, where scattered rays would meet it once
+/// in ten thousand.
 #[test]
 fn a_blended_lamp_shines_as_its_opacity_says() {
     let bench = Bench::new();
@@ -231,7 +232,8 @@ fn a_blended_lamp_shines_as_its_opacity_says() {
     }
 }
 
-/// A white wall in a white world is white behind any number of clear layers, and lit as if they were not there.
+/// A white wall in a white world is white behind any number of clear layers, and lit as if they were not
+/// there.
 #[test]
 fn clear_layers_change_nothing() {
     let bench = Bench::new();

@@ -1,4 +1,5 @@
-//! Contents of a scene, how it is seen and lit where nothing is said of it, and what of it an image can show, as text.
+//! Contents of a scene, how it is seen and lit where nothing is said of it, and what of it an image can show,
+//! as text.
 
 use super::rows::pair;
 use rasray_experiment::SceneInfo;

@@ -145,8 +145,8 @@ impl Opener {
         Ok(Opened { opening, source })
     }
 
-    /// Refuses a camera, a time or a clip that the scene does not have before it is shown, and says what there is to remark on
-    /// what is shown first.
+    /// Refuses a camera, a time or a clip that the scene does not have before it is shown, and says what
+    /// there is to remark on what is shown first.
     fn check_view(&self, loaded: &mut LoadedScene) -> Result<ChosenCamera, LoadError> {
         let SceneArguments { time, clip, .. } = &self.reading;
         if time.is_none() && clip.is_none() {

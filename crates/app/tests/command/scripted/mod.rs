@@ -19,9 +19,10 @@ const ARGUMENTS: &str = "RASRAY_TEST_ARGUMENTS";
 /// Set for that process where it shall say that it works: a file that it makes.
 pub const READY: &str = "RASRAY_TEST_READY";
 
-/// Answers at once, except where the device's name says otherwise: `slow` takes 20 ms a sample and half a minute for a
-/// case after G1, unless it is stopped,
-/// `stuck` takes a minute before the first, `broken` fails (of hard cases, G3), `unfinished` leaves a ray unanswered, `small` holds 2000 texels, `absent` cannot be opened.
+/// Answers at once, except where the device's name says otherwise: `slow` takes 20 ms a sample and half a
+/// minute for a case after G1, unless it is stopped, `stuck` takes a minute before the first, `broken` fails
+/// (of hard cases, G3), `unfinished` leaves a ray unanswered, `small` holds 2000 texels, `absent` cannot be
+/// opened.
 pub struct Scripted {
     device: String,
 }

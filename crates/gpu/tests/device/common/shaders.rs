@@ -1,4 +1,5 @@
-//! Shaders of the tests, as `glslangValidator -V --target-env vulkan1.2 -g0` makes them from the source above each.
+//! Shaders of the tests, as `glslangValidator -V --target-env vulkan1.2 -g0` makes them from the source above
+//! each.
 
 /// Multiplies values by a pushed factor and adds a specialisation constant (id 7).
 ///

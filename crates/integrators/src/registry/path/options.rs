@@ -8,8 +8,8 @@ use crate::IntegratorSpec;
 /// Maximum number of scatterings of a path. A wave records up to this number of rounds.
 pub const BOUNCE_LIMIT: u32 = 1024;
 
-/// By default so many that light, which enters and leaves a glass with two walls and so has scattered four times before it is
-/// seen on what stands behind, can go through two such glasses in a row.
+/// By default so many that light, which enters and leaves a glass with two walls and so has scattered four
+/// times before it is seen on what stands behind, can go through two such glasses in a row.
 pub(in crate::registry) const BOUNCES: OptionRow = OptionRow::new(
     "bounces",
     Values::Whole(0, BOUNCE_LIMIT),
@@ -50,15 +50,16 @@ const fn terminator_word(terminator: ShadowTerminator) -> Word {
     (terminator.name(), terminator.doc())
 }
 
-/// Effect of smooth thin panes of glass on light from lamps, the sun and the sky. Thin walls whose transmission is
-/// rough, and glass with a thickness, scatter light either way, and stop shadow rays.
+/// Effect of smooth thin panes of glass on light from lamps, the sun and the sky. Thin walls whose
+/// transmission is rough, and glass with a thickness, scatter light either way, and stop shadow rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GlassShadows {
-    /// Light goes straight through them and takes their tint. Going through is no scattering, and so no bounce.
+    /// Light goes straight through them and takes their tint. Going through is no scattering, and so no
+    /// bounce.
     #[default]
     Tint,
-    /// They stop shadow rays, and going through is a scattering: what is behind them is lit by what scattered rays find,
-    /// which are never lights without extent.
+    /// They stop shadow rays, and going through is a scattering: what is behind them is lit by what scattered
+    /// rays find, which are never lights without extent.
     Opaque,
 }
 

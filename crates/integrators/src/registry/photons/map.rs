@@ -44,7 +44,8 @@ pub struct PhotonMap {
     pub photons: Vec<Photon>,
 }
 
-/// Passes that make the map of each sample: photons are emitted and traced through the structure, in waves of their own.
+/// Passes that make the map of each sample: photons are emitted and traced through the structure, in waves of
+/// their own.
 #[derive(Debug)]
 pub(super) struct MapPasses {
     options: PhotonOptions,
@@ -186,7 +187,8 @@ impl MapPasses {
     }
 }
 
-/// Photons that are stored of a path, at most: one after each scattering but the last, which is where it is gathered.
+/// Photons that are stored of a path, at most: one after each scattering but the last, which is where it is
+/// gathered.
 fn stored(bounces: u32) -> u32 {
     bounces.saturating_sub(1)
 }
@@ -206,8 +208,8 @@ fn rounds(bounces: u32, blend: bool) -> [u32; 2] {
     if blend { [bounces + USUAL_LAYERS, ROUND_LIMIT] } else { [bounces; 2] }
 }
 
-/// The radius of a sample, numbered from 0, over that of the first: the root of the product of (k + alpha) / (k + 1) over
-/// all k from 1 to its number.
+/// The radius of a sample, numbered from 0, over that of the first: the root of the product of (k + alpha) /
+/// (k + 1) over all k from 1 to its number.
 fn shrunk(sample: u32) -> f64 {
     // From there on the quotient of gamma functions that it is, which Stirling's series gives to 10 digits.
     const EXACT: u32 = 4096;

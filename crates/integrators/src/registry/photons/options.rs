@@ -64,14 +64,15 @@ impl PhotonKind {
 /// Options of [`Photons`](super::Photons).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhotonOptions {
-    /// Of the camera's paths and of photons together: `bounces` counts scatterings from the light to the eye. Panes are
-    /// opaque, whatever it says, and surfaces of what photons hit are found directly.
+    /// Of the camera's paths and of photons together: `bounces` counts scatterings from the light to the eye.
+    /// Panes are opaque, whatever it says, and surfaces of what photons hit are found directly.
     pub paths: PathOptions,
     /// Light that photons bring.
     pub kind: PhotonKind,
     /// Photons that lights emit for each sample, from 1 to [`WAVE_LIMIT`].
     pub photon_paths: u32,
-    /// Metres, above 0, of the first sample; a hundredth of the diagonal of the bounds of all triangles where absent.
+    /// Metres, above 0, of the first sample; a hundredth of the diagonal of the bounds of all triangles where
+    /// absent.
     pub radius: Option<f32>,
 }
 

@@ -62,11 +62,12 @@ pub(super) const COMPACTION: OptionRow = OptionRow::words(
 )
 .by_default(Value::Word("selected"));
 
-/// Surfaces from which mirrored and refracted rays are traced. Rays that go straight on through a blended surface or a
-/// pane are traced wherever they carry anything.
+/// Surfaces from which mirrored and refracted rays are traced. Rays that go straight on through a blended
+/// surface or a pane are traced wherever they carry anything.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Select {
-    /// Surfaces whose rays carry more than a threshold of what they find: with 0 the picture is that of all rays.
+    /// Surfaces whose rays carry more than a threshold of what they find: with 0 the picture is that of all
+    /// rays.
     #[default]
     Expected,
     /// All, also those that neither mirror nor refract.
@@ -167,11 +168,13 @@ impl Shadows {
 /// Options of Whitted's integrator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WhittedOptions {
-    /// At most this many reflections and refractions in a row, up to [`RAY_DEPTH_LIMIT`]; 0 is direct light only.
+    /// At most this many reflections and refractions in a row, up to [`RAY_DEPTH_LIMIT`]; 0 is direct light
+    /// only.
     pub ray_depth: u32,
     /// Surfaces from which mirrored and refracted rays are traced.
     pub select: Select,
-    /// With [`Select::Expected`]: share of what a ray finds that must arrive, in its largest channel; not negative.
+    /// With [`Select::Expected`]: share of what a ray finds that must arrive, in its largest channel; not
+    /// negative.
     pub threshold: f32,
     /// Surfaces that trace shadow rays.
     pub shadows: Shadows,

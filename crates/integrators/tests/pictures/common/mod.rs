@@ -151,8 +151,8 @@ pub fn mean(image: &[[f32; 3]]) -> f64 {
 /// The largest difference of pictures by different kernels on hardware, relative to the value.
 const CONTRACTION: f32 = 1.0e-5;
 
-/// True if pictures that different kernels made are the same: bit for bit on a software device. Hardware may contract a
-/// product and a sum in one kernel and not in another.
+/// True if pictures that different kernels made are the same: bit for bit on a software device. Hardware may
+/// contract a product and a sum in one kernel and not in another.
 pub fn are_same(device: &Device, picture: &[[f32; 3]], expected: &[[f32; 3]]) -> bool {
     let is_close = |(a, b): (&f32, &f32)| (a - b).abs() <= CONTRACTION * b.abs();
     if device.is_software() {
@@ -162,7 +162,8 @@ pub fn are_same(device: &Device, picture: &[[f32; 3]], expected: &[[f32; 3]]) ->
         && picture.as_flattened().iter().zip(expected.as_flattened()).all(is_close)
 }
 
-/// Fails the running test unless pictures with `width` pixels a row are the same ([`are_same`]); both are kept.
+/// Fails the running test unless pictures with `width` pixels a row are the same ([`are_same`]); both are
+/// kept.
 #[track_caller]
 pub fn assert_same(
     device: &Device,

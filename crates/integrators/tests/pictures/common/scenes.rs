@@ -140,8 +140,8 @@ pub fn glass_room() -> Scene {
     scene
 }
 
-/// The glass room with smooth panes, tinted, milky and with holes, more veils, and lights of all kinds in front of them
-/// and behind.
+/// The glass room with smooth panes, tinted, milky and with holes, more veils, and lights of all kinds in
+/// front of them and behind.
 pub fn veiled_room() -> Scene {
     let mut scene = glass_room();
     let pane = Material {

@@ -62,8 +62,8 @@ fn blended_surfaces_let_their_share_pass() {
     assert_mean(&image, 0.7, 0.0, 0.04);
 }
 
-/// A floor behind a blended sheet is lit through it, by light samples and by scattered rays: it sees the sky with 0.7
-/// of its light, and is itself seen with 0.7.
+/// A floor behind a blended sheet is lit through it, by light samples and by scattered rays: it sees the sky
+/// with 0.7 of its light, and is itself seen with 0.7.
 #[test]
 fn light_through_a_blended_sheet_is_counted_once() {
     let blended = Material { base_color: [0.0, 0.0, 0.0, 0.3], alpha_mode: AlphaMode::Blend, ..diffuse(0.0) };
@@ -108,8 +108,8 @@ fn the_sun_shines_through_what_lets_it_pass() {
     assert!(image.pixels.iter().all(|pixel| *pixel == [0.0; 3]));
 }
 
-/// Light samples choose a blended emitter, which sends its emission times its opacity; a scattered ray hits it as often as
-/// its opacity says. One that is clear all over is no light.
+/// Light samples choose a blended emitter, which sends its emission times its opacity; a scattered ray hits
+/// it as often as its opacity says. One that is clear all over is no light.
 #[test]
 fn blended_emitters_are_sampled_as_their_opacity_says() {
     let emitter = Material { base_color: [0.0, 0.0, 0.0, 0.5], emission: [1.0; 3], ..diffuse(0.0) };

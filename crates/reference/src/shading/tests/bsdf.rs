@@ -352,8 +352,8 @@ fn tilted_shading_normals_do_not_leak() {
     }
 }
 
-/// A dull surface whose normals lean away sends on what of its lobe is not below it, wherever it is seen from: the normal
-/// is bent for facets alone.
+/// A dull surface whose normals lean away sends on what of its lobe is not below it, wherever it is seen
+/// from: the normal is bent for facets alone.
 #[test]
 fn a_dull_surface_keeps_its_normal_from_every_view() {
     for degrees in [0.0_f32, 30.0, 50.0, 80.0] {

@@ -192,7 +192,8 @@ fn unit(random: RandomStream, dimension: u32) -> Vec3 {
     Vec3::new(sine * azimuth.cos(), sine * azimuth.sin(), cosine)
 }
 
-/// Mirrored directions leave the surface, whatever the normals; normals that were fit to mirror keep their bits.
+/// Mirrored directions leave the surface, whatever the normals; normals that were fit to mirror keep their
+/// bits.
 #[test]
 fn facets_mirror_away_from_the_surface() {
     let g = Vec3::Z;
@@ -247,7 +248,8 @@ fn leaning_mirrors_are_not_black() {
     }
 }
 
-/// Fine stripes seen at a grazing angle keep their contrast across them, and many samples of a pixel see them finer.
+/// Fine stripes seen at a grazing angle keep their contrast across them, and many samples of a pixel see them
+/// finer.
 #[test]
 fn footprints_are_those_of_one_sample_and_do_not_grow_with_the_angle() {
     let mut scene = scene(vec![diffuse(1.0)], vec![unit_quad(0)]);
@@ -270,7 +272,8 @@ fn footprints_are_those_of_one_sample_and_do_not_grow_with_the_angle() {
         };
         (seen(32.5 / 64.0) - seen(31.5 / 64.0)).abs()
     };
-    // A texel is 1/64 m wide: a cone as wide sees level 0, from above and from the side; twice as wide a grey.
+    // A texel is 1/64 m wide: a cone as wide sees level 0, from above and from the side; twice as wide a
+    // grey.
     for direction in [Vec3::NEG_Z, Vec3::new(0.0, 1.0, -0.05)] {
         assert!(contrast(direction, 1.0 / 64.0) > 0.99, "{direction}");
         assert!(contrast(direction, 2.0 / 64.0) < 0.01, "{direction}");

@@ -26,7 +26,8 @@ const CLOTH: usize = 0;
 /// Parameters of [`cloth_ball`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClothBall {
-    /// Triangles of the cloth, within [`ClothBall::TRIANGLES`]; it has as many within 4 %. Ball and ground have 5,122 more.
+    /// Triangles of the cloth, within [`ClothBall::TRIANGLES`]; it has as many within 4 %. Ball and ground
+    /// have 5,122 more.
     pub triangles: u64,
 }
 
@@ -41,11 +42,13 @@ impl Default for ClothBall {
     }
 }
 
-/// A square cloth of 2.3 m that falls over a ball on the ground and comes to rest there within 3 s, under a low sun and a
-/// blue sky. It is simulated when a time is asked for ([`crate::Scene::at`]), from the beginning or from the last time
-/// that was; at rest the scene is at the beginning. The simulation is the same to the bit everywhere.
+/// A square cloth of 2.3 m that falls over a ball on the ground and comes to rest there within 3 s, under a
+/// low sun and a blue sky. It is simulated when a time is asked for ([`crate::Scene::at`]), from the
+/// beginning or from the last time that was; at rest the scene is at the beginning. The simulation is the
+/// same to the bit everywhere.
 ///
-/// A second of 10,000 triangles takes 1,200 steps, of 1,000,000 triangles 3,600. The cloth does not collide with itself.
+/// A second of 10,000 triangles takes 1,200 steps, of 1,000,000 triangles 3,600. The cloth does not collide
+/// with itself.
 pub fn cloth_ball(parameters: ClothBall) -> Scene {
     let triangles = parameters.triangles.clamp(*ClothBall::TRIANGLES.start(), *ClothBall::TRIANGLES.end());
     let squares = (triangles as f64 / 2.0).sqrt().round() as usize;

@@ -1,10 +1,10 @@
 //! A cloth that falls, by position-based dynamics.
 //!
-//! Each step moves all vertices by their velocities and gravity, corrects distances along and across threads, puts what is
-//! inside of the ball or below the ground back onto their surfaces with Coulomb friction, and takes the velocities from what
-//! became of the positions (M. Macklin et al., "Small Steps in Physics Simulation", 2019). There are many small steps with one
-//! correction each. All is f64 in a fixed order with operations that IEEE 754 rounds exactly, so that every machine gets the same
-//! bits.
+//! Each step moves all vertices by their velocities and gravity, corrects distances along and across threads,
+//! puts what is inside of the ball or below the ground back onto their surfaces with Coulomb friction, and
+//! takes the velocities from what became of the positions (M. Macklin et al., "Small Steps in Physics
+//! Simulation", 2019). There are many small steps with one correction each. All is f64 in a fixed order with
+//! operations that IEEE 754 rounds exactly, so that every machine gets the same bits.
 
 use glam::DVec3;
 
@@ -146,8 +146,8 @@ impl Simulation {
         }
     }
 
-    /// One correction of every distance, from the first vertex to the last and in the next step from the last to the first,
-    /// so that no direction is preferred and a pull reaches across the cloth in one step.
+    /// One correction of every distance, from the first vertex to the last and in the next step from the last
+    /// to the first, so that no direction is preferred and a pull reaches across the cloth in one step.
     fn keep_lengths(&mut self) {
         let side = self.squares + 1;
         let square = SIDE / self.squares as f64;

@@ -50,10 +50,11 @@ impl Kit {
     }
 }
 
-/// A smithy of 7 m by 5.2 m with walls of single stones, beams, a forge with glowing coals, an anvil, a bench, tools on the
-/// walls, barrels, crates, a wheel. Screens as bright as the sky stand outside of its door and window and above two lights in
-/// the roof; so a renderer that samples lamps finds them, and the openings stay open. Corners, gaps and things before
-/// walls at every size are what ambient occlusion is about.
+/// A smithy of 7 m by 5.2 m with walls of single stones, beams, a forge with glowing coals, an anvil, a
+/// bench, tools on the walls, barrels, crates, a wheel. Screens as bright as the sky stand outside of its
+/// door and window and above two lights in the roof; so a renderer that samples lamps finds them, and the
+/// openings stay open. Corners, gaps and things before walls at every size are what ambient occlusion is
+/// about.
 pub fn smithy() -> Scene {
     let materials = materials();
     let shapes =

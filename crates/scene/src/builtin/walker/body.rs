@@ -1,4 +1,5 @@
-//! The body of the walker and its clothes: solids around the joints, and how much each joint moves their surfaces.
+//! The body of the walker and its clothes: solids around the joints, and how much each joint moves their
+//! surfaces.
 
 use glam::DVec3;
 
@@ -61,7 +62,8 @@ impl Part {
         surface(&|point| self.distance(point, edge), low, high, size)
     }
 
-    /// The four joints nearest to each vertex, with shares that fade out with the distance from what they move.
+    /// The four joints nearest to each vertex, with shares that fade out with the distance from what they
+    /// move.
     pub fn binding(&self, positions: &[DVec3]) -> SkinBinding {
         let mut binding = SkinBinding { skin: 0, per_vertex: 4, joints: Vec::new(), weights: Vec::new() };
         for &position in positions {

@@ -1,6 +1,7 @@
 //! Gait of the walker: a circle of whole strides, so that the end of the clip is its beginning.
 //!
-//! Feet stand still where they are set down; legs follow by inverse kinematics, everything above swings against them.
+//! Feet stand still where they are set down; legs follow by inverse kinematics, everything above swings
+//! against them.
 
 use std::f64::consts::{PI, TAU};
 
@@ -38,7 +39,8 @@ pub(super) fn stance(joints: &[Joint], strides: f64) -> Stance {
     let turn = |x: f64, y: f64, z: f64| {
         DQuat::from_rotation_y(y) * DQuat::from_rotation_z(z) * DQuat::from_rotation_x(x)
     };
-    // The hip whose leg reaches forward comes along, the side whose leg swings hangs, the body is above the standing foot.
+    // The hip whose leg reaches forward comes along, the side whose leg swings hangs, the body is above the
+    // standing foot.
     let pelvis_turn = heading * turn(0.03, -0.09 * swing.cos(), 0.05 * swing.sin());
     let bob = 0.018 * (2.0 * swing - PI).cos();
     let pelvis = place(strides, DVec3::new(0.022 * swing.sin(), 0.912 + bob, 0.0));
@@ -89,7 +91,8 @@ struct Foot {
     bend: f64,
 }
 
-/// A foot that stands, after a share of its time on the ground: it lands on the heel and leaves over the ball.
+/// A foot that stands, after a share of its time on the ground: it lands on the heel and leaves over the
+/// ball.
 fn standing(side: Side, landing: f64, share: f64) -> Foot {
     let over = landing + REACH;
     let ground = place(over, DVec3::new(TRACK * side.sign(), 0.0, 0.0));

@@ -47,9 +47,9 @@ impl Default for Walker {
     }
 }
 
-/// A figure of 1.76 m that walks in a circle on a tiled floor, under a low sun and a blue sky: a rig of 19 joints
-/// with one clip, `walk`, that ends as it begins after 6 s. Body and clothes are six closed meshes, each vertex of
-/// which is moved by up to four joints. At rest the scene is at the beginning of the clip.
+/// A figure of 1.76 m that walks in a circle on a tiled floor, under a low sun and a blue sky: a rig of 19
+/// joints with one clip, `walk`, that ends as it begins after 6 s. Body and clothes are six closed meshes,
+/// each vertex of which is moved by up to four joints. At rest the scene is at the beginning of the clip.
 pub fn walker(parameters: Walker) -> Scene {
     let triangles = parameters.triangles.clamp(*Walker::TRIANGLES.start(), *Walker::TRIANGLES.end());
     let joints = joints();
@@ -116,8 +116,8 @@ fn materials() -> Vec<Material> {
 
 /// The surfaces of all parts with about as many triangles together.
 fn surfaces(parts: &[Part], triangles: u64) -> Vec<Surface> {
-    // Metres. Triangles per area are as the inverse square of their size, so few steps suffice; the smallest parts have a
-    // size of their own.
+    // Metres. Triangles per area are as the inverse square of their size, so few steps suffice; the smallest
+    // parts have a size of their own.
     let mut size = 0.012 * (30_000.0 / triangles as f64).sqrt();
     let mut made: Vec<Surface> = Vec::new();
     for _ in 0..8 {
