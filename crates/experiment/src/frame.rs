@@ -183,8 +183,8 @@ impl Refresh {
                  triangle, the nearer of both parts' hits of others"
             }
             Self::Objects => {
-                "As `moving`, with a part for each object that its node alone moves, for at most 32, the largest: each is built in \
-                 frames in which it moves"
+                "Moving objects, each a part of its own that is built in frames in which it moves: at most 32, the largest, that a \
+                 node alone moves; else as the value moving"
             }
         }
     }
