@@ -66,7 +66,7 @@
 // Kinds of steps that a traversal logs, with the meaning of a, b, c, t_low and t_high.
 // A dispatch begins for the ray; a: the round, b: 1 where the trace goes on from the hit of another part.
 #define STEP_ROUND 1u
-// A view (or the near region) is entered; a: the view or VIEW_NEAR, t: its interval along the ray.
+// A view is entered; a: the view, VIEW_NEAR, VIEW_CAMERA or VIEW_ALL, t: its interval along the ray.
 #define STEP_VIEW 2u
 // A cell is visited, to be searched or skipped; a: the view, b and c: column and row (signed), t: its interval along
 // the ray, widened.
@@ -95,6 +95,10 @@
 
 // In place of a view: the near region around the centre of a cube's faces.
 #define VIEW_NEAR 6u
+// The number of the camera's view.
+#define VIEW_CAMERA 7u
+// In place of a view: every triangle is tested, as for rays from far away.
+#define VIEW_ALL 8u
 
 // Verdicts of tests.
 #define TEST_ACCEPTED 0u

@@ -100,14 +100,15 @@ impl Modules {
     /// The module of that name in the folder of the structure's shaders.
     ///
     /// # Errors
-    /// It is not compiled in, which only modules that read a scene may be.
+    /// [`AdsError::ModuleMissing`]: it is not compiled in.
     pub fn find(&self, name: &str) -> Result<&'static Shader, AdsError> {
         let suffix = match self.addressing {
             Addressing::Descriptor => "",
             Addressing::Address => ".address",
         };
-        rasray_shaders_glsl::shader(&format!("{}/{name}{suffix}", self.prefix))
-            .ok_or(AdsError::NoScene { structure: self.structure })
+        let module = format!("{}/{name}{suffix}", self.prefix);
+        rasray_shaders_glsl::shader(&module)
+            .ok_or(AdsError::ModuleMissing { structure: self.structure, module })
     }
 
     /// The modules that trace.

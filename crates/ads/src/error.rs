@@ -54,6 +54,17 @@ pub enum AdsError {
         /// Elements needed.
         elements: u64,
     },
+    /// A shader module is not compiled in.
+    #[error(
+        "{structure}: the shader module `{module}` is not compiled in; modules that read a scene need the cargo feature \
+         `scene`"
+    )]
+    ModuleMissing {
+        /// Name of the structure.
+        structure: &'static str,
+        /// Name of the module.
+        module: String,
+    },
     /// Surfaces were requested from a structure that was made without a scene.
     #[error("{structure} was created without a scene binding, so it cannot resolve surfaces")]
     NoScene {

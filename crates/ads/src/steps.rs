@@ -8,9 +8,6 @@ use rasray_shaders_glsl::{constants::contract as numbers, records};
 
 use crate::{PRIMITIVE_NONE, PRIMITIVE_UNKNOWN};
 
-/// The number of the view of a camera.
-const VIEW_CAMERA: u32 = 7;
-
 /// Action of a traversal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -205,7 +202,10 @@ impl fmt::Display for TraceStep {
             StepKind::Round if self.b != 0 => write!(f, "round {a} of the next part"),
             StepKind::Round => write!(f, "round {a}"),
             StepKind::View if a == numbers::VIEW_NEAR => write!(f, "near region, t {t_low} to {t_high}"),
-            StepKind::View if a == VIEW_CAMERA => write!(f, "the camera's view, t {t_low} to {t_high}"),
+            StepKind::View if a == numbers::VIEW_ALL => {
+                write!(f, "all triangles one by one, t {t_low} to {t_high}")
+            }
+            StepKind::View if a == numbers::VIEW_CAMERA => write!(f, "the camera's view, t {t_low} to {t_high}"),
             StepKind::View => write!(f, "view {a}, t {t_low} to {t_high}"),
             StepKind::Cell => {
                 let (view, x, y) = (a, b.cast_signed(), self.c.cast_signed());
@@ -281,6 +281,15 @@ mod tests {
         let end = step(numbers::STEP_END, [numbers::TRACE_MISS, PRIMITIVE_NONE, 0], [4.0, 4.0]);
         assert_eq!((end.primitive(), end.verdict(), end.skip_reason()), (None, None, None));
         assert_eq!(end.to_string(), "answer: no triangle, t 4");
+        for (view, name) in [
+            (5, "view 5"),
+            (numbers::VIEW_NEAR, "near region"),
+            (numbers::VIEW_CAMERA, "the camera's view"),
+            (numbers::VIEW_ALL, "all triangles one by one"),
+        ] {
+            let entered = step(numbers::STEP_VIEW, [view, 0, 0], [1.0, 2.0]);
+            assert_eq!(entered.to_string(), format!("{name}, t 1 to 2"));
+        }
         let skip = step(numbers::STEP_SKIP, [numbers::SKIP_PAST, 0, 0], [1.0, 2.0]);
         assert_eq!(skip.skip_reason(), Some(SkipReason::Past));
     }
