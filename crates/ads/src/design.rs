@@ -90,14 +90,14 @@ fn usual_rounds(work_budget: u32) -> u32 {
 /// Definition of one structure: its options, pools, constants and passes. [`Pooled`](crate::kit::Pooled)
 /// makes a [`Structure`](crate::Structure) of it. A value holds the pipelines of the build, and data that a
 /// build keeps on the host.
-pub trait Design: fmt::Debug + Sized {
+pub trait Design: fmt::Debug + Sized + Send + Sync {
     /// Options.
-    type Config: Configured + fmt::Debug + Copy;
+    type Config: Configured + fmt::Debug + Copy + Send + Sync;
     /// Header that shaders start from. Its first word is the status that the last pass of a build writes,
     /// bits `STATUS_*`.
-    type Header: Pod;
+    type Header: Pod + Send + Sync;
     /// The demand of builds.
-    type Demand: Demand;
+    type Demand: Demand + Send + Sync;
     /// Its pools.
     type Pool: PoolName<Header = Self::Header>;
     /// Pools on the host, for checks.

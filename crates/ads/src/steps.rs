@@ -205,7 +205,9 @@ impl fmt::Display for TraceStep {
             StepKind::View if a == numbers::VIEW_ALL => {
                 write!(f, "all triangles one by one, t {t_low} to {t_high}")
             }
-            StepKind::View if a == numbers::VIEW_CAMERA => write!(f, "the camera's view, t {t_low} to {t_high}"),
+            StepKind::View if a == numbers::VIEW_CAMERA => {
+                write!(f, "the camera's view, t {t_low} to {t_high}")
+            }
             StepKind::View => write!(f, "view {a}, t {t_low} to {t_high}"),
             StepKind::Cell => {
                 let (view, x, y) = (a, b.cast_signed(), self.c.cast_signed());

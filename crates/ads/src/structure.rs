@@ -60,7 +60,9 @@ pub struct InlineTrace<'a> {
 /// One value has one set of pools, so its builds and traces follow each other on the device's queue. It keeps
 /// the outcomes of builds per slot: a host with n frames in flight records the build of frame k for slot k
 /// mod n, and reads the status of a slot after that frame's fence.
-pub trait Structure {
+///
+/// Structures are [`Send`] and [`Sync`]: a host may record on a thread of its own.
+pub trait Structure: Send + Sync {
     /// Facts that do not change while it lives.
     fn description(&self) -> &Description;
 

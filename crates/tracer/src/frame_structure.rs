@@ -399,6 +399,15 @@ impl std::fmt::Debug for FrameStructure {
 mod tests {
     use super::*;
 
+    /// A host records frames on a thread of its own: this is checked when it is compiled.
+    #[test]
+    fn structures_go_to_another_thread() {
+        fn goes<T: Send + Sync + ?Sized>() {}
+        goes::<FrameStructure>();
+        goes::<crate::BatchTracer>();
+        goes::<dyn rasray_ads::Structure>();
+    }
+
     #[test]
     fn parts_together_lack_what_one_of_them_lacks_most() {
         let incomplete = |lacking: Option<u64>| FrameOutcome::Incomplete {
