@@ -1,7 +1,7 @@
 //! Build and trace times of every registered system: `cargo bench --bench structures -- [SCENE] [RAYS]`.
 //!
-//! Prints, for every registered system and preset that the device can run, the median build time and the
-//! median trace time of random rays, alternated between systems in one process. Times of software devices are
+//! Prints, for every registered system and preset that the device can run, the median build time, and the
+//! median, least and greatest trace time of random rays, alternated between systems in one process. Times of software devices are
 //! for ratios on that device. For errors beside speed use `rasray compare`.
 
 use std::ops::ControlFlow;
@@ -36,18 +36,24 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .unwrap_or_default();
     let rays = incoherent_rays(stage.scene.geometry().bounds(), SEED, rays);
     let traces = trace_in_turns(&device, &contestants, &rays, REPETITIONS)?;
-    println!("{:<24} {:>12} {:>12} {:>14}", "system", "build ms", "trace ms", "Mrays/s");
+    println!(
+        "{:<24} {:>12} {:>12} {:>22} {:>10}",
+        "system", "build ms", "trace ms", "least to greatest", "Mrays/s"
+    );
     for (contestant, traced) in contestants.iter().zip(&traces) {
         let run = contestant.run(&device)?;
         let name = format!("{} {}", run.system, run.preset);
         let trace = median(&traced.milliseconds);
         let shown =
             |value: Option<f64>, digits| value.map_or("-".to_owned(), |value| format!("{value:.digits$}"));
+        let least = traced.milliseconds.iter().copied().reduce(f64::min);
+        let greatest = traced.milliseconds.iter().copied().reduce(f64::max);
         let speed = trace.map(|trace| rays.len() as f64 / trace / 1.0e3);
         println!(
-            "{name:<24} {:>12} {:>12} {:>14}",
+            "{name:<24} {:>12} {:>12} {:>22} {:>10}",
             shown(run.times.build_ms, 2),
             shown(trace, 2),
+            format!("{} to {}", shown(least, 2), shown(greatest, 2)),
             shown(speed, 3)
         );
     }
