@@ -168,7 +168,7 @@ fn glsl_files(root: &Path) -> Result<Vec<String>, String> {
     Ok(files)
 }
 
-/// Of everything that modules are made of.
+/// Hash of everything that modules are made of.
 fn hash_of_sources(root: &Path, files: &[String]) -> Result<u64, String> {
     let mut all = Vec::new();
     for name in files.iter().map(String::as_str).chain(["permutations.txt"]) {

@@ -44,7 +44,7 @@ const TREES: [(&str, TreeOptions); 4] = [
     ("Embree, high quality", TreeOptions { quality: Quality::High, robust: false }),
 ];
 
-/// Of the scene's diagonal: how long shadow rays are.
+/// Length of shadow rays, as a share of the scene's diagonal.
 const SHADOW_LENGTH: f32 = 0.25;
 
 /// Who answers rays.

@@ -20,7 +20,7 @@ pub fn spent<T>(call: impl FnOnce() -> T) -> (T, Spent) {
     (answer, Spent { wall: started.elapsed().as_secs_f64() * 1.0e3, processor })
 }
 
-/// Of all threads of this process, since it began.
+/// Processor time of all threads of this process, since it began.
 #[cfg(unix)]
 fn processor_milliseconds() -> Option<f64> {
     let mut time = std::mem::MaybeUninit::<libc::timespec>::uninit();
@@ -31,7 +31,7 @@ fn processor_milliseconds() -> Option<f64> {
     Some(time.tv_sec as f64 * 1.0e3 + time.tv_nsec as f64 / 1.0e6)
 }
 
-/// Of all threads of this process, since it began.
+/// Processor time of all threads of this process, since it began.
 #[cfg(not(unix))]
 fn processor_milliseconds() -> Option<f64> {
     None

@@ -7,7 +7,7 @@ use rasray_gpu::Device;
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Camera, builtin, default_view};
 
-/// Of all random numbers.
+/// Seed of all random numbers.
 pub const SEED: u32 = 1;
 
 /// Pixels of the image that the camera's rays are shaped by.

@@ -9,8 +9,8 @@
 
 #include "ads/back_face.glsl"
 
-// Of a triangle around a point of it. The distance is that of this point, so that errors of the normal count
-// over the cell alone, not over the triangle.
+// Plane of a triangle around a point of it. The distance is that of this point, so that errors of the normal count over the
+// cell alone, not over the triangle.
 uvec4 abuffer_pack_plane(uint primitive, vec2 barycentrics, vec3 eye) {
     vec3 a;
     vec3 b;

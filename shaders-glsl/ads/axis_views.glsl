@@ -156,7 +156,7 @@ bool axis_depth_is_certain(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     vec3 ab = abs(b - a);
     vec3 ac = abs(c - a);
     float facing = abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-    // Of a component of the normal, by as much as moves corners in `axis_reaches_into`.
+    // Error of a component of the normal, where corners are off by as much as in `axis_reaches_into`.
     float error = axis_reach_slack(view) * view.cell * (ab.x + ab.y + ab.z + ac.x + ac.y + ac.z);
     vec2 away = abs(axis_center(view, cell).xy - a.xy);
     return 32.0 * error < facing && (away.x + away.y) * 2.5 * error < 0.05 * view.cell * facing;

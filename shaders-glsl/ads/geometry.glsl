@@ -42,7 +42,7 @@ struct GeometryHeader {
 #endif
 layout(set = GEOMETRY_SET, binding = 0, scalar) GEOMETRY_HEADER_ACCESS buffer GeometryHeaderBuffer {
     GeometryHeader geometry_header;
-    // Of a part in several runs, each: its first triangle here, and the id of that. In order.
+    // Runs of a part that has several, in order: for each its first triangle here, and the id of that.
     uvec2 geometry_runs[];
 };
 #ifdef GEOMETRY_GATHERED

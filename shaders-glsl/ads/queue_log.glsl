@@ -13,8 +13,8 @@
 // True if this invocation's slot is the logged one. Evaluated once per ray, since structures log in many places.
 bool trace_log_on = false;
 
-// Of this dispatch: views entered, and cells visited that were not rejected. A cell is rejected where nothing of what it
-// holds is read: it is empty, or its bounds, buckets or mask say that the ray misses all of it.
+// Counts of this dispatch: views entered, and cells visited that were not rejected. A cell is rejected where nothing of what
+// it holds is read: it is empty, or its bounds, buckets or mask say that the ray misses all of it.
 uint trace_log_views = 0u;
 uint trace_log_searched = 0u;
 // 1: a cell was visited, and nothing of what it holds has been read yet.

@@ -135,7 +135,7 @@ void trace_store(uint slot, uint result, TraceState state, Hit hit) {
     }
 #endif
     if (result == TRACE_MISS && hit.primitive != PRIMITIVE_NONE) {
-        // Of another part.
+        // The hit is that of another part.
         result = TRACE_HIT;
     }
     trace_log(STEP_END, result, hit.primitive, 0u, hit.t, hit.t);

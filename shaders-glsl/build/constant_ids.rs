@@ -39,7 +39,7 @@ pub(crate) fn code_of_constant_ids(files: &[(String, String)]) -> Result<String,
     Ok(code)
 }
 
-/// Of ` = 40) const uint NAME = 1u;`.
+/// Number and name in the rest of a line, such as ` = 40) const uint NAME = 1u;`.
 fn id_and_name(rest: &str) -> Option<(u32, &str)> {
     let (id, rest) = rest.trim_start().strip_prefix('=')?.split_once(')')?;
     let mut words = rest.split_whitespace();

@@ -4,7 +4,7 @@ use crate::packed::{HEADER, Ids};
 
 /// Ids are kept as distances up to this.
 const NEAR: u32 = 64;
-/// Of compression, 1 to 10: more takes longer and gains under one percent.
+/// Effort of compression, 1 to 10: more takes longer and gains under one percent.
 const EFFORT: u8 = 6;
 
 /// A module in few bytes; none where it is no SPIR-V.

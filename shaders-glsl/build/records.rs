@@ -276,7 +276,7 @@ mod tests {
     #[test]
     fn shared_structs_and_push_constants_are_records() {
         let text = "
-            // Of the shader alone.
+            // For the shader alone.
             struct Walk {
                 bool done;
             };

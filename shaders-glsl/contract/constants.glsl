@@ -44,7 +44,7 @@
 // The bits from here on: 1 + the number of the light that a shadow ray leads to; 0 for every other ray. Lights without extent
 // come first, then emitting triangles, each in the order of its table.
 #define RAY_LIGHT_SHIFT 8u
-// Of lights with a number that has no room.
+// Value for lights whose number has no room.
 #define RAY_LIGHT_MOST 0xFFFFFFu
 
 // Fields of a Surface that the structure fills; the others hold documented defaults.

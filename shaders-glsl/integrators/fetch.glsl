@@ -36,9 +36,9 @@ struct FetchHeader {
 };
 
 layout(set = INTEGRATOR_SET, binding = 0, scalar) FETCH_ACCESS buffer FetchHeaderBuffer { FetchHeader fetch_header; };
-// Of each pixel: where its list begins, and its hits.
+// For each pixel: where its list begins, and its hits.
 layout(set = INTEGRATOR_SET, binding = 1, scalar) FETCH_ACCESS buffer FetchPixelBuffer { uvec2 fetch_pixels[]; };
-// Of each slot of the queue with a hit: its pixel, and its place in the list.
+// For each slot of the queue with a hit: its pixel, and its place in the list.
 layout(set = INTEGRATOR_SET, binding = 2, scalar) FETCH_ACCESS buffer FetchSlotBuffer { uvec2 fetch_slots[]; };
 // The slots of all lists.
 layout(set = INTEGRATOR_SET, binding = 3, scalar) FETCH_ACCESS buffer FetchListBuffer { uint fetch_lists[]; };

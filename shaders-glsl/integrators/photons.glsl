@@ -104,7 +104,7 @@ void photon_sum_word(inout uint word, uint added, inout uint carry) {
 void photon_sum_add(inout PhotonSum sum, float number) {
     uint bits = floatBitsToUint(number);
     uint mantissa = (bits & 0x7FFFFFu) | 0x800000u;
-    // Of the lowest bit of the mantissa, which is worth 2^(exponent - 150).
+    // Place of the lowest bit of the mantissa, which is worth 2^(exponent - 150).
     int place = int(bits >> 23) - 150 + 64;
     if (place < 0) {
         mantissa = place > -24 ? mantissa >> uint(-place) : 0u;

@@ -29,7 +29,7 @@ uvec2 rigid_attributes(uint primitive, vec2 barycentrics) {
     if (isinf(map.error)) {
         return stored_pack_triangle(stored_source_at(primitive, barycentrics, a, b, c));
     }
-    // Of unit size, for determinants within range.
+    // The map at unit size, for determinants within range.
     mat3 posed_from_built = inverse(mat3(map.x, map.y, map.z) / map.stretch);
     float grown = 1.0 / map.stretch;
     a = posed_from_built * (grown * (a - map.offset)) + map.centre;

@@ -85,7 +85,7 @@ uint voxel_nearest_sorted(VoxelRef s, uvec2 list, float depth, inout TraceState 
     uint first = voxel_first_from(s, list, depth, state, work);
     if (first > list.x) {
         float z = voxel_read(s, first - 1u, state, work);
-        // Of several at one depth the first.
+        // The first of several fragments at one depth.
         uint place = voxel_first_from(s, uvec2(list.x, first), z, state, work);
         voxel_hold_nearer(s, depth, place, z, held, held_z);
     }

@@ -105,7 +105,7 @@ bool voxel_take(VoxelRef s, Ray ray, VoxelTraversal traversal, VoxelSpan span, f
     if (verdict != TEST_ACCEPTED) {
         return false;
     }
-    // Of a mirror the triangle is known, and the surface is the fragment's.
+    // The triangle of a mirror is known, and the surface is the fragment's.
     vec2 found = uintBitsToFloat(uvec2(place, VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR ? HIT_STORED : 0u));
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_INDEX) {
         found = plane_barycentrics(primitive, ray.origin + t * ray.direction);

@@ -1,6 +1,6 @@
 // The numbers that scans run over. Of lists, contiguous storage only: lengths become places, and their sum the demand.
-// Of the octree: how many octants of each node hold something becomes how many of those before it do, and their sum, with
-// the root, its demand.
+// In the octree the number of octants that hold something becomes, for each node, the number of those before it. Their
+// sum, with the root, is its demand.
 // Reads, writes: lists, scratch, octants, header.demand, header.node_demand.
 #ifndef VOXEL_SCANNED_GLSL
 #define VOXEL_SCANNED_GLSL

@@ -53,7 +53,7 @@ void linked_set_next(VoxelRef s, uint link, uint next) { voxel_set_word(s, link 
 
 void linked_set_prev(VoxelRef s, uint link, uint prev) {}
 
-// Of fragments with equal words, the one that was stored first.
+// True if the left fragment comes first: the one that was stored first, where words are equal.
 bool linked_comes_first(VoxelRef s, uint left, uint right) {
     return sort_places_before(s, left - 1u, right - 1u)
         || (left < right && !sort_places_before(s, right - 1u, left - 1u));

@@ -32,7 +32,7 @@
 // Offset of the voxel, or cell, being searched from that of the march.
 #define VOXEL_CURSOR_VOXEL_BESIDE 8, 5
 #define VOXEL_CURSOR_CELL_BESIDE 15, 5
-// Of the cells around a cell of a view only the nine at its depth exist.
+// Neighbours of a cell of a view; only the nine at its depth exist.
 #define VOXEL_CURSOR_CELL_NEIGHBOURS 20, 9
 // Parity only, where cells next to those that the ray crosses are left out.
 #define VOXEL_CURSOR_STAGE 15, 2

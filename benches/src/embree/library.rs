@@ -64,7 +64,7 @@ pub(super) struct Functions {
     release_geometry: OfHandle,
     intersect: TraceOne,
     occluded: TraceOne,
-    /// Of 4, 8 and 16 rays: nearest hits, and occlusion.
+    /// Functions that trace 4, 8 and 16 rays at once: for nearest hits, and for occlusion.
     packets: [[TracePacket; 2]; 3],
 }
 

@@ -22,15 +22,15 @@ pub(super) struct Arguments {
     features: c_int,
     context: *mut c_void,
     filter: Option<Filter>,
-    /// Of geometries that are no triangles.
+    /// Function for geometries that are no triangles.
     function: *mut c_void,
-    /// Of curves; libraries that are built without it read no further than `function`.
+    /// Width of curves; libraries that are built without curves read no further than `function`.
     width: f32,
 }
 
 impl Arguments {
-    /// Of triangles without a context; with the filter that refuses what rays exclude, where any of them
-    /// does.
+    /// Arguments for triangles, without a context. They have the filter that refuses what rays exclude where
+    /// any ray excludes something.
     pub fn new(excludes: bool) -> Self {
         let filter: Filter = refuse_excluded;
         Self {
@@ -86,7 +86,7 @@ const ID: usize = 10;
 const PRIMITIVE: usize = 5;
 
 impl<const N: usize> Packet<N> {
-    /// Of up to N rays; what is missing is no ray.
+    /// A packet of up to N rays; the lanes that are left hold no ray.
     pub fn new(rays: &[Ray]) -> Self {
         // Lanes without a ray are valid numbers all the same.
         let ray =

@@ -208,7 +208,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
                 }
             }
             let key = |link| (contents.z(link), contents.payload(link)[0]);
-            // Of paged lists each page is in order.
+            // In paged lists each page is in order.
             let together = |pair: &[u32]| {
                 config.storage != Storage::Paged || (pair[0] - 1) / config.page == (pair[1] - 1) / config.page
             };

@@ -114,9 +114,9 @@ fn gathers(gather: Option<&Gather>, whole: Option<&Geometry>) -> bool {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct Run {
-    /// Of the first one, in the part.
+    /// Index of the first triangle, in the part.
     pub first: u32,
-    /// Of the first one, in the whole.
+    /// Index of the first triangle, in the whole.
     pub id: u32,
 }
 

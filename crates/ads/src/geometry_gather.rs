@@ -26,7 +26,7 @@ pub(crate) struct Count {
     pub(crate) pipeline: ComputePipeline,
     pub(crate) set: BindingSet,
     pub(crate) constants: GeometryCountConstants,
-    /// Of draws of all triangles onto one view, two, ...
+    /// Arguments of the draws of all triangles onto one view, two, ...
     pub(crate) draw_arguments: Buffer,
 }
 
@@ -72,7 +72,7 @@ impl Count {
 }
 
 impl Gather {
-    /// Of indices that are not absolute, or not of 32 bits.
+    /// A pass over indices that are not absolute, or not of 32 bits.
     pub(crate) fn new(
         device: &Device,
         geometry: &SetLayout,
@@ -88,7 +88,7 @@ impl Gather {
         Self::from(device, geometry, desc.triangle_count, source, [index_count, index_bytes, per_draw])
     }
 
-    /// Of the indices that shaders read of the whole, which has that number of triangles.
+    /// A pass over the indices of the whole that shaders read; the whole has that number of triangles.
     pub(crate) fn of_part(
         device: &Device,
         geometry: &SetLayout,

@@ -33,7 +33,7 @@ impl ListCounts {
     /// lie.
     pub const VOXELS: &'static str = "voxels";
 
-    /// Of no cells yet.
+    /// Counts of no cells yet.
     pub fn new(cells_of: &'static str, slot_bytes: u64) -> Self {
         Self { cells_of, cells: 0, occupied: 0, layers: 0, most: 0, entries: 0, slots: 0, slot_bytes }
     }

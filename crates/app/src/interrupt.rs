@@ -112,7 +112,7 @@ impl Interrupt {
     /// between the file and its guard.
     ///
     /// # Errors
-    /// Of `make`.
+    /// The error of `make`.
     pub(crate) fn unfinished(
         &self,
         make: impl FnOnce() -> std::io::Result<NamedTempFile>,

@@ -45,7 +45,7 @@ pub fn main() -> Result<()> {
     // SAFETY: the device was made with these features, by the host, which goes last.
     let device = unsafe { Device::from_raw(host.raw_device(&enabled)) }?;
     let mut mesh = staircase(200);
-    // Of all frames.
+    // The bounds hold the mesh in all frames.
     mesh.bounds[1][0] += 1.0;
     let shader = Module { entry: "inline.comp", defines: &[] };
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");

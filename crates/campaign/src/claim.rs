@@ -14,7 +14,7 @@ pub struct Claim {
     pub published: f64,
     /// Name of the result, as in [`Row::results`].
     pub measure: String,
-    /// Of the rows that are looked at.
+    /// Settings of the rows that are looked at.
     of: BTreeMap<String, String>,
     /// In what the rows that they are divided by differ from them; absent: they are taken as they are.
     over: Option<BTreeMap<String, String>>,
@@ -31,7 +31,7 @@ pub struct Finding {
     pub middle: f64,
     /// The middle over what was published.
     pub relation: f64,
-    /// Of a ratio, whether it lies on the side of 1 where the paper's does; absent for values, which depend
+    /// For a ratio: whether it lies on the side of 1 where the paper's does. Absent for values, which depend
     /// on the machine.
     pub same_side: Option<bool>,
 }

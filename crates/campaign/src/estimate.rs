@@ -12,7 +12,7 @@ pub struct Estimate {
     pub rays: u64,
     /// Samples of images.
     pub samples: u64,
-    /// Of the cells that can be told.
+    /// Time of the cells that can be estimated.
     pub time: Duration,
     /// Cells of systems of which nothing was made yet.
     pub unknown: usize,

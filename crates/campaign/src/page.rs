@@ -86,9 +86,9 @@ fn head(
 /// Contents of a page so far.
 struct Page<'a> {
     paper: &'a Paper,
-    /// Of rays, and of images.
+    /// Settings that all rays share, and those that all images share.
     of_kinds: [SharedSettings; 2],
-    /// Of each table where it stands, and the keys of its runs.
+    /// The place of each table, and the keys of its runs.
     tables: Vec<(String, BTreeSet<String>)>,
     sheets: Vec<Sheet>,
 }

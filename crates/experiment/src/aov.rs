@@ -214,9 +214,9 @@ impl fmt::Debug for AovSelection {
 /// of [`Aov::channels`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum AovImage {
-    /// Of one that is not [`Aov::is_whole`].
+    /// Pixels of an image that is not [`Aov::is_whole`].
     Floats(Vec<Vec<f32>>),
-    /// Of one that is, with one channel.
+    /// Pixels of an image that is [`Aov::is_whole`], with one channel.
     Whole(Vec<u32>),
 }
 
@@ -229,7 +229,7 @@ impl AovImage {
         }
     }
 
-    /// Of pixels with so many channels.
+    /// An image of pixels with so many channels.
     pub fn of<const N: usize>(pixels: impl IntoIterator<Item = [f32; N]>) -> Self {
         let mut image = Self::Floats(vec![Vec::new(); N]);
         image.extend(pixels);

@@ -99,7 +99,7 @@ pub struct TexelCapacity {
 }
 
 impl TexelCapacity {
-    /// Of a device.
+    /// The capacity of a device.
     pub fn of(device: &rasray_gpu::Device) -> Self {
         let texels = TexelRuns::of(device.limits()).most_texels();
         Self { texels, device: device.name().to_owned() }

@@ -92,11 +92,11 @@ pub struct Built {
     pub(super) outcome: BuildOutcome,
     pub(super) passes: Passes,
     viewpoint: Viewpoint,
-    /// Of the parts that move those that did in this frame; empty: all.
+    /// For each part that moves: whether it did in this frame. Empty: all did.
     moved: Vec<bool>,
     /// From nothing to complete, milliseconds; absent where something was there.
     first_ms: Option<f64>,
-    /// Of each repeated build, or of the one that a frame took, as the host saw it, milliseconds.
+    /// Time of each repeated build, or of the one that a frame took, as the host saw it, milliseconds.
     whole: Vec<f64>,
     /// The host's own part of each, milliseconds.
     prepare: Vec<f64>,

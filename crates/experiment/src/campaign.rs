@@ -35,7 +35,8 @@ impl ExperimentCells {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CampaignCells {
     list: CellList,
-    /// Of each comparison its own places, and those in the list, of the cells that it makes.
+    /// For each comparison, the cells that it makes: their places in its own list, and those in the list of
+    /// all.
     made_by: Vec<BTreeMap<usize, usize>>,
 }
 
@@ -84,7 +85,7 @@ impl CampaignCells {
         &self.list
     }
 
-    /// Of a comparison, by its place, the cells that it makes: places in its own list, and in that of the
+    /// The cells that a comparison, given by its place, makes: places in its own list, and in that of the
     /// campaign.
     pub fn made_by(&self, comparison: usize) -> &BTreeMap<usize, usize> {
         &self.made_by[comparison]

@@ -45,7 +45,7 @@ pub(super) fn hard(
         verdicts: oracle.closest_batch(&case.rays),
     };
     let mut comparison = Comparison::default();
-    // Of many cases in one run, the one that takes long is named.
+    // In a run of many cases the one that takes long is named.
     let mut of_case = |step: Progress<'_>| {
         let task = format!("{}, {}", case.id, step.task);
         progress(Progress { task: &task, ..step })

@@ -23,7 +23,7 @@ const PILOT: u64 = 5 * NUMBER;
 const MOMENTS: u64 = 3 * 4 * NUMBER;
 
 impl PerPixel {
-    /// Of an image with these further images; with sums where it is a share of the samples.
+    /// Memory of an image with these further images; with sums where it is a share of the samples.
     fn of(aovs: AovSelection, is_adaptive: bool, has_sums: bool) -> Self {
         let total =
             |kept: &[(bool, u64)]| kept.iter().filter(|(is_kept, _)| *is_kept).map(|(_, bytes)| bytes).sum();
@@ -44,9 +44,9 @@ impl PerPixel {
 /// Memory that there is, bytes.
 #[derive(Clone, Copy, Debug)]
 struct There {
-    /// Of the device; absent where it is the host's.
+    /// Memory of the device; absent where it is the host's.
     device: Option<u64>,
-    /// Of the host; absent where it is not known.
+    /// Memory of the host; absent where it is not known.
     host: Option<u64>,
 }
 

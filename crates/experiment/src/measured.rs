@@ -39,10 +39,10 @@ pub struct Measured {
     pub hits: usize,
     /// Against the oracle; wrong ids are forgiven where t is right to the tolerance.
     pub confusion: HitConfusion,
-    /// Of the unambiguous rays, the share that was missed, false, or wrong in t beyond the tolerance.
+    /// Share of the unambiguous rays that was missed, false, or wrong in t beyond the tolerance.
     pub errors: Rate,
-    /// Of the ambiguous rays, the share that got an answer that is not admissible, give or take the tolerance
-    /// in t.
+    /// Share of the ambiguous rays that got an answer that is not admissible, give or take the tolerance in
+    /// t.
     pub inadmissible: Rate,
     /// The first ambiguous ray with such an answer, by index.
     pub first_inadmissible: Option<usize>,
@@ -52,7 +52,7 @@ pub struct Measured {
     pub rejected: Vec<usize>,
     /// Those of [`Measured::rejected`] that got a hit, with depths off by the tolerance allowed.
     pub rejected_hits: Vec<usize>,
-    /// Of [`Measured::rejected`], those with a hit outside of the range of t that is all that is stated.
+    /// Those of [`Measured::rejected`] with a hit outside of the range of t that is all that is stated.
     pub out_of_range: usize,
     /// Rays that a stated answer says hit and that got no hit although a watertight test finds one.
     pub lost: usize,

@@ -19,7 +19,7 @@ pub struct RaySource<'a> {
     pub bounds: [[f32; 3]; 2],
     /// The views' centre relative to the frame origin, metres.
     pub center: [f32; 3],
-    /// Of these triangles.
+    /// Oracle of these triangles.
     pub oracle: &'a Oracle<'a>,
     /// Vertices relative to the frame origin, metres.
     pub positions: &'a [[f32; 3]],
@@ -32,9 +32,9 @@ pub struct RaySource<'a> {
 /// `RAY_*` bits of the rays of a picture.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RayFlags {
-    /// Of camera rays.
+    /// Flags of camera rays.
     pub camera: u32,
-    /// Of all others.
+    /// Flags of all other rays.
     pub others: u32,
 }
 
@@ -206,7 +206,7 @@ struct Line {
     direction: DVec3,
 }
 
-/// Of the half space of the points with `normal . point <= reach`.
+/// The half space of the points with `normal . point <= reach`.
 #[derive(Clone, Copy)]
 struct Side {
     normal: DVec3,

@@ -28,18 +28,18 @@ use rasray_report::{AdaptiveRecord, Counters, PassOf, Times};
 pub(super) struct Pixels {
     /// Linear Rec. 709, W/(sr m^2).
     pub(super) means: Vec<[f32; 3]>,
-    /// Of samples, where they are kept.
+    /// Sums of samples, where they are kept.
     sums: Option<Vec<[f32; 3]>>,
     /// Samples in each pixel's sum, where they are kept.
     pub(super) counts: Option<Vec<u32>>,
     /// Samples of all pixels.
     samples: u64,
-    /// Of the pixel that has most.
+    /// Samples of the pixel that has most.
     samples_most: u32,
     pub(super) samples_done: u32,
     pub(super) passes: Passes,
     pub(super) counters: Counters,
-    /// Of the first dispatch of every kernel, milliseconds; absent where they had been used.
+    /// Time of the first dispatch of every kernel, milliseconds; absent where they had been used.
     pub(super) first_use_ms: Option<f64>,
 }
 

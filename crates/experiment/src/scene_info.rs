@@ -43,7 +43,7 @@ pub struct SceneInfo {
     pub bounds: Option<(DVec3, DVec3)>,
     /// Share of fragments that one view of three saves.
     pub one_view_saves: Option<f64>,
-    /// Of the scene file, in hexadecimal; absent for built-in scenes.
+    /// SHA-256 of the scene file, in hexadecimal; absent for built-in scenes.
     pub sha256: Option<String>,
     /// Its cameras.
     pub cameras: Vec<CameraRecord>,

@@ -81,9 +81,9 @@ pub(super) struct Wanted {
 pub struct TracedSet {
     /// One a ray.
     pub hits: Vec<Hit>,
-    /// Of one trace of all rays.
+    /// Counters of one trace of all rays.
     pub counters: QueueCounters,
-    /// Of each timed trace.
+    /// Time of each timed trace.
     pub milliseconds: Vec<f64>,
     pub(super) passes: Passes,
 }

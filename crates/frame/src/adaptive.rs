@@ -31,7 +31,7 @@ pub struct Adaptive {
 #[derive(Clone, Debug)]
 pub(crate) struct Pilot {
     width: usize,
-    /// Of luminance.
+    /// Moments of each pixel's luminance.
     pixels: Vec<Moments>,
 }
 

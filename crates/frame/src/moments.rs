@@ -7,10 +7,10 @@ use rasray_integrators::FilmPixel;
 pub(crate) struct Moments {
     /// Number of samples.
     pub samples: u32,
-    /// Of all.
+    /// Mean of all samples.
     pub mean: f32,
     squares: f32,
-    /// Of the film's sum.
+    /// The film's sum.
     summed: f32,
 }
 
@@ -58,8 +58,8 @@ impl Variances {
         }
     }
 
-    /// Of the mean of each pixel, as if its samples were independent: that of a sample over their number; 0
-    /// where there are fewer than two.
+    /// Variance of the mean of each pixel, as if its samples were independent: the variance of a sample over
+    /// the number of samples; 0 where there are fewer than two.
     pub fn of_means(&self) -> impl Iterator<Item = [f32; 3]> {
         let of_mean =
             |moments: Moments| (moments.variance().unwrap_or(0.0) / f64::from(moments.samples.max(1))) as f32;

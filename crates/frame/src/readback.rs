@@ -25,7 +25,7 @@ impl FilmCopy {
 /// Memory of the host that one frame in flight writes: film, faults, and the header of each queue.
 #[derive(Debug)]
 pub(crate) struct Readback {
-    /// Of each band; of none where films are not read.
+    /// Film of each band; empty where films are not read.
     film: Vec<Buffer>,
     counters: Buffer,
 }

@@ -189,8 +189,8 @@ fn append_block(table: &mut Vec<f32>, rows: &[[Share; COSINES]], value: impl Fn(
     }
 }
 
-/// Of the interpolated values, over the hemisphere and weighted by the cosine: `4 y³ dy` with y the root of
-/// the cosine.
+/// Mean of the interpolated values, over the hemisphere and weighted by the cosine: `4 y³ dy` with y the
+/// root of the cosine.
 fn mean(values: &[f32; COSINES]) -> f64 {
     let step = 1.0 / (COSINES - 1) as f64;
     let mut sum = 0.0;

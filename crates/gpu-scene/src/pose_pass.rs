@@ -380,8 +380,8 @@ impl PosePass {
         self.parts.as_ref().map(|division| &division.parts)
     }
 
-    /// Of each part that moves whether one pose has it elsewhere than another, or in another shape; in one
-    /// part where the geometry is not in parts. Both were made by [`PosePass::frame`].
+    /// For each part that moves: whether one pose has it elsewhere than another, or in another shape. There
+    /// is one part where the geometry is not in parts. Both poses were made by [`PosePass::frame`].
     pub fn moved_parts(&self, before: &FramePose, after: &FramePose) -> Vec<bool> {
         let count = self.divided().map_or(1, |parts| parts.moving().len());
         let deformed =
@@ -422,7 +422,7 @@ struct Division {
     parts: GeometryParts,
     /// The part of each moving draw, among those that move.
     part_of: Vec<usize>,
-    /// Of each part that moves what has a space of its own.
+    /// The object of each part that moves, where it has a space of its own.
     objects: Vec<Option<RigidObject>>,
 }
 

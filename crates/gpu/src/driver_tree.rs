@@ -49,7 +49,7 @@ struct TreeInner {
     top: Level,
     /// The instance, as the host wrote it.
     instance: Buffer,
-    /// Of one level after the other.
+    /// Scratch memory, which one level uses after the other.
     scratch: Buffer,
     /// First address within it that a build may use.
     scratch_address: u64,

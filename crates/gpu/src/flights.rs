@@ -128,7 +128,7 @@ impl Flights {
 impl Drop for Flights {
     fn drop(&mut self) {
         for slot in 0..self.slots() {
-            // Of a device that is lost or abandoned nothing is waited for any more.
+            // Nothing is waited for any more where the device is lost or abandoned.
             if let Err(error) = self.wait(slot) {
                 tracing::warn!("a frame in flight did not end: {error}");
             }

@@ -32,7 +32,7 @@ pub(crate) struct SetLayouts(Mutex<BTreeMap<u32, LayoutParts>>);
 /// The parts of a layout that something was made of.
 #[derive(Default)]
 pub(crate) struct LayoutParts {
-    /// Of all bindings, and of those that pipelines use.
+    /// Layouts of all bindings, and of those that pipelines use.
     pub(crate) layouts: BTreeMap<Mask, vk::DescriptorSetLayout>,
     /// Sets of the layout; each is taken out before its buffers go.
     pub(crate) sets: Vec<Arc<SetParts>>,

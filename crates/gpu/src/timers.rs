@@ -57,7 +57,7 @@ struct TimersInner {
     core: Arc<Core>,
     pool: vk::QueryPool,
     capacity: u32,
-    /// Of the passes recorded so far.
+    /// Stage and name of each pass recorded so far.
     passes: Mutex<Vec<(Stage, String)>>,
 }
 

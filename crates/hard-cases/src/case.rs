@@ -80,7 +80,7 @@ pub enum Answer {
     HitAt {
         /// In units of the direction's length.
         t: f32,
-        /// Of t.
+        /// Relative tolerance of t.
         tolerance: f32,
     },
     /// As `HitAt`, on this triangle, also if another one lies at the same t.
@@ -89,7 +89,7 @@ pub enum Answer {
         primitive: u32,
         /// In units of the direction's length.
         t: f32,
-        /// Of t.
+        /// Relative tolerance of t.
         tolerance: f32,
     },
     /// Hit or miss; a hit must be finite and have a t in this closed range.

@@ -43,9 +43,9 @@ impl std::fmt::Display for Target {
 /// Demands of a case, by kind of structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Targets {
-    /// Of structures that find triangles.
+    /// Target of structures that find triangles.
     pub primitives: Target,
-    /// Of structures that find fragments, samples or voxels.
+    /// Target of structures that find fragments, samples or voxels.
     pub fragments: Target,
 }
 

@@ -156,7 +156,7 @@ fn the_page_lists_every_case() {
         let primitives = format!("{}{dt}", short(row.target.primitives));
         let fragments = short(row.target.fragments);
         let target = if primitives == fragments { primitives } else { format!("{primitives}; {fragments}") };
-        // Of most cases, and not said then.
+        // Most cases have this target, and the page does not say it then.
         let target = if target == "P1; P2" { String::new() } else { target };
         let cases: Vec<_> = titles().into_iter().filter(|(id, _)| catalogue_row(id) == Some(row)).collect();
         let end = format!("| {target} |");

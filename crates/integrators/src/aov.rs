@@ -20,7 +20,7 @@ use crate::{
 #[derive(Debug)]
 pub struct AovPass {
     bands: Bands,
-    /// Of the band that was traced last.
+    /// Pixels of the band that was traced last.
     pixels: Buffer,
     queue: RayQueue,
     bindings: Bindings,

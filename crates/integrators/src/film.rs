@@ -17,10 +17,10 @@ pub struct Film {
     width: u32,
     height: u32,
     bands: Bands,
-    /// Of each band.
+    /// Pixels of each band.
     pixels: Vec<Buffer>,
     faults: Buffer,
-    /// Of each band.
+    /// List of each band.
     list: Option<Vec<Buffer>>,
 }
 
@@ -138,7 +138,7 @@ impl Film {
         self.bands.pixel_count()
     }
 
-    /// Of each band [`FilmPixel`] per pixel, row by row from the top left.
+    /// A buffer for each band: [`FilmPixel`] per pixel, row by row from the top left.
     pub fn pixels(&self) -> &[Buffer] {
         &self.pixels
     }

@@ -92,7 +92,7 @@ pub(crate) struct Bindings {
     geometry: BindingSet,
     scene: BindingSet,
     bands: Bands,
-    /// Of each band.
+    /// Binding set of each band's storage.
     storage: Vec<BindingSet>,
     /// True if waves are of the pixels in a list.
     is_listed: bool,

@@ -37,23 +37,23 @@ pub struct HitConfusion {
     pub rays: u64,
     /// Rays with more than one admissible answer.
     pub ambiguous: u64,
-    /// Of the ambiguous rays whose surroundings are closed: how many got no hit.
+    /// Rate of rays without a hit, among the ambiguous rays whose surroundings are closed.
     pub ambiguous_lost: Rate,
-    /// Of the ambiguous rays that got a hit: on how many it is none of the admissible ones.
+    /// Rate of hits that are none of the admissible ones, among the ambiguous rays that got a hit.
     pub ambiguous_wrong: Rate,
-    /// Of the rays that hit: how many got no hit.
+    /// Rate of rays without a hit, among the rays that hit.
     pub missed: Rate,
-    /// Of the rays that miss: how many got a hit.
+    /// Rate of rays with a hit, among the rays that miss.
     pub false_hits: Rate,
-    /// Of the rays that hit and got a hit with a known triangle: how many got the wrong one, with a
-    /// t that is off by more than the tolerance. Absent if no triangle is known.
+    /// Rate of wrong triangles whose t is off by more than the tolerance, among the rays that hit and got a
+    /// hit with a known triangle. Absent if no triangle is known.
     pub wrong_primitive: Option<Rate>,
-    /// Of the rays that hit and got a hit on the right triangle (or on an unknown one): how many got a t that
-    /// rounding does not explain.
+    /// Rate of errors of t that rounding does not explain, among the rays that hit and got a hit on the right
+    /// triangle (or on an unknown one).
     pub t_off: Rate,
     /// |dt| / t of the rays that hit and got a hit; absent if there are none.
     pub dt_rel: Option<Percentiles>,
-    /// Of all rays: hits with a t that is NaN or infinite.
+    /// Rate of hits with a t that is NaN or infinite, among all rays.
     pub non_finite: Rate,
 }
 

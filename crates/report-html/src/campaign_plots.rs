@@ -18,7 +18,7 @@ const LOG_FROM: f64 = 8.0;
 struct Measure {
     name: &'static str,
     title: &'static str,
-    /// Of the axis.
+    /// Label of the axis.
     words: &'static str,
     /// Times that are repeated: their spread in the run, and what makes a time of the result.
     spread: Option<&'static str>,
@@ -102,7 +102,7 @@ impl Point {
         values.sort_by(f64::total_cmp);
         let (low, high) = (*values.first()?, *values.last()?);
         let middle = 0.5 * (values[(values.len() - 1) / 2] + values[values.len() / 2]);
-        // Of one seed, what repetitions give: half of them lie between the quartiles.
+        // The spread of repetitions, where there is one seed: half of them lie between the quartiles.
         if let ([row], Some(name)) = (rows, measure.spread)
             && let Some(spread) = row.run().spread.get(name)
         {
@@ -291,7 +291,7 @@ fn scatter(anchor: &str, experiment: &Experiment, speed: &Measure, error: &Measu
     if points.len() < 2 {
         return None;
     }
-    // Of shares of rays, what so many rays resolve; zero is drawn there.
+    // For shares of rays, the floor is what so many rays resolve; zero is drawn there.
     let compared = |row: &Row| row.run().accuracy.as_ref().map(|accuracy| accuracy.rays - accuracy.ambiguous);
     let floor = match error.name {
         "error_share" => {

@@ -13,12 +13,12 @@ pub(super) struct Heading<'a> {
 }
 
 impl<'a> Heading<'a> {
-    /// Of a column of words.
+    /// Heading of a column of words.
     pub const fn words(name: &'a str) -> Self {
         Self { name, is_number: false, meaning: None }
     }
 
-    /// Of a column of numbers.
+    /// Heading of a column of numbers.
     pub const fn number(name: &'a str, meaning: Option<&'static str>) -> Self {
         Self { name, is_number: true, meaning }
     }

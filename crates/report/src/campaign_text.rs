@@ -132,7 +132,7 @@ pub fn campaign_markdown(campaign: &Campaign) -> String {
     text
 }
 
-/// Of the sets of rays of an experiment, and of its images, what the rows have in common, and their table.
+/// The sets of rays of an experiment, and its images: for each what the rows have in common, and their table.
 fn experiment_markdown(experiment: &Experiment) -> String {
     experiment.parts().iter().map(part_markdown).collect::<Vec<_>>().join("\n")
 }

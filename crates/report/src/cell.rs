@@ -129,7 +129,7 @@ pub struct CellRecord {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CampaignRecord {
-    /// Of its plan, one line.
+    /// Title of its plan, one line.
     pub title: String,
     /// Those that show the cell, in the order of the plan.
     pub experiments: Vec<ExperimentRecord>,

@@ -194,7 +194,7 @@ pub struct ListRecord {
     /// Mean over the occupied cells; absent where there are none.
     #[serde(default, skip_serializing_if = "absent")]
     pub layers_mean: Option<f64>,
-    /// Of the cell that has most.
+    /// Layers of the cell that has most.
     pub layers_most: u64,
     /// Entries in their lists: more than layers where a triangle is in several buckets of a cell.
     pub entries: u64,
@@ -214,8 +214,8 @@ pub struct Counters {
     /// Triangles with an area that cover no cell's centre in any view, so that rays pass through them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lost: Option<u64>,
-    /// Of images whose integrator traces on from some surfaces alone: the share of samples whose first
-    /// surface sent a mirrored or a refracted ray on.
+    /// The share of samples whose first surface sent a mirrored or a refracted ray on. There for images whose
+    /// integrator traces on from some surfaces alone.
     #[serde(default, skip_serializing_if = "absent")]
     pub selected_share: Option<f64>,
     /// List entries stored.

@@ -31,7 +31,7 @@ pub struct Report {
     /// From where it was seen; absent for hard cases, which have an eye of their own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraRecord>,
-    /// Of a comparison, which of its runs this is, where each has a line of its own; absent otherwise.
+    /// The run of a comparison that this line is of, where each run has a line of its own; absent otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cell: Option<CellRecord>,
     /// Confidence of the intervals of all rates together; absent where no rate was estimated.
@@ -85,7 +85,7 @@ pub struct SceneRecord {
     pub name: String,
     /// Triangles over all instances.
     pub triangles: u64,
-    /// Of the scene file, in hexadecimal; absent for built-in scenes.
+    /// SHA-256 of the scene file, in hexadecimal; absent for built-in scenes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
     /// Bytes of its tables that were not allocated on the device, because no image of the integrator can show
@@ -122,7 +122,7 @@ pub struct PoseRecord {
     /// The frames that the command makes, of which this is one; absent where one time was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frames: Option<FramesRecord>,
-    /// Of a sequence of files, the name of the one that was shown; absent otherwise.
+    /// For a sequence of files, the name of the one that was shown; absent otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
 }
@@ -200,7 +200,7 @@ pub struct AdaptiveRecord {
     pub least_samples: u32,
     /// Mean over the pixels.
     pub samples_mean: f64,
-    /// Of the pixel that got most.
+    /// Samples of the pixel that got most.
     pub samples_most: u32,
 }
 

@@ -85,7 +85,7 @@ pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, Loa
         let scene = rasray_scene_files::load(path, options)?;
         let shown = scene.animation.deformer.as_ref().and_then(|deformer| deformer.file(0.0));
         let sha256 = digest(shown.unwrap_or(path))?;
-        // Of numbered files the one that is shown changes with the time: keys of pictures have it by its
+        // Which of numbered files is shown changes with the time: keys of pictures have that file by its
         // digest.
         let first = if shown.is_none() { sha256.as_str() } else { "" };
         let mut content = KeyHash::default().with("file", first);
@@ -267,7 +267,7 @@ fn triangles(scene: &Scene) -> u64 {
     scene.instances.iter().map(|instance| of(instance.mesh)).sum()
 }
 
-/// Of a file that was read before, in hexadecimal.
+/// Digest of a file that was read before, in hexadecimal.
 fn digest(path: &Path) -> Result<String, LoadError> {
     let failed = |source| LoadError::Gone { path: path.to_owned(), source };
     let mut file = File::open(path).map_err(failed)?;

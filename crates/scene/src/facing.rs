@@ -16,7 +16,7 @@ pub struct Facing {
 }
 
 impl Facing {
-    /// Of the triangles as placed by the instances, at rest. Linear in triangles.
+    /// Facing of the triangles as placed by the instances, at rest. Linear in triangles.
     pub fn of(scene: &Scene) -> Self {
         let mut facing = Self::default();
         for instance in &scene.instances {

@@ -213,12 +213,12 @@ impl Between {
 /// Movements of joints since a mesh was bound to them.
 pub struct Joints<'a> {
     binding: &'a SkinBinding,
-    /// Of each joint: from mesh space to the world.
+    /// Movement of each joint: from mesh space to the world.
     moves: Vec<DAffine3>,
 }
 
 impl<'a> Joints<'a> {
-    /// Of a mesh that was bound to a skin, where the nodes are now.
+    /// Joints of a mesh that was bound to a skin, where the nodes are now.
     pub fn new(skin: &Skin, binding: &'a SkinBinding, world_from_node: &[DAffine3]) -> Self {
         let world = |joint: usize| world_from_node.get(joint).copied().unwrap_or(DAffine3::IDENTITY);
         let moves = skin.joints.iter().zip(&skin.joint_from_mesh);
@@ -366,7 +366,7 @@ impl Scene {
                     let (mesh, place) =
                         posed_mesh(&self.meshes[instance.mesh], deformed, &weights, rig, &pose);
                     let index = if std::mem::replace(&mut is_replaced[instance.mesh], true) {
-                        // Of its own from now on, so that the result can be posed again.
+                        // A mesh of its own from now on, so that the result can be posed again.
                         let mesh_index = scene.meshes.len();
                         scene.meshes.push(mesh);
                         scene

@@ -58,7 +58,7 @@ pub struct StructureCounts {
     pub frames: u64,
     /// Frames that recorded a build, if only of a part; the others traced through the last one.
     pub builds: u64,
-    /// Of these, frames that built the static part, too; all of them where there are no parts.
+    /// Those of `builds` that built the static part, too; all of them where there are no parts.
     pub static_builds: u64,
     /// Builds of parts in all frames; as many as `builds` where there are no parts.
     pub part_builds: u64,

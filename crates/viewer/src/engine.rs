@@ -61,14 +61,14 @@ pub struct Engine {
     has_default_light: bool,
     traced: Option<Traced>,
     exact: Option<Traced>,
-    /// Of the whole picture.
+    /// Film of the whole picture.
     film: Option<ProgressiveImage>,
     exact_film: Option<ProgressiveImage>,
     /// Denoiser of the whole picture, once that was asked for.
     denoising: Option<Denoising>,
-    /// Of the whole picture, once it is complete: [`Picture::cut_rays`].
+    /// [`Picture::cut_rays`] of the whole picture, once it is complete.
     cut_rays: u32,
-    /// Of pictures while something moves.
+    /// Pictures while something moves.
     preview: Option<Preview>,
     preview_size: PreviewSize,
     /// Milliseconds since the last of these.

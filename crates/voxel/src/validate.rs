@@ -22,8 +22,8 @@ pub struct Contents {
     /// where it is linked its link behind these. Of a page the word that leads to the next one, and
     /// fragments.
     pub fragments: Vec<u32>,
-    /// Of the octree, in each level in the order of octants: which octants hold something, and the place of
-    /// the first; of the last level the bits of eight voxels.
+    /// The octree, each level in the order of octants: for a node the octants that hold something, and the
+    /// place of the first; in the last level the bits of eight voxels.
     pub nodes: Vec<u32>,
 }
 

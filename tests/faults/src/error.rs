@@ -10,22 +10,22 @@ use rasray_tracer::TracerError;
 /// An error of any crate on the way from a scene to a picture.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// Of the Vulkan layer.
+    /// Error of the Vulkan layer.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// Of structures and queues.
+    /// Error of structures and queues.
     #[error(transparent)]
     Ads(#[from] AdsError),
-    /// Of the scene on the device.
+    /// Error of the scene on the device.
     #[error(transparent)]
     Scene(#[from] GpuSceneError),
-    /// Of integrators and film.
+    /// Error of integrators and film.
     #[error(transparent)]
     Integrator(#[from] IntegratorError),
-    /// Of the registry.
+    /// Error of the registry.
     #[error(transparent)]
     Systems(#[from] SystemsError),
-    /// Of builds and traces.
+    /// Error of builds and traces.
     #[error(transparent)]
     Tracer(#[from] TracerError),
 }

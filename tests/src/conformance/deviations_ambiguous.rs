@@ -12,7 +12,7 @@ const SNAPPED: &str =
     "rays along seams of the cube's faces, and through its corners, are searched in no view there";
 const PASSED: &str = "a hit on the edge between two tiles counts in neither where one is skipped";
 
-/// Of ambiguous rays the share of inadmissible answers may be this many times what bounds wrong answers to
+/// The share of inadmissible answers to ambiguous rays may be this many times what bounds wrong answers to
 /// others. Where that allows half of them or more, nothing is demanded of ambiguous ones.
 const TIMES: f64 = 2.0;
 

@@ -7,8 +7,8 @@ use crate::hard_cases::Target;
 /// deviation holds. Each comparison gets an equal share of it (Bonferroni).
 pub const FALSE_ALARM: f64 = 1e-6;
 
-/// Of the interval (Clopper-Pearson) of a measured rate, so that one comparison with one of its ends is wrong
-/// with at most its share of [`FALSE_ALARM`].
+/// Confidence of the interval (Clopper-Pearson) of a measured rate, so that one comparison with one of its
+/// ends is wrong with at most its share of [`FALSE_ALARM`].
 pub fn confidence() -> f64 {
     1.0 - FALSE_ALARM / comparisons() as f64
 }
@@ -38,7 +38,7 @@ pub fn evaluate(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<Stri
     {
         fault(format!("|dt| / t is {:.1e}: more than {limit:.1e}", dt.max), measured.farthest_off);
     }
-    // Of what has no area, or of rays without direction, there are no samples either.
+    // Things without area, and rays without direction, have no samples either.
     if matches!(row.demand, Demand::Law { .. })
         && case.target.fragments == Target::Exact
         && let Some(&first) = measured.rejected_hits.first()

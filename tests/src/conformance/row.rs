@@ -18,7 +18,7 @@ pub enum Demand {
     Law {
         /// Cells along a side of a face.
         resolution: u32,
-        /// Of the unambiguous rays, times the resolution.
+        /// Share of the unambiguous rays, times the resolution.
         per_cell: f64,
         /// |dt| / t that counts as right.
         depth_tolerance: f64,
@@ -28,9 +28,9 @@ pub enum Demand {
     /// Rules of a paper lose hits of a structure that finds triangles: the share of missed, false and wrong
     /// hits is at most `share`, whatever the size of a cell.
     Loss {
-        /// Of the unambiguous rays.
+        /// Share of the unambiguous rays.
         share: f64,
-        /// Of a hit that is right, relative to t.
+        /// Rounding of a hit that is right, relative to t.
         rounding: f64,
     },
 }
@@ -53,7 +53,7 @@ pub struct Law {
     pub case: &'static str,
     /// Why it has more errors than others.
     pub reason: &'static str,
-    /// Of the unambiguous rays, times the resolution.
+    /// Share of the unambiguous rays, times the resolution.
     pub per_cell: f64,
     /// The way in which the limit falls with the resolution.
     pub curve: Curve,

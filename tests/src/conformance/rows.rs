@@ -17,7 +17,7 @@ pub fn comparisons() -> usize {
     ROWS.iter().map(|row| 4 * cases(row)).sum()
 }
 
-/// Of the rows and cases that go together, the quick tier holds one pair of so many.
+/// The quick tier holds one of so many pairs of a row and a case that go together.
 pub const SHARE: usize = 4;
 
 /// Cases of a hundred thousand triangles and more, which take software drivers far longer than others.

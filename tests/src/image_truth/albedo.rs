@@ -11,7 +11,7 @@ const STEPS: [usize; 2] = [800, 400];
 /// A diffuse base under a dielectric coat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plastic {
-    /// Of the base, in [0, 1].
+    /// Colour of the base, in [0, 1].
     pub base_color: f64,
     /// Perceptual roughness, in [0.03, 1].
     pub roughness: f64,

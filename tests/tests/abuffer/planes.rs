@@ -157,7 +157,7 @@ fn crossing(reversed: bool) -> Vec<Triangle> {
     triangles
 }
 
-/// Of planes at one t the same one is hit, however lists are kept and in whatever order triangles come.
+/// Rays hit the same one of planes at one t, however lists are kept and in whatever order triangles come.
 #[test]
 fn ties_are_broken_by_all_words() {
     const SIDE: u32 = 33;

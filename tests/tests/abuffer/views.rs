@@ -85,7 +85,7 @@ fn a_camera_alone_knows_what_it_sees_and_nothing_else() {
     let config = Config { views: Views::Camera, camera_resolution: [40, 19], ..Config::at_centres(8) };
     let structure = built(&bench, config, &triangles, at_eye(camera));
     let contents = contents(&bench, &structure);
-    // Of an even and an odd number, the smaller one is increased by one.
+    // An even and an odd number: the smaller one is increased by one.
     assert_eq!(cell_count(&config), 42 * 22);
     assert_eq!(contents.lists.len() as u64, 2 * 4 * 42 * 22);
     let rays = Random::new(13).rays(2000, -6.0, 6.0);

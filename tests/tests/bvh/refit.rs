@@ -113,7 +113,7 @@ impl Setup {
                 }
             };
             let expected = of(&fresh);
-            // Of a few triangles hardly any ray hits one.
+            // Hardly any ray hits one of a few triangles.
             let hit = expected.iter().filter(|hit| **hit != expected[0]).count();
             assert!(triangles.len() < 20 || hit > RAYS / 50 || mode == TraceMode::Occluded, "{what}");
             assert_eq!(of(tree), expected, "{what}, {mode:?}");

@@ -15,7 +15,7 @@ const SCENES: [&str; 8] = [
     "spheres:10k",
     "walker:10k",
     "ruins:10k",
-    // Of the full tier.
+    // Scenes of the full tier.
     "walker",
     "atrium",
     "ruins",

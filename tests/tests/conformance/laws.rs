@@ -142,7 +142,7 @@ fn wrong_ids_per_cell(triangles: &[Triangle]) -> f64 {
 struct Fares {
     wrong: Rate,
     missed: u64,
-    /// Of all hits.
+    /// Percentiles over all hits.
     dt: Percentiles,
 }
 
@@ -233,8 +233,8 @@ fn equal_depths_go_to_the_lowest_id_in_every_build() {
             let mut first: Option<Vec<(u32, u32)>> = None;
             for _ in 0..5 {
                 let hits = bench.build_and_trace(&mut structure, prepared.case.eye, &prepared.rays);
-                // Of all copies only the first may answer. Which of its two triangles, cells decide at the
-                // diagonal.
+                // Only the first of all copies may answer. Cells decide at the diagonal which of its two
+                // triangles does.
                 assert!(hits.iter().all(|hit| hit.primitive < 2), "{id}, {copies} copies, {config:?}");
                 let answers: Vec<_> = hits.iter().map(|hit| (hit.t.to_bits(), hit.primitive)).collect();
                 assert_eq!(first.get_or_insert_with(|| answers.clone()), &answers, "{id}: builds differ");

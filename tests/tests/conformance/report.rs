@@ -25,7 +25,7 @@ pub fn run(
     let evaluated = measured.evaluated();
     let mut accuracy = Accuracy::from(&measured.confusion);
     let errors = RateRecord::of(evaluated).filter(|_| !row.is_exact());
-    // Of a thousand runs, the rate that was evaluated; counts are next to it.
+    // The one rate that was evaluated, since there are a thousand runs; counts are next to it.
     accuracy.rates = errors.map(|errors| ("errors".to_owned(), errors)).into_iter().collect();
     let inadmissible = RateRecord::of(measured.inadmissible).filter(|_| !row.is_exact());
     accuracy.rates.extend(inadmissible.map(|rate| ("inadmissible".to_owned(), rate)));

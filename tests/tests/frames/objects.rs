@@ -35,7 +35,7 @@ struct Walked {
     builds: u64,
     /// Those of the first frame, also of pools that grew.
     first: u64,
-    /// Of all pools.
+    /// Memory of all pools.
     bytes: u64,
     /// Cells, entries and tests per ray.
     work: [f64; 3],
@@ -50,7 +50,7 @@ fn spec(preset: &str, options: &[(&str, &str)]) -> Spec {
     Spec::new("ldc", preset, given).expect("the options are the system's").with_counters(Counters::Sums)
 }
 
-/// Of rays of a frame.
+/// Hits and work of the rays of a frame.
 struct Held {
     hits: usize,
     /// Cells, entries and tests.
@@ -202,7 +202,7 @@ fn objects_far_smaller_than_their_meshes_keep_their_hits() {
     assert!(walked.errors.iter().any(|error| *error > 1.0e-2), "{walked:?}");
 }
 
-/// Of hits of stored fragments, how many.
+/// Counts of hits of stored fragments.
 #[derive(Clone, Copy, Debug, Default)]
 struct Stored {
     rays: u32,
@@ -210,7 +210,7 @@ struct Stored {
     wrong: u32,
     /// Others, of fragments that keep normals.
     right: u32,
-    /// Of these, those whose normals are more than 5 degrees off.
+    /// Those of `right` whose normals are more than 5 degrees off.
     turned: u32,
 }
 

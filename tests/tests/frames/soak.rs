@@ -51,7 +51,7 @@ fn a_tree_is_refitted_with_frames_in_flight() {
     let subject = bvh.and_then(|bvh| bvh.with(&[("builder", "refit")])).expect("it has the option");
     let frames = FRAMES[1].on(bench.device(), "frames");
     let refits = soak(&bench, &subject, frames, |frame| !frame.is_multiple_of(6), "bvh/build_9_refit");
-    // Of six frames the first two order for themselves: a status of theirs is read when the third is
+    // The first two of six frames order for themselves: a status of theirs is read when the third is
     // recorded. Now and then other triangles are as many as before, so that they count as moved.
     assert!(refits >= frames * 2 / 3 && refits < frames * 5 / 6, "{refits} of {frames}");
 }

@@ -101,7 +101,7 @@ fn triangles_that_nothing_was_built_for_are_not_traced() {
     }
 }
 
-/// Of a frame that is in flight the status stays what it was, whatever the next frame is given.
+/// The status of a frame that is in flight stays what it was, whatever the next frame is given.
 #[test]
 fn a_build_of_the_triangles_before_was_complete() {
     let bench = Bench::new();
@@ -201,7 +201,7 @@ fn brute_force_waits_for_indices_that_are_gathered_and_triangles_that_are_counte
     for desc in [gathered, counted] {
         dirty_memory(&bench);
         let geometry = Geometry::new(device, desc).expect("the buffers hold it");
-        // Of a part, too.
+        // Parts of the geometry are tried, too.
         let parts = match geometry.desc().count {
             None => vec![
                 geometry

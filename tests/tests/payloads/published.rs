@@ -303,8 +303,8 @@ fn stored_surfaces_are_those_of_the_triangles() {
                     continue;
                 }
                 met += 1;
-                // Of what emits, from behind as well, the triangle is kept: how bright it is, and how likely
-                // light sampling finds it.
+                // Fragments keep the triangle of what emits, from behind as well: how bright it is, and how
+                // likely light sampling finds it.
                 let named = system != "selective" && surface.primitive != PRIMITIVE_UNKNOWN;
                 if largest(expected.emission) > 0.0 || named {
                     lamps += 1;
@@ -341,8 +341,8 @@ fn stored_surfaces_are_those_of_the_triangles() {
             assert!(met > rays.len() / 8, "{system}, {name}: {met} fragments");
             assert!(name != "cornell" || lamps > 5, "{system}: the lamp is hit {lamps} times");
             assert!(turn < largest_turn, "{system}, {name}: normals turned by {turn}");
-            // Of fragments at one t ids take another one than words do: in corners, where a ray enters a cell
-            // within the tolerance of both walls.
+            // Where fragments are at one t, ids take another one than words do: in corners, where a ray
+            // enters a cell within the tolerance of both walls.
             assert!(other <= met / 1000, "{system}, {name}: {other} of {met} see another surface");
         }
     }

@@ -23,11 +23,11 @@ pub struct DeviceScene<'a> {
 /// Largest differences between device and host.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Figures {
-    /// Of positions, in units in the last place of the largest coordinate of the draw.
+    /// Difference of positions, in units in the last place of the largest coordinate of the draw.
     pub ulps: f64,
-    /// Of a component of a normal.
+    /// Difference of a component of a normal.
     pub normal: f32,
-    /// Of a component of a tangent.
+    /// Difference of a component of a tangent.
     pub tangent: f32,
     /// Vertices of draws that move.
     pub vertices: usize,

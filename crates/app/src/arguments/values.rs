@@ -87,7 +87,7 @@ pub fn size(text: &str) -> Result<Size, ValueError> {
 /// A parser of whole numbers from `least` to `most`.
 ///
 /// # Errors
-/// Of the parser: says what is allowed.
+/// The parser's error says what is allowed.
 pub fn whole(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, ValueError> + Clone + Send + Sync {
     let values = Values::Whole(least, most);
     move |text| Ok(values.parse(text)?.whole().ok_or(NotTaken(values))?)
@@ -162,7 +162,7 @@ impl Quantity {
     /// Says what is allowed.
     fn parse<T: FromStr + Into<f64> + Copy>(self, text: &str) -> Result<T, ValueError> {
         let read: Option<T> = number(text);
-        // Of NaN it is false.
+        // The comparison is false for NaN.
         let is_within = |value: &T| (self.lowest..=self.highest).contains(&(*value).into());
         read.filter(is_within).ok_or(ValueError::Number(self))
     }
@@ -170,7 +170,7 @@ impl Quantity {
     /// A parser of such numbers.
     ///
     /// # Errors
-    /// Of the parser: says what is allowed.
+    /// The parser's error says what is allowed.
     pub fn parser<T: FromStr + Into<f64> + Copy>(
         self,
     ) -> impl Fn(&str) -> Result<T, ValueError> + Clone + Send + Sync {

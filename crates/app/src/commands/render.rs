@@ -33,7 +33,7 @@ pub(crate) fn render(
     // all.
     let first = given.frames.as_ref().map(|range| *range.start());
     let numbers = given.frames.as_ref().map(|range| dealt(range, given.shard));
-    // Of frames this refuses what is wrong with the first.
+    // For a range of frames this refuses what is wrong with the first one.
     let targets = Targets::of(given, aovs, first)?;
     let rows = rows(given)?;
     let fps = given.work.reading.frames_per_second();

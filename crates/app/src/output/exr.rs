@@ -72,7 +72,7 @@ pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result
     if let Some(film) = sums {
         channels.add(SAMPLES, Values::Whole(&film.counts));
     }
-    // Of parts the counts are those of the sums.
+    // A part holds the counts of its sums, so the image of sample counts is left out.
     for (aov, image) in output.aovs.iter().filter(|(aov, _)| sums.is_none() || **aov != Aov::Samples) {
         let values: Vec<_> = match image {
             AovImage::Floats(channels) => channels.iter().map(|channel| Values::Floats(channel)).collect(),

@@ -97,7 +97,7 @@ fn killed_twice_or_divided_by_three_the_pages_are_the_same_bytes() {
         assert_eq!(read(folder, &format!("killed/{page}")), whole, "{page}");
         assert_eq!(read(folder, &format!("parts/{page}")), whole, "{page}");
     }
-    // Of merged cells a command with the plan makes nothing but pages.
+    // Where cells were merged, a command with the plan makes nothing but pages.
     std::fs::remove_file(folder.join("parts/report.md")).expect("it is there");
     let said = done(folder, "ablate plan.toml --output parts --resume");
     assert!(said.contains("14 of 14 runs are there already, 0 are made"), "{said}");

@@ -105,7 +105,7 @@ fn a_page_has_figures_and_a_hard_case_its_verdict() {
     let report =
         compared(path, "compare hard:E5 --systems hu,mmrt,brute-force hu.coverage=exact --rays 300 --check");
     let met = |run: usize| report.runs[run].hard.as_ref().and_then(|hard| hard.met);
-    // Of a law over fragments there is no verdict.
+    // A law over fragments gives no verdict.
     assert_eq!([met(0), met(1), met(2)], [None, Some(true), Some(true)]);
     assert_eq!(report.scene.name, "hard:E5");
 }
@@ -227,7 +227,7 @@ fn what_does_not_fit_on_the_disk_leaves_what_was_there() {
         let text = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(4), "{option}: {text}");
         assert!(text.contains(name) && text.contains("help: "), "{option}: {text}");
-        // Of several files, those that fit are there and whole.
+        // Where several files are asked for, those that fit are there and whole.
         let left = std::fs::read_dir(folder.path()).expect("the folder").flatten();
         let left: Vec<_> = left.map(|entry| entry.file_name().into_string().expect("a name")).collect();
         assert!(left.iter().all(|left| left == name || left == "E1.triangles.npy"), "{option}: {left:?}");

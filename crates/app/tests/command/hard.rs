@@ -22,7 +22,7 @@ fn held(line: &str) -> Report {
 fn every_hard_case_is_run_and_held() {
     // Files that readers refuse are cases too.
     let cases = rasray_hard_cases::ids().len() + rasray_hard_cases::file_ids().len();
-    // Of the systems of triangles it is the one that builds nothing; the full tier builds lists of every
+    // Brute force is the one system of triangles that builds nothing; the full tier builds lists of every
     // case.
     let is_full = std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1");
     let system = if is_full { "dirt" } else { "brute-force" };

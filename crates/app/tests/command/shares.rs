@@ -290,7 +290,7 @@ fn reports_that_are_not_of_all_frames_of_a_command_are_refused_by_name() {
         // Shares of different divisions.
         ("1.jsonl quarter.jsonl", "of which 4 of 7 are in no report: 4-5, 7-8"),
         ("more.jsonl 1.jsonl", "1.jsonl: is of frames 3-9"),
-        // Of other commands, though no frame is there twice.
+        // Shares of other commands, though no frame is there twice.
         (
             "1.jsonl seed.jsonl 3.jsonl",
             "seed.jsonl: has frame 4 of another command than that of frame 3 in 1.jsonl",

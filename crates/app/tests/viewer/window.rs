@@ -195,7 +195,7 @@ pub fn pixels(path: &Path) -> Vec<u8> {
 pub fn made_by(folder: &Path, line: &str) -> Vec<u8> {
     let line = line.strip_prefix("rasray ").expect("a command line");
     let script = format!("exec \"$0\" {line} --output again.png --quiet");
-    // Of an option that is given twice there is an error, so the one that was printed goes.
+    // An option that is given twice is an error, so the one that was printed goes.
     let (before, _) = line.rsplit_once(" --output ").expect("a place");
     let script = script.replace(line, before);
     let status =

@@ -17,14 +17,14 @@ pub struct Emitters {
     sources: EmissiveSources,
     /// At rest, m^2.
     areas: Vec<f64>,
-    /// Of all at rest, W.
+    /// Power of all emitters at rest, W.
     power: f64,
     /// Draws that move, with their first entry.
     moving: Vec<(DrawPlace, usize)>,
 }
 
 impl Emitters {
-    /// Of the draws of `tables`; `places` are those that move.
+    /// Emitters of the draws of `tables`; `places` are those that move.
     pub fn new(tables: &SceneTables, places: &[DrawPlace]) -> Self {
         let sources = EmissiveSources {
             primitives: tables.emissive_triangles.iter().map(|entry| entry.primitive).collect(),

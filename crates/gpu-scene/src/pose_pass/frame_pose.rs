@@ -28,7 +28,7 @@ pub struct FramePose {
     /// W, by luminance.
     pub(super) emissive_power: f64,
     pub(super) cameras: Vec<DAffine3>,
-    /// Of each part that moves, where there are parts.
+    /// The map of each part that moves, where there are parts.
     pub(super) maps: Vec<GeometryRigid>,
 }
 

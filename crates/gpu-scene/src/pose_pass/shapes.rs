@@ -26,7 +26,7 @@ pub struct ShapePlace {
     words: [Option<u32>; 2],
     vertex_count: usize,
     has_normals: bool,
-    /// Of everything but positions and normals.
+    /// Hash of everything but positions and normals.
     triangles: u64,
 }
 
@@ -36,7 +36,7 @@ pub struct Shapes {
     deformer: Option<Arc<dyn Deformer>>,
     scene: String,
     places: Vec<ShapePlace>,
-    /// Of a frame.
+    /// Words of a frame.
     word_count: usize,
     rest: [Buffer; 2],
     /// One per slot; none where nothing is deformed.
@@ -46,11 +46,11 @@ pub struct Shapes {
 /// The shapes of one frame.
 #[derive(Clone, Debug, Default)]
 pub struct FrameShapes {
-    /// Of each place: positions relative to its pivot, then normals.
+    /// Words of each place: positions relative to its pivot, then normals.
     pub words: Arc<[f32]>,
-    /// Of each place, mesh space, metres.
+    /// Pivot of each place, mesh space, metres.
     pub pivots: Vec<DVec3>,
-    /// Of each place, with its mesh: mesh space, metres.
+    /// Positions of each place, with its mesh: mesh space, metres.
     pub positions: Vec<(usize, Vec<[f32; 3]>)>,
 }
 
@@ -88,7 +88,7 @@ impl ShapePlace {
 /// Positions, and normals where a shape has them.
 type Vertices = (Vec<[f32; 3]>, Option<Vec<[f32; 3]>>);
 
-/// Of all that a shape may not change.
+/// Hash of all that a shape may not change.
 fn triangles(mesh: &Mesh) -> u64 {
     let mut hash = DefaultHasher::new();
     (mesh.positions.len(), mesh.material, &mesh.indices).hash(&mut hash);

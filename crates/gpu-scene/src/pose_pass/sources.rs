@@ -44,7 +44,7 @@ pub struct DrawPlace {
     /// Index into the draws of the geometry.
     pub draw: usize,
     pub instance: usize,
-    /// Of the geometry.
+    /// Index of the first vertex, in the geometry.
     pub first_vertex: u32,
     /// Mesh space, metres: what positions at rest are relative to.
     pub pivot: DVec3,
@@ -72,7 +72,7 @@ pub struct SkinPlace {
     pub joints: Vec<JointPlace>,
     /// Mesh space, metres.
     pub pivot: DVec3,
-    /// Of the first of `joints`.
+    /// Index of the first of `joints`.
     pub first_joint: u32,
 }
 
@@ -275,8 +275,8 @@ impl Sources {
         Ok(MeshWords { rest_positions, rest_normals, rest_tangents, skin, targets })
     }
 
-    /// Of each vertex its joints, by their place among those with weight, then their weights: of a sum that
-    /// is 1 but for the rounding of each.
+    /// Appends for each vertex its joints, by their place among those with weight, then their weights, whose
+    /// sum is 1 but for the rounding of each.
     fn append_skin(&mut self, binding: &SkinBinding, place: usize) -> Result<u32, GpuSceneError> {
         let first = self.skin_words.len();
         let (count, limit) = (first as u64 + 2 * binding.joints.len() as u64, u64::from(ATTRIBUTE_NONE));

@@ -26,7 +26,7 @@ struct Stage {
 
 /// Results of a render.
 struct Rendered {
-    /// Of each wave: hits and surfaces after its last round.
+    /// Hits and surfaces of each wave after its last round.
     waves: Vec<(Vec<Hit>, Vec<Surface>)>,
     image: Vec<[f32; 3]>,
     counts: Option<FetchCounts>,

@@ -329,7 +329,8 @@ fn shadow_rays_say_which_light_they_lead_to() {
         if light < places.len() {
             assert!(end.distance(places[light]) < 1e-3, "{light}: {end}");
         } else {
-            // Of the lamp under the ceiling: no part of the triangle is on the far side of an edge.
+            // The end is on the lamp under the ceiling: no part of the triangle is on the far side of an
+            // edge.
             let [a, b, c] = lamps[light - places.len()];
             let normal = (b - a).cross(c - a);
             let areas = [(a, b), (b, c), (c, a)].map(|(p, q)| (q - p).cross(end - p).dot(normal));

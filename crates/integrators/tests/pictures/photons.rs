@@ -77,7 +77,7 @@ fn estimate(numbers: impl IntoIterator<Item = f64>) -> [f64; 2] {
     [average, (squares / (count - 1.0) / count).sqrt()]
 }
 
-/// Of two kinds of samples with the same random numbers: the mean difference and its standard error.
+/// The mean difference of two kinds of samples with the same random numbers, and its standard error.
 fn difference_of(samples: &[f64], others: &[f64]) -> [f64; 2] {
     estimate(samples.iter().zip(others).map(|(sample, other)| sample - other))
 }

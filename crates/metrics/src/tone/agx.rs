@@ -39,9 +39,9 @@ const OUTSET: [[f32; 3]; 3] = [
 const MIDDLE_GREY: f32 = 0.18;
 /// Stops below and above middle grey that are shown.
 const STOPS: (f32, f32) = (10.0, 6.5);
-/// Of the values that the sigmoid gives.
+/// Exponent of the values that the sigmoid gives.
 const GAMMA: f32 = 2.4;
-/// Of the sigmoid at middle grey.
+/// Slope of the sigmoid at middle grey.
 const SLOPE: f32 = 2.4;
 /// Sharpness of the sigmoid's bend.
 const POWER: f32 = 1.5;

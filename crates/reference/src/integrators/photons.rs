@@ -57,7 +57,7 @@ struct Photon {
 
 /// The photons of a sample.
 pub(super) struct Map {
-    /// Of all indirect light, and not of caustics alone.
+    /// True if photons bring all indirect light, and not caustics alone.
     pub has_all: bool,
     /// Metres within which they count.
     radius: f32,

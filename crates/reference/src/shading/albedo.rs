@@ -8,7 +8,7 @@ pub const LOSSLESS_ALPHA: f32 = 0.01;
 /// Mean of (1 - x)^5 over the hemisphere, weighted by the cosine x.
 pub const SCHLICK_MEAN: f32 = 1.0 / 21.0;
 
-/// Of (x, alpha): rows by falling power of x, columns by growing power of alpha.
+/// Coefficients of the loss in (x, alpha): rows by falling power of x, columns by growing power of alpha.
 const LOSS: [[f32; 4]; 6] = [
     [10.4089, -34.9062, -22.5905, 128.757],
     [-25.4505, 85.6628, -36.073, -132.2337],
@@ -18,7 +18,8 @@ const LOSS: [[f32; 4]; 6] = [
     [-0.0499, 0.2517, -0.3649, 0.1771],
 ];
 
-/// Of (x, roughness): rows by falling power of x; first the constant, then powers 1 to 4 of the roughness.
+/// Coefficients in (x, roughness): rows by falling power of x; first the constant, then powers 1 to 4 of the
+/// roughness.
 const SCHLICK: [(f32, [f32; 4]); 5] = [
     (10.3298, [-227.1496, 687.7062, -652.0933, 164.025]),
     (-28.0122, [414.2671, -1340.5924, 1489.9714, -504.7886]),

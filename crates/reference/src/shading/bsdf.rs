@@ -38,7 +38,7 @@ pub struct BsdfSample {
 
 /// The rough microfacet family towards a direction.
 struct Facets {
-    /// Of o at the facet.
+    /// Cosine of o at the facet.
     cosine: f32,
     /// Per unit of light reflected or transmitted at the facet.
     value: f32,

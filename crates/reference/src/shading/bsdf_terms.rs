@@ -51,7 +51,7 @@ pub struct Terms {
     pub base: Vec3,
     /// Local.
     pub o: Vec3,
-    /// Of a rough volume.
+    /// Glass of a rough volume.
     glass: Option<Glass>,
     energy: Energy,
 }
@@ -80,7 +80,7 @@ struct Energy {
     /// Shares of the lost light that are reflected, and that go through a thin wall.
     returned: Vec3,
     passed: Vec3,
-    /// Of the dielectric, the largest channel.
+    /// Largest channel of the share that the dielectric reflects.
     returned_most: f32,
     /// Share of the light from o that the dielectric lets in, and its mean over the hemisphere.
     entering: f32,
@@ -202,7 +202,8 @@ impl Terms {
         if self.eta > 1.0 { through / (self.eta * self.eta) } else { through }
     }
 
-    /// Of what is not a volume's. What the dielectric loses on the side of the larger index counts as let in.
+    /// Sets the energy of what is not a volume's. What the dielectric loses on the side of the larger index
+    /// counts as let in.
     fn set_energy(&mut self) {
         let cosine = self.o.z.max(0.0);
         self.energy.loss = albedo::loss(cosine, self.alpha);

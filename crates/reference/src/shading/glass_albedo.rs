@@ -98,7 +98,7 @@ fn place(value: f32) -> (usize, f32) {
     (index, place - index as f32)
 }
 
-/// Of values that are linear in the root y of the cosine: the integral of 4 y³ times the value.
+/// Mean of values that are linear in the root y of the cosine: the integral of 4 y³ times the value.
 fn mean(values: [f32; STEPS + 1]) -> f32 {
     let fifth = |node: usize| (node as f64 / STEPS as f64).powi(5);
     // By parts: the value at the end, less the slopes times y⁴.

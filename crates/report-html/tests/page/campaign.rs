@@ -68,7 +68,7 @@ fn page(lines: &[Report]) -> String {
 fn experiments_have_the_plots_of_what_they_vary() {
     let page = page(&lines());
     let plot = |id: &str| page.contains(&format!("id=\"experiment-{id}\""));
-    // Of the parameter curves, of the systems bars; of both speed against error.
+    // The parameter has curves, the systems have bars, and both have speed against error.
     for id in [
         "0-0-samples-mrays_per_s",
         "0-0-samples-build_ms",

@@ -256,7 +256,7 @@ mod tests {
             let turned = (0..3).any(|turn| (0..3).all(|k| before[k] == after[(k + turn) % 3]));
             assert!(turned, "{before:?} became {after:?}");
         }
-        // Of another mode, or of another number.
+        // Streams of another mode, or of another number of elements, are not decoded.
         assert_eq!(decoded(&triangles, Mode::Indices, 4, 600), None);
         assert_eq!(decoded(&sequence, Mode::Attributes, 4, 600), None);
         assert_eq!(decoded(&attributes, Mode::Attributes, 4, 700), None);

@@ -135,7 +135,7 @@ const ANIMATION: &[Member] = &[
 
 const BUFFER: &[Member] = &[may("byteLength", Size), may("uri", Text), NAME, PLAIN];
 
-/// Of `EXT_meshopt_compression` and `KHR_meshopt_compression`.
+/// Object of `EXT_meshopt_compression` and `KHR_meshopt_compression`.
 const COMPRESSED: Kind = Object(&[
     must("buffer", Whole),
     may("byteOffset", Size),

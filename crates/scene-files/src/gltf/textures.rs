@@ -33,7 +33,7 @@ impl<'a> From<&'a Info> for Use<'a> {
 }
 
 impl<'a> Use<'a> {
-    /// Of a normal texture, whose transform the typed tree keeps as plain JSON.
+    /// Reference to a normal texture, whose transform the typed tree keeps as plain JSON.
     pub fn of_normal(info: &'a ::gltf::json::material::NormalTexture) -> Result<Self, ::gltf::json::Error> {
         let raw = info.extensions.as_ref().and_then(|found| found.others.get("KHR_texture_transform"));
         let transform: Option<TextureTransform> = raw.map(|raw| from_value(raw.clone())).transpose()?;

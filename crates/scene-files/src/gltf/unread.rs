@@ -9,9 +9,9 @@ use super::document::Document;
 /// Names of what is not read of a primitive, in their order in the file.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Unread {
-    /// Of its vertices.
+    /// Attributes of its vertices.
     attributes: Vec<String>,
-    /// Of its morph targets.
+    /// Attributes of its morph targets.
     displacements: Vec<String>,
 }
 

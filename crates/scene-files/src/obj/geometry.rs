@@ -111,7 +111,7 @@ impl Geometry {
 struct Corner {
     position: u32,
     uv: Option<u32>,
-    /// Of the file's normals, or of those that are made.
+    /// Place among the file's normals, or among those that are made.
     normal: Option<u32>,
 }
 
@@ -131,7 +131,7 @@ struct Run {
     groups: Vec<Group>,
     positions: Vec<DVec3>,
     uvs: Vec<[f64; 2]>,
-    /// Of the file.
+    /// Normals of the file.
     file_normals: Vec<[f32; 3]>,
     /// Places in `Reader::smoothing`.
     made_normals: Vec<u32>,

@@ -1,12 +1,12 @@
 //! PLY meshes: ASCII, and binary of either byte order.
 //!
-//! Of the element `vertex` are read `x y z`, `nx ny nz`, texture coordinates (`s t`, `u v`, `texture_u
-//! texture_v` or `texture_s texture_t`), and `red green blue alpha` (also `r g b a` and `diffuse_red` and so
-//! on); of `face` the list `vertex_indices` or `vertex_index`, and its colour under the same names. Any
-//! scalar type will do. Where the header names images (`comment TextureFile NAME`), the list `texcoord` and
-//! the number `texnumber` of faces are read, too. Polygons become triangles as in OBJ files. The same lists
-//! of `tristrips` are triangle strips, which a negative index ends. Everything else is skipped, with a
-//! warning that names it.
+//! The reader takes `x y z`, `nx ny nz`, texture coordinates (`s t`, `u v`, `texture_u texture_v` or
+//! `texture_s texture_t`), and `red green blue alpha` (also `r g b a` and `diffuse_red` and so on) of the
+//! element `vertex`; and of `face` the list `vertex_indices` or `vertex_index`, and its colour under the same
+//! names. Any scalar type will do. Where the header names images (`comment TextureFile NAME`), the list
+//! `texcoord` and the number `texnumber` of faces are read, too. Polygons become triangles as in OBJ files.
+//! The same lists of `tristrips` are triangle strips, which a negative index ends. Everything else is
+//! skipped, with a warning that names it.
 //!
 //! Faces with colours or texture coordinates of their own have vertices of their own: those of the file, once
 //! for each colour and coordinate that faces give them. Colours of faces stand in place of those of vertices,

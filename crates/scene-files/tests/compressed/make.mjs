@@ -139,7 +139,7 @@ pack("gltfpack-khr.glb", "-cc", "-ce", "khr", "-vpn", "-vn", "16", "-vc", "16");
 pack("gltfpack-floats.glb", "-cc", "-ce", "khr", "-vpf", "-vtf", "-vnf");
 pack("gltfpack-fallback.gltf", "-cf");
 
-// Of each kind also what the transcoder of Basis Universal makes of it.
+// Textures of each kind, and what the transcoder of Basis Universal makes of them.
 const library = "./node_modules/ktx2-encoder/dist/basis/basis_encoder";
 const basis = await (await import(`${library}.js`)).default({ wasmBinary: readFileSync(`${library}.wasm`) });
 basis.initializeBasis();

@@ -71,7 +71,7 @@ fn images_that_cannot_be_read_are_left_out() {
     assert!(scene.warnings[0].message.contains("texture nowhere/gone.png: is not shown"));
 }
 
-/// Of the same remark on many places there is one warning.
+/// There is one warning for the same remark on many places.
 #[test]
 fn warnings_of_many_places_are_one() {
     let images: Vec<String> = (0..98).map(|i| format!(r#"{{"uri":"gone{i}.png"}}"#)).collect();

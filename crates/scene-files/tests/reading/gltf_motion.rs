@@ -148,8 +148,8 @@ fn a_channel_that_cannot_be_played_says_why() {
     );
 }
 
-/// Of two channels for one property the later one counts, and the other is named; rotations without
-/// direction, too.
+/// Where two channels are for one property, the later one counts, and the other is named; rotations without
+/// direction are named, too.
 #[test]
 fn channels_that_are_played_in_part_are_named() {
     let mut file = File::new();

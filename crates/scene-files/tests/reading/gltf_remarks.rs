@@ -84,7 +84,7 @@ fn lights_out_of_range_are_named() {
         light(r#"{"type":"point","intensity":-3}"#).lights[0],
         Light::Point { intensity: [0.0, 0.0, 0.0], .. }
     ));
-    // Of an unknown type: dropped where a node has it, not even looked at elsewhere.
+    // A light of an unknown type is dropped where a node has it, and not even looked at elsewhere.
     let scene = light(r#"{"type":"area"}"#);
     assert!(scene.lights.is_empty());
     assert_says(&scene, "bad-light", &["nodes[0]", r#"is "area", which the format does not know"#]);

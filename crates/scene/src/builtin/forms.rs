@@ -225,7 +225,7 @@ impl Shapes {
         let normal_from_form = place.matrix3.inverse().transpose();
         let shift = place.translation.x + 0.7 * place.translation.y + 1.3 * place.translation.z;
         let sign = |corner: usize, axis: usize| if corner >> axis & 1 == 1 { 1.0 } else { -1.0 };
-        // Of each corner one vertex on each of its three faces.
+        // Each corner has one vertex on each of its three faces.
         let vertices: Vec<[u32; 3]> = (0..8)
             .map(|corner| {
                 [0, 1, 2].map(|face| {

@@ -73,7 +73,7 @@ fn assert_well_formed(scene: &Scene) {
                 );
             }
         }
-        // Of a skin, triangles in an armpit may fold.
+        // Triangles of a skin may fold in an armpit.
         assert!(turned * 100 <= mesh.triangle_count(), "{}: {turned} corners of {}", scene.name, mesh.name);
     }
     for texture in &scene.textures {

@@ -6,7 +6,7 @@ use rasray_scene::{Instance, Mesh, Scene};
 
 use crate::made::scene;
 
-/// Of the triangle (0, u, v).
+/// Facing of the triangle (0, u, v).
 fn facing(u: [f32; 3], v: [f32; 3]) -> Facing {
     let mesh = Mesh { positions: vec![[0.0; 3], u, v], indices: vec![0, 1, 2], ..Mesh::default() };
     let instance = Instance { name: "it".to_owned(), mesh: 0, world_from_mesh: glam::DAffine3::IDENTITY };

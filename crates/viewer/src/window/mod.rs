@@ -166,7 +166,7 @@ struct Shown<'a> {
     live: Option<Live>,
     began: Instant,
     frame_began: Instant,
-    /// Of the window.
+    /// Rate of frames of the window.
     frames: Rate,
     /// When the next frame is due.
     wake_at: Instant,
@@ -298,7 +298,7 @@ impl ApplicationHandler<()> for Shown<'_> {
                 }
                 return;
             }
-            // Of several files the last one is shown.
+            // Where several files are dropped the last one is shown.
             WindowEvent::DroppedFile(path) => self.viewer.session.drop_file(path.clone()),
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => live.painter.resized(),
             _ => (),

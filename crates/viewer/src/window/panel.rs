@@ -318,7 +318,7 @@ impl Panel {
             Ok(()) if picture.is_finished() => (format!("saved {}", place.display()), false),
             Ok(()) => {
                 let wanted = picture.settings.frame.spp;
-                // Of maps there is no command line.
+                // Maps have no command line.
                 let finished = if line.is_some() { ": the command line makes the finished one" } else { "" };
                 let (place, samples) = (place.display(), picture.samples);
                 (format!("saved {place} with {samples} of {wanted} samples{finished}"), false)

@@ -23,7 +23,7 @@ const STEP: f32 = 1.25;
 /// Grey around the picture.
 const AROUND: Color32 = Color32::from_gray(24);
 
-/// Of which picture something is, by its number, and how its colours are shown.
+/// The picture that something belongs to, by its number, and how its colours are shown.
 type Of = (u64, Tone);
 
 /// The picture as a texture, and where it lies.
@@ -33,8 +33,8 @@ pub(super) struct PictureArea {
     colours: Vec<Color32>,
     colours_of: Option<Of>,
     texture: Option<TextureHandle>,
-    /// Of what the texture is: the picture's pixels, or those of the window where a picture lies whose pixels
-    /// are squares.
+    /// Contents of the texture: the picture's pixels, or those of the window where a picture lies whose
+    /// pixels are squares.
     texture_of: Option<(Of, Option<Squares>)>,
     /// The scene that the picture is laid for.
     scene: u32,

@@ -66,8 +66,8 @@ fn what_is_shown_without_noise_is_what_a_render_makes_without_it() {
     }
 }
 
-/// Of a picture whose samples are there nothing is rendered again, and one that refines is shown from its
-/// first sample on.
+/// A picture whose samples are there is not rendered again, and one that refines is shown from its first
+/// sample on.
 #[test]
 fn noise_is_taken_out_while_a_picture_refines_and_of_one_that_is_there() {
     let Some(_) = library("noise_is_taken_out_while_a_picture_refines_and_of_one_that_is_there") else {

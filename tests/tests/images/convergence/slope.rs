@@ -30,7 +30,7 @@ impl Slope {
     }
 }
 
-/// Of the error against `truth` over 2^k samples, k = 0 to `octaves`; every k takes samples of its own.
+/// Slope of the error against `truth` over 2^k samples, k = 0 to `octaves`; every k takes samples of its own.
 /// `repeat` renders one sample again and again instead.
 fn slope(stage: &mut Studio<'_>, integrator: &dyn Integrator, truth: f64, repeat: bool) -> Slope {
     let octaves = if is_full() { 9 } else { 5 };

@@ -66,7 +66,7 @@ fn a_polygon_lights_points_by_the_sum_over_its_edges() {
     let bench = Bench::new();
     let truth =
         |(point, normal)| 2.0 * f64::from(ALBEDO) / PI * polygon_irradiance(point, normal, &corners(1.0));
-    // Of the light's corners, some lie below the horizon of the fourth and fifth receiver, all of the last.
+    // Some of the light's corners lie below the horizon of the fourth and fifth receiver, all of the last.
     let below = |(point, normal): (DVec3, DVec3)| {
         corners(1.0).iter().filter(|corner| normal.dot(**corner - point) < 0.0).count()
     };

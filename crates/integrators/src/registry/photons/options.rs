@@ -64,8 +64,8 @@ impl PhotonKind {
 /// Options of [`Photons`](super::Photons).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhotonOptions {
-    /// Of the camera's paths and of photons together: `bounces` counts scatterings from the light to the eye.
-    /// Panes are opaque, whatever it says, and surfaces of what photons hit are found directly.
+    /// Options of the camera's paths and of photons together: `bounces` counts scatterings from the light to
+    /// the eye. Panes are opaque, whatever it says, and surfaces of what photons hit are found directly.
     pub paths: PathOptions,
     /// Light that photons bring.
     pub kind: PhotonKind,

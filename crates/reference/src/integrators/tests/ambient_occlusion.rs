@@ -9,7 +9,7 @@ fn floor() -> rasray_scene::Mesh {
     quad(Vec3::new(-50.0, 0.0, 50.0), Vec3::X * 100.0, Vec3::NEG_Z * 100.0, 0)
 }
 
-/// Of a point on a plane at `distance` from where a sphere of radius 1 touches it.
+/// Ambient light at a point on a plane at `distance` from where a sphere of radius 1 touches it.
 fn next_to_sphere(distance: f64) -> f64 {
     1.0 - (1.0 + distance * distance).powf(-1.5)
 }

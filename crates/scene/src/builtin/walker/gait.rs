@@ -26,9 +26,9 @@ const TRACK: f64 = 0.065;
 
 /// Turns of all joints, and the place of the first.
 pub(super) struct Stance {
-    /// Of the pelvis, metres, world.
+    /// Place of the pelvis, metres, world.
     pub pelvis: DVec3,
-    /// Of each joint, relative to its parent.
+    /// Rotation of each joint, relative to its parent.
     pub rotations: [DQuat; COUNT],
 }
 
@@ -81,7 +81,7 @@ fn arm(side: Side, swing: f64, rotations: &mut [DQuat; COUNT]) {
 
 /// Position and rotation of a foot.
 struct Foot {
-    /// Of the ankle, metres, world.
+    /// Place of the ankle, metres, world.
     ankle: DVec3,
     /// Turn of the foot about the vertical, radians.
     yaw: f64,

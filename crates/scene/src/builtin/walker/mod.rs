@@ -100,7 +100,7 @@ pub fn walker(parameters: Walker) -> Scene {
     scene.posed(&Moment { seconds: 0.0, clips: vec![0] })
 }
 
-/// Of the ground and of the parts, in their order.
+/// Materials of the ground and of the parts, in their order.
 fn materials() -> Vec<Material> {
     let dull = |material: Material| Material { specular: 0.4, roughness: 0.7, ..material };
     vec![
