@@ -1,7 +1,7 @@
 // Path tracing with light sampling, one step per closest hit. With PATH_GATHERS light that comes by perfectly smooth
 // surfaces, or by any, is that of photons.
 // Reads: scene tables through scene/*.glsl; photons. Writes: nothing but its state argument; faults of photons.
-// Source: docs/shading.md, "Paths", docs/photons.md, "Which paths"; Veach 1997 for the power heuristic.
+// Source: docs/shading.md, "Paths", docs/photons.md, "Paths"; Veach 1997 for the power heuristic.
 #ifndef INTEGRATORS_PATH_GLSL
 #define INTEGRATORS_PATH_GLSL
 
