@@ -25,10 +25,9 @@ Hit trace_identified(Hit best, Hit before) {
 }
 
 // Defines <prefix>_trace_closest and <prefix>_trace_occluded, and <prefix>_trace_ray, which is either as `any_hit` says, from
-//     uint <prefix>_status(Ref s)                                                       the status of the last build
-//     uint <prefix>_trace(Ref s, Ray ray, inout TraceState state, bool any_hit)         TRACE_*
-// Hit  <prefix>_hit(Ref s, Hit best)                                                the hit that the best one
-// represents
+//     uint <prefix>_status(Ref s)                                                the status of the last build
+//     uint <prefix>_trace(Ref s, Ray ray, inout TraceState state, bool any_hit)  TRACE_*
+//     Hit  <prefix>_hit(Ref s, Hit best)                                         the hit that the best one represents
 #define TRACE_FUNCTIONS(Ref, prefix) \
     uint prefix##_trace_ray(Ref s, Ray ray, inout TraceState state, bool any_hit, out Hit hit) { \
         hit = state.best; \
