@@ -1,8 +1,8 @@
 //! Build and trace times of every registered system: `cargo bench --bench structures -- [SCENE] [RAYS]`.
 //!
 //! Prints, for every registered system and preset that the device can run, the median build time, and the
-//! median, least and greatest trace time of random rays, alternated between systems in one process. Times of software devices are
-//! for ratios on that device. For errors beside speed use `rasray compare`.
+//! median, least and greatest trace time of random rays, alternated between systems in one process. Times of
+//! software devices are for ratios on that device. For errors beside speed use `rasray compare`.
 
 use std::ops::ControlFlow;
 
