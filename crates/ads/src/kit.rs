@@ -4,6 +4,9 @@
 //! [`configured!`](crate::configured), [`pools!`](crate::pools) and [`words!`](crate::words) write the
 //! implementations that are the same for all; Rust exports them at the root of the crate.
 //!
+//! Kernels are those that `rasray-shaders-glsl` compiles, so a structure of one's own is made in a clone of
+//! the repository: `docs/adding.md`.
+//!
 //! | job | parts |
 //! |---|---|
 //! | definition | [`Design`], [`Parts`], [`Demand`], [`Pooled`], [`VARYING_SHARE`] |
