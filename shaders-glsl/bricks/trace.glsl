@@ -170,7 +170,7 @@ uint bricks_trace(BricksRef s, Ray ray, inout TraceState state, bool any_hit) {
         alone = distant ? BRICKS_ALONE_ALL : (intersects_near ? BRICKS_ALONE_NEAR : BRICKS_ALONE_NONE);
     }
     if (!resumed && alone != BRICKS_ALONE_NONE) {
-        trace_log_visit(STEP_VIEW, distant ? VIEW_ALL : VIEW_NEAR, 0u, 0u, clip.x, clip.y);
+        trace_log(STEP_VIEW, distant ? VIEW_ALL : VIEW_NEAR, 0u, 0u, clip.x, clip.y);
     }
     BricksSpan span = BricksSpan(origin, clip.x, clip.y, near, slack);
     if (bricks_trace_cells(s, ray, span, alone, any_hit, resumed, state)) {

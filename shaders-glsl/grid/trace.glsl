@@ -145,7 +145,7 @@ uint grid_trace(GridRef s, Ray ray, inout TraceState state, bool any_hit) {
         uint work = 0u;
         uint place = state.cursor[3];
         if (state.cursor[0] == 0u) {
-            trace_log_visit(STEP_VIEW, VIEW_ALL, 0u, 0u, clip.x, clip.y);
+            trace_log(STEP_VIEW, VIEW_ALL, 0u, 0u, clip.x, clip.y);
         }
         if (listed_test(s, ray, true, any_hit, place, state, work)) {
             state.cursor[0] = bits_put(true, GRID_CURSOR_STARTED);
