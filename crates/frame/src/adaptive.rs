@@ -1,48 +1,52 @@
-//! Samples where the noise is: how many each pixel gets, from the first few of its neighbours.
+//! Adaptive sampling: gives each pixel a number of samples that depends on the noise of its neighbours.
 //!
-//! A pixel that stops by its own samples is biased: it stops early where it happened to miss what is rare and
-//! bright (Kirk and Arvo 1991). Here the pilot, the first few samples of every pixel, says of each pixel what
-//! its neighbours need, never what it needs itself. Random numbers of different pixels are independent, so
-//! the number of a pixel's samples is independent of their values, and their mean is as unbiased as that of
-//! any fixed number. Nothing is thrown away, and the noise is known from eight times as many samples. It is
-//! decided once: a second look would see samples whose number the pixel itself had a part in.
+//! A pixel that stops by its own samples is biased: it stops early if it happened to miss a rare, bright
+//! contribution (Kirk and Arvo 1991). Here the pilot, the first few samples of every pixel, determines the
+//! need of each pixel from the samples of its neighbours, never from its own. Random numbers of different
+//! pixels are independent, so the number of a pixel's samples is independent of their values, and their mean
+//! is as unbiased as that of any fixed number. No sample is thrown away, and the noise estimate rests on
+//! eight times as many samples. The numbers are decided once: a second decision would see samples whose
+//! number the pixel itself influenced.
 
 use rasray_integrators::FilmPixel;
 
 use crate::moments::Moments;
 
-/// Rec. 709.
+/// Weights of red, green and blue in the luminance, by Rec. 709.
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// Pixels darker than this share of the picture's mean are allowed the noise of such a one.
+/// Share of the picture's mean luminance below which a pixel counts as dark: a darker pixel is allowed the
+/// noise of a pixel with this luminance.
 const DARK: f64 = 0.1;
 
-/// Rule by which samples are given to pixels.
+/// Rule of adaptive sampling: the permitted noise and the size of the pilot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adaptive {
-    /// Standard error of the mean that a pixel may have, as a share of its luminance, or of a tenth of the
-    /// picture's where it is darker. With 0 every pixel with any noise around it gets all samples.
+    /// Permitted standard error of the mean of a pixel, as a share of its luminance, or of a tenth of the
+    /// picture's mean luminance if the pixel is darker. With 0 every pixel with any noise around it gets all
+    /// samples.
     pub threshold: f64,
-    /// Samples of the pilot, which every pixel gets: at least 2.
+    /// Number of samples of the pilot, which every pixel gets: at least 2.
     pub least: u32,
 }
 
-/// The pilot of an image: what the samples of each pixel say of its neighbours.
+/// Pilot of an image: statistics of the first samples of each pixel.
 #[derive(Clone, Debug)]
 pub(crate) struct Pilot {
     width: usize,
-    /// Moments of each pixel's luminance.
+    /// Mean and variance of each pixel's luminance.
     pixels: Vec<Moments>,
 }
 
 impl Pilot {
-    /// Nothing is known of an image with so many pixels in a row and in all.
+    /// Makes a pilot without samples, for an image with `width` pixels in a row and `pixels` in all.
     pub fn new(width: u32, pixels: u32) -> Self {
         Self { width: width as usize, pixels: vec![Moments::default(); pixels as usize] }
     }
 
-    /// Takes in the sample that was added to each pixel of a band of the film, from pixel `first` on, since
-    /// the call before; one that is not finite was not.
+    /// Takes in the sample that was added to each pixel of a band of the film since the previous call;
+    /// `first` is the first pixel of the band. A sample that is not finite is not on the film and changes
+    /// nothing.
     pub fn add(&mut self, first: u32, film: &[FilmPixel]) {
         for (moments, pixel) in self.pixels.iter_mut().skip(first as usize).zip(film) {
             let summed: f64 =
@@ -51,12 +55,14 @@ impl Pilot {
         }
     }
 
-    /// Samples of each pixel, from those of the pilot to `most`.
+    /// Returns the number of samples of each pixel, from that of the pilot to `most`, judged by its
+    /// neighbours.
     pub fn counts(&self, rule: Adaptive, most: u32) -> Vec<u32> {
         self.counts_by(rule, most, |pixel| self.neighbours(pixel))
     }
 
-    /// Samples of each pixel, from those of the pilot to `most`, with the pixels that each one is judged by.
+    /// Returns the number of samples of each pixel, from that of the pilot to `most`, judged by the pixels
+    /// that `judged_by` returns for it.
     fn counts_by<N: Iterator<Item = usize>>(
         &self,
         rule: Adaptive,
@@ -65,7 +71,7 @@ impl Pilot {
     ) -> Vec<u32> {
         let total: f64 = self.pixels.iter().map(|moments| f64::from(moments.mean)).sum();
         let count = |(place, own): (usize, &Moments)| {
-            // Without the pixel's own part, as all that it is judged by.
+            // The mean excludes the pixel's own part, like all other values by which the pixel is judged.
             let others = (total - f64::from(own.mean)) / (self.pixels.len() - 1).max(1) as f64;
             let noise = |moments: &Moments| {
                 let mean = f64::from(moments.mean).max(DARK * others);
@@ -78,15 +84,15 @@ impl Pilot {
                 sum += of_other;
                 known += 1.0;
             }
-            // Without noise nothing more is wanted, also where none is allowed. Where nothing is known, all
-            // samples are.
+            // Without noise no further sample is wanted, even if `threshold` is 0. If the noise is unknown,
+            // all samples are wanted.
             let wanted = if sum == 0.0 && known > 0.0 { 0.0 } else { sum / known / rule.threshold.powi(2) };
             needed(wanted, rule.least, most)
         };
         self.pixels.iter().enumerate().map(count).collect()
     }
 
-    /// The up to eight pixels around one.
+    /// Returns the neighbours of a pixel, up to eight.
     fn neighbours(&self, pixel: usize) -> impl Iterator<Item = usize> {
         let (width, height) = (self.width, self.pixels.len() / self.width);
         let (column, row) = (pixel % width, pixel / width);
@@ -97,7 +103,7 @@ impl Pilot {
     }
 }
 
-/// A wanted number of samples, rounded up, between the least and the most; no number: the most.
+/// Rounds the wanted number of samples up and clamps it to `least..=most`; NaN gives `most`.
 fn needed(wanted: f64, least: u32, most: u32) -> u32 {
     if wanted.is_nan() { most } else { (wanted.ceil() as u32).clamp(least.min(most), most) }
 }
@@ -106,12 +112,12 @@ fn needed(wanted: f64, least: u32, most: u32) -> u32 {
 mod tests {
     use super::*;
 
-    /// A film of one row per pixel of `values`: what a pixel's sample number `sample` is.
+    /// Makes a film of one row with the given sums and number of samples per pixel.
     fn film(sums: &[f64], samples: u32) -> Vec<FilmPixel> {
         sums.iter().map(|sum| FilmPixel { sum: [*sum as f32; 3], samples }).collect()
     }
 
-    /// A pilot of samples that `value` gives by pixel and sample.
+    /// Makes a pilot whose samples `value` returns by pixel and sample.
     fn pilot(width: u32, pixels: u32, samples: u32, value: impl Fn(u32, u32) -> f64) -> Pilot {
         let mut pilot = Pilot::new(width, pixels);
         let mut sums = vec![0.0; pixels as usize];
@@ -124,7 +130,7 @@ mod tests {
         pilot
     }
 
-    /// A number from 0 to 1.
+    /// Returns a pseudorandom number from 0 to 1 for the given words.
     fn random(words: [u32; 3]) -> f64 {
         let mut state = 0x9e37_79b9_7f4a_7c15_u64;
         for word in words {
@@ -135,7 +141,7 @@ mod tests {
         (state >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Samples that are 0 but for one in twelve: what is rare and bright.
+    /// Samples that are 0 except for one in twelve: a rare, bright contribution.
     fn rare(seed: u32) -> impl Fn(u32, u32) -> f64 {
         move |pixel, sample| if random([seed, pixel, sample]) < 1.0 / 12.0 { 12.0 } else { 0.0 }
     }
@@ -162,7 +168,7 @@ mod tests {
     #[test]
     fn a_pixel_gets_what_its_neighbours_need_and_its_own_samples_decide_nothing() {
         let rule = Adaptive { threshold: 0.1, least: 4 };
-        // All pixels of one row have samples 0.5 and 1.5, but pixel 2, which is as it pleases.
+        // The samples of all pixels of one row are 0.5 and 1.5 in turn; those of pixel 2 are `own`.
         let with_own = |own: f64| {
             let value = move |pixel, sample| if pixel == 2 { own } else { 0.5 + f64::from(sample % 2) };
             pilot(6, 6, 4, value).counts(rule, 1000)
@@ -187,7 +193,7 @@ mod tests {
         let exact = Adaptive { threshold: 0.0, ..rule };
         assert_eq!(pilot(3, 9, 4, |_, sample| f64::from(sample)).counts(exact, 64), [64; 9]);
         assert_eq!(pilot(1, 1, 4, |_, _| 1.0).counts(rule, 64), [64], "without neighbours nothing is known");
-        // Samples that are no numbers are on no film.
+        // The film does not take samples that are not finite.
         let mut unknown = Pilot::new(3, 9);
         unknown.add(0, &film(&[0.0; 9], 0));
         assert_eq!(unknown.counts(rule, 64), [64; 9]);
@@ -195,15 +201,15 @@ mod tests {
 
     #[test]
     fn dark_pixels_are_allowed_the_noise_of_a_tenth_of_the_picture() {
-        // Left half at 1000 without noise, right half at about 1: its noise of a half is far below the
-        // threshold.
+        // The left half is 1000 without noise, the right half about 1: its noise of a half is far below the
+        // threshold, because those pixels are dark.
         let value = |pixel, sample| if pixel % 8 < 4 { 1000.0 } else { 0.5 + f64::from(sample % 2) };
         let counts = pilot(8, 64, 4, value).counts(Adaptive { threshold: 0.1, least: 4 }, 64);
         assert_eq!(counts, [4; 64]);
     }
 
-    /// The mean of all pixels of `seeds` images by the numbers of samples that are decided by `own` samples
-    /// or by the neighbours', and its standard error. The truth is 1.
+    /// Returns the mean of all pixels of `seeds` images and its standard error; the numbers of samples are
+    /// decided by a pixel's `own` samples or by those of its neighbours. The true mean is 1.
     fn mean_of_images(seeds: u32, own: bool) -> (f64, f64) {
         let (width, pixels) = (6, 36);
         let rule = Adaptive { threshold: 0.5, least: 8 };
@@ -229,7 +235,7 @@ mod tests {
     fn means_are_unbiased_and_would_not_be_if_pixels_were_judged_by_their_own_samples() {
         let (mean, error) = mean_of_images(2000, false);
         assert!((mean - 1.0).abs() < 3.0 * error, "{mean} +- {error}");
-        // The naive rule stops where nothing bright was met: half of the pixels, which stay black.
+        // The naive rule stops if no bright sample was met: half of the pixels stop so and stay black.
         let (naive, error) = mean_of_images(2000, true);
         assert!(naive < 1.0 - 20.0 * error && naive < 0.9, "{naive} +- {error}");
     }

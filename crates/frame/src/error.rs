@@ -1,4 +1,4 @@
-//! Why a frame has no picture.
+//! Errors of frames and images.
 
 use rasray_ads::{AdsError, PoolStatus};
 use rasray_gpu::GpuError;
@@ -6,7 +6,7 @@ use rasray_gpu_scene::GpuSceneError;
 use rasray_integrators::IntegratorError;
 use rasray_tracer::TracerError;
 
-/// Why a frame could not be recorded, or has no picture.
+/// Error of a frame that could not be recorded, or that has no picture.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FrameError {
@@ -19,24 +19,24 @@ pub enum FrameError {
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// The pass that moves the scene failed.
+    /// The pass that poses the scene failed.
     #[error(transparent)]
     Scene(#[from] GpuSceneError),
     /// The structure failed.
     #[error(transparent)]
     Ads(#[from] AdsError),
-    /// Rays had no answer, and more rounds change nothing.
+    /// Rays did not finish, and more rounds would not help.
     #[error("{rays} rays did not finish")]
     Unfinished {
         /// Number of rays.
         rays: u64,
     },
-    /// Camera rays that are drawn are those of all pixels.
+    /// Drawing answers the camera rays of all pixels, so it cannot give some pixels more samples than others.
     #[error(
         "camera rays are drawn, which are those of all pixels: trace them, or take as many samples of each pixel"
     )]
     DrawnAdaptively,
-    /// A frame was not complete however often it was repeated.
+    /// A frame was still incomplete after the maximum number of repeats.
     #[error(
         "a frame through {structure} was not complete after {repeats} repeats; its demand is not stable{}",
         pool.map(|pool| format!(": {pool}")).unwrap_or_default()
@@ -44,9 +44,9 @@ pub enum FrameError {
     Unstable {
         /// Name of the structure.
         structure: &'static str,
-        /// Repeats.
+        /// Number of repeats.
         repeats: u32,
-        /// The pool that lacked most in the last of them, where one was too small.
+        /// The pool that lacked most elements in the last repeat, if one was too small.
         pool: Option<PoolStatus>,
     },
 }

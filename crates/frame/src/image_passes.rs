@@ -1,4 +1,4 @@
-//! Passes of an image.
+//! Passes that render an image.
 
 use rasray_ads::{Occluder, QueueCounters, Structure};
 use rasray_gpu::{Device, Recorder};
@@ -9,17 +9,17 @@ use rasray_tracer::TracerError;
 
 use crate::{FrameError, Samples};
 
-/// Records the passes of an image of rays through a structure: an integrator with its film, and what answers
-/// camera and shadow rays. It records, and neither submits nor waits.
+/// Records the passes that render an image through a structure: those of an integrator with its film, and the
+/// passes that answer camera rays and shadow rays. It neither submits nor waits.
 pub struct ImagePasses {
     integrator: Box<dyn Integrator>,
-    /// Answers camera rays in place of traces.
+    /// Drawing that answers camera rays in place of traces.
     visibility: Option<Visibility>,
     /// True if the structure's view of the camera answers camera rays.
     has_stored_hits: bool,
-    /// Answers shadow rays in place of traces.
+    /// Shadow maps that answer shadow rays in place of traces.
     shadow_maps: Option<ShadowMaps>,
-    /// True if the maps are to be drawn before they are asked.
+    /// True if the shadow maps must be drawn before they are used.
     maps_are_stale: bool,
 }
 
@@ -35,7 +35,7 @@ impl<I: Integrator + 'static> From<Box<I>> for ImagePasses {
     }
 }
 
-/// The lights of a scene that may have shadow maps.
+/// Returns the lights of a scene that may have shadow maps.
 fn lights(scene: &GpuScene) -> Lights<'_> {
     let PosedBuffers { lights, emissive, .. } = scene.posed_buffers();
     let emitters = Some(Emitters { records: emissive, count: scene.emitter_count() });
@@ -43,21 +43,22 @@ fn lights(scene: &GpuScene) -> Lights<'_> {
 }
 
 impl ImagePasses {
-    /// Answers camera rays by drawing, which was made for the same scene; by traces where absent.
+    /// Answers camera rays by drawing, with a [`Visibility`] that was made for the same scene; if absent, by
+    /// traces.
     #[must_use]
     pub fn with_visibility(self, visibility: Option<Visibility>) -> Self {
         Self { visibility, ..self }
     }
 
-    /// Answers camera rays by the structure's view of the camera, which must have one
-    /// ([`Description::first_hits`](rasray_ads::Description::first_hits)); not together with drawing.
+    /// Answers camera rays by the structure's view of the camera, which the structure must have
+    /// ([`Description::first_hits`](rasray_ads::Description::first_hits)). Replaces drawing.
     #[must_use]
     pub fn with_stored_hits(self) -> Self {
         Self { has_stored_hits: true, visibility: None, ..self }
     }
 
-    /// Answers shadow rays that lead to lights without extent by shadow maps of the scene, and where
-    /// [`Config::points`] asks for it those that lead to emitting triangles.
+    /// Answers shadow rays to lights without extent by shadow maps of the scene, and also shadow rays to
+    /// emitting triangles if [`Config::points`] asks for it.
     ///
     /// # Errors
     /// As [`ShadowMaps::new`].
@@ -72,23 +73,24 @@ impl ImagePasses {
         Ok(Self { shadow_maps: Some(maps), ..self })
     }
 
-    /// Shadow maps, which answer shadow rays in place of traces.
+    /// Returns the shadow maps, which answer shadow rays in place of traces.
     pub fn shadow_maps(&self) -> Option<&ShadowMaps> {
         self.shadow_maps.as_ref()
     }
 
-    /// Lights or triangles have moved, or will have by the time that the next image is recorded.
+    /// States that lights or triangles have moved, or will have moved by the time that the next image is
+    /// recorded.
     pub fn scene_moved(&mut self) {
         self.maps_are_stale = true;
     }
 
-    /// True if [`ImagePasses::record_shadow_maps`] would record anything.
+    /// Returns true if [`ImagePasses::record_shadow_maps`] would record a pass.
     pub(crate) fn needs_shadow_maps(&self) -> bool {
         self.maps_are_stale && self.shadow_maps.is_some()
     }
 
-    /// Records that shadow maps are drawn, where anything has moved since they were recorded. True where they
-    /// are.
+    /// Records the drawing of shadow maps if lights or triangles moved since the maps were last recorded.
+    /// Returns true if it recorded any.
     pub(crate) fn record_shadow_maps(&mut self, recorder: &mut Recorder<'_>) -> bool {
         let are_stale = std::mem::take(&mut self.maps_are_stale);
         let Some(maps) = self.shadow_maps.as_ref().filter(|_| are_stale) else { return false };
@@ -96,23 +98,24 @@ impl ImagePasses {
         true
     }
 
-    /// The integrator, with the film.
+    /// Returns the integrator, with the film.
     pub fn integrator(&self) -> &dyn Integrator {
         self.integrator.as_ref()
     }
 
-    /// Drawing that answers camera rays in place of traces.
+    /// Returns the drawing that answers camera rays in place of traces.
     pub fn visibility(&self) -> Option<&Visibility> {
         self.visibility.as_ref()
     }
 
-    /// Film that samples are added to.
+    /// Returns the film to which samples are added.
     pub fn film(&self) -> &Film {
         self.integrator.film()
     }
 
-    /// Names and bytes of the buffers of an image: the film, queues part by part, what the integrator keeps
-    /// per slot, what fetches surfaces by drawing, and what draws first hits. Shadow maps are apart.
+    /// Returns names and bytes of the buffers of an image: the film, the queues part by part, the
+    /// integrator's buffers per slot, and the buffers that fetch surfaces and first hits by drawing. Shadow
+    /// maps are not included.
     pub fn bytes_by_part(&self) -> Vec<(&'static str, u64)> {
         let integrator = self.integrator();
         let mut parts = vec![("film", integrator.film().bytes())];
@@ -129,11 +132,11 @@ impl ImagePasses {
         parts
     }
 
-    /// Shows another scene from the next recording on, in a film of the same size. Kernels stay; shadow maps
-    /// grow where there are more lights.
+    /// Shows another scene from the next recording on, in a film of the same size. Kernels are kept; shadow
+    /// maps grow if there are more lights.
     ///
     /// # Errors
-    /// The scene has what kernels have no code for, or out of memory.
+    /// The scene has a feature that the kernels have no code for, or out of memory.
     pub fn set_scene(&mut self, device: &Device, scene: &GpuScene) -> Result<(), FrameError> {
         self.integrator.set_scene(scene)?;
         if let Some(visibility) = &mut self.visibility {
@@ -148,7 +151,8 @@ impl ImagePasses {
         Ok(())
     }
 
-    /// Rays through a structure, but for those that are drawn or answered by maps.
+    /// Returns the structure through which rays are traced, with the passes that answer rays in its place:
+    /// drawing, its view of the camera, and shadow maps.
     pub(crate) fn traced<'a>(&'a self, structure: &'a dyn Structure) -> Traced<'a> {
         let maps = self.shadow_maps.as_ref().map(|maps| maps as &dyn Occluder);
         let primary = match self.has_stored_hits {
@@ -158,7 +162,7 @@ impl ImagePasses {
         Traced::from(structure).with_primary(primary).with_occluder(maps)
     }
 
-    /// Records that film and counters start at 0.
+    /// Records the reset of the film and the counters to 0.
     pub fn record_reset(&self, recorder: &mut Recorder<'_>) {
         self.integrator.record_reset(recorder);
         if let Some(visibility) = &self.visibility {
@@ -166,7 +170,7 @@ impl ImagePasses {
         }
     }
 
-    /// The waves of samples, in their order.
+    /// Returns the waves of samples, in the order in which they are recorded.
     pub fn waves(&self, samples: Samples) -> impl Iterator<Item = Wave> {
         self.film().bands().waves(samples, self.integrator.wave_capacity())
     }
@@ -199,8 +203,8 @@ impl std::fmt::Debug for ImagePasses {
     }
 }
 
-/// Rays of queues that have no answer, those that met an unbuilt structure included: where there are any,
-/// nothing that was made of them is right.
+/// Returns the number of rays of queues that have no answer, including rays that met an unbuilt structure. If
+/// it is not 0, no result computed from these queues is valid.
 ///
 /// # Errors
 /// Rays met list entries with an invalid index.

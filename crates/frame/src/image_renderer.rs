@@ -1,4 +1,4 @@
-//! An image that is made wave by wave.
+//! Renderer of one image, wave by wave.
 
 use std::ops::{ControlFlow, Range};
 use std::time::Instant;
@@ -16,19 +16,19 @@ use crate::{FrameError, Samples};
 /// Result of a call of [`ImageRenderer::advance`].
 #[derive(Clone, Debug)]
 pub enum Advance {
-    /// A wave was added to the film.
+    /// The call added a wave to the film.
     Wave {
-        /// Times of its passes, where they are timed, after those of shadow maps if it was the first that
-        /// needed them.
+        /// Times of the wave's passes, if they are timed. Times of the shadow maps precede them in the first
+        /// wave that needs the maps.
         passes: Vec<PassTiming>,
     },
-    /// Rays needed more rounds than they had: all starts at 0 again, and the structure allows more from now
-    /// on.
+    /// Rays needed more rounds than they had: the image starts at 0 again, and the structure allows more
+    /// rounds from now on.
     StartedOver,
 }
 
-/// An image in the making: sample after sample, and wave after wave within a sample. Each call submits and
-/// waits, so that no submission is longer than a wave, and a picture can be looked at or given up in between.
+/// Renderer of one image: sample after sample, and wave after wave within a sample. Each call submits and
+/// waits, so no submission is longer than a wave, and the picture can be looked at or given up between calls.
 ///
 /// The structure must be complete ([`rasray_tracer::build_until_complete`]); pictures are those of
 /// [`FrameRenderer`](crate::FrameRenderer), bit for bit.
@@ -37,9 +37,9 @@ pub struct ImageRenderer {
     device: Device,
     passes: ImagePasses,
     samples: Samples,
-    /// The first pixel of the next wave, among those of the sample.
+    /// First pixel of the next wave, counted among the pixels of the sample.
     next_pixel: u32,
-    /// Range of each band that the waves of the sample divide: pixels, or places in its list.
+    /// Range of each band that the waves of the sample divide: pixels, or positions in the band's list.
     of_sample: Vec<Range<u32>>,
     samples_done: u32,
     waves_done: u64,
@@ -48,24 +48,24 @@ pub struct ImageRenderer {
     variances: Option<Variances>,
 }
 
-/// Sharing of samples among pixels where some get more than others.
+/// State of adaptive sampling, which gives some pixels more samples than others.
 #[derive(Debug)]
 struct Sharing {
     rule: Adaptive,
     pilot: Pilot,
-    /// Samples of each pixel; empty before the pilot is done.
+    /// Number of samples of each pixel; empty before the pilot is done.
     counts: Vec<u32>,
 }
 
 impl Sharing {
-    /// Pixels of a band that have a sample at this place.
+    /// Returns the pixels of a band that get the sample with this index.
     fn pixels_at(&self, sample: u32, band: Range<u32>) -> Vec<u32> {
         band.filter(|pixel| self.counts[*pixel as usize] > sample).collect()
     }
 }
 
 impl ImageRenderer {
-    /// Nothing is rendered yet.
+    /// Makes a renderer whose film has no sample yet.
     ///
     /// # Errors
     /// The device fails.
@@ -91,11 +91,12 @@ impl ImageRenderer {
         Ok(made)
     }
 
-    /// Takes more samples where there is more noise: those that were asked for are the most that a pixel
-    /// gets.
+    /// Enables adaptive sampling: pixels with more noise get more samples, and the requested number of
+    /// samples is the maximum for a pixel.
     ///
     /// # Errors
-    /// [`FrameError::DrawnAdaptively`] where camera rays are drawn, `NotListed` where the film was not made
+    /// [`FrameError::DrawnAdaptively`] if camera rays are drawn, `NotListed` if the film was not made by
+    /// [`Film::listed`], or the device fails.
     /// by [`Film::listed`], or the device fails.
     pub fn adapting(mut self, rule: Adaptive) -> Result<Self, FrameError> {
         if self.passes.visibility().is_some() {
@@ -108,14 +109,14 @@ impl ImageRenderer {
     }
 
     /// Measures the variance of each pixel ([`ImageRenderer::variances`]): the film is read after every
-    /// sample, and nothing of it changes.
+    /// sample, and its contents do not change.
     #[must_use]
     pub fn measuring(self) -> Self {
         let variances = Some(Variances::new(self.film().pixel_count()));
         Self { variances, ..self }
     }
 
-    /// Film and counters start at 0 again.
+    /// Resets the film and the counters to 0.
     ///
     /// # Errors
     /// The device fails.
@@ -137,7 +138,7 @@ impl ImageRenderer {
         Ok(())
     }
 
-    /// Takes what a sample added to the film into what is known of its noise.
+    /// Updates the noise statistics with the sample that was just added to the film.
     fn measure(&mut self) -> Result<(), FrameError> {
         let Self { device, passes, samples_done, sharing, variances, .. } = self;
         let mut pilot = sharing.as_mut().filter(|sharing| *samples_done <= sharing.rule.least);
@@ -153,7 +154,7 @@ impl ImageRenderer {
         Ok(())
     }
 
-    /// Chooses the pixels of the next sample. Where none has one, no sample is left to be made.
+    /// Chooses the pixels of the next sample. If no pixel needs one, the image is finished.
     fn choose_pixels(&mut self) -> Result<(), FrameError> {
         let Some(sharing) = &mut self.sharing else { return Ok(()) };
         let (film, done) = (self.passes.film(), self.samples_done);
@@ -175,7 +176,7 @@ impl ImageRenderer {
         Ok(())
     }
 
-    /// Rest of the sample after so many of its pixels, band by band.
+    /// Returns the rest of the sample after `pixels` of its pixels, band by band.
     fn left(&self, pixels: u32) -> impl Iterator<Item = Range<u32>> {
         let mut skipped = pixels;
         self.of_sample.iter().filter_map(move |listed| {
@@ -185,12 +186,14 @@ impl ImageRenderer {
         })
     }
 
-    /// Lights or triangles have moved: shadow maps are drawn anew before the next wave. The film stays.
+    /// States that lights or triangles have moved: shadow maps are drawn again before the next wave. The film
+    /// is kept.
     pub fn scene_moved(&mut self) {
         self.passes.scene_moved();
     }
 
-    /// Draws shadow maps, where anything has moved since; returns the times of its passes.
+    /// Draws shadow maps if lights or triangles moved since the last drawing; returns the times of the
+    /// passes.
     fn draw_shadow_maps(&mut self, timing: Timing) -> Result<Vec<PassTiming>, FrameError> {
         if !self.passes.needs_shadow_maps() {
             return Ok(Vec::new());
@@ -200,8 +203,9 @@ impl ImageRenderer {
         Ok(submitted.inspect_err(|_| passes.scene_moved())?.passes)
     }
 
-    /// Renders one pixel and forgets it, shadow maps included: software drivers compile a kernel at its first
-    /// dispatch, which is no trace. Returns milliseconds. All starts at 0 after it.
+    /// Renders one pixel, shadow maps included, and discards it: software drivers compile a kernel at its
+    /// first dispatch, and that time is not part of a trace. Returns milliseconds. The film and the counters
+    /// are 0 after the call.
     ///
     /// # Errors
     /// The device fails.
@@ -217,7 +221,7 @@ impl ImageRenderer {
         Ok(started.elapsed().as_secs_f64() * 1.0e3)
     }
 
-    /// Renders the next wave, of the samples that were asked for or beyond them.
+    /// Renders the next wave, of the requested samples or of samples beyond them.
     ///
     /// # Errors
     /// The device fails, or rays met list entries with an invalid index.
@@ -232,8 +236,8 @@ impl ImageRenderer {
         };
         let traced = self.passes.traced(structure);
         timings.extend(integrator.render_wave(&self.device, timing, traced, wave)?);
-        // The film lacks light where a ray had no answer, so such rays are counted now and not after the last
-        // wave. Queues count on from wave to wave.
+        // The film lacks light if a ray had no answer, so such rays are counted after each wave and not only
+        // after the last one. The counters of the queues accumulate over waves.
         self.unfinished = self.count_unfinished(structure, &integrator.queues())?;
         if self.unfinished > 0 && structure.allow_more_rounds() {
             self.clear()?;
@@ -250,11 +254,12 @@ impl ImageRenderer {
         Ok(Advance::Wave { passes: timings })
     }
 
-    /// Renders all samples that were asked for, and tells `after` of each step. Where that breaks, ends
-    /// early, between samples, so that all pixels have the same number of them.
+    /// Renders all requested samples and passes each step to `after`. If `after` breaks, rendering ends
+    /// early, between samples, so that all pixels have the same number of samples.
     ///
     /// # Errors
-    /// As [`ImageRenderer::advance`]. Rays without an answer are none: [`ImageRenderer::unfinished`].
+    /// As [`ImageRenderer::advance`]. Rays without an answer are no error: [`ImageRenderer::unfinished`]
+    /// counts them.
     pub fn render(
         &mut self,
         structure: &dyn Structure,
@@ -270,12 +275,12 @@ impl ImageRenderer {
         Ok(())
     }
 
-    /// Traces the rays through the pixels' centres, of the scene as it is shown, and hands out what they hit,
-    /// row by row from the top left, band by band.
+    /// Traces the rays through the pixels' centres in the scene as it is shown, and hands out their hits, row
+    /// by row from the top left, band by band.
     ///
     /// # Errors
-    /// The device fails, sizes do not fit, rays met list entries with an invalid index, or did not finish in
-    /// as many rounds as there can be ([`FrameError::Unfinished`]).
+    /// The device fails, sizes do not fit, rays met list entries with an invalid index, or rays did not
+    /// finish in the maximum number of rounds ([`FrameError::Unfinished`]).
     pub fn aovs(
         &self,
         scene: &GpuScene,
@@ -286,8 +291,8 @@ impl ImageRenderer {
         self.trace_centres(&aov, structure, |pixels, _| take(pixels))
     }
 
-    /// Traces as [`ImageRenderer::aovs`] and hands out materials and meshes of the hits as well. Bands are
-    /// smaller where a device does not bind the larger records of as many pixels.
+    /// Traces as [`ImageRenderer::aovs`] does and hands out materials and meshes of the hits as well. Bands
+    /// are smaller if the device cannot bind the larger records of as many pixels.
     ///
     /// # Errors
     /// As [`ImageRenderer::aovs`].
@@ -302,7 +307,7 @@ impl ImageRenderer {
         self.trace_centres(&aov, structure, take)
     }
 
-    /// Rays of a wave through pixels' centres.
+    /// Returns the maximum number of rays through pixels' centres in a wave.
     fn aov_capacity(&self) -> u32 {
         wave_capacity(&self.device).min(self.film().pixel_count())
     }
@@ -334,23 +339,23 @@ impl ImageRenderer {
         Ok(())
     }
 
-    /// Downloads the counters of queues.
+    /// Downloads the counters of queues and returns the number of rays without an answer.
     fn count_unfinished(&self, structure: &dyn Structure, queues: &[&RayQueue]) -> Result<u64, FrameError> {
         let counters = queues.iter().map(|queue| queue.download_counters(&self.device));
         unanswered(structure, &counters.collect::<Result<Vec<_>, _>>()?)
     }
 
-    /// Passes of each wave.
+    /// Returns the passes of each wave.
     pub fn passes(&self) -> &ImagePasses {
         &self.passes
     }
 
-    /// Film that samples are added to.
+    /// Returns the film to which samples are added.
     pub fn film(&self) -> &Film {
         self.passes.film()
     }
 
-    /// Waves of all samples that were asked for; where pixels get as many as they need, at most so many.
+    /// Returns the number of waves of all requested samples; with adaptive sampling, an upper bound of it.
     pub fn waves(&self) -> u64 {
         let capacity = self.passes.integrator().wave_capacity() as usize;
         let after = |pixels| self.left(pixels).map(|left| left.len().div_ceil(capacity) as u64).sum::<u64>();
@@ -359,30 +364,30 @@ impl ImageRenderer {
         self.waves_done + in_sample + u64::from(left) * after(0)
     }
 
-    /// Waves that are on the film.
+    /// Returns the number of waves that are on the film.
     pub fn waves_done(&self) -> u64 {
         self.waves_done
     }
 
-    /// Samples that all pixels have; where some get more than others, those that are on the film of the first
-    /// so many. All where every pixel has what it needs.
+    /// Returns the number of samples that all pixels have. With adaptive sampling it is the number of samples
+    /// that are complete on the film, and the requested number once every pixel has the samples it needs.
     pub fn samples_done(&self) -> u32 {
         self.samples_done
     }
 
-    /// True if no pixel has more samples than another.
+    /// Returns true if no sample is partly done, so that the film is between two samples.
     pub fn is_between_samples(&self) -> bool {
         self.next_pixel == 0
     }
 
-    /// Variance of the mean of each pixel, row by row from the top left, as if its samples were independent:
-    /// that of a sample over their number, 0 where there are fewer than two. Nothing unless it is measured
-    /// ([`ImageRenderer::measuring`]).
+    /// Returns the variance of the mean of each pixel, row by row from the top left, as if its samples were
+    /// independent: the variance of a sample divided by their number, 0 if there are fewer than two. Absent
+    /// unless variances are measured ([`ImageRenderer::measuring`]).
     pub fn variances(&self) -> Option<impl Iterator<Item = [f32; 3]>> {
         self.variances.as_ref().map(Variances::of_means)
     }
 
-    /// Rays without an answer: where there are any, the image is not what was asked for.
+    /// Returns the number of rays without an answer; if it is not 0, the image is invalid.
     pub fn unfinished(&self) -> u64 {
         self.unfinished
     }

@@ -1,4 +1,4 @@
-//! Pictures of all frames, in order.
+//! Rendering of a sequence of frames into pictures in order.
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
@@ -7,36 +7,39 @@ use rasray_gpu_scene::FramePose;
 
 use crate::{FrameError, FrameInput, FrameRenderer, FrameResult, FrameScene, Picture};
 
-/// Repeats after which a frame counts as unstable: as many as a build may grow, one for rounds of traces, and
-/// as often as the rounds of paths that pass surfaces can double.
+/// Maximum number of repeats; a frame that needs more counts as unstable. It covers the maximum number of
+/// regrowths of a build, one repeat for the rounds of traces, and one for each doubling of the rounds of
+/// paths that pass surfaces.
 const REPEATS: u32 = 16;
 
-/// Counts of a sequence of frames.
+/// Counts of a rendered sequence of frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct InOrder {
-    /// Pictures handed out.
+    /// Number of pictures handed out.
     pub pictures: u64,
-    /// Frames that were recorded again, because their build was not complete or rays did not finish.
+    /// Number of frames that were recorded again, because their build was not complete or rays did not
+    /// finish.
     pub repeated: u64,
 }
 
-/// Renders frames with several in flight and hands out each picture in order; frames without a picture are
-/// repeated, with those that were submitted after them. Ends early where `sink` says so. No input may
-/// continue the one before.
+/// Renders frames with several in flight and hands out each picture in order. A frame without a picture is
+/// repeated, together with the frames that were submitted after it. Rendering ends early if `sink` says so.
+/// No input may continue the one before.
 ///
-/// Frames that nothing has posed yet cannot be brought back once a later one moved the scene, so the first
-/// frame with a pose waits for those before it that have none, in their own input or in one before. All
-/// others overlap.
+/// A frame that shows the scene as it was before the first pose cannot be repeated once a later frame has
+/// moved the scene. The first frame with a pose therefore waits for the earlier frames without a pose, in
+/// their own input or in an input before. All other frames overlap.
 ///
 /// # Errors
-/// Errors of frames, [`FrameError::Unstable`] where repeating does not help; nothing is in flight then.
+/// Errors of frames, [`FrameError::Unstable`] if repeating does not help; no frame is in flight after an
+/// error.
 pub fn render_in_order(
     renderer: &mut FrameRenderer,
     inputs: impl IntoIterator<Item = FrameInput>,
     mut sink: impl FnMut(Picture) -> ControlFlow<()>,
 ) -> Result<InOrder, FrameError> {
     let rendered = in_order(renderer, inputs, &mut sink);
-    // Also after an error, and after an early end.
+    // The loop also runs after an error and after an early end.
     loop {
         match renderer.take() {
             Ok(Some(_)) => {}
@@ -46,15 +49,16 @@ pub fn render_in_order(
     }
 }
 
-/// Scene and pose of frames that name none.
+/// Scene and pose of the last input, for frames that name none.
 struct Last {
     scene: FrameScene,
-    /// Absent where nothing has posed the scene yet, or where it was shown before others were.
+    /// Pose of the scene; absent if no frame has posed the scene yet, or not since it replaced another scene.
     pose: Option<FramePose>,
 }
 
 impl Last {
-    /// The frame with its scene and its pose named, so that it shows these whatever is submitted between.
+    /// Fills in the scene and the pose of an input that names none, so that the frame shows them whatever
+    /// frames are submitted in between.
     fn complete(&mut self, input: FrameInput) -> FrameInput {
         if let Some(scene) = input.scene.as_ref().filter(|scene| !scene.is(&self.scene)) {
             *self = Self { scene: scene.clone(), pose: None };
@@ -66,7 +70,7 @@ impl Last {
     }
 }
 
-/// A frame with the number of times that it was repeated.
+/// Input of a frame, with the number of times that it was repeated.
 type Repeated = (FrameInput, u32);
 
 fn in_order(
@@ -103,7 +107,7 @@ fn in_order(
                     let structure = renderer.structure().structure().description().name;
                     return Err(FrameError::Unstable { structure, repeats, pool });
                 }
-                // Poses follow each other, so those that came after it are repeated after it.
+                // Poses are applied in order, so the frames submitted after this one are repeated after it.
                 while renderer.take()?.is_some() {}
                 done.repeated += 1 + in_flight.len() as u64;
                 waiting.push_front((input, repeats + 1));

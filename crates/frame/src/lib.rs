@@ -1,19 +1,20 @@
 //! Frames and images of a scene: pose, build, trace, surfaces, shade, film. The command, the viewer and the
-//! benches make all pictures with it.
+//! benches make all pictures with this crate.
 //!
-//! - [`FrameRenderer`] renders frames that move, several in flight: it submits each with a view and a pose of
-//!   its own, and returns finished pictures in order.
-//! - [`render_in_order`] drives it for images that are written: it repeats frames that are incomplete.
-//! - [`ImageRenderer`] makes one image wave by wave, with the same passes ([`ImagePasses`]): for images that
-//!   are too long for one submission, or that somebody watches.
+//! - [`FrameRenderer`] renders frames of a moving scene, several in flight: it submits each frame with its
+//!   own view and pose, and returns finished pictures in order.
+//! - [`render_in_order`] drives it for images that are written to files: it repeats incomplete frames.
+//! - [`ImageRenderer`] renders one image wave by wave, with the same passes ([`ImagePasses`]): for images
+//!   that are too long for one submission, or that somebody watches.
 //! - [`Adaptive`] takes more samples where there is more noise.
-//! - [`FrameScene`] is a scene of frames. A frame whose triangles change in number brings another one.
+//! - [`FrameScene`] is a scene that frames show. A frame whose number of triangles changes brings another
+//!   scene.
 //!
 //! A frame records a build only if something changed that the structure depends on. A frame is incomplete if
 //! its build did not complete or its rays did not all finish; it never becomes a picture. Interactive
 //! programs skip incomplete frames and keep showing the last picture.
 //!
-//! Hosts that have frames of their own and want structures alone use `rasray_tracer::FrameStructure`.
+//! Hosts that have frames of their own and need only the structures use `rasray_tracer::FrameStructure`.
 
 mod adaptive;
 mod error;

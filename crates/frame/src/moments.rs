@@ -1,8 +1,8 @@
-//! Mean and variance of the samples of pixels, from a film that is read after each of them.
+//! Mean and variance of the samples of pixels, from a film that is read after each sample.
 
 use rasray_integrators::FilmPixel;
 
-/// The samples of a pixel: mean and summed squares of what differs from it, by Welford's recurrence.
+/// Mean of a pixel's samples and sum of the squared differences from it, by Welford's recurrence.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Moments {
     /// Number of samples.
@@ -10,13 +10,13 @@ pub(crate) struct Moments {
     /// Mean of all samples.
     pub mean: f32,
     squares: f32,
-    /// The film's sum.
+    /// Sum of the samples on the film.
     summed: f32,
 }
 
 impl Moments {
-    /// Takes in the sample that was added to the film's sum since the call before; one that is not finite was
-    /// not.
+    /// Takes in the sample that was added to the film's sum since the previous call. A sample that is not
+    /// finite is not on the film and changes nothing.
     pub fn follow(&mut self, summed: f64, samples: u32) {
         if samples > self.samples {
             self.add(summed - f64::from(self.summed));
@@ -32,24 +32,24 @@ impl Moments {
         self.squares += (before * (value - mean)) as f32;
     }
 
-    /// Unbiased variance of a sample; absent where there are fewer than two.
+    /// Returns the unbiased variance of a sample; absent if there are fewer than two samples.
     pub fn variance(&self) -> Option<f64> {
         (self.samples > 1).then(|| f64::from(self.squares) / f64::from(self.samples - 1))
     }
 }
 
-/// The samples of each pixel of a film, channel by channel.
+/// Moments of each pixel of a film, channel by channel.
 #[derive(Clone, Debug)]
 pub(crate) struct Variances(Vec<[Moments; 3]>);
 
 impl Variances {
-    /// Nothing is known of an image with so many pixels.
+    /// Makes moments without samples, for an image with `pixels` pixels.
     pub fn new(pixels: u32) -> Self {
         Self(vec![[Moments::default(); 3]; pixels as usize])
     }
 
-    /// Takes in the sample that was added to pixels of a band of the film, from pixel `first` on, since the
-    /// call before.
+    /// Takes in the sample that was added to pixels of a band of the film since the previous call; `first` is
+    /// the first pixel of the band.
     pub fn add(&mut self, first: u32, film: &[FilmPixel]) {
         for (channels, pixel) in self.0.iter_mut().skip(first as usize).zip(film) {
             for (moments, sum) in channels.iter_mut().zip(pixel.sum) {
@@ -58,8 +58,8 @@ impl Variances {
         }
     }
 
-    /// Variance of the mean of each pixel, as if its samples were independent: the variance of a sample over
-    /// the number of samples; 0 where there are fewer than two.
+    /// Returns the variance of the mean of each pixel, as if its samples were independent: the variance of a
+    /// sample divided by the number of samples; 0 if there are fewer than two.
     pub fn of_means(&self) -> impl Iterator<Item = [f32; 3]> {
         let of_mean =
             |moments: Moments| (moments.variance().unwrap_or(0.0) / f64::from(moments.samples.max(1))) as f32;
@@ -75,7 +75,7 @@ mod tests {
     fn variances_are_those_of_the_mean_and_samples_that_were_left_out_do_not_count() {
         let mut variances = Variances::new(2);
         let mut film = [FilmPixel::default(); 2];
-        // The second pixel is of a band of its own.
+        // The second pixel is in a band of its own.
         let add = |variances: &mut Variances, film: &[FilmPixel]| {
             (0..).zip(film.chunks(1)).for_each(|(first, band)| variances.add(first, band));
         };
@@ -83,7 +83,7 @@ mod tests {
             film[0].sum = film[0].sum.map(|sum| sum + sample);
             film[0].samples += 1;
             add(&mut variances, &film);
-            // Pixels that got no sample this time.
+            // The film does not change, as for pixels that got no sample.
             add(&mut variances, &film);
         }
         film[1] = FilmPixel { sum: [3.0; 3], samples: 1 };

@@ -1,4 +1,4 @@
-//! Results of a frame that the host reads.
+//! Results of a frame that are copied to the host.
 
 use std::mem::size_of;
 
@@ -6,23 +6,23 @@ use rasray_ads::{QueueCounters, QueueHeader, RayQueue};
 use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, Recorder};
 use rasray_integrators::{FilmFaults, FilmPixel, Integrator};
 
-/// The film of a frame, on the host.
+/// Film of a frame, on the host.
 #[derive(Clone, Debug, Default)]
 pub struct FilmCopy {
     /// Sums and counts per pixel, row by row from the top left.
     pub pixels: Vec<FilmPixel>,
-    /// Samples that were not added.
+    /// Samples that the film did not take, by cause.
     pub faults: FilmFaults,
 }
 
 impl FilmCopy {
-    /// Means of all pixels.
+    /// Returns the mean of each pixel.
     pub fn means(&self) -> Vec<[f32; 3]> {
         self.pixels.iter().map(FilmPixel::mean).collect()
     }
 }
 
-/// Memory of the host that one frame in flight writes: film, faults, and the header of each queue.
+/// Host-visible memory that one frame in flight writes: film, faults, and the header of each queue.
 #[derive(Debug)]
 pub(crate) struct Readback {
     /// Film of each band; empty where films are not read.
@@ -48,7 +48,7 @@ impl Readback {
         })
     }
 
-    /// Records the copies, after everything else of the frame.
+    /// Records the copies to the host, after all other passes of the frame.
     pub fn record(&self, recorder: &mut Recorder<'_>, integrator: &dyn Integrator) {
         recorder.barrier(Access::COMPUTE_WRITE | Access::TRANSFER_WRITE, Access::TRANSFER);
         for (film, pixels) in self.film.iter().zip(integrator.film().pixels()) {
@@ -60,7 +60,7 @@ impl Readback {
         }
     }
 
-    /// FilmCopy and counters of the queues; the frame has ended.
+    /// Returns the [`FilmCopy`] and the counters of the queues; the frame must have ended.
     pub fn read(&self) -> Result<(FilmCopy, Vec<QueueCounters>), GpuError> {
         let bytes = self.counters.read(0, self.counters.size())?;
         let (faults, headers) = bytes.split_at(FAULTS as usize);

@@ -1,4 +1,4 @@
-//! Frames of a scene.
+//! Renderer of the frames of a scene.
 
 use std::collections::VecDeque;
 
@@ -19,43 +19,43 @@ pub struct FrameInput {
     pub view: View,
     /// Sampling of pixels.
     pub sampling: Sampling,
-    /// The scene; absent: that of the frame before. Another one may have other triangles, as many as there
-    /// are; materials, textures and lights, too, as long as the kernels have code for them.
+    /// The scene; if absent, that of the frame before. Another scene may have other triangles, in any number,
+    /// and other materials, textures and lights, as long as the kernels have code for its features.
     pub scene: Option<FrameScene>,
-    /// Poses of everything that moves; absent: those of the last frame of the same scene, at first those of
-    /// the tables.
+    /// Poses of everything that moves; if absent, those of the last frame of the same scene, and before any
+    /// pose those of the scene's tables.
     pub pose: Option<FramePose>,
     /// Samples of each pixel.
     pub samples: Samples,
-    /// True if samples are added to those of the frame before, in place of a new image.
+    /// True if the samples are added to those of the frame before; false if the frame starts a new image.
     pub continues: bool,
 }
 
 /// Outcome of a frame.
 #[derive(Clone, Debug)]
 pub enum FrameResult {
-    /// A picture.
+    /// The frame has a picture.
     Picture(Picture),
-    /// Its build was not complete, or its rays needed more rounds or passed more surfaces than were recorded,
-    /// all of which the next frames have: nothing of it is shown. A frame that continues it has no picture
-    /// either.
+    /// The frame has no picture: its build was not complete, or its rays needed more rounds or passed more
+    /// surfaces than were recorded. The next frames have more of each. A frame that continues this one has no
+    /// picture either.
     Nothing {
-        /// The pool that its build lacked most; absent where the build is not why
+        /// The pool that the frame's build lacked most; absent if the build is not the cause
         /// ([`FrameOutcome::Incomplete`]).
         pool: Option<PoolStatus>,
     },
 }
 
-/// A finished frame.
+/// Picture of a finished frame.
 #[derive(Clone, Debug)]
 pub struct Picture {
     /// Number of the frame, from 0 in the order of submission.
     pub number: u64,
-    /// The image; empty unless the renderer reads films.
+    /// The image; empty unless the renderer reads films back.
     pub film: FilmCopy,
-    /// True if the structure was built in it.
+    /// True if the frame built the structure.
     pub built: bool,
-    /// True if shadow maps were drawn in it; never without any.
+    /// True if the frame drew shadow maps; always false without shadow maps.
     pub drew_maps: bool,
     /// Counters of the integrator's queues.
     pub counters: Vec<QueueCounters>,
@@ -66,24 +66,25 @@ pub struct Picture {
 /// State of a frame in flight.
 #[derive(Clone, Copy, Debug)]
 struct Pending {
-    /// True if it adds to the film of the one before.
+    /// True if the frame adds to the film of the frame before.
     continues: bool,
-    /// Rounds that its traces were recorded with, of all parts.
+    /// Number of rounds that the frame's traces were recorded with, summed over all parts.
     rounds: u32,
-    /// Traces that its waves were recorded with.
+    /// Number of traces that the frame's waves were recorded with.
     traces: u32,
-    /// True if shadow maps were drawn in it.
+    /// True if the frame drew shadow maps.
     drew_maps: bool,
 }
 
-/// Frames of a scene through one structure and one integrator.
+/// Renderer of the frames of a scene through one structure and one integrator.
 ///
 /// A frame may bring another scene ([`FrameInput::scene`]): structure, integrator and visibility are kept and
-/// read it from there on. What frames in flight use of the scene before lives until they have ended.
+/// read the new scene from that frame on. Buffers of the earlier scene that frames in flight use live until
+/// those frames have ended.
 ///
-/// Data of the host for a frame is stored in its command buffer, results that the host reads lie in memory of
-/// the frame's slot: frames in flight share nothing that one of them could find changed. No call waits but
-/// [`FrameRenderer::take`], and [`FrameRenderer::submit`] for structures that the host builds.
+/// The host's data for a frame is stored in its command buffer, and results that the host reads lie in memory
+/// of the frame's slot: frames in flight share no memory that one of them could find changed. No call waits
+/// except [`FrameRenderer::take`], and [`FrameRenderer::submit`] for structures that are built on the host.
 pub struct FrameRenderer {
     device: Device,
     scene: FrameScene,
@@ -92,20 +93,20 @@ pub struct FrameRenderer {
     image: ImagePasses,
     frames: Frames,
     readbacks: Vec<Readback>,
-    /// The pose of this scene that the device was given last.
+    /// Pose of this scene that was last given to the device.
     posed: Option<FramePose>,
     /// Frames in flight, the oldest first.
     pending: VecDeque<Pending>,
-    /// True if the film was right when the last frame ended, so that another may have added to it.
+    /// True if the film was valid when the last frame ended, so that another frame may have added to it.
     film_is_right: bool,
 }
 
 impl FrameRenderer {
-    /// Frames of `scene`, moved by `pose`, seen through `structure`, which was made for both and not built: a
-    /// structure over all triangles, all of which each frame builds in which anything moved, or a
-    /// [`Combined`](rasray_ads::Combined) one over the parts of [`PosePass::parts`] or [`PosePass::objects`],
-    /// of which only those that moved are built. With `reads_films` each picture has its image on the host;
-    /// without, it is on the device in the integrator's film.
+    /// Makes a renderer of `scene`, moved by `pose`, seen through `structure`, which was made for both and is
+    /// not built. The structure is either one over all triangles, all of which a frame builds if any of them
+    /// moved, or a [`Combined`](rasray_ads::Combined) structure over the parts of [`PosePass::parts`] or
+    /// [`PosePass::objects`], of which a frame builds only those that moved. With `reads_films` each picture
+    /// has its image on the host; without, the image is on the device in the integrator's film.
     ///
     /// # Errors
     /// Out of memory, the device has no queue, or it cannot time passes as asked.
@@ -135,14 +136,14 @@ impl FrameRenderer {
         })
     }
 
-    /// Answers camera rays by drawing, which was made for the same scene.
+    /// Answers camera rays by drawing, with a [`Visibility`] that was made for the same scene.
     #[must_use]
     pub fn with_visibility(self, visibility: Visibility) -> Self {
         Self { image: self.image.with_visibility(Some(visibility)), ..self }
     }
 
-    /// Answers shadow rays that lead to lights without extent by shadow maps. They are drawn in frames in
-    /// which lights or triangles have moved.
+    /// Answers shadow rays to lights without extent by shadow maps. A frame draws the maps if lights or
+    /// triangles have moved.
     ///
     /// # Errors
     /// As [`ImagePasses::with_shadow_maps`].
@@ -151,39 +152,40 @@ impl FrameRenderer {
         Ok(Self { image: self.image.with_shadow_maps(&self.device, &scene, config)?, ..self })
     }
 
-    /// The scene of the frame that was submitted last, at first the one that this was made with.
+    /// Returns the scene of the frame that was submitted last; before the first frame, the scene of
+    /// [`FrameRenderer::new`].
     pub fn scene(&self) -> &FrameScene {
         &self.scene
     }
 
-    /// The pose that was submitted last with this scene; absent where there was none.
+    /// Returns the pose that was submitted last with this scene; absent if there was none.
     pub(crate) fn posed(&self) -> Option<&FramePose> {
         self.posed.as_ref()
     }
 
-    /// Frames that can be in flight.
+    /// Returns the maximum number of frames in flight.
     pub fn slots(&self) -> u32 {
         self.frames.slots()
     }
 
-    /// The integrator, with the film.
+    /// Returns the integrator, with the film.
     pub fn integrator(&self) -> &dyn Integrator {
         self.image.integrator()
     }
 
-    /// The structure, and what was counted of it.
+    /// Returns the structure over frames, with its counts.
     pub fn structure(&self) -> &FrameStructure {
         self.frames.structure()
     }
 
-    /// True if a frame can be submitted now; else the oldest is to be taken first.
+    /// Returns true if a frame can be submitted now; otherwise the oldest frame must be taken first.
     pub fn has_free_slot(&self) -> bool {
         self.frames.free_slot().is_some()
     }
 
-    /// Structure and image read another scene from the next recording on.
+    /// Makes the structure and the image passes read another scene from the next recording on.
     fn bind(&mut self, scene: &FrameScene) -> Result<(), FrameError> {
-        // Kernels have more code than the scene needs.
+        // The kernels may have code for more features than the scene needs.
         let gpu = scene.gpu().clone().allowing(self.features);
         self.image.set_scene(&self.device, &gpu)?;
         self.frames.set_scene(gpu.binding())?;
@@ -198,27 +200,29 @@ impl FrameRenderer {
         Ok(self.frames.set_parts(parts)?)
     }
 
-    /// Shows another scene from the next frame on; after an error the one before.
+    /// Shows another scene from the next frame on; after an error the renderer keeps the scene before.
     fn set_scene(&mut self, scene: &FrameScene) -> Result<(), FrameError> {
         check_features(self.features, scene.gpu())?;
         if let Err(error) = self.bind(scene) {
             let before = self.scene.clone();
-            // It was bound already, and pools never shrink: this allocates small tables at most.
+            // The scene before was bound already, and pools never shrink: this allocates small tables at
+            // most.
             self.bind(&before)?;
             return Err(error);
         }
         self.scene = scene.clone();
-        // Its device memory has what was recorded for it before, if anything was.
+        // The scene's device memory has the pose that was last recorded for it, if any was.
         self.posed = None;
         Ok(())
     }
 
-    /// Records a frame and submits it; returns its number. Nothing waits, also where it brings another scene.
+    /// Records a frame and submits it; returns its number. The call does not wait, even if the frame brings
+    /// another scene.
     ///
     /// # Errors
-    /// [`TracerError::Busy`] while all slots hold frames, a size that is not the film's, a view without what
-    /// the structure needs, a scene that kernels have no code for ([`IntegratorError::LeftOut`]) or that is
-    /// not in parts as the structure is, or the device failed.
+    /// [`TracerError::Busy`] while all slots hold frames; a size that differs from the film's; a view that
+    /// lacks what the structure needs; a scene that kernels have no code for ([`IntegratorError::LeftOut`])
+    /// or that is not in the same parts as the structure; or the device failed.
     pub fn submit(&mut self, input: &FrameInput) -> Result<u64, FrameError> {
         if self.frames.free_slot().is_none() {
             return Err(TracerError::Busy { slots: self.frames.slots() }.into());
@@ -271,7 +275,7 @@ impl FrameRenderer {
                 Ok(number)
             }
             Err(error) => {
-                // It is unknown whether the device was told.
+                // It is unknown whether the device has taken the pose.
                 self.posed = None;
                 self.frames.geometry_moved();
                 self.image.scene_moved();
@@ -280,18 +284,19 @@ impl FrameRenderer {
         }
     }
 
-    /// Waits for the oldest frame in flight; absent where none is.
+    /// Waits for the oldest frame in flight and returns its result; absent if no frame is in flight.
     ///
     /// # Errors
-    /// The device failed, no sizes suffice for the structure, rays did not finish in as many rounds as there
-    /// can be ([`FrameError::Unfinished`]), lists are damaged, or surfaces have too many photons around them
+    /// The device failed, no sizes suffice for the structure, rays did not finish in the maximum number of
+    /// rounds ([`FrameError::Unfinished`]), lists are damaged, or surfaces have too many photons around them
     /// ([`IntegratorError::Crowded`]).
     pub fn take(&mut self) -> Result<Option<FrameResult>, FrameError> {
         let ended = self.frames.take()?;
         ended.map(|ended| self.shown(ended)).transpose()
     }
 
-    /// As [`FrameRenderer::take`], without waiting: absent while the oldest frame has not ended.
+    /// Takes the oldest frame as [`FrameRenderer::take`] does, without waiting; absent while that frame has
+    /// not ended.
     ///
     /// # Errors
     /// As [`FrameRenderer::take`].
@@ -308,13 +313,13 @@ impl FrameRenderer {
         let (film, counters) = self.readbacks[ended.slot as usize].read()?;
         let structure = self.frames.structure().structure();
         let unanswered = unanswered(structure, &counters)?;
-        // Frames before it may have allowed more rounds after it was recorded.
+        // Earlier frames may have allowed more rounds after this frame was recorded.
         let has_more_rounds =
             || self.frames.structure().rounds() > pending.rounds || structure.allow_more_rounds();
         if ended.outcome == FrameOutcome::Complete && unanswered > 0 && !has_more_rounds() {
             return Err(FrameError::Unfinished { rays: unanswered });
         }
-        // Frames before it may have allowed more traces for surfaces that paths pass, too.
+        // Earlier frames may also have allowed more traces for surfaces that paths pass.
         let unended = u64::from(film.faults.unended);
         let integrator = self.image.integrator();
         let has_more_traces =

@@ -1,10 +1,10 @@
-//! Samples of an image to make.
+//! Indices of the samples of an image.
 
 use std::iter::StepBy;
 use std::ops::Range;
 
-/// Indices of samples, at the same distance from one to the next: all of an image, some that are added to it,
-/// or a share of them. Random numbers depend on the index, so shares add up to the image.
+/// Indices of samples at equal steps: all samples of an image, samples that are added to an image, or a share
+/// of the samples. Random numbers depend on the index, so the shares add up to the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
     first: u32,
@@ -19,18 +19,19 @@ impl From<Range<u32>> for Samples {
 }
 
 impl Samples {
-    /// Every `step`th of these, from the first on; every one where `step` is 0.
+    /// Returns every `step`th of these samples, from the first on; every one if `step` is 0.
     #[must_use]
     pub fn step_by(self, step: u32) -> Self {
         Self { step: step.max(1), ..self }
     }
 
-    /// Number of samples.
+    /// Returns the number of samples.
     pub fn count(self) -> u32 {
         self.end.saturating_sub(self.first).div_ceil(self.step)
     }
 
-    /// The index of the sample at a place, from 0; the last index there is for a place far beyond the end.
+    /// Returns the index of the sample at a position, counted from 0; the largest `u32` for a position far
+    /// beyond the end.
     pub fn index(self, place: u32) -> u32 {
         self.first.saturating_add(place.saturating_mul(self.step))
     }

@@ -7,15 +7,15 @@ use rasray_gpu_scene::{GpuScene, PosePass};
 
 use crate::FrameError;
 
-/// A scene on the device with what moves it. Cheap to clone: clones are handles to the same scene.
+/// A scene on the device with the pass that moves it. Clones are cheap handles to the same scene.
 #[derive(Clone, Debug)]
 pub struct FrameScene(Arc<(GpuScene, Option<PosePass>)>);
 
 impl FrameScene {
-    /// A scene for renderers with that many frames in flight
-    /// ([`FrameRenderer::slots`](crate::FrameRenderer::slots)). Where the structure is in parts,
-    /// [`PosePass::parts`] was called before. Nothing waits for a scene that is [staged](GpuScene::staged);
-    /// the first frame that shows it takes its tables to the device.
+    /// Makes a scene for renderers with the given number of frames in flight
+    /// ([`FrameRenderer::slots`](crate::FrameRenderer::slots)). If the structure is in parts,
+    /// [`PosePass::parts`] must have been called before. A scene that is [staged](GpuScene::staged) is not
+    /// waited for; the first frame that shows it copies its tables to the device.
     ///
     /// # Errors
     /// Out of memory.
@@ -31,17 +31,17 @@ impl FrameScene {
         Ok(Self(Arc::new((scene, pose))))
     }
 
-    /// The scene on the device.
+    /// Returns the scene on the device.
     pub fn gpu(&self) -> &GpuScene {
         &self.0.0
     }
 
-    /// The pass that moves the scene.
+    /// Returns the pass that moves the scene.
     pub fn pose(&self) -> Option<&PosePass> {
         self.0.1.as_ref()
     }
 
-    /// True if both are handles to one scene.
+    /// Returns true if both are handles to one scene.
     pub fn is(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }

@@ -1,4 +1,4 @@
-//! Rays from the host, hits back to the host.
+//! Traces rays that the host supplies and returns their hits to the host.
 
 use std::time::Instant;
 
@@ -21,28 +21,28 @@ pub struct BatchTracer {
     shares: Shares,
 }
 
-/// Hits and what they cost.
+/// Hits of a batch of rays, and the cost of their trace.
 #[derive(Clone, Debug, Default)]
 pub struct TraceOutcome {
-    /// One per ray, in order.
+    /// Hits, one per ray, in the order of the rays.
     pub hits: Vec<Hit>,
     /// Trace passes, one per submission.
     pub passes: Vec<PassTiming>,
     /// Sums over all rays; work is zero unless the structure counts it.
     pub counters: QueueCounters,
-    /// One per ray, in order; empty unless the structure counts per ray.
+    /// Work of each ray, in the order of the rays; empty unless the structure counts per ray.
     pub work: Vec<RayWork>,
 }
 
 impl TraceOutcome {
-    /// Milliseconds of all trace passes.
+    /// Returns the sum of the durations of all trace passes, milliseconds.
     pub fn milliseconds(&self) -> f64 {
         self.passes.iter().map(|pass| pass.milliseconds).sum()
     }
 }
 
 impl BatchTracer {
-    /// A tracer whose queue holds `capacity` rays.
+    /// Makes a tracer whose queue holds `capacity` rays.
     ///
     /// # Errors
     /// Out of memory.
@@ -52,8 +52,9 @@ impl BatchTracer {
         Ok(Self { device: device.clone(), queue, shares: Shares::default() })
     }
 
-    /// Traces all rays, one submission after another, in at most [`Structure::rounds`] rounds; all of them
-    /// again where some did not finish and the structure allows more. Measurements are of the last time.
+    /// Traces all rays, one submission after another, in at most [`Structure::rounds`] rounds. If some rays
+    /// did not finish and the structure allows more rounds, traces all rays again; the measurements are those
+    /// of the last attempt.
     ///
     /// # Errors
     /// The device fails, rays do not finish, or the structure is not built.
@@ -118,8 +119,8 @@ impl BatchTracer {
         Ok(outcome)
     }
 
-    /// Traces one ray and returns every logged step, in at most
-    /// [`Structure::rounds`] rounds. The structure was made with [`Counters::Steps`].
+    /// Traces one ray and returns every logged step, in at most [`Structure::rounds`] rounds. The structure
+    /// must have been made with [`Counters::Steps`].
     ///
     /// # Errors
     /// The structure does not log steps, or the device fails.

@@ -1,4 +1,4 @@
-//! The one loop that builds, checks and grows.
+//! Loop that builds a structure, checks the outcome and grows the pools until a build is complete.
 
 use std::time::Instant;
 
@@ -7,28 +7,31 @@ use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 
 use crate::{FrameOutcome, FrameStructure, TracerError};
 
-/// Rebuilds after which a structure counts as unstable. One is enough where all pools are counted at once; a
-/// later pool's demand may only be known once an earlier pool sufficed, such as that of the cells of divided
-/// cells, which may be divided themselves, and the demand for pages differs slightly from build to build, for
-/// which [`Structure::check`] adds a margin.
+/// Maximum number of rebuilds; a structure that needs more counts as unstable. One rebuild is enough if one
+/// build counts the demand for all pools. More are needed where the demand for a later pool is known only
+/// once an earlier pool sufficed: cells of divided cells, for example, may be divided themselves. The demand
+/// for pages differs slightly from build to build, for which [`Structure::check`] adds a margin.
 const REBUILDS: u32 = 8;
 
 /// Cost of a build.
 #[derive(Clone, Debug, Default)]
 pub struct BuildOutcome {
-    /// Passes of the last, complete build.
+    /// Times of the passes of the last build, which is complete.
     pub passes: Vec<PassTiming>,
-    /// Times the structure had to grow.
+    /// Number of times that the structure had to grow.
     pub regrows: u32,
-    /// Milliseconds of the last build as measured on the host: its own part, submission and wait.
+    /// Duration of the last build as measured on the host, milliseconds: the host's own part, submission and
+    /// wait.
     pub host_milliseconds: f64,
-    /// Milliseconds of [`Structure::prepare_build`] within that: what the host did before it recorded.
+    /// Duration of [`Structure::prepare_build`] within `host_milliseconds`: the host's work before it
+    /// recorded the build.
     pub prepare_milliseconds: f64,
-    /// The outcome of the last build.
+    /// Status of the last build.
     pub status: BuildStatus,
 }
 
-/// Builds for a viewpoint (or an eye alone, metres relative to the frame origin) and grows until complete.
+/// Builds the structure for a viewpoint (or for an eye alone, metres relative to the frame origin), and grows
+/// it until a build is complete.
 ///
 /// # Errors
 /// The device fails, memory does not suffice, or the demand does not settle.
@@ -41,9 +44,9 @@ pub fn build_until_complete(
     until_complete(device, &mut Whole { structure }, viewpoint.into(), timing)
 }
 
-/// Builds what of a structure over frames is stale from a viewpoint, in its first slot, until all of it is
-/// complete. A frame of it that is in flight has ended before. Passes, and the sums of the outcome, are those
-/// of the parts that were built; none where nothing is stale.
+/// Builds the stale parts of a structure over frames for a viewpoint, in its first slot, and grows them until
+/// all are complete. Any frame of the structure that was in flight must have ended. The passes and the sums
+/// of the outcome cover the parts that were built; there are none if no part is stale.
 ///
 /// # Errors
 /// As [`build_until_complete`].
@@ -56,27 +59,28 @@ pub fn refresh_until_complete(
     until_complete(device, structure, viewpoint.into(), timing)
 }
 
-/// Outcome of a build.
+/// Outcome of one build.
 enum Step {
     Complete,
     /// Pools that were too small have grown.
     Grown,
-    /// Incomplete, and growing does not help or is not allowed any more; with the pool that lacked most.
+    /// The build is incomplete, and growing does not help or is not allowed any more. Holds the pool that
+    /// lacked most elements.
     Stuck(Option<PoolStatus>),
 }
 
-/// A structure, or one over frames, that [`until_complete`] builds.
+/// A structure, or a structure over frames, that [`until_complete`] builds.
 trait Builds {
     fn prepare(&mut self, device: &Device, viewpoint: Viewpoint) -> Result<(), AdsError>;
     fn record(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError>;
-    /// After the build.
+    /// Reads the outcome of the build and grows pools that were too small, if `may_grow`.
     fn finish(&mut self, device: &Device, may_grow: bool) -> Result<Step, AdsError>;
     fn structure(&self) -> &dyn Structure;
-    /// Takes back a recording that was not submitted.
+    /// Undoes the recording of a build that was not submitted.
     fn take_back(&mut self) {}
 }
 
-/// A structure that every build builds anew.
+/// A structure that each build builds completely.
 struct Whole<'a> {
     structure: &'a mut dyn Structure,
 }

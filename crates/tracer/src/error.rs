@@ -3,7 +3,7 @@
 use rasray_ads::{AdsError, PoolStatus};
 use rasray_gpu::GpuError;
 
-/// Error of a build or a trace that has no result.
+/// Error of a build or a trace that produced no result.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TracerError {
@@ -40,7 +40,7 @@ pub enum TracerError {
         /// Rounds allowed.
         rounds: u32,
     },
-    /// Traces found entries with an invalid index: the structure's memory was damaged since the build.
+    /// Traces met list entries with an invalid index: the structure's memory was damaged since the build.
     #[error(
         "{entries} list entries of {structure} had an invalid index while rays were traced: build it again"
     )]

@@ -1,4 +1,4 @@
-//! A structure over frames in flight.
+//! A structure whose builds and traces are recorded in frames, several of them in flight.
 
 use std::collections::VecDeque;
 
@@ -10,36 +10,38 @@ use crate::Refresh;
 /// Settings of a structure over frames in flight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameSettings {
-    /// Frames in flight, at least 1.
+    /// Maximum number of frames in flight, at least 1.
     pub slots: u32,
-    /// Percent that pools grow beyond a demand, so that a frame with a little more is complete at once.
+    /// Percentage by which a pool that grows exceeds its demand, so that a frame with a slightly larger
+    /// demand is complete at once.
     pub headroom: u32,
 }
 
 impl Default for FrameSettings {
-    /// Two frames in flight, half as much again.
+    /// Two frames in flight, and pools that are 50 % larger than their demand.
     fn default() -> Self {
         Self { slots: 2, headroom: 50 }
     }
 }
 
-/// Outcome of the build that a frame was traced through.
+/// Outcome of the build through which a frame was traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameOutcome {
-    /// Everything was stored: what was traced is right.
+    /// The build stored everything, so the results of the frame's traces are valid.
     Complete,
-    /// Something was not stored: traces answered *not ready*, and the frame must not be shown. The structure
-    /// has grown where that helps, and the next frame builds anew.
+    /// The build did not store everything. Traces answered *not ready*, and the frame must not be shown. The
+    /// structure has grown if that helps, and the next frame records a new build.
     Incomplete {
-        /// The pool of all parts that lacked most, with the capacity before it grew. Absent where no counted
-        /// pool lacked anything: an earlier frame has made them larger since the build was recorded, or what
-        /// the build lacked is not counted but follows from the number of triangles.
+        /// The pool, among those of all parts, that lacked most elements, with its capacity before it grew.
+        /// Absent if no counted pool lacked elements: either an earlier frame enlarged the pools after the
+        /// build was recorded, or the build lacked elements of a pool that is not counted because its size
+        /// follows from the number of triangles.
         pool: Option<PoolStatus>,
     },
 }
 
 impl FrameOutcome {
-    /// The outcome of two parts together.
+    /// Returns the outcome of two parts taken together.
     fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::Complete, outcome) | (outcome, Self::Complete) => outcome,
@@ -51,55 +53,58 @@ impl FrameOutcome {
     }
 }
 
-/// Sums over frames.
+/// Counts over all frames of a structure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StructureCounts {
-    /// Frames recorded.
+    /// Number of frames recorded.
     pub frames: u64,
-    /// Frames that recorded a build, if only of a part; the others traced through the last one.
+    /// Number of frames that recorded a build, even if only of one part; the other frames were traced through
+    /// an earlier build.
     pub builds: u64,
-    /// Those of `builds` that built the static part, too; all of them where there are no parts.
+    /// Number of frames among `builds` that also built the static part; equal to `builds` for a structure
+    /// without parts.
     pub static_builds: u64,
-    /// Builds of parts in all frames; as many as `builds` where there are no parts.
+    /// Number of builds of single parts, summed over all frames; equal to `builds` for a structure without
+    /// parts.
     pub part_builds: u64,
-    /// Frames whose build was not complete.
+    /// Number of frames whose build was not complete.
     pub incomplete: u64,
-    /// Times that pools grew.
+    /// Number of times that pools grew.
     pub growths: u64,
 }
 
-/// The last build that was recorded.
+/// The build that was recorded last.
 #[derive(Clone, Copy)]
 struct Built {
     number: u64,
     viewpoint: Viewpoint,
 }
 
-/// State of a part that is built by itself.
+/// State of a part, which is built independently of the other parts.
 #[derive(Default)]
 struct Part {
-    /// The build that the next frame can be traced through, unless something changed.
+    /// The build through which the next frame can be traced, unless something changed since.
     built: Option<Built>,
-    /// Builds recorded so far.
+    /// Number of builds recorded so far.
     builds: u64,
     used: Vec<Option<Used>>,
-    /// The last build whose frame has ended, and its outcome. Frames end in order, so that none traced
-    /// through an earlier one is left.
+    /// Number and outcome of the last build whose frame has ended. Frames end in order, so no frame that was
+    /// traced through an earlier build is still in flight.
     ended: Option<(u64, FrameOutcome)>,
 }
 
-/// Build that a slot's frame was traced through.
+/// The build through which the frame of a slot was traced.
 #[derive(Clone, Copy)]
 struct Used {
     /// Number of the build.
     build: u64,
-    /// True if this frame recorded it.
+    /// True if this frame recorded the build.
     made: bool,
 }
 
 /// Structure over frames in flight, for hosts that record and submit their own frames. It records a build if
-/// the last one is stale, reads the status when a frame has ended, and grows between frames. It never submits
-/// or waits, except in [`FrameStructure::prepare`] for structures that the host builds.
+/// the last build is stale, reads the build's status when a frame has ended, and grows between frames. It
+/// never submits or waits, except in [`FrameStructure::prepare`] for structures that are built on the host.
 ///
 /// Order of calls; any other is an error:
 ///
@@ -107,20 +112,20 @@ struct Used {
 /// 2. after the fence of the slot, in the same order, and before the slot is recorded again:
 ///    [`FrameStructure::finish`].
 ///
-/// Other triangles are handed over between frames.
+/// The host may replace the triangles between frames.
 pub struct FrameStructure {
     structure: Refresh,
     headroom: u32,
     slots: u32,
-    /// As the structure has them; all but the first move.
+    /// Parts in the order in which the structure numbers them; all parts but the first move.
     parts: Vec<Part>,
-    /// Slots of frames that were recorded and not finished, the oldest first.
+    /// Slots of frames that were recorded and not finished yet, the oldest first.
     pending: VecDeque<u32>,
     counts: StructureCounts,
 }
 
 impl FrameStructure {
-    /// Keeps a structure, which was built for nothing yet.
+    /// Takes a structure of which nothing has been built yet.
     ///
     /// # Errors
     /// Out of memory.
@@ -138,26 +143,26 @@ impl FrameStructure {
         Ok(Self { structure, headroom: settings.headroom, slots, parts, pending, counts })
     }
 
-    /// The structure.
+    /// Returns the structure.
     pub fn structure(&self) -> &dyn Structure {
         self.structure.structure()
     }
 
-    /// Sums over all frames so far.
+    /// Returns the counts over all frames so far.
     pub fn counts(&self) -> StructureCounts {
         self.counts
     }
 
-    /// The vertices have moved, or will have by the time that the next frame builds: in parts those of all
-    /// parts that move.
+    /// States that the vertices have moved, or will have moved by the time that the next frame builds. For a
+    /// structure in parts it means the vertices of all parts that move.
     pub fn geometry_moved(&mut self) {
         self.parts_moved(&[]);
     }
 
-    /// Takes for each of the parts that move whether its vertices moved; one that is not stated did. What is
-    /// built for a part in a space of its own stays
-    /// ([`Description::follows`](rasray_ads::Description::follows)). Without parts, all of the vertices have
-    /// moved where any have.
+    /// States for each moving part whether its vertices moved; a part that `moved` does not cover counts as
+    /// moved. The build of a part in a space of its own stays valid
+    /// ([`Description::follows`](rasray_ads::Description::follows)). For a structure without parts, all
+    /// vertices count as moved if any value is true or `moved` is empty.
     pub fn parts_moved(&mut self, moved: &[bool]) {
         if !self.is_in_parts() {
             if moved.is_empty() || moved.contains(&true) {
@@ -174,17 +179,17 @@ impl FrameStructure {
         }
     }
 
-    /// Takes other triangles; all of them are built. Frames in flight keep those that they were recorded
-    /// with.
+    /// Replaces the triangles; all parts are built again. Frames in flight keep the triangles with which they
+    /// were recorded.
     ///
     /// # Errors
-    /// Out of memory, or a [`Combined`](rasray_ads::Combined) structure is given another number of triangles:
-    /// then [`FrameStructure::set_parts`].
+    /// Out of memory, or a [`Combined`](rasray_ads::Combined) structure is given another number of triangles,
+    /// for which [`FrameStructure::set_parts`] must be called.
     pub fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
         self.replace(|structure| structure.set_geometry(device, geometry))
     }
 
-    /// Takes other triangles, of which others may move; all of them are built.
+    /// Replaces the triangles and their division into parts; all parts are built again.
     ///
     /// # Errors
     /// Out of memory.
@@ -192,8 +197,8 @@ impl FrameStructure {
         self.replace(|structure| structure.set_parts(device, parts))
     }
 
-    /// Takes the scene that other triangles belong to ([`Structure::set_scene`]); all of them are built.
-    /// Frames in flight keep the scene that they were recorded with.
+    /// Replaces the scene by the one that new triangles belong to ([`Structure::set_scene`]); all parts are
+    /// built again. Frames in flight keep the scene with which they were recorded.
     ///
     /// # Errors
     /// As [`Structure::set_scene`].
@@ -201,20 +206,20 @@ impl FrameStructure {
         self.replace(|structure| structure.set_scene(scene))
     }
 
-    /// Rounds that a trace records now, of all parts together: more than for a frame in flight where that one
-    /// may have had too few ([`Structure::rounds`]).
+    /// Returns the number of rounds that a trace recorded now has, summed over all parts. It is larger than
+    /// that of a frame in flight if that frame may have had too few rounds ([`Structure::rounds`]).
     pub fn rounds(&self) -> u32 {
         (0..self.parts.len()).fold(0, |sum, part| self.structure.part(part).rounds().saturating_add(sum))
     }
 
-    /// True if the triangles are in parts, so that others are handed over by [`FrameStructure::set_parts`].
+    /// Returns true if the triangles are in parts, so that [`FrameStructure::set_parts`] replaces them.
     pub fn is_in_parts(&self) -> bool {
         self.structure.count() > 1
     }
 
     fn replace(&mut self, with: impl FnOnce(&mut Refresh) -> Result<(), AdsError>) -> Result<(), AdsError> {
         let sizes = self.structure().sizes().clone();
-        // Also where only one part took them.
+        // The builds are stale even if only one part took the new triangles before an error.
         self.parts.iter_mut().for_each(|part| part.built = None);
         with(&mut self.structure)?;
         if *self.structure().sizes() != sizes {
@@ -223,7 +228,7 @@ impl FrameStructure {
         Ok(())
     }
 
-    /// True if a frame from this viewpoint records a build.
+    /// Returns true if a frame from this viewpoint records a build.
     pub fn is_stale(&self, viewpoint: Viewpoint) -> bool {
         (0..self.parts.len()).any(|part| self.is_part_stale(part, viewpoint))
     }
@@ -233,10 +238,10 @@ impl FrameStructure {
         self.parts[part].built.is_none_or(|built| structure.is_stale(built.viewpoint, viewpoint))
     }
 
-    /// Does what only the host can do for the build of the next frame, if that builds: for structures that
-    /// are built on the device alone, nothing. Where
-    /// [`Description::builds_on_host`](rasray_ads::Description::builds_on_host) says so, this waits for the
-    /// device, and vertices must be where they are to be built.
+    /// Does the host's part of the next frame's build, if that frame builds; does nothing for structures that
+    /// are built on the device alone. For a structure with
+    /// [`Description::builds_on_host`](rasray_ads::Description::builds_on_host) it waits for the device, and
+    /// the vertices must already be at the positions for which the structure is to be built.
     ///
     /// # Errors
     /// The device failed, or memory does not suffice.
@@ -249,12 +254,12 @@ impl FrameStructure {
         Ok(())
     }
 
-    /// Records the build of a frame, of each part for which the last one does not hold. What follows in the
-    /// frame may be traced through [`FrameStructure::structure`]. True where a build was recorded.
+    /// Records the build of a frame: of each part whose last build is stale. Everything recorded after it in
+    /// the frame may be traced through [`FrameStructure::structure`]. Returns true if a build was recorded.
     ///
     /// # Errors
-    /// There is no such slot, or the last frame of it was not finished ([`AdsError::Slot`]); the structure
-    /// was not prepared, or it has a view of the camera and the viewpoint has none.
+    /// The slot does not exist, or its last frame was not finished ([`AdsError::Slot`]); the structure was
+    /// not prepared, or the structure has a view of the camera and the viewpoint has none.
     pub fn record(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -270,7 +275,7 @@ impl FrameStructure {
             if made {
                 let build = |structure: &mut dyn Structure| structure.record_build(recorder, slot, viewpoint);
                 if let Err(error) = self.structure.change_part(index, build) {
-                    // The caller cannot submit this frame.
+                    // The caller cannot submit this frame, so its recording is undone.
                     self.take_back(slot);
                     return Err(error);
                 }
@@ -293,13 +298,13 @@ impl FrameStructure {
         Ok(parts_made > 0)
     }
 
-    /// Says what became of the build that a slot's frame was traced through; the caller has waited for the
-    /// frame. Grows where pools were too small.
+    /// Returns the outcome of the build through which a slot's frame was traced; the caller has waited for
+    /// the frame. Grows pools that were too small.
     ///
     /// # Errors
-    /// The slot is not that of the oldest frame that was recorded and not finished ([`AdsError::Slot`]): then
-    /// nothing changed. No sizes suffice, triangles reach out of their bounds ([`AdsError::OutsideBounds`]),
-    /// or out of memory.
+    /// The slot is not that of the oldest frame that was recorded and not finished ([`AdsError::Slot`]);
+    /// nothing changes then. No sizes suffice, triangles reach out of their bounds
+    /// ([`AdsError::OutsideBounds`]), or out of memory.
     pub fn finish(&mut self, device: &Device, slot: u32) -> Result<FrameOutcome, AdsError> {
         if self.pending.front() != Some(&slot) {
             return Err(self.wrong_slot(slot));
@@ -310,7 +315,7 @@ impl FrameStructure {
         for part in 0..self.parts.len() {
             match self.finish_part(device, part, slot) {
                 Ok(of_part) => outcome = outcome.and(of_part),
-                // The others are still to be read.
+                // The outcomes of the other parts must still be read.
                 Err(error) => failed = failed.or(Some(error)),
             }
         }
@@ -321,7 +326,7 @@ impl FrameStructure {
         Ok(outcome)
     }
 
-    /// Outcome of the build of a part that a slot's frame used.
+    /// Returns the outcome of the build of one part that a slot's frame used.
     fn finish_part(&mut self, device: &Device, index: usize, slot: u32) -> Result<FrameOutcome, AdsError> {
         let Some(used) = self.parts[index].used.get_mut(slot as usize).and_then(Option::take) else {
             return Ok(FrameOutcome::Complete);
@@ -346,8 +351,8 @@ impl FrameStructure {
         AdsError::Slot { structure: self.structure().description().name, slot, slots: self.slots }
     }
 
-    /// The frame that was recorded last, for this slot, was not submitted: what it built does not exist.
-    /// Nothing where no frame was recorded for it.
+    /// States that the frame recorded last for this slot was not submitted, so that the builds it recorded do
+    /// not exist. Does nothing if no frame was recorded for the slot.
     pub fn take_back(&mut self, slot: u32) {
         self.pending.retain(|pending| *pending != slot);
         for part in &mut self.parts {
@@ -359,7 +364,7 @@ impl FrameStructure {
         }
     }
 
-    /// Outcome of the build of a part in a slot; grows where it was not complete.
+    /// Reads the outcome of the build of a part in a slot, and grows the part if the build was not complete.
     fn read(&mut self, device: &Device, index: usize, slot: u32) -> Result<FrameOutcome, AdsError> {
         let structure = self.structure.part(index);
         let status = structure.status(slot)?;
@@ -399,7 +404,7 @@ impl std::fmt::Debug for FrameStructure {
 mod tests {
     use super::*;
 
-    /// A host records frames on a thread of its own: this is checked when it is compiled.
+    /// A host may record frames on a thread of its own; the test fails to compile if it cannot.
     #[test]
     fn structures_go_to_another_thread() {
         fn goes<T: Send + Sync + ?Sized>() {}

@@ -1,4 +1,4 @@
-//! Frames in flight on a device of one's own.
+//! Frames in flight, submitted to the queue of a device that rasray made.
 
 use std::collections::VecDeque;
 
@@ -7,14 +7,15 @@ use rasray_gpu::{Device, Flights, PassTiming, Recorder, Timing};
 
 use crate::{FrameOutcome, FrameSettings, FrameStructure, Refresh, TracerError};
 
-/// Frames of a structure in flight: each records what moves its vertices, the build if that is stale, and
-/// what traces through it, in one submission that nothing waits for until the frame is taken.
+/// Frames of a structure in flight. Each frame records the passes that move its vertices, the build if it is
+/// stale, and the passes that trace through the structure, in one submission. Nothing waits for that
+/// submission until the frame is taken.
 #[derive(Debug)]
 pub struct Frames {
     device: Device,
     flights: Flights,
     structure: FrameStructure,
-    /// Submitted and not taken, the oldest first.
+    /// Frames that were submitted and not taken yet, the oldest first.
     pending: VecDeque<Pending>,
     next: u64,
 }
@@ -29,20 +30,21 @@ struct Pending {
 /// A frame that has ended.
 #[derive(Clone, Debug)]
 pub struct EndedFrame {
-    /// Its number, from 0 in the order of submission.
+    /// Number of the frame, from 0 in the order of submission.
     pub number: u64,
-    /// Its slot: what its recording wrote for the host is there until the slot is used again.
+    /// Slot of the frame. Data that its recording wrote for the host stays valid until the slot is used
+    /// again.
     pub slot: u32,
-    /// Says whether what it traced is right.
+    /// Outcome of the build through which the frame was traced; results are valid if it is complete.
     pub outcome: FrameOutcome,
-    /// True if it recorded a build.
+    /// True if the frame recorded a build.
     pub built: bool,
-    /// Times of its passes, where they are timed.
+    /// Times of the frame's passes, if they are timed.
     pub passes: Vec<PassTiming>,
 }
 
 impl Frames {
-    /// Frames of a structure.
+    /// Makes the loop of frames over a structure.
     ///
     /// # Errors
     /// Out of memory, the device has no queue, or it cannot time passes as asked.
@@ -57,33 +59,33 @@ impl Frames {
         Ok(Self { device: device.clone(), flights, structure, pending: VecDeque::new(), next: 0 })
     }
 
-    /// The structure, and what was counted of it.
+    /// Returns the structure over frames, with its counts.
     pub fn structure(&self) -> &FrameStructure {
         &self.structure
     }
 
-    /// Frames that can be in flight.
+    /// Returns the maximum number of frames in flight.
     pub fn slots(&self) -> u32 {
         self.flights.slots()
     }
 
-    /// The slot of the next frame; absent while all hold frames that were not taken.
+    /// Returns the slot of the next frame; absent while all slots hold frames that were not taken.
     pub fn free_slot(&self) -> Option<u32> {
         let slot = (self.next % u64::from(self.slots())) as u32;
         (self.pending.len() < self.slots() as usize).then_some(slot)
     }
 
-    /// As [`FrameStructure::geometry_moved`].
+    /// States that the vertices moved, as [`FrameStructure::geometry_moved`] does.
     pub fn geometry_moved(&mut self) {
         self.structure.geometry_moved();
     }
 
-    /// As [`FrameStructure::parts_moved`].
+    /// States which parts moved, as [`FrameStructure::parts_moved`] does.
     pub fn parts_moved(&mut self, moved: &[bool]) {
         self.structure.parts_moved(moved);
     }
 
-    /// As [`FrameStructure::set_geometry`].
+    /// Replaces the triangles, as [`FrameStructure::set_geometry`] does.
     ///
     /// # Errors
     /// Out of memory.
@@ -91,7 +93,7 @@ impl Frames {
         self.structure.set_geometry(&self.device, geometry)
     }
 
-    /// As [`FrameStructure::set_parts`].
+    /// Replaces the triangles and their parts, as [`FrameStructure::set_parts`] does.
     ///
     /// # Errors
     /// Out of memory.
@@ -99,7 +101,7 @@ impl Frames {
         self.structure.set_parts(&self.device, parts)
     }
 
-    /// As [`FrameStructure::set_scene`].
+    /// Replaces the scene, as [`FrameStructure::set_scene`] does.
     ///
     /// # Errors
     /// As [`FrameStructure::set_scene`].
@@ -107,15 +109,16 @@ impl Frames {
         self.structure.set_scene(scene)
     }
 
-    /// Records a frame and submits it; returns its number. `before` records what moves vertices and comes
-    /// first, `after` what traces through the structure; both are given the slot, which is
-    /// [`Frames::free_slot`]. Where the host has a part in the build
-    /// ([`Description::builds_on_host`](rasray_ads::Description::builds_on_host)), `before` is submitted by
-    /// itself and waited for.
+    /// Records a frame and submits it; returns its number. `before` records the passes that move vertices and
+    /// comes first; `after` records the passes that trace through the structure. Both are given the slot,
+    /// which is [`Frames::free_slot`]. If the host does a part of the build
+    /// ([`Description::builds_on_host`](rasray_ads::Description::builds_on_host)), `before` is submitted
+    /// separately and waited for.
     ///
     /// # Errors
-    /// [`TracerError::Busy`]; what `after` returns, or what the device, the recording or the structure
-    /// reports: nothing of the frame is submitted then, but for `before` where it is submitted by itself.
+    /// [`TracerError::Busy`]; the error that `after` returns; an error of the device, the recording or the
+    /// structure. After an error no part of the frame is submitted, except `before` if it is submitted
+    /// separately.
     pub fn submit<E: From<TracerError>>(
         &mut self,
         viewpoint: Viewpoint,
@@ -160,8 +163,8 @@ impl Frames {
         Ok(number)
     }
 
-    /// Waits for the oldest frame in flight and says what became of it; the structure has grown where it was
-    /// too small. Absent where none is in flight.
+    /// Waits for the oldest frame in flight and returns its outcome; the structure has grown if it was too
+    /// small. Absent if no frame is in flight.
     ///
     /// # Errors
     /// The device failed, or no sizes suffice ([`FrameStructure::finish`]).
@@ -172,7 +175,8 @@ impl Frames {
         Ok(Some(EndedFrame { number, slot, outcome, built, passes }))
     }
 
-    /// As [`Frames::take`], without waiting: absent while the oldest frame has not ended.
+    /// Takes the oldest frame as [`Frames::take`] does, without waiting; absent while that frame has not
+    /// ended.
     ///
     /// # Errors
     /// As [`Frames::take`].

@@ -1,10 +1,10 @@
-//! Drivers of structures on the host: builds until complete, batches of rays, frames in flight. Embedders
-//! record frames with it; comparisons, benches and tests build and trace with it.
+//! Loops on the host that drive structures: builds until complete, batches of rays, frames in flight.
+//! Embedders record their frames with this crate; comparisons, benches and tests build and trace with it.
 //!
 //! - [`FrameStructure`] builds a structure over frames in flight. It neither submits nor waits, so a host
 //!   records its own frames with it.
-//! - [`Frames`] is the whole loop of a structure over frames, with its submissions.
-//! - [`build_until_complete`] submits builds and resizes until one is complete.
+//! - [`Frames`] is the complete loop of a structure over frames, with its submissions.
+//! - [`build_until_complete`] submits builds and resizes the pools until a build is complete.
 //! - [`BatchTracer`] traces any number of rays and returns their hits.
 //! - [`Replay`] logs the steps of single rays.
 

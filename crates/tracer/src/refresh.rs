@@ -1,20 +1,20 @@
-//! Structures over frames, of which a frame builds all or parts anew.
+//! Structures over frames, and the parts of them that a frame builds.
 
 use rasray_ads::{AdsError, Combined, Geometry, GeometryParts, SceneBinding, Structure};
 use rasray_gpu::Device;
 
-/// A structure over frames, and what of it a frame builds where triangles have moved.
+/// A structure over frames, and the part of it that a frame builds if triangles have moved.
 pub enum Refresh {
-    /// All triangles.
+    /// A structure over all triangles, all of which a frame builds.
     All(Box<dyn Structure>),
-    /// The parts that moved. The static part, and those that did not move, are built where they are stale
-    /// themselves: the first time, where their pools grew, for other triangles, and from another view where
-    /// the structure depends on it.
+    /// A structure in parts, of which a frame builds those that moved. The static part and the parts that did
+    /// not move are built only if they are stale themselves: for the first time, after their pools grew, for
+    /// new triangles, and for another viewpoint if the structure depends on it.
     Parts(Box<Combined>),
 }
 
 impl Refresh {
-    /// The structure that rays are traced through.
+    /// Returns the structure through which rays are traced.
     pub fn structure(&self) -> &dyn Structure {
         match self {
             Self::All(structure) => structure.as_ref(),
@@ -22,7 +22,7 @@ impl Refresh {
         }
     }
 
-    /// The structure, to be changed as a whole.
+    /// Returns the structure, for changes that concern all of its parts.
     pub(crate) fn structure_mut(&mut self) -> &mut dyn Structure {
         match self {
             Self::All(structure) => structure.as_mut(),
@@ -30,7 +30,7 @@ impl Refresh {
         }
     }
 
-    /// Parts that are built apart; all but the first move.
+    /// Returns the number of parts that are built independently; all parts but the first move.
     pub(crate) fn count(&self) -> usize {
         match self {
             Self::All(_) => 1,

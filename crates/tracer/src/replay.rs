@@ -1,4 +1,4 @@
-//! The logged steps of one ray's traversal.
+//! Logged steps of the traversal of one ray.
 
 use std::fmt;
 
@@ -10,30 +10,31 @@ use rasray_gpu::Device;
 
 use crate::TracerError;
 
-/// Capacity for steps at first; a longer traversal is traced again with capacity for all.
+/// Initial capacity of the log, in steps; a longer traversal is traced again with capacity for all of its
+/// steps.
 const FIRST_STEPS: u32 = 4096;
 
-/// Maximum number of steps that are kept: 28 MiB. Further ones are counted.
+/// Maximum number of steps that are kept: 28 MiB. Steps beyond it are counted only.
 const MOST_STEPS: u32 = 1 << 20;
 
-/// One ray's traversal, step by step.
+/// Traversal of one ray, step by step.
 #[derive(Clone, Debug)]
 pub struct Replay {
     /// Name of the structure.
     pub structure: &'static str,
-    /// The ray.
+    /// Ray that was traced.
     pub ray: Ray,
     /// The mode of the trace: nearest hit or occlusion.
     pub mode: TraceMode,
-    /// The steps, in order.
+    /// Kept steps, in the order of the traversal.
     pub steps: Vec<TraceStep>,
-    /// Steps after those kept.
+    /// Number of steps after the kept ones.
     pub omitted: u32,
-    /// The answer; `None` where the ray did not finish or the structure is not built.
+    /// Hit of the ray; `None` if the ray did not finish or the structure is not built.
     pub hit: Option<Hit>,
-    /// The work of the ray.
+    /// Work of the ray.
     pub work: RayWork,
-    /// Dispatches it took part in.
+    /// Number of dispatches that the ray took part in.
     pub rounds: u32,
 }
 
@@ -92,19 +93,19 @@ impl Replay {
         })
     }
 
-    /// The work that the kept steps add up to; equal to [`Replay::work`] where none is omitted.
+    /// Returns the sum of the work of the kept steps; equal to [`Replay::work`] if no step is omitted.
     pub fn logged_work(&self) -> RayWork {
         let count = |kind| self.steps.iter().filter(|step| step.kind() == kind).count() as u32;
         let of_cells = |step: &&TraceStep| {
             use StepKind::{Cell, Entry, Occupied, View};
             matches!(step.kind(), Cell | Entry | Occupied | View)
         };
-        // A cell is searched where something of what it holds is read next.
+        // A cell counts as searched if the next step reads an entry or an occupied voxel.
         let of_cells: Vec<StepKind> = self.steps.iter().filter(of_cells).map(TraceStep::kind).collect();
         let is_searched = |pair: &&[StepKind]| {
             pair[0] == StepKind::Cell && matches!(pair[1], StepKind::Entry | StepKind::Occupied)
         };
-        // A ray enters a view where it was in another; each part begins anew.
+        // A ray enters a view if the step before was in another view; each part begins anew.
         let (mut view, mut views) = (None, 0);
         for step in &self.steps {
             match step.kind() {
@@ -126,7 +127,8 @@ impl Replay {
         }
     }
 
-    /// The steps that concern a primitive, each with the cell, view or node in which it occurred.
+    /// Returns the steps that concern a primitive, each with the step of the cell, view or node in which it
+    /// occurred.
     pub fn steps_of(&self, primitive: u32) -> Vec<(Option<&TraceStep>, &TraceStep)> {
         let mut place = None;
         let mut found = Vec::new();
@@ -142,7 +144,7 @@ impl Replay {
 }
 
 impl fmt::Display for Replay {
-    /// The ray, then one step per line, indented by the step that contains it.
+    /// Writes the ray, then one step per line, indented below the step that contains it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Ray { origin, direction, t_min, t_max, .. } = self.ray;
         let asked = match self.mode {

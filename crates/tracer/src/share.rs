@@ -1,11 +1,11 @@
-//! Number of rays in one submission.
+//! Number of rays per submission.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
 use rasray_ads::Structure;
 
-/// Rays of the first submission to a structure that has not been timed yet.
+/// Number of rays in the first submission to a structure that has not been timed yet.
 const FIRST: u32 = 1024;
 
 /// Minimum number of rays per submission, unless fewer are left.
@@ -14,17 +14,17 @@ const LEAST: u32 = 64;
 /// Maximum duration of one submission in seconds: far below what any driver or timeout allows.
 const SECONDS: f64 = 1.0;
 
-/// Maximum ratio of a submission to the one before.
+/// Maximum ratio of the number of rays in a submission to that of the one before.
 const GROWTH: u32 = 8;
 
-/// Maximum number of rays of a submission per structure, adapted to the time of the last one: a million
-/// triangles tested one by one take a million times as long as one, and a submission that takes a minute is
-/// ended by a driver or a timeout.
+/// Maximum number of rays per submission for each structure, adapted to the duration of its last submission.
+/// A million triangles tested one by one take a million times as long as one triangle, and a driver or a
+/// timeout ends a submission that takes a minute.
 #[derive(Debug, Default)]
 pub(crate) struct Shares(Mutex<HashMap<Contestant, u32>>);
 
-/// A structure, identified by its address: two of one kind may have different scenes and options. A later
-/// value at the same address starts from its predecessor's share and corrects it.
+/// Identity of a structure: its address, because two structures of one kind may have different scenes and
+/// options. A new structure at the address of an earlier one starts from that one's share and corrects it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Contestant(usize);
 
@@ -35,13 +35,13 @@ impl From<&dyn Structure> for Contestant {
 }
 
 impl Shares {
-    /// Rays of the next submission to that structure.
+    /// Returns the number of rays in the next submission to a structure, at most `capacity`.
     pub(crate) fn of(&self, structure: Contestant, capacity: u32) -> u32 {
         let shares = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         shares.get(&structure).copied().unwrap_or(FIRST).min(capacity)
     }
 
-    /// Records the time of a submission.
+    /// Takes the duration of a submission into account.
     pub(crate) fn learn(&self, structure: Contestant, rays: u32, seconds: f64) {
         let mut shares = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let share = shares.entry(structure).or_insert(FIRST);
@@ -49,11 +49,11 @@ impl Shares {
     }
 }
 
-/// The share after a submission of `rays`, at most `share`, with this duration.
+/// Returns the share after a submission of `rays` rays, at most `share`, that took `seconds`.
 fn next(share: u32, rays: u32, seconds: f64) -> u32 {
-    // The conversion saturates.
+    // The conversion to `u32` saturates.
     let fitting = (f64::from(rays) * SECONDS / seconds.max(1e-6)) as u32;
-    // The time of a small rest does not predict that of larger submissions, unless it was too long.
+    // The duration of a small remainder does not predict that of larger submissions, unless it was too long.
     let most = if rays < share { share } else { share.saturating_mul(GROWTH) };
     let least = if rays < share { share.min(fitting) } else { LEAST };
     fitting.clamp(least.max(LEAST).min(most), most)
@@ -72,7 +72,7 @@ mod tests {
         assert_eq!(next(1024, 1024, 8.0), 128);
         assert_eq!(next(1024, 1024, 1e6), LEAST);
         assert_eq!(next(u32::MAX, u32::MAX, 0.0), u32::MAX);
-        // A small rest does not raise the share.
+        // A small remainder does not raise the share.
         assert_eq!(next(1024, 10, 0.0), 1024);
         assert_eq!(next(1024, 100, 1.0), 100);
         assert_eq!(next(LEAST, 1, 60.0), LEAST);
