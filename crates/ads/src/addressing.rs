@@ -1,4 +1,4 @@
-//! Addressing of the pools of a structure by shaders, and the modules that a structure uses for it.
+//! Addressing of a structure's pools by shaders, and the shader modules that a structure uses for it.
 
 use crate::words;
 use std::collections::BTreeMap;
@@ -9,7 +9,7 @@ use rasray_shaders_glsl::Shader;
 
 use crate::{AdsError, SceneBinding};
 
-/// Way in which shaders reach the pools. Changes no hit.
+/// Way in which shaders reach the pools. It does not change any hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Addressing {
     /// Storage-buffer descriptors; a pool is limited to `maxStorageBufferRange`.
@@ -22,17 +22,17 @@ pub enum Addressing {
 words! { Addressing { Descriptor "descriptor", Address "address" } }
 
 impl Addressing {
-    /// Adds the device features that it needs.
+    /// Adds the device features that the addressing needs.
     pub fn add_to(self, requirements: &mut Requirements) {
         if self == Self::Address {
             requirements.required.push(Feature::BufferDeviceAddress);
         }
     }
 
-    /// Checks that a device offers it.
+    /// Checks that a device supports the addressing.
     ///
     /// # Errors
-    /// Addresses without `bufferDeviceAddress`.
+    /// Addresses on a device without `bufferDeviceAddress`.
     pub fn check(self, device: &Device) -> Result<(), AdsError> {
         if self == Self::Address && !device.has(Feature::BufferDeviceAddress) {
             return Err(AdsError::Option {
@@ -45,12 +45,12 @@ impl Addressing {
     }
 }
 
-/// A device address as shaders take it, low word first.
+/// Splits a device address into the two words that shaders take, low word first.
 pub(crate) fn halves(address: u64) -> [u32; 2] {
     [address as u32, (address >> 32) as u32]
 }
 
-/// Finds the modules of one structure for one addressing.
+/// Finds the shader modules of one structure for one addressing.
 #[derive(Clone, Copy, Debug)]
 pub struct Modules {
     /// Name of the structure, for errors.
@@ -61,28 +61,28 @@ pub struct Modules {
     pub addressing: Addressing,
 }
 
-/// Modules that trace a queue.
+/// Shader modules that trace a queue.
 #[derive(Clone, Copy, Debug)]
 pub struct TraceModules {
-    /// Nearest hits and occlusion.
+    /// Module for nearest hits and occlusion.
     pub trace: &'static Shader,
-    /// Surfaces; absent where the scene's shaders are not compiled in.
+    /// Module for surfaces; absent if the scene's shaders are not compiled in.
     pub surfaces: Option<&'static Shader>,
-    /// First hits of camera rays; absent where the structure has none.
+    /// Module for first hits of camera rays; absent if the structure has no first hits.
     pub first_hits: Option<&'static Shader>,
 }
 
 impl Modules {
-    /// Adds what its shaders need of a device.
+    /// Adds the device features and limits that the modules need.
     pub fn add_to(&self, requirements: &mut Requirements) {
         self.addressing.add_to(requirements);
         requirements.storage_buffers = requirements.storage_buffers.max(self.storage_buffers());
     }
 
-    /// Maximum number of storage buffers that one of its modules uses.
+    /// Returns the maximum number of storage buffers that one of the modules uses.
     fn storage_buffers(&self) -> u32 {
         type Known = BTreeMap<(&'static str, bool), u32>;
-        // Modules are read once, each in some milliseconds.
+        // Each module is read only once, because reading takes some milliseconds.
         static KNOWN: Mutex<Known> = Mutex::new(BTreeMap::new());
         let by_address = self.addressing == Addressing::Address;
         let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -97,10 +97,10 @@ impl Modules {
         })
     }
 
-    /// The module of that name in the folder of the structure's shaders.
+    /// Returns the module with that name in the folder of the structure's shaders.
     ///
     /// # Errors
-    /// [`AdsError::ModuleMissing`]: it is not compiled in.
+    /// [`AdsError::ModuleMissing`]: the module is not compiled in.
     pub fn find(&self, name: &str) -> Result<&'static Shader, AdsError> {
         let suffix = match self.addressing {
             Addressing::Descriptor => "",
@@ -111,16 +111,16 @@ impl Modules {
             .ok_or(AdsError::ModuleMissing { structure: self.structure, module })
     }
 
-    /// The modules that trace.
+    /// Returns the modules that trace.
     ///
     /// # Errors
-    /// The scene has alpha masks and the scene's shaders are not compiled in.
+    /// The scene has alpha masks, and the scene's shaders are not compiled in.
     pub fn trace(&self, scene: Option<&SceneBinding>) -> Result<TraceModules, AdsError> {
         self.trace_variant("", scene)
     }
 
-    /// Modules of [`Modules::trace`] for a structure whose trace modules are compiled once per option value:
-    /// `variant` is the suffix of their names, such as `.cells`.
+    /// Returns the modules of [`Modules::trace`] for a structure whose trace modules are compiled once per
+    /// option value: `variant` is the suffix of their names, such as `.cells`.
     ///
     /// # Errors
     /// As [`Modules::trace`].

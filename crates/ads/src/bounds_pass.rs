@@ -1,4 +1,4 @@
-//! Bounds that the device computes.
+//! Bounds of geometries, computed on the device.
 
 use std::mem::offset_of;
 
@@ -12,24 +12,24 @@ use crate::geometry::BINDINGS;
 use crate::geometry_gather::{GATHER_BINDINGS, pipeline};
 use crate::{AdsError, Geometry, GeometryHeader, GeometryParts};
 
-/// Bytes of the keys of a corner of the bounds.
+/// Bytes of the integer keys of one corner of the bounds.
 const KEY_BYTES: u64 = size_of::<[u32; 3]>() as u64;
 
 /// Computes the bounds of geometries on the device, for positions that the device moved.
 #[derive(Debug)]
 pub struct BoundsPass {
     measure: ComputePipeline,
-    /// As `measure`, before indices are gathered.
+    /// Measures the bounds from indices before they are gathered.
     measure_gathered: ComputePipeline,
     end: ComputePipeline,
     unite: ComputePipeline,
 }
 
 impl BoundsPass {
-    /// Makes the pipelines, for every geometry of the device.
+    /// Makes the pipelines, which serve every geometry of the device.
     ///
     /// # Errors
-    /// The device refuses one.
+    /// The device refuses a pipeline.
     pub fn new(device: &Device) -> Result<Self, AdsError> {
         let layout = device.create_set_layout("geometry", BINDINGS)?;
         let gathered = device.create_set_layout("geometry gather", GATHER_BINDINGS)?;
@@ -43,9 +43,9 @@ impl BoundsPass {
         })
     }
 
-    /// Records the bounds of a geometry of which only parts moved: those of each part that moves, by reading
-    /// its triangles alone, and from these and the bounds that the header of the static part states, those of
-    /// the whole. Otherwise as [`BoundsPass::record`].
+    /// Records the computation of the bounds of a geometry of which only parts moved. It reads the triangles
+    /// of the moving parts alone for their bounds, and unites these with the bounds that the static part's
+    /// header states into those of the whole. Otherwise it does the same as [`BoundsPass::record`].
     pub fn record_parts(&self, recorder: &mut Recorder<'_>, parts: &GeometryParts) {
         for part in &parts.parts()[1..] {
             self.record(recorder, part);
@@ -56,11 +56,11 @@ impl BoundsPass {
     }
 
     /// Records the computation of the bounds of all triangles, in two dispatches that read every triangle
-    /// once, into the header on the device; one more counts the triangles where only the device knows their
-    /// number. Positions and indices are visible to compute shaders; the bounds are visible to all that
-    /// follows. Indices that builds gather are read where they are, since the build that follows gathers
-    /// them. Corners that are not finite are ignored; the check of a build counts triangles with infinite
-    /// ones.
+    /// once, into the header on the device; a further dispatch counts the triangles if only the device knows
+    /// their number. Positions and indices must be visible to compute shaders before; the bounds are visible
+    /// to all commands that follow. Indices that builds gather are read at their source, since the build that
+    /// follows gathers them. Corners that are not finite are ignored; the check of a build counts triangles
+    /// with infinite corners.
     pub fn record(&self, recorder: &mut Recorder<'_>, geometry: &Geometry) {
         let [lower, upper] = [offset_of!(GeometryHeader, lower_keys), offset_of!(GeometryHeader, upper_keys)]
             .map(|at| at as u64);

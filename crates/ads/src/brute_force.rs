@@ -1,4 +1,4 @@
-//! The brute-force structure: every ray tests every triangle. Every other structure is compared with it.
+//! The brute-force structure: every ray tests every triangle. All other structures are compared with it.
 
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
@@ -9,10 +9,10 @@ use crate::{
     RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, Trace, TracedPart, Viewpoint,
 };
 
-/// Tests every triangle: O(rays x triangles), no memory of its own.
+/// Structure that tests every triangle for every ray: O(rays x triangles), no memory of its own.
 ///
-/// Triangles that are read in place need no build. A build gathers the indices of all others, and counts
-/// triangles whose number only the device knows; until then traces answer *not ready*.
+/// Triangles that are read in place need no build. Otherwise a build gathers the indices, and counts the
+/// triangles if only the device knows their number; until then traces answer *not ready*.
 #[derive(Debug)]
 pub struct BruteForce {
     description: Description,
@@ -21,19 +21,19 @@ pub struct BruteForce {
     sizes: Sizes,
     work_budget: u32,
     slots: u32,
-    /// True if a build of these triangles was recorded, or none is needed.
+    /// True if a build of these triangles was recorded, or if they need no build.
     is_readable: bool,
 }
 
 impl BruteForce {
-    /// Requirements of a device.
+    /// Returns the requirements on a device.
     pub fn requirements_of() -> Requirements {
         let mut requirements = Requirements::compute();
         MODULES.add_to(&mut requirements);
         requirements
     }
 
-    /// Makes the kernels. Surfaces and alpha masks need `scene`; without it geometry is opaque.
+    /// Makes the kernels. Surfaces and alpha masks need `scene`; without a scene all geometry is opaque.
     ///
     /// # Errors
     /// The device refuses a pipeline.
@@ -80,7 +80,7 @@ impl BruteForce {
     }
 }
 
-/// It has no pools to reach, so there is one way to do so.
+/// Modules of the structure. It has no pools, so one addressing is enough.
 const MODULES: Modules =
     Modules { structure: "brute-force", prefix: "brute", addressing: Addressing::Descriptor };
 
@@ -131,7 +131,7 @@ impl Structure for BruteForce {
     }
 
     fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {
-        // It has no pools.
+        // The structure has no pools.
         status.check(headroom, |_| Ok(Sizes::default()))
     }
 

@@ -1,4 +1,4 @@
-//! A structure in parts, combined when rays are traced.
+//! A structure made of parts whose hits are combined when rays are traced.
 
 use rasray_gpu::{Device, GpuError, Recorder};
 
@@ -7,35 +7,36 @@ use crate::{
     RayQueue, SceneBinding, Sizes, Start, Structure, StructureReport, Trace, TracedPart, Viewpoint,
 };
 
-/// Structures of a kind over the parts of a geometry. A ray is traced through the static part and then
-/// through those that move, one after the other: the nearest of the hits that each alone gives wins, and at
-/// the same t the lower id, as within one structure; of stored fragments that of the part before. So hits are
-/// those of one structure over all triangles, bit for bit, where it finds every triangle
-/// ([`StructureKind::Primitive`](crate::StructureKind::Primitive)). Others have the errors of several
-/// structures, each with views and cells around its own part.
+/// Structures of one kind over the parts of a geometry. A ray is traced through the static part and then
+/// through the moving parts, one after the other. The nearest of the hits in the parts wins. At equal t the
+/// hit with the lower id wins, as within one structure; among stored fragments the fragment of the earlier
+/// part wins. So the hits are those of one structure over all triangles, bit for bit, if the structure finds
+/// every triangle ([`StructureKind::Primitive`](crate::StructureKind::Primitive)). Other kinds have the
+/// errors of several structures, each with views and cells around its own part.
 ///
-/// As a [`Structure`] it builds all parts. What builds only the parts that moved is a loop over frames that
-/// keeps each part by itself (`rasray_tracer::FrameStructure`), through [`Combined::change_part`].
+/// As a [`Structure`] it builds all parts. To build only the parts that moved, a loop over frames keeps track
+/// of each part separately (`rasray_tracer::FrameStructure`), through [`Combined::change_part`].
 pub struct Combined {
     description: Description,
     geometry: GeometryParts,
-    /// The static part first.
+    /// Structures over the parts, the static part first.
     parts: Vec<Box<dyn Structure>>,
-    /// The pools of all.
+    /// Sizes of the pools of all parts.
     sizes: Sizes,
 }
 
 impl Combined {
-    /// Makes the structures, the static one first.
+    /// Makes the structures, that of the static part first.
     ///
     /// # Errors
-    /// The error of `make`, or [`AdsError::InParts`] for structures that are not of a kind.
+    /// The error of `make`, or [`AdsError::InParts`] if the structures are not all of one kind.
     pub fn new<E: From<AdsError>>(
         geometry: &GeometryParts,
         make: impl FnMut(&Geometry) -> Result<Box<dyn Structure>, E>,
     ) -> Result<Self, E> {
         let parts = geometry.parts().iter().map(make).collect::<Result<Vec<_>, E>>()?;
-        // No part alone knows first hits of all, and all triangles together are in no space of their own.
+        // No single part has the first hits of all triangles, and all triangles together are not in a space
+        // of their own.
         let description = Description { follows: false, first_hits: false, ..parts[0].description().clone() };
         let is_other =
             |part: &Description| part.name != description.name || part.counters != description.counters;
@@ -48,32 +49,32 @@ impl Combined {
         Ok(Self { description, geometry: geometry.clone(), parts, sizes })
     }
 
-    /// The parts of the geometry.
+    /// Returns the parts of the geometry.
     pub fn geometry(&self) -> &GeometryParts {
         &self.geometry
     }
 
-    /// Number of parts, with the static one.
+    /// Returns the number of parts, the static part included.
     pub fn count(&self) -> usize {
         self.parts.len()
     }
 
-    /// The structure of a part: 0 is the static one, then those that move in the order of
+    /// Returns the structure of a part: 0 is the static part, followed by the moving parts in the order of
     /// [`GeometryParts::moving`].
     ///
     /// # Panics
-    /// There is no such part.
+    /// The part does not exist.
     pub fn part(&self, part: usize) -> &dyn Structure {
         self.parts[part].as_ref()
     }
 
-    /// Changes the structure of a part, which is numbered as for [`Combined::part`].
+    /// Changes the structure of a part, numbered as for [`Combined::part`].
     ///
     /// # Errors
     /// The error of `change`.
     ///
     /// # Panics
-    /// There is no such part.
+    /// The part does not exist.
     pub fn change_part<T>(
         &mut self,
         part: usize,
@@ -84,11 +85,11 @@ impl Combined {
         changed
     }
 
-    /// Takes other triangles, of which others may move, in as many parts; the next build of each part reads
-    /// them.
+    /// Replaces the triangles and the selection of those that move, in the same number of parts; the next
+    /// build of each part reads the new triangles.
     ///
     /// # Errors
-    /// [`AdsError::InParts`] where there are more or fewer parts; out of memory.
+    /// [`AdsError::InParts`] if the number of parts differs; out of memory.
     pub fn set_parts(&mut self, device: &Device, geometry: &GeometryParts) -> Result<(), AdsError> {
         if geometry.parts().len() != self.parts.len() {
             let reason = "other triangles are in as many parts as there are structures";
@@ -123,8 +124,8 @@ impl Structure for Combined {
         Ok(())
     }
 
-    /// As many triangles as before, in the same parts, within the bounds that are stated for all of them; for
-    /// others [`Combined::set_parts`].
+    /// Takes new positions for the same number of triangles, in the same parts, within the bounds that the
+    /// geometry states for all of them; [`Combined::set_parts`] takes other triangles.
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
         if geometry.triangle_count() != self.geometry.whole().triangle_count() {
             let reason = "for another number of triangles `set_parts` says which of them move";
@@ -193,7 +194,7 @@ impl Structure for Combined {
     }
 
     fn allow_more_rounds(&self) -> bool {
-        // Each of them allows more.
+        // Every part must allow more rounds, so the iteration does not stop at the first that does.
         self.parts.iter().filter(|part| part.allow_more_rounds()).count() > 0
     }
 
@@ -204,7 +205,7 @@ impl Structure for Combined {
             }
             let start = match number {
                 0 => trace.start.of_all_rays(),
-                // The part of all that moves is met by many rays.
+                // With a single moving part most rays meet its bounds, so selecting rays does not pay.
                 _ if self.parts.len() == 2 => Start::Continue,
                 _ => Start::Part(self.geometry.rays_of(number)),
             };
@@ -221,7 +222,7 @@ impl Structure for Combined {
     ) -> Result<(), AdsError> {
         let last = self.parts.len() - 1;
         if self.description.kind.finds_triangles() {
-            // The queue has noted faults of the others.
+            // The queue has noted the faults of the other parts already.
             return self.parts[last].record_surfaces(recorder, queue, domain, TracedPart::Whole);
         }
         for (number, part) in self.parts.iter().enumerate() {
@@ -311,7 +312,7 @@ impl std::fmt::Debug for Combined {
     }
 }
 
-/// The pools of all parts, one after the other.
+/// Joins the pools of all parts in the order of the parts.
 fn joined(parts: &[Box<dyn Structure>]) -> Sizes {
     Sizes { pools: parts.iter().flat_map(|part| part.sizes().pools.clone()).collect() }
 }

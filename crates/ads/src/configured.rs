@@ -1,30 +1,30 @@
-//! Common options and methods of the configurations and contents of all structures.
+//! Options and methods that the configurations and contents of all structures share.
 
 use std::ops::RangeInclusive;
 
 use crate::{Addressing, AdsError, Counters};
 
-/// Options of every configuration.
+/// Options that every configuration has.
 #[derive(Clone, Copy, Debug)]
 pub struct Common {
     /// Addressing of the pools by shaders.
     pub addressing: Addressing,
-    /// Counters that rays record of their work.
+    /// Counters of their work that rays record.
     pub counters: Counters,
-    /// Work units per dispatch; [`default_work_budget`](crate::kit::default_work_budget) where absent.
+    /// Work units per dispatch; if absent, [`default_work_budget`](crate::kit::default_work_budget).
     pub work_budget: Option<u32>,
 }
 
-/// A configuration of a structure; [`configured!`](crate::configured) makes one of a struct.
+/// A configuration of a structure; the macro [`configured!`](crate::configured) implements it for a struct.
 pub trait Configured {
-    /// Options that every configuration has.
+    /// Returns the options that every configuration has.
     fn common(&self) -> Common;
 }
 
 /// Checks that the value of an option is in a range, which `expected` states in words.
 ///
 /// # Errors
-/// [`AdsError::Option`]: it is not.
+/// [`AdsError::Option`]: the value is outside the range.
 pub fn check_range(
     option: &'static str,
     value: u32,
@@ -37,11 +37,11 @@ pub fn check_range(
     Err(AdsError::Option { option, value: value.to_string(), expected })
 }
 
-/// Checks that a work budget lets every dispatch make progress: it has at least one unit, or two where a
+/// Checks that a work budget lets every dispatch make progress: the budget has at least one unit, or two if a
 /// dispatch that resumes a search counts the cell again before it reads an entry (`counts_cells_again`).
 ///
 /// # Errors
-/// [`AdsError::Option`]: it does not.
+/// [`AdsError::Option`]: the budget is too small.
 pub fn check_work_budget(work_budget: Option<u32>, counts_cells_again: bool) -> Result<(), AdsError> {
     let (least, expected) = match counts_cells_again {
         false => (1, "1 unit or more per dispatch, or rays make no progress"),
@@ -50,7 +50,7 @@ pub fn check_work_budget(work_budget: Option<u32>, counts_cells_again: bool) -> 
     check_range("work budget", work_budget.unwrap_or(least), least..=u32::MAX, expected)
 }
 
-/// Makes a struct with the fields of [`Common`] a [`Configured`] one.
+/// Implements [`Configured`] for a struct that has the fields of [`Common`].
 #[macro_export]
 macro_rules! configured {
     ($config:ty) => {

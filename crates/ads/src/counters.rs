@@ -1,9 +1,10 @@
 use rasray_shaders_glsl::constants::contract;
 
-/// Amount of their work that rays record. Changes no hit. Each value includes those before it.
+/// Amount of their own work that rays record. It does not change any hit. Each value includes those before
+/// it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Counters {
-    /// Nothing.
+    /// Rays record nothing.
     #[default]
     Off,
     /// Sums over all rays, in [`crate::QueueHeader`].
@@ -15,7 +16,7 @@ pub enum Counters {
 }
 
 impl Counters {
-    /// The value of specialisation constant 0.
+    /// Returns the value of specialisation constant 0.
     pub fn constant(self) -> u32 {
         match self {
             Self::Off => contract::COUNTERS_OFF,
@@ -27,7 +28,7 @@ impl Counters {
 }
 
 impl From<bool> for Counters {
-    /// Sums, or nothing.
+    /// Converts true to `Sums` and false to `Off`.
     fn from(sums: bool) -> Self {
         if sums { Self::Sums } else { Self::Off }
     }

@@ -4,32 +4,32 @@ use rasray_gpu::Requirements;
 
 use crate::{Counters, Viewpoint};
 
-/// Meaning of a structure's hits, and hence what may be demanded of them.
+/// Meaning of a structure's hits, which determines the demands that tests make on them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StructureKind {
-    /// Triangles: no missed, false or wrong hit on unambiguous rays.
+    /// Hits are on triangles: no missed, false or wrong hit on unambiguous rays.
     Primitive,
-    /// Triangles, by the rules of a paper that lose some of them: a share of the hits that does not fall with
-    /// the resolution.
+    /// Hits are on triangles, by the rules of a paper that lose some of them: the share of lost hits does not
+    /// fall with the resolution.
     LossyPrimitive,
-    /// Stored fragments: errors follow a law in the resolution.
+    /// Hits are on stored fragments: their errors follow a law in the resolution.
     Fragment,
 }
 
 impl StructureKind {
-    /// Returns true where hits are on triangles, with barycentrics, and not on stored fragments.
+    /// Returns true if hits are on triangles, with barycentrics, and not on stored fragments.
     pub fn finds_triangles(self) -> bool {
         self != Self::Fragment
     }
 }
 
-/// Changes that make a build stale, in addition to those of the triangles, which always do. Where none of
-/// them happened, a new build would be the same as the last.
+/// Changes of the viewpoint that make a build stale, in addition to changes of the triangles, which always
+/// do. If none of them happened, a new build would equal the last one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dependencies {
     /// The eye moved.
     pub eye: bool,
-    /// The camera sees something else.
+    /// The camera's view changed.
     pub camera: bool,
 }
 
@@ -40,32 +40,32 @@ impl Dependencies {
     }
 }
 
-/// Facts about a structure that do not change while it lives
+/// Facts about a structure that do not change during its life
 /// ([`Structure::description`](crate::Structure::description)).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Description {
     /// Name in shaders, pages and reports.
     pub name: &'static str,
-    /// Kind of its hits.
+    /// Kind of the structure's hits.
     pub kind: StructureKind,
-    /// Device features that it uses.
+    /// Device features that the structure uses.
     pub requirements: Requirements,
-    /// Amount of work that its rays record.
+    /// Amount of their work that rays record.
     pub counters: Counters,
     /// Changes of the viewpoint that make a build stale
     /// ([`Structure::is_stale`](crate::Structure::is_stale)).
     pub depends_on: Dependencies,
-    /// True where the surface of every hit is that of its triangle at its barycentrics (`scene_surface`),
-    /// which needs nothing of the structure: kernels that shade may look it up in place of
+    /// True if the surface of every hit is that of its triangle at its barycentrics (`scene_surface`), which
+    /// needs no data of the structure: kernels that shade may look it up in place of
     /// [`Structure::record_surfaces`](crate::Structure::record_surfaces). False without a scene.
     pub surfaces_of_triangles: bool,
-    /// True where [`Structure::prepare_build`](crate::Structure::prepare_build) works on the triangles, so
-    /// that these must be where they are to be built before it is called.
+    /// True if [`Structure::prepare_build`](crate::Structure::prepare_build) reads the triangles. The
+    /// vertices must then already be at the positions to be built when it is called.
     pub builds_on_host: bool,
-    /// True where a build stays while its triangles are moved by a map
-    /// ([`Geometry::record_map`](crate::Geometry::record_map)), because it is in a space of its own.
+    /// True if a build stays valid while a map moves its triangles
+    /// ([`Geometry::record_map`](crate::Geometry::record_map)), because the build is in a space of its own.
     pub follows: bool,
-    /// True where it has first hits of camera rays
+    /// True if the structure has first hits of camera rays
     /// ([`Structure::record_first_hits`](crate::Structure::record_first_hits)).
     pub first_hits: bool,
 }

@@ -1,22 +1,24 @@
-//! Hits of rays at their ends.
+//! Rule for hits at the ends of rays.
 
 use crate::words;
 use rasray_shaders_glsl::constants::ads::{ENDS_CLEAR, ENDS_TOUCHING};
 
-/// Rule for fragments that are as close to an end of a ray as those of the surface there, in structures whose
-/// fragments do not say which triangle they are of, or where it is hit.
+/// Rule for fragments that are as close to an end of a ray as the fragments of the surface at that end. It
+/// applies to structures whose fragments know neither their triangle nor the point at which the triangle is
+/// hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
-    /// They count: rays hit what they leave and what they end on.
+    /// Such fragments are hits: rays hit the surface that they leave and the surface that they end on.
     Touching,
-    /// A ray starts beyond those of the triangle that it leaves, and those where it ends do not count.
+    /// Such fragments are not hits: a ray starts beyond the fragments of the triangle that it leaves, and the
+    /// fragments at its far end do not count.
     Clear,
 }
 
 words! { Ends { Touching "touching", Clear "clear" } }
 
 impl Ends {
-    /// The number of specialisation constants.
+    /// Returns the number that stands for the rule in specialisation constants.
     pub fn number(self) -> u32 {
         match self {
             Self::Touching => ENDS_TOUCHING,

@@ -9,26 +9,25 @@ pub enum AdsError {
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// A build was recorded for a slot that does not exist; or of frames, one was recorded for a slot whose
-    /// last one was not finished, or finished in another order than they were recorded in, or without having
-    /// been recorded.
+    /// A slot was used against the rules. Either a build was recorded for a slot that does not exist; or, of
+    /// frames, one was recorded for a slot whose last frame was not finished, was finished in another order
+    /// than that of recording, or was finished without having been recorded.
     #[error(
         "{structure}: slot {slot} of {slots} cannot be used now: slots count from 0, `set_slots` sets how many there are, \
          and frames are finished once each, in the order in which they were recorded, before their slot is recorded again"
     )]
     Slot {
-        /// The structure.
+        /// Name of the structure.
         structure: &'static str,
         /// The requested slot, from 0.
         slot: u32,
         /// Number of slots.
         slots: u32,
     },
-    /// First hits of camera rays were asked for, and the structure has no view of the camera to take them
-    /// from.
+    /// First hits of camera rays were requested from a structure without a view of the camera.
     #[error("{structure} has no view of the camera that first hits could be taken from: trace camera rays")]
     NoFirstHits {
-        /// The structure.
+        /// Name of the structure.
         structure: &'static str,
     },
     /// An option has a value outside its range.
@@ -71,34 +70,34 @@ pub enum AdsError {
         /// Name of the structure.
         structure: &'static str,
     },
-    /// Pipelines cannot read a scene that is to take the place of the one that they were made for.
+    /// A scene cannot replace the one that the structure was made for, because the pipelines cannot read it.
     #[error(
         "{structure} cannot take this scene: its {what} differ from those of the scene that it was made for"
     )]
     OtherScene {
         /// Name of the structure.
         structure: &'static str,
-        /// Buffers, alpha masks or specialisation constants, which differ.
+        /// Property that differs: buffers, alpha masks or specialisation constants.
         what: &'static str,
     },
-    /// A geometry's counts or bounds do not describe its buffers.
+    /// The counts or bounds of a geometry do not describe its buffers.
     #[error("the geometry cannot be used: {reason}")]
     Geometry {
         /// Fault of the counts, ranges or bounds, with its numbers.
         reason: String,
     },
-    /// Buffers that a queue of rays cannot be made of.
+    /// A queue of rays cannot be made of the given buffers.
     #[error("the queue cannot be made: {reason}")]
     Queue {
-        /// Buffer, and the flag or size that it lacks.
+        /// Name of the buffer, and the flag or size that it lacks.
         reason: String,
     },
-    /// Structures that are no two parts of one, or that were not given what their parts need.
+    /// Structures cannot be the parts of one structure, or were not given the data that their parts need.
     #[error("{structure} cannot be in parts: {reason}")]
     InParts {
         /// Name of the structure.
         structure: &'static str,
-        /// Why not.
+        /// Reason, in words.
         reason: &'static str,
     },
     /// A build found triangles that its geometry does not allow.
@@ -119,7 +118,7 @@ pub enum AdsError {
         /// Fault of the lists.
         fault: String,
     },
-    /// A build was recorded without the host's part.
+    /// A build was recorded before the host did its part of it.
     #[error("{structure} is built by the host first: call prepare_build before every record_build")]
     NotPrepared {
         /// Name of the structure.

@@ -1,4 +1,4 @@
-//! Posed triangles, the one input of every structure.
+//! Posed triangles, the input of every structure.
 
 use std::mem::offset_of;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -18,22 +18,22 @@ use crate::geometry_gather::{Count, DRAW_ARGUMENT_BYTES, Gather, TRIANGLE_INDEX_
 use crate::groups::folded;
 use crate::{AdsError, GeometryDesc, GeometryExtent, GeometryHeader, GeometryRigid, IndexRange};
 
-/// Buffers of the geometry set.
+/// Number of buffers in the geometry set.
 pub(crate) const BINDINGS: u32 = 4;
 
-/// Triangles of a workgroup of `ads/geometry_check`, `ads/geometry_gather` and `ads/geometry_bounds`.
+/// Triangles per workgroup of `ads/geometry_check`, `ads/geometry_gather` and `ads/geometry_bounds`.
 const TRIANGLES_PER_GROUP: u64 = 64;
 
-/// Readers of what the passes here write.
+/// Accesses of the readers of data that passes of a geometry write.
 const READERS: Access = Access::COMPUTE
     .union(Access::VERTEX_READ)
     .union(Access::FRAGMENT_READ)
     .union(Access::INDIRECT_READ)
     .union(Access::TRANSFER_READ);
 
-/// Triangles on the device that structures build from, at their positions of one moment, with the binding set
-/// that shaders read them through. [`Geometry::new`] makes it from buffers of a host, which it reads in place
-/// where their layout allows.
+/// Triangles on the device that structures build from, at their positions at one moment, with the binding set
+/// through which shaders read them. [`Geometry::new`] makes it from buffers of a host, which it reads in
+/// place if their layout allows.
 ///
 /// Clones are cheap handles to the same buffers.
 #[derive(Clone, Debug)]
@@ -43,41 +43,42 @@ pub struct Geometry {
     check: ComputePipeline,
     layout: SetLayout,
     set: BindingSet,
-    /// Number in the status of a structure built for these triangles; the first of several where only the
-    /// device knows their number.
+    /// Stamp in the status of a structure that was built for these triangles. It is the first of several if
+    /// only the device knows the number of triangles.
     stamp: u32,
-    /// Count buffer of a geometry whose number of triangles only the device knows.
+    /// Count buffer, if only the device knows the number of triangles.
     count: Option<Count>,
-    /// Copy of indices that are not read in place.
+    /// Copy of the indices, if they are not read in place.
     gather: Option<Gather>,
-    /// Geometry that this is a part of.
+    /// Geometry of which this one is a part.
     whole: Option<Box<Self>>,
     space: Space,
 }
 
-/// Space of the triangles of a geometry.
+/// Space in which the triangles of a geometry are given.
 #[derive(Clone, Debug)]
 pub(crate) enum Space {
-    /// The world: they are as posed.
+    /// World space: the triangles are as posed.
     World,
-    /// A space of their own, to which a map takes them.
+    /// A space of the triangles' own, from which a map takes them to the world.
     Own,
-    /// The world, and the same triangles in a space of their own.
+    /// World space, with the same triangles also given in a space of their own.
     Mapped(Box<Geometry>),
 }
 
-/// From one stamp to the next: flags of a status lie below.
+/// Difference between consecutive stamps: the flags of a status lie in the bits below.
 const STAMP_STEP: u32 = STATUS_FLAGS + 1;
 
-/// Stamps that no geometry of this process has yet, in steps; 0 is none.
+/// Next stamp that no geometry of this process has yet, in units of [`STAMP_STEP`]; 0 is no stamp.
 static NEXT_STAMP: AtomicU32 = AtomicU32::new(1);
 
-/// Range of that many stamps if `next` is the next one that is free: all in one word. Begins anew after 2^28.
+/// Returns the first of `count` stamps that fit into one word, if `next` is the next free one. The stamps
+/// begin again after 2^28.
 fn stamps_from(next: u32, count: u32) -> u32 {
     if next > u32::MAX / STAMP_STEP - count { 1 } else { next }
 }
 
-/// The first of that many stamps in a row which no other geometry has.
+/// Returns the first of `count` consecutive stamps that no other geometry has.
 fn new_stamps(count: u32) -> u32 {
     let after = |next| Some(stamps_from(next, count) + count);
     let next =
@@ -85,7 +86,8 @@ fn new_stamps(count: u32) -> u32 {
     stamps_from(next, count) * STAMP_STEP
 }
 
-/// No map to the space that a part was built in: its rays are tested against all of its triangles.
+/// Value for a part without a map to the space that the part was built in: its rays are then tested against
+/// all triangles of the part.
 pub const NO_MAP: GeometryRigid = GeometryRigid {
     x: [0.0; 3],
     y: [0.0; 3],
@@ -97,7 +99,7 @@ pub const NO_MAP: GeometryRigid = GeometryRigid {
     error: f32::INFINITY,
 };
 
-/// Place in a header of the map of a part that has room for so many runs.
+/// Returns the byte at which a header with room for `bound_runs` runs holds the map of a part.
 fn rigid_place(bound_runs: usize) -> usize {
     const { assert!(size_of::<GeometryHeader>() == GEOMETRY_HEADER_BYTES as usize) };
     const { assert!(size_of::<Run>() == GEOMETRY_RUN_BYTES as usize) };
@@ -105,35 +107,36 @@ fn rigid_place(bound_runs: usize) -> usize {
     (size_of::<GeometryHeader>() + bound_runs * size_of::<Run>()).next_multiple_of(size_of::<GeometryRigid>())
 }
 
-/// True if shaders read indices that a pass gathers, those of the whole included.
+/// Returns true if a pass gathers the indices that shaders read, those of the whole geometry included.
 fn gathers(gather: Option<&Gather>, whole: Option<&Geometry>) -> bool {
     gather.is_some() || whole.is_some_and(|whole| whole.gather.is_some())
 }
 
-/// Consecutive triangles of a part.
+/// A run of consecutive triangles of a part.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct Run {
-    /// Index of the first triangle, in the part.
+    /// Index of the run's first triangle in the part.
     pub first: u32,
-    /// Index of the first triangle, in the whole.
+    /// Index of the run's first triangle in the whole geometry.
     pub id: u32,
 }
 
 impl Geometry {
     /// Makes the header buffer ([`GeometryHeader`], 112 bytes, and 8 for each run of a part, at least one; 72
-    /// for a part with a space of its own), where they are needed one for gathered indices (12 bytes per
-    /// triangle) and one for draws (96 bytes), and the binding set.
+    /// for a part with a space of its own), if needed a buffer for gathered indices (12 bytes per triangle)
+    /// and one for draws (96 bytes), and the binding set.
     ///
     /// # Errors
     /// Ranges beyond their buffers, offsets or a stride that are not aligned, bounds that are not finite or
-    /// the wrong way round; out of memory, or a range exceeds what one binding can hold.
+    /// that have lower and upper corner exchanged; out of memory, or a range exceeds the maximum size of a
+    /// binding.
     pub fn new(device: &Device, desc: GeometryDesc) -> Result<Self, AdsError> {
         Self::made(device, desc, None, Space::World)
     }
 
-    /// The triangles of `runs` of `whole`, which reads absolute indices: in place where they are one run,
-    /// else gathered.
+    /// Makes the part of `whole` that consists of the triangles of `runs`. The part reads absolute indices:
+    /// in place if the triangles are one run, else gathered.
     pub(crate) fn part_of(
         device: &Device,
         whole: &Self,
@@ -190,7 +193,8 @@ impl Geometry {
             }
             _ => None,
         };
-        // A structure of triangles in a space of their own is traced with these.
+        // A structure of triangles in a space of their own is traced with the posed triangles, so both share
+        // a stamp.
         let stamp = match &space {
             Space::Mapped(rest) => rest.stamp,
             Space::World | Space::Own => {
@@ -209,7 +213,7 @@ impl Geometry {
             0,
             bytes_of(&GeometryHeader {
                 vertex_count: desc.vertex_count,
-                // Until the device has counted there is none.
+                // The number is 0 until the device has counted the triangles.
                 triangle_count: if count.is_some() { 0 } else { desc.triangle_count },
                 draw_count: desc.draw_count,
                 outside: 0,
@@ -241,8 +245,8 @@ impl Geometry {
         Ok(Self { desc, header, check, layout, set, stamp, count, gather, whole, space })
     }
 
-    /// The triangles in a space of their own, where they do not move: a structure of these is traced with the
-    /// part.
+    /// Returns the triangles in a space of their own, where they do not move; a structure that is built for
+    /// them is traced with the part.
     pub(crate) fn rest(&self) -> Option<&Self> {
         match &self.space {
             Space::Mapped(rest) => Some(rest),
@@ -250,22 +254,23 @@ impl Geometry {
         }
     }
 
-    /// Records where a part with a space of its own is posed from here on; the caller sees to barriers around
-    /// this write of a transfer. Nothing for any other geometry.
+    /// Records the map that poses a part with a space of its own from here on; the caller records the
+    /// barriers around this transfer write. Does nothing for any other geometry.
     pub fn record_map(&self, recorder: &mut Recorder<'_>, map: &GeometryRigid) {
         for (header, place) in [Some(self), self.rest()].into_iter().flatten().filter_map(Self::map_place) {
             recorder.update(header, place, bytes_of(map));
         }
     }
 
-    /// Place of the map of a part with a space of its own, also among the triangles there.
+    /// Returns header and byte of the map of a part with a space of its own, also for the triangles in that
+    /// space.
     pub(crate) fn map_place(&self) -> Option<(&Buffer, u64)> {
         let place = || (&self.header, self.header.size() - size_of::<GeometryRigid>() as u64);
         (!matches!(self.space, Space::World)).then(place)
     }
 
-    /// Records what shaders do not read in place: the number of triangles where only the device knows it, and
-    /// indices that are gathered, visible to all who read them. Nothing where neither is needed.
+    /// Records the input that shaders do not read in place: the number of triangles if only the device knows
+    /// it, and gathered indices, visible to all who read them. Records nothing if neither is needed.
     pub(crate) fn record_gather(&self, recorder: &mut Recorder<'_>) {
         self.record_count(recorder);
         let groups = self.groups();
@@ -274,7 +279,7 @@ impl Geometry {
             self.record(recorder, pipeline, Some(set), bytes_of(constants), groups);
             recorder.barrier(Access::COMPUTE, READERS);
         }
-        // Where the device counts, that gives a stamp.
+        // If the device counts the triangles, the count pass writes the stamp.
         if self.count.is_none() && gathers(self.gather.as_ref(), self.whole.as_deref()) {
             recorder.barrier(READERS, Access::TRANSFER_WRITE);
             recorder.fill(&self.header, offset_of!(GeometryHeader, stamp) as u64, 4, self.stamp);
@@ -282,20 +287,20 @@ impl Geometry {
         }
     }
 
-    /// True if a structure with this status was built for these triangles, as far as the host knows their
-    /// number.
+    /// Returns true if a structure with this status was built for these triangles, as far as the host knows
+    /// their number.
     pub(crate) fn is_of(&self, status: u32) -> bool {
         let stamps = if self.count.is_some() { GEOMETRY_COUNT_STAMPS } else { 1 };
         (status & !STATUS_FLAGS).wrapping_sub(self.stamp) < stamps * STAMP_STEP
     }
 
-    /// True if triangles cannot be read before [`Geometry::record_gather`].
+    /// Returns true if triangles cannot be read before [`Geometry::record_gather`].
     pub(crate) fn is_gathered(&self) -> bool {
         self.count.is_some() || gathers(self.gather.as_ref(), self.whole.as_deref())
     }
 
-    /// Records the number of triangles where only the device knows it, and for a part the indices of the
-    /// whole, from which those of the part come, visible to all who read them.
+    /// Records the number of triangles if only the device knows it. For a part, also records the gathering of
+    /// the indices of the whole, from which the part's indices come. Both are visible to all who read them.
     pub(crate) fn record_count(&self, recorder: &mut Recorder<'_>) {
         if let Some(whole) = &self.whole {
             whole.record_gather(recorder);
@@ -307,8 +312,9 @@ impl Geometry {
         }
     }
 
-    /// Records one pass over all triangles that reads indices where the host has them: `in_place`, or for
-    /// those that are gathered the other one, which sees their set and constants. False without triangles.
+    /// Records one pass over all triangles that reads the indices at their source: `in_place`, or `gathered`
+    /// for indices that a pass gathers, with their set and constants. Returns false if there are no
+    /// triangles.
     pub(crate) fn record_measure(
         &self,
         recorder: &mut Recorder<'_>,
@@ -325,8 +331,9 @@ impl Geometry {
         true
     }
 
-    /// Records [`Geometry::record_gather`], the count of triangles that the bounds, the vertices and the
-    /// maximum do not allow for, visible to all who read it, and its copy to four bytes of `target`.
+    /// Records [`Geometry::record_gather`], the count of triangles that violate the bounds, the number of
+    /// vertices or the maximum, visible to all who read it, and the copy of the count to four bytes of
+    /// `target`.
     pub(crate) fn record_check(&self, recorder: &mut Recorder<'_>, target: &Buffer, offset: u64) {
         let count = offset_of!(GeometryHeader, outside) as u64;
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
@@ -340,12 +347,12 @@ impl Geometry {
         recorder.copy(&self.header, count, target, offset, 4);
     }
 
-    /// Workgroups of one thread per triangle; none without triangles.
+    /// Returns the workgroups of one thread per triangle; absent if there are no triangles.
     pub(crate) fn groups(&self) -> Option<[u32; 3]> {
         folded(u64::from(self.desc.triangle_count).div_ceil(TRIANGLES_PER_GROUP))
     }
 
-    /// One dispatch that reads or writes the geometry.
+    /// Records one dispatch that reads or writes the geometry.
     pub(crate) fn record(
         &self,
         recorder: &mut Recorder<'_>,
@@ -365,12 +372,12 @@ impl Geometry {
         recorder.dispatch(groups);
     }
 
-    /// Draws all triangles onto that many views, at most
+    /// Draws all triangles onto `views` views, at most
     /// [`GEOMETRY_DRAW_VIEWS`](rasray_shaders_glsl::constants::ads::GEOMETRY_DRAW_VIEWS), within a rendering:
     /// three vertices per triangle and one instance per view.
     pub fn record_draw(&self, recorder: &mut Recorder<'_>, views: u32) {
         match &self.count {
-            // A place beyond the arguments is a mistake of the recording.
+            // An offset beyond the arguments is a mistake of the recording.
             Some(count) => {
                 let place = u64::from(views.wrapping_sub(1)) * DRAW_ARGUMENT_BYTES;
                 recorder.draw_indirect(&count.draw_arguments, place);
@@ -379,10 +386,10 @@ impl Geometry {
         }
     }
 
-    /// Takes the buffers handed in over from the queue family that wrote them, for the one of the device: the
-    /// second half of a transfer of ownership, after a semaphore that the first half signals. Families that
-    /// are equal need none, and nothing is recorded. What is written of a buffer by the same family later
-    /// needs no other transfer.
+    /// Takes the buffers handed in over from the queue family that wrote them, for the queue family of the
+    /// device. It records the second half of a transfer of ownership, after a semaphore that the first half
+    /// signals. If both families are equal, no transfer is needed and nothing is recorded. Data that the same
+    /// family writes to a buffer later needs no other transfer.
     ///
     /// Not tested on a device with two queue families: tests check the recorded barriers alone.
     pub fn record_acquire(&self, recorder: &mut Recorder<'_>, from_family: u32) {
@@ -390,9 +397,9 @@ impl Geometry {
         recorder.acquire(&ranges, from_family, READERS);
     }
 
-    /// Hands the buffers over to a queue family that writes them next: the first half of a transfer of
-    /// ownership. The other family records the second one, over [`Geometry::ranges`]. Families that are equal
-    /// need none, and nothing is recorded.
+    /// Hands the buffers over to a queue family that writes them next. It records the first half of a
+    /// transfer of ownership; the other family records the second half, over [`Geometry::ranges`]. If both
+    /// families are equal, no transfer is needed and nothing is recorded.
     ///
     /// Not tested on a device with two queue families, as [`Geometry::record_acquire`].
     pub fn record_release(&self, recorder: &mut Recorder<'_>, to_family: u32) {
@@ -400,14 +407,14 @@ impl Geometry {
         recorder.release(&ranges, to_family, READERS);
     }
 
-    /// Ranges read of the buffers handed in, in bytes: positions, indices, draws and count. No byte is in two
-    /// ranges: those that overlap or touch are joined.
+    /// Returns the ranges that are read of the buffers handed in, in bytes: positions, indices, draws and
+    /// count. No byte is in two ranges: ranges that overlap or touch are joined.
     pub fn ranges(&self, device: &Device) -> Vec<BufferRange<'_>> {
         self.desc.ranges(device)
     }
 
-    /// Positions, metres relative to the frame origin, and absolute indices, three a triangle, as shaders
-    /// read them. Submits and waits.
+    /// Downloads the positions, metres relative to the frame origin, and the absolute indices, three per
+    /// triangle, as shaders read them. Submits and waits.
     ///
     /// # Errors
     /// The device fails, or a buffer was not made for [`BufferUsage::TRANSFER_SRC`].
@@ -433,7 +440,7 @@ impl Geometry {
         Ok((positions.collect(), indices))
     }
 
-    /// Number of triangles of the last build, which where `count` was given only the device knows.
+    /// Downloads the number of triangles of the last build, which only the device knows if `count` was given.
     ///
     /// # Errors
     /// The device fails.
@@ -442,30 +449,30 @@ impl Geometry {
         Ok(device.download_as::<u32>(&self.header, place, 1)?[0])
     }
 
-    /// The header that shaders read: a [`GeometryHeader`]. A pass of the host that moves vertices writes
-    /// `lower` and `upper` there, in order with the builds that follow; [`Geometry::bounds`] stays what was
-    /// stated.
+    /// Returns the header that shaders read: a [`GeometryHeader`]. A pass of the host that moves vertices
+    /// writes `lower` and `upper` there, ordered with the builds that follow; [`Geometry::bounds`] does not
+    /// change.
     pub fn header(&self) -> &Buffer {
         &self.header
     }
 
-    /// True for a part of another geometry ([`Geometry::parts`]): its triangles are numbered from 0 in its
-    /// indices, hits on them have the ids of the whole.
+    /// Returns true for a part of another geometry ([`Geometry::parts`]): its triangles are numbered from 0
+    /// in its indices, and hits on them have the ids of the whole geometry.
     pub fn is_part(&self) -> bool {
         self.whole.is_some()
     }
 
-    /// The geometry that it is a part of, else itself.
+    /// Returns the geometry of which this one is a part, else this geometry.
     pub fn whole(&self) -> &Self {
         self.whole.as_deref().unwrap_or(self)
     }
 
-    /// Description that it was made from.
+    /// Returns the description that the geometry was made from.
     pub fn desc(&self) -> &GeometryDesc {
         &self.desc
     }
 
-    /// Number and bounds of the triangles, which plans of structures are made for.
+    /// Returns the number and the bounds of the triangles, from which structures plan their sizes.
     pub fn extent(&self) -> GeometryExtent {
         GeometryExtent {
             triangle_count: self.triangle_count(),
@@ -474,22 +481,22 @@ impl Geometry {
         }
     }
 
-    /// Number of triangles, or their maximum where the device counts them.
+    /// Returns the number of triangles, or their maximum if the device counts them.
     pub fn triangle_count(&self) -> u32 {
         self.desc.triangle_count
     }
 
-    /// Lower and upper corner as they were stated, metres relative to the frame origin.
+    /// Returns the lower and upper corner as stated by the host, metres relative to the frame origin.
     pub fn bounds(&self) -> [[f32; 3]; 2] {
         self.desc.bounds
     }
 
-    /// Layout of the geometry set.
+    /// Returns the layout of the geometry set.
     pub fn layout(&self) -> &SetLayout {
         &self.layout
     }
 
-    /// The geometry set.
+    /// Returns the geometry set.
     pub fn set(&self) -> &BindingSet {
         &self.set
     }

@@ -1,44 +1,44 @@
-//! Layout of triangles in the buffers of an embedder, and its checks.
+//! Description of triangles in the buffers of an embedder, and its checks.
 
 use rasray_gpu::{Buffer, BufferRange, Device};
 
 use crate::{AdsError, Draw};
 
-/// Bytes of a position.
+/// Bytes of one position.
 const POSITION_BYTES: u64 = size_of::<[f32; 3]>() as u64;
 
-/// Positions in a buffer, read in place: f32x3 each, between them whatever else a vertex has.
+/// Positions in a buffer, read in place: three f32 each, with any other vertex data between them.
 #[derive(Clone, Debug)]
 pub struct PositionRange {
-    /// Buffer that holds them.
+    /// Buffer that holds the positions.
     pub buffer: Buffer,
-    /// Byte of the first one, a multiple of 4.
+    /// Byte of the first position, a multiple of 4.
     pub offset: u64,
-    /// Bytes from one to the next: a multiple of 4, at least 12.
+    /// Bytes from one position to the next: a multiple of 4, at least 12.
     pub stride: u32,
 }
 
-/// Positions without padding from the start of a buffer.
+/// Describes positions without padding from the start of a buffer.
 impl From<Buffer> for PositionRange {
     fn from(buffer: Buffer) -> Self {
         Self { buffer, offset: 0, stride: POSITION_BYTES as u32 }
     }
 }
 
-/// Indices in a buffer. Absolute ones of 32 bits are read in place, all others are gathered by each build.
+/// Indices in a buffer. Absolute 32-bit indices are read in place; each build gathers all others.
 #[derive(Clone, Debug)]
 pub struct IndexRange {
-    /// Buffer that holds them.
+    /// Buffer that holds the indices.
     pub buffer: Buffer,
-    /// Byte of the first one, a multiple of the format's bytes.
+    /// Byte of the first index, a multiple of the format's bytes.
     pub offset: u64,
-    /// Format of an index.
+    /// Format of the indices.
     pub format: IndexFormat,
-    /// Vertex that an index refers to.
+    /// Meaning of the indices.
     pub indexing: Indexing,
 }
 
-/// Absolute u32 indices from the start of a buffer.
+/// Describes absolute u32 indices from the start of a buffer.
 impl From<Buffer> for IndexRange {
     fn from(buffer: Buffer) -> Self {
         Self { buffer, offset: 0, format: IndexFormat::U32, indexing: Indexing::Absolute }
@@ -46,23 +46,24 @@ impl From<Buffer> for IndexRange {
 }
 
 impl IndexRange {
-    /// True if shaders read other indices than these, namely those that builds gather from them.
+    /// Returns true if builds gather these indices, so that shaders read the copy.
     pub(crate) fn is_gathered(&self) -> bool {
         self.format != IndexFormat::U32 || self.indexing != Indexing::Absolute
     }
 }
 
-/// Type of an index. No value restarts anything: triangles are three indices each.
+/// Format of an index. No value restarts a strip: triangles are three indices each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IndexFormat {
-    /// u16. Shaders read whole words, so the buffer goes on to the next multiple of 4 after the last index.
+    /// 16-bit indices. Shaders read whole words, so the buffer must extend to the next multiple of 4 after
+    /// the last index.
     U16,
-    /// u32.
+    /// 32-bit indices.
     U32,
 }
 
 impl IndexFormat {
-    /// Bytes of an index.
+    /// Returns the bytes of one index.
     pub fn bytes(self) -> u32 {
         match self {
             Self::U16 => 2,
@@ -71,37 +72,37 @@ impl IndexFormat {
     }
 }
 
-/// Index that belongs to a triangle, and vertex that an index refers to.
+/// Rule that assigns indices to triangles and vertices to indices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Indexing {
-    /// Triangle i has the indices from 3 i, and an index is the number of a vertex.
+    /// Triangle i has the three indices from 3 i on, and an index is the number of a vertex.
     Absolute,
-    /// The triangles of a draw have the indices from [`Draw::first_index`], and [`Draw::base_vertex`] is
-    /// added to each.
+    /// The triangles of a draw have the indices from [`Draw::first_index`] on, and [`Draw::base_vertex`] is
+    /// added to each index.
     PerDraw {
-        /// Indices in the range.
+        /// Number of indices in the range.
         index_count: u32,
     },
 }
 
-/// A place in a buffer.
+/// A buffer and an offset into it.
 #[derive(Clone, Debug)]
 pub struct BufferOffset {
     /// The buffer.
     pub buffer: Buffer,
-    /// In bytes.
+    /// Offset in bytes.
     pub offset: u64,
 }
 
-/// The start of a buffer.
+/// Describes the start of a buffer.
 impl From<Buffer> for BufferOffset {
     fn from(buffer: Buffer) -> Self {
         Self { buffer, offset: 0 }
     }
 }
 
-/// Buffers and counts to make a [`crate::Geometry`] from. An embedder fills it from buffers that its engine
-/// has.
+/// Buffers and counts to make a [`crate::Geometry`] from. An embedder fills it from the buffers that its
+/// engine has.
 #[derive(Clone, Debug)]
 pub struct GeometryDesc {
     /// Posed positions, metres relative to `frame_origin`.
@@ -111,44 +112,44 @@ pub struct GeometryDesc {
     /// [`crate::Draw`] records in order of their triangles. The offset is a multiple of
     /// [`rasray_gpu::Limits::min_storage_buffer_offset_alignment`].
     pub draws: BufferOffset,
-    /// Vertices in `positions`.
+    /// Number of vertices in `positions`.
     pub vertex_count: u32,
-    /// Triangles; with `count` their maximum, which pools and dispatches are sized by.
+    /// Number of triangles; with `count`, their maximum, which determines the sizes of pools and dispatches.
     pub triangle_count: u32,
-    /// A u32 that the device reads the number of triangles from in each build, at an offset that is a
-    /// multiple of 4, for geometry that is culled or made on the device. Triangles from it on do not exist.
-    /// More than `triangle_count` is an error of the build.
+    /// A u32 from which the device reads the number of triangles in each build, at an offset that is a
+    /// multiple of 4, for geometry that is culled or made on the device. Triangles with that index or a
+    /// higher one do not exist. A number larger than `triangle_count` is an error of the build.
     pub count: Option<BufferOffset>,
-    /// Records in `draws`. With `count` those that are not used state a first triangle that does not exist.
+    /// Number of records in `draws`. With `count`, unused records state a first triangle that does not exist.
     pub draw_count: u32,
-    /// Lower and upper corner of all posed positions, metres; any finite value where there is none. They are
-    /// written to the geometry's header on the device, where a pass of the host or
-    /// [`BoundsPass`](crate::BoundsPass) may write others before a build; structures are planned by these,
-    /// and built by those on the device. A build that finds a corner outside of those is not complete, and
-    /// counts the triangles with one.
+    /// Lower and upper corner of all posed positions, metres; any finite value if there are no positions.
+    /// They are written to the geometry's header on the device, where a pass of the host or
+    /// [`BoundsPass`](crate::BoundsPass) may write others before a build. Structures are planned with the
+    /// stated bounds, and built with the bounds in the header. A build that finds a corner outside of the
+    /// bounds in the header is not complete, and counts the triangles with such a corner.
     pub bounds: [[f32; 3]; 2],
-    /// Origin of positions, metres, world.
+    /// Origin of positions, metres, world space.
     pub frame_origin: [f64; 3],
 }
 
-/// Bytes of one input.
+/// Bytes of one input of the geometry.
 struct Span<'a> {
-    /// Name of its contents, for errors.
+    /// Name of the input, for errors.
     what: String,
     buffer: &'a Buffer,
     offset: u64,
     bytes: u64,
-    /// Alignment of the offset, bytes.
+    /// Alignment of the offset, in bytes.
     alignment: u64,
 }
 
 impl<'a> Span<'a> {
-    /// Range to bind, and its bytes that come before this input, where bindings begin at multiples of
-    /// `alignment`.
+    /// Returns the range to bind, and the number of bytes in it that precede this input, if bindings begin at
+    /// multiples of `alignment`.
     fn binding(&self, alignment: u64) -> (BufferRange<'a>, u64) {
         let Self { buffer, offset, bytes, .. } = *self;
         if bytes == 0 {
-            // A binding is not empty.
+            // A binding must not be empty.
             return (BufferRange { buffer, offset: 0, size: buffer.size().min(16) }, 0);
         }
         let before = offset % alignment;
@@ -157,7 +158,7 @@ impl<'a> Span<'a> {
 }
 
 impl GeometryDesc {
-    /// Checks the description against the buffers, as far as the host can see.
+    /// Checks the description against the buffers, as far as the host can.
     pub(crate) fn check(&self, device: &Device) -> Result<(), AdsError> {
         let wrong = |reason: String| Err(AdsError::Geometry { reason });
         let stride = self.positions.stride;
@@ -190,7 +191,8 @@ impl GeometryDesc {
         Ok(())
     }
 
-    /// Ranges read of the buffers. No byte is in two ranges: those that overlap or touch are joined.
+    /// Returns the ranges that are read of the buffers. No byte is in two ranges: ranges that overlap or
+    /// touch are joined.
     pub(crate) fn ranges(&self, device: &Device) -> Vec<BufferRange<'_>> {
         let mut spans = self.spans(device);
         spans.retain(|span| span.bytes > 0);
@@ -207,10 +209,10 @@ impl GeometryDesc {
         joined
     }
 
-    /// Positions, indices, draws and count, in this order.
+    /// Returns the bytes of positions, indices, draws and count, in this order.
     fn spans(&self, device: &Device) -> Vec<Span<'_>> {
         let Self { positions, indices, draws, .. } = self;
-        // The last vertex need not have what comes after its position.
+        // The bytes between the last position and the end of its stride need not exist.
         let positions_bytes = match u64::from(self.vertex_count) {
             0 => 0,
             count => (count - 1) * u64::from(positions.stride) + POSITION_BYTES,
@@ -222,7 +224,7 @@ impl GeometryDesc {
             Indexing::PerDraw { index_count } => (format!("{index_count} indices"), index_count.into()),
         };
         let index_bytes = u64::from(indices.format.bytes());
-        // Whole words are read.
+        // Shaders read whole words.
         let into_word = indices.offset % 4;
         let indices_bytes = (into_word + index_bytes * index_count).next_multiple_of(4) - into_word;
         let mut spans = vec![
@@ -258,8 +260,9 @@ impl GeometryDesc {
         spans
     }
 
-    /// Ranges bound of positions, indices, draws and count, in this order: from the last byte that a binding
-    /// may begin at before the first one read. With each the bytes that come before.
+    /// Returns the ranges to bind for positions, indices, draws and count, in this order. Each range starts
+    /// at the last byte at which a binding may begin before the first byte that is read; the number is that
+    /// of the bytes between.
     pub(crate) fn bindings(&self, device: &Device) -> Vec<(BufferRange<'_>, u64)> {
         let alignment = device.limits().min_storage_buffer_offset_alignment.max(4);
         self.spans(device).iter().map(|span| span.binding(alignment)).collect()

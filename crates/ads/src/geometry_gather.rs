@@ -1,5 +1,5 @@
-//! Inputs of a geometry that the device works out before shaders read them: a number of triangles that only
-//! the device knows, and indices that are not read in place.
+//! Inputs of a geometry that the device computes before shaders read them: the number of triangles if only
+//! the device knows it, and indices that are not read in place.
 
 use rasray_gpu::{
     BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
@@ -11,10 +11,10 @@ use rasray_shaders_glsl::records::{GeometryCountConstants, GeometryGatherConstan
 
 use crate::{AdsError, GeometryDesc, Indexing};
 
-/// Buffers of the set of what is gathered.
+/// Number of buffers in the set of gathered indices.
 pub(crate) const GATHER_BINDINGS: u32 = 1;
 
-/// Bytes of the indices of a triangle, where shaders read them.
+/// Bytes of the indices of one triangle as shaders read them.
 pub(crate) const TRIANGLE_INDEX_BYTES: u64 = size_of::<[u32; 3]>() as u64;
 
 /// Bytes of the arguments of an indirect draw.
@@ -26,7 +26,8 @@ pub(crate) struct Count {
     pub(crate) pipeline: ComputePipeline,
     pub(crate) set: BindingSet,
     pub(crate) constants: GeometryCountConstants,
-    /// Arguments of the draws of all triangles onto one view, two, ...
+    /// Arguments of indirect draws of all triangles: the first draws onto one view, the second onto two, and
+    /// so on.
     pub(crate) draw_arguments: Buffer,
 }
 
@@ -36,7 +37,7 @@ pub(crate) struct Gather {
     pub(crate) pipeline: ComputePipeline,
     pub(crate) set: BindingSet,
     pub(crate) constants: GeometryGatherConstants,
-    /// Absolute u32 indices.
+    /// Absolute u32 indices that the pass writes.
     pub(crate) indices: Buffer,
 }
 
@@ -49,7 +50,7 @@ impl Count {
         first_stamp: u32,
         gathers: bool,
     ) -> Result<Self, AdsError> {
-        // Until triangles are counted there is none to draw.
+        // The draws have no triangles until the device counts them.
         let draw_arguments = device.create_buffer_of_zeros(
             "geometry draw arguments",
             BufferUsage::STORAGE | BufferUsage::INDIRECT,
@@ -64,7 +65,7 @@ impl Count {
             count_word: (before / 4) as u32,
             most_triangles: desc.triangle_count,
             first_stamp,
-            // Without triangles there is no pass that gathers.
+            // No pass gathers indices if there are no triangles.
             stamp_flags: if gathers && desc.triangle_count > 0 { GEOMETRY_NOT_GATHERED } else { 0 },
         };
         Ok(Self { pipeline, set, constants, draw_arguments })
@@ -72,7 +73,7 @@ impl Count {
 }
 
 impl Gather {
-    /// A pass over indices that are not absolute, or not of 32 bits.
+    /// Makes a pass that gathers indices that are not absolute or not of 32 bits.
     pub(crate) fn new(
         device: &Device,
         geometry: &SetLayout,
@@ -80,7 +81,7 @@ impl Gather {
         source: (BufferRange<'_>, u64),
     ) -> Result<Self, AdsError> {
         let (index_count, per_draw) = match desc.indices.indexing {
-            // The host has checked that all of them are there, so the product is exact.
+            // The host has checked that the buffer holds all indices, so the product does not overflow.
             Indexing::Absolute => (3 * desc.triangle_count, 0),
             Indexing::PerDraw { index_count } => (index_count, 1),
         };
@@ -88,7 +89,8 @@ impl Gather {
         Self::from(device, geometry, desc.triangle_count, source, [index_count, index_bytes, per_draw])
     }
 
-    /// A pass over the indices of the whole that shaders read; the whole has that number of triangles.
+    /// Makes a pass that gathers the indices of a part from those of the whole geometry, which has
+    /// `triangles_of_whole` triangles.
     pub(crate) fn of_part(
         device: &Device,
         geometry: &SetLayout,
@@ -123,12 +125,12 @@ impl Gather {
     }
 }
 
-/// All of a buffer.
+/// Returns the range of a complete buffer.
 pub(crate) fn whole(buffer: &Buffer) -> BufferRange<'_> {
     BufferRange { buffer, offset: 0, size: buffer.size() }
 }
 
-/// A pass over a geometry.
+/// Makes the pipeline of a pass over a geometry.
 pub(crate) fn pipeline(
     device: &Device,
     shader: &Shader,

@@ -1,4 +1,4 @@
-//! A geometry in parts: triangles that stay, and those that move together.
+//! A geometry in parts: triangles that do not move, and groups of triangles that move together.
 
 use std::mem::offset_of;
 use std::ops::Range;
@@ -19,41 +19,41 @@ use crate::{
     AdsError, Domain, Geometry, GeometryDesc, GeometryHeader, PositionRange, QueueHeader, RayQueue, TraceMode,
 };
 
-/// Triangles that move together.
+/// A group of triangles that move together.
 #[derive(Clone, Debug)]
 pub struct MovingPart {
-    /// Their ids, in any order. Of what [`GeometryParts::moving`] answers: in order, no range empty, none
-    /// that touch.
+    /// Ids of the triangles, in any order. [`GeometryParts::moving`] returns them in ascending order, without
+    /// empty ranges and with ranges that touch joined.
     pub ids: Vec<Range<u32>>,
-    /// Lower and upper corner of all their positions, metres relative to the frame origin.
+    /// Lower and upper corner of all positions of the triangles, metres relative to the frame origin.
     pub bounds: [[f32; 3]; 2],
-    /// Their corners in a space of their own, if an affine map takes them from there to where they are posed:
-    /// each pose says which ([`Geometry::record_map`]).
+    /// The triangles in a space of their own, if an affine map takes them from there to their pose; each pose
+    /// states the map ([`Geometry::record_map`]).
     pub rest: Option<Rest>,
 }
 
-/// Triangles in a space of their own.
+/// Triangles of a part in a space of their own.
 #[derive(Clone, Debug)]
 pub struct Rest {
-    /// As many positions as the whole geometry has; only those of the part's vertices are read.
+    /// As many positions as the whole geometry has; only the positions of the part's vertices are read.
     pub positions: PositionRange,
-    /// Lower and upper corner of these, metres.
+    /// Lower and upper corner of these positions, metres.
     pub bounds: [[f32; 3]; 2],
 }
 
-/// Geometries that share the buffers of another one, of which each triangle is in one of them: the static
-/// ones, and those that move, in one part or several. Hits on any have the ids of the whole.
+/// Parts of a geometry that share its buffers; each triangle is in exactly one part. One part is static; the
+/// others, one or several, move. Hits on any part have the ids of the whole geometry.
 #[derive(Clone, Debug)]
 pub struct GeometryParts {
     moving: Vec<MovingPart>,
-    /// The static part first.
+    /// Geometries of the parts, the static part first.
     parts: Vec<Geometry>,
-    /// Copies of the headers of all parts, which the bounds of the whole come from.
+    /// Copies of the headers of all parts, from which the bounds of the whole are computed.
     headers: Buffer,
     set: BindingSet,
     note: ComputePipeline,
     meet: ComputePipeline,
-    /// The status of the structure over each part, as it was when it was last traced.
+    /// Status of the structure over each part, as of its last trace.
     statuses: Buffer,
     statuses_set: BindingSet,
 }
@@ -66,9 +66,9 @@ pub struct PartRays<'a> {
 }
 
 impl PartRays<'_> {
-    /// Records that the queue lists those of the slots of `domain` as paused, but for rays that are done in
-    /// `mode`; all that have an answer where the structure with this header was not built. What is recorded
-    /// next is the trace of the part.
+    /// Records that the queue lists the rays of `domain` that meet the part as paused, except rays that are
+    /// finished in `mode`. If the structure with this header was not built, it lists all rays that have an
+    /// answer. The next command must be the trace of the part.
     pub(crate) fn record(
         &self,
         recorder: &mut Recorder<'_>,
@@ -101,27 +101,28 @@ impl GeometryParts {
         device.create_set_layout("geometry parts", 1)
     }
 
-    /// All parts: the static one first, then those that move, as many as were asked for.
+    /// Returns all parts: the static part first, then the moving parts in the requested order.
     pub fn parts(&self) -> &[Geometry] {
         &self.parts
     }
 
-    /// The triangles that stay.
+    /// Returns the part of the triangles that do not move.
     pub fn static_part(&self) -> &Geometry {
         &self.parts[0]
     }
 
-    /// Moving triangles of each part that moves.
+    /// Returns the triangles of each moving part.
     pub fn moving(&self) -> &[MovingPart] {
         &self.moving
     }
 
-    /// The geometry that these are parts of.
+    /// Returns the geometry that the parts belong to.
     pub fn whole(&self) -> &Geometry {
         self.parts[0].whole()
     }
 
-    /// Divides another geometry with as many triangles into the same parts, within the bounds that it states.
+    /// Divides another geometry with the same number of triangles into the same parts, within the bounds that
+    /// it states.
     ///
     /// # Errors
     /// As [`Geometry::in_parts`].
@@ -132,8 +133,8 @@ impl GeometryParts {
         geometry.in_parts(device, &moving, bounds)
     }
 
-    /// Records that the bounds of the whole are those of all parts, and that rays may start anywhere in them,
-    /// with `unite`.
+    /// Records that the bounds of the whole geometry become the union of those of all parts, with the
+    /// pipeline `unite`, and copies them to each part as the bounds in which rays may start.
     pub(crate) fn record_unite(&self, recorder: &mut Recorder<'_>, unite: &ComputePipeline) {
         let whole = self.whole();
         let header = size_of::<GeometryHeader>() as u64;
@@ -152,13 +153,13 @@ impl GeometryParts {
         recorder.barrier(Access::TRANSFER_WRITE, Access::ALL);
     }
 
-    /// The rays that meet a part.
+    /// Returns the rays that meet a part.
     pub(crate) fn rays_of(&self, part: usize) -> PartRays<'_> {
         PartRays { parts: self, part }
     }
 
-    /// Records that a queue adds the faults that part `part - 1` found to those of the parts before it, from
-    /// 1 on.
+    /// Records that a queue adds the faults found in part `part - 1` to those of the parts before it; `part`
+    /// is at least 1.
     pub(crate) fn record_note(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, part: usize) {
         let [noted, before] = [offset_of!(QueueHeader, corrupted), offset_of!(QueueHeader, corrupted_before)]
             .map(|at| at as u64);
@@ -177,9 +178,9 @@ impl GeometryParts {
 }
 
 impl Geometry {
-    /// The geometry in two parts: the triangles with ids in `moving`, in any order, and all others.
-    /// `static_bounds` hold all positions of the others, `moving_bounds` those that move. As
-    /// [`Geometry::in_parts`].
+    /// Divides the geometry into two parts: the triangles with ids in `moving`, in any order, and all other
+    /// triangles. `static_bounds` contain all positions of the other triangles, `moving_bounds` those of the
+    /// moving ones. Otherwise it does the same as [`Geometry::in_parts`].
     ///
     /// # Errors
     /// As [`Geometry::in_parts`].
@@ -193,18 +194,18 @@ impl Geometry {
         self.in_parts(device, &[moving], static_bounds)
     }
 
-    /// The geometry in parts: one for each of `moving`, which may have no triangle, and the static part, all
-    /// other triangles, within `static_bounds`. A pass of the host or
-    /// [`BoundsPass::record_parts`](crate::BoundsPass::record_parts) may write other bounds for what moves,
-    /// as for any geometry.
+    /// Divides the geometry into one part for each of `moving`, which may have no triangle, and a static part
+    /// with all other triangles, within `static_bounds`. A pass of the host or
+    /// [`BoundsPass::record_parts`](crate::BoundsPass::record_parts) may write other bounds for the moving
+    /// parts, as for any geometry.
     ///
-    /// A part whose triangles follow one another reads the indices of the whole. Any other one takes 12 bytes
-    /// per triangle and 8 per run, and gathers its indices in each build.
+    /// A part whose triangles follow one another reads the indices of the whole geometry. Any other part
+    /// takes 12 bytes per triangle and 8 per run, and gathers its indices in each build.
     ///
     /// # Errors
-    /// Ids beyond the triangles, or in two ranges; no part that moves, or 65,536; a number of triangles that
-    /// only the device knows; a geometry that is a part itself; bounds that are not finite or the wrong way
-    /// round; out of memory.
+    /// Ids beyond the triangles, or in two ranges; no moving part, or 65,536 or more; a number of triangles
+    /// that only the device knows; a geometry that is a part itself; bounds that are not finite or that have
+    /// lower and upper corner exchanged; out of memory.
     pub fn in_parts(
         &self,
         device: &Device,
@@ -283,7 +284,7 @@ impl Geometry {
     }
 }
 
-/// Appends ids that follow the others, as one range with the last where they touch.
+/// Appends a range of ids that is above all others, joined with the last range if both touch.
 fn append(ranges: &mut Vec<Range<u32>>, ids: Range<u32>) {
     match ranges.last_mut() {
         _ if ids.is_empty() => {}

@@ -1,41 +1,41 @@
-//! Pools of structures on the host, for tests and tools.
+//! Access to the pools of structures from the host, for tests and tools.
 
 use rasray_gpu::{Device, GpuError};
 
 use crate::{AdsError, ListCounts};
 
 /// A structure whose pools can be read and written from the host
-/// ([`Structure::inspect`](crate::Structure::inspect)). Everything here submits and waits.
+/// ([`Structure::inspect`](crate::Structure::inspect)). All functions submit and wait.
 pub trait Inspect {
-    /// Header and pools as words, by name, the header first.
+    /// Downloads the header and the pools as words, by name, the header first.
     ///
     /// # Errors
-    /// The device failed, or it is a structure in parts, whose pools are those of its parts.
+    /// The device failed, or the structure is in parts, each of which has its own pools.
     fn download_pools(&self, device: &Device) -> Result<Vec<(&'static str, Vec<u32>)>, GpuError>;
 
-    /// Writes back pools that [`Inspect::download_pools`] returned, changed or not. Traces end within their
-    /// bounds whatever the pools behind the header say.
+    /// Writes back pools that [`Inspect::download_pools`] returned, changed or not. Traces stay within their
+    /// bounds whatever the pools other than the header contain.
     ///
     /// # Safety
     /// Capacities and addresses in the header are those that were downloaded from this structure since its
     /// last resize.
     ///
     /// # Errors
-    /// There is no such pool, one is larger than what was allocated, the device failed, or it is a structure
-    /// in parts.
+    /// A pool does not exist, a pool is larger than its allocation, the device failed, or the structure is in
+    /// parts.
     unsafe fn upload_pools(
         &self,
         device: &Device,
         pools: &[(&'static str, Vec<u32>)],
     ) -> Result<(), GpuError>;
 
-    /// The first fault that is found in the lists or nodes on the device; absent where they are whole.
+    /// Returns the first fault found in the lists or nodes on the device; absent if there is none.
     ///
     /// # Errors
     /// The device failed.
     fn fault(&self, device: &Device) -> Result<Option<String>, GpuError>;
 
-    /// Counts of the lists of its cells, view by view; empty where it has no lists.
+    /// Returns the counts of the lists of its cells, view by view; empty if the structure has no lists.
     ///
     /// # Errors
     /// The device failed, or the lists are damaged: the last build is not complete.

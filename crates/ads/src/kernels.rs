@@ -1,4 +1,5 @@
-//! The queue kernels: one set of pipelines per structure, recorded the same way for all.
+//! Kernels that trace a queue: one set of pipelines per structure, recorded in the same way for all
+//! structures.
 
 use bytemuck::bytes_of;
 use rasray_gpu::{
@@ -14,17 +15,17 @@ use crate::{
     AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, SceneBinding, Start, Trace, TraceMode,
 };
 
-/// Part of a geometry: surfaces are looked up for hits on its triangles.
+/// Part of a geometry whose hits get surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TracedPart {
-    /// All triangles.
+    /// All triangles of the geometry.
     Whole,
     /// The part that was traced first.
     First {
         /// Number of parts that were traced after it.
         after: u32,
     },
-    /// A part that was traced next, which went on from the hits that the queue had of those before.
+    /// A part that was traced later, starting from the hits that the parts before it left in the queue.
     Next {
         /// Number of parts that were traced after it.
         after: u32,
@@ -41,20 +42,20 @@ impl TracedPart {
     }
 }
 
-/// Inputs of the kernels of a structure.
+/// Inputs to make the kernels of a structure from.
 #[derive(Clone, Debug)]
 pub struct TraceKernelsDesc<'a> {
-    /// The structure's modules.
+    /// Trace modules of the structure.
     pub modules: TraceModules,
     /// Layout of the structure's set.
     pub structure_layout: &'a SetLayout,
     /// Specialisation constants of the structure: id and bits.
     pub constants: &'a [(u32, u32)],
-    /// Counters that rays record of their work.
+    /// Counters of their work that rays record.
     pub counters: Counters,
     /// Work units that a ray may spend per dispatch.
     pub work_budget: u32,
-    /// The scene, where surfaces or alpha masks are needed.
+    /// The scene, needed for surfaces and alpha masks.
     pub scene: Option<&'a SceneBinding>,
 }
 
@@ -123,11 +124,12 @@ impl TraceKernels {
         })
     }
 
-    /// Reads another scene from the next recording on. Nothing changes after an error.
+    /// Makes the kernels read another scene from the next recording on. The kernels do not change after an
+    /// error.
     ///
     /// # Errors
-    /// The kernels of `structure` were made without a scene, or for one that differs in what they are
-    /// compiled for.
+    /// The kernels of `structure` were made without a scene, or for a scene with other properties that
+    /// kernels are compiled for.
     pub fn set_scene(&mut self, structure: &'static str, scene: &SceneBinding) -> Result<(), AdsError> {
         let made_for = self.scene.as_mut().ok_or(AdsError::NoScene { structure })?;
         if let Some(what) = made_for.difference(scene) {
@@ -168,9 +170,9 @@ impl TraceKernels {
         recorder.push_constants(bytes_of(&constants));
     }
 
-    /// Records a trace: one dispatch for all rays, then up to `rounds - 1` for those that paused. Rays still
-    /// paused after that are counted as unfinished. `rounds` is taken in place of [`Trace::rounds`]. With
-    /// [`Start::Part`] the queue lists the rays as paused, with states.
+    /// Records a trace: one dispatch for all rays, then up to `rounds - 1` for rays that paused. Rays still
+    /// paused after the last dispatch are counted as unfinished. `rounds` replaces [`Trace::rounds`]. With
+    /// [`Start::Part`], the queue already lists the rays as paused, with states.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -214,21 +216,22 @@ impl TraceKernels {
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::INDIRECT_READ | Access::TRANSFER);
     }
 
-    /// The surfaces of hits of a part; absent where the kernels were made without a scene. Hits are on
-    /// triangles by their ids, so for a part of a geometry the whole of it is bound.
+    /// Returns the lookup of the surfaces of hits on a part; absent if the kernels were made without a scene.
+    /// Hits name triangles by their ids, so the whole geometry is bound even for a part.
     pub fn surfaces(&self, part: TracedPart) -> Option<Lookup<'_>> {
         let kernel = self.surfaces.as_ref()?;
         Some(Lookup { kernels: self, kernel, stage: Stage::Surfaces, part })
     }
 
-    /// First hits of camera rays, in place of a trace; absent where there are none.
+    /// Returns the lookup of first hits of camera rays, which replaces a trace; absent if the structure has
+    /// no first hits.
     pub fn first_hits(&self) -> Option<Lookup<'_>> {
         let kernel = self.first_hits.as_ref()?;
         Some(Lookup { kernels: self, kernel, stage: Stage::Visible, part: TracedPart::Whole })
     }
 }
 
-/// Records that no ray of a queue has been traced yet, and none paused.
+/// Records the state before the first round: no ray of the queue has been traced, and none is paused.
 pub(crate) fn record_first_round(recorder: &mut Recorder<'_>, queue: &RayQueue) {
     let round = std::mem::offset_of!(QueueHeader, round) as u64;
     let after_paused = std::mem::offset_of!(QueueHeader, unfinished) as u64;
@@ -237,7 +240,7 @@ pub(crate) fn record_first_round(recorder: &mut Recorder<'_>, queue: &RayQueue) 
     recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
 }
 
-/// One dispatch that looks something up for the slots of a queue.
+/// One dispatch that looks up data for the slots of a queue.
 #[derive(Clone, Copy, Debug)]
 pub struct Lookup<'a> {
     kernels: &'a TraceKernels,
@@ -247,7 +250,7 @@ pub struct Lookup<'a> {
 }
 
 impl Lookup<'_> {
-    /// Records it for the slots of `domain`. What it wrote is visible to what follows.
+    /// Records the lookup for the slots of `domain`. Its results are visible to the commands that follow.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,

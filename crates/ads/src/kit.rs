@@ -1,11 +1,11 @@
-//! Parts that pooled structures are made of: for authors of structures, not for hosts.
+//! Parts for authors of pooled structures. Hosts do not need them.
 //!
 //! A structure implements [`Design`]; [`Pooled`] makes a [`Structure`](crate::Structure) of it. The macros
 //! [`configured!`](crate::configured), [`pools!`](crate::pools) and [`words!`](crate::words) write the
-//! implementations that are the same for all; Rust exports them at the root of the crate.
+//! implementations that are the same for all structures; Rust exports them at the root of the crate.
 //!
-//! Kernels are those that `rasray-shaders-glsl` compiles, so a structure of one's own is made in a clone of
-//! the repository: `docs/adding.md`.
+//! The crate `rasray-shaders-glsl` compiles the kernels, so a new structure is made in a clone of the
+//! repository: `docs/adding.md`.
 //!
 //! | job | parts |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! Lengths of contiguous lists: counted, then turned into places.
+//! Passes that count the lengths of contiguous lists and turn the lengths into offsets.
 
 use rasray_gpu::{Access, Recorder};
 
@@ -6,7 +6,7 @@ use crate::AdsError;
 use crate::kit::{BuildPipelines, BuildTarget, Scan, ViewDraw, Visit};
 
 /// The passes before contiguous lists are stored: a visit that counts the elements of each list, and a scan
-/// that turns these lengths into places.
+/// that turns these lengths into offsets of the lists.
 #[derive(Debug)]
 pub struct Lengths {
     count: Visit,
@@ -15,7 +15,7 @@ pub struct Lengths {
 }
 
 impl Lengths {
-    /// Makes the pipelines of the scan of that name ([`Scan::new`]), after a visit that counts.
+    /// Makes the pipelines of the scan with that name ([`Scan::new`]), which follows the visit `count`.
     ///
     /// # Errors
     /// A module is not compiled in, or the device refuses it.
@@ -23,8 +23,8 @@ impl Lengths {
         Ok(Self { count, scan: Scan::new(pipelines, scan)?, label: pipelines.label(scan) })
     }
 
-    /// Records both passes over `lists` lists, as many as `scan_count` of the structure says; places are
-    /// visible to `readers`.
+    /// Records both passes over `lists` lists; `scan_count` of the structure gives the same number. The
+    /// offsets are visible to `readers`.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,

@@ -1,18 +1,18 @@
 //! The contract of all acceleration data structures of rasray, and the geometry, the ray queues and the trace
-//! kernels that they share. Hosts record builds and traces with it; structure crates such as `rasray-bvh`
-//! implement it.
+//! kernels that they share. Hosts record builds and traces through the contract; structure crates such as
+//! `rasray-bvh` implement it.
 //!
 //! - [`Structure`] is the contract: it builds itself from a [`Geometry`], traces rays through itself, and
 //!   finds the surfaces of hits. It knows nothing of integrators.
 //! - [`Geometry`] binds the triangles in the buffers of a host ([`GeometryDesc`]); [`GeometryParts`] and
-//!   [`Combined`] are for triangles of which some move.
-//! - [`RayQueue`] holds rays, hits and surfaces on the device; [`Trace`] says which of its rays are traced,
-//!   and how.
+//!   [`Combined`] divide triangles of which only some move.
+//! - [`RayQueue`] holds rays, hits and surfaces on the device; [`Trace`] states the rays of a queue to trace,
+//!   and the kind of answer.
 //! - [`Occluder`] answers shadow rays in place of a structure.
 //! - [`BruteForce`] tests every triangle against every ray: all other structures are compared with it.
 //! - [`Counters`] and [`TraceStep`] measure and log the work of rays; [`Inspect`] reads pools for tests and
 //!   tools.
-//! - [`kit`] has the parts that structures are made of. Hosts do not need it.
+//! - [`kit`] contains the parts that structures are made of. Hosts do not need it.
 //!
 //! # Building
 //! The exact demand for memory is known only after the GPU ran, so the caller resumes a build:
@@ -21,8 +21,8 @@
 //! 2. Read the [`BuildStatus`] ([`Structure::status`]), and check it ([`Structure::check`]).
 //! 3. On [`Check::Grow`] resize and record again; [`Check::Complete`] ends the build.
 //!
-//! Until a build of the triangles that a structure has is complete, traces answer "not ready" and count it.
-//! They never give a partial answer, nor one for triangles that the structure had before.
+//! Until a build of the present triangles is complete, traces answer "not ready" and count these answers.
+//! They never give a partial answer, nor an answer for triangles that the structure had before.
 //!
 //! # Memory and waits
 //! Functions that record never submit, wait or allocate. Constructors, [`Structure::resize`],
@@ -94,7 +94,7 @@ pub use description::{Dependencies, Description, StructureKind};
 pub use ends::Ends;
 pub use visit::Builder;
 
-// Builds and their outcome.
+// Builds and their outcomes.
 pub use list_counts::ListCounts;
 pub use sizes::{PoolSize, Sizes};
 pub use status::{BuildStatus, Check, Growth, PoolStatus};
@@ -123,17 +123,18 @@ pub use rasray_shaders_glsl::records::{
     Draw, GeometryHeader, GeometryRigid, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
 };
 
-/// "No primitive": a miss.
+/// Primitive id of a miss: "no primitive".
 pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_NONE;
-/// A fragment whose triangle is not known.
+/// Primitive id of a fragment whose triangle is not known.
 pub const PRIMITIVE_UNKNOWN: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_UNKNOWN;
-/// A draw whose triangles are alpha-masked.
+/// Flag of a draw whose triangles are alpha-masked.
 pub const DRAW_ALPHA_MASKED: u32 = rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
-/// A draw whose triangles have a back that rays with [`RAY_CULL_BACK_FACES`] pass.
+/// Flag of a draw whose triangles are single-sided: rays with [`RAY_CULL_BACK_FACES`] pass through their
+/// backs.
 pub const DRAW_SINGLE_SIDED: u32 = rasray_shaders_glsl::constants::contract::DRAW_SINGLE_SIDED;
-/// A draw whose front is the clockwise side.
+/// Flag of a draw whose front is the clockwise side.
 pub const DRAW_MIRRORED: u32 = rasray_shaders_glsl::constants::contract::DRAW_MIRRORED;
-/// In [`Ray::flags`]: backs of draws with [`DRAW_SINGLE_SIDED`] are no hits.
+/// Flag in [`Ray::flags`]: the ray passes through backs of draws with [`DRAW_SINGLE_SIDED`].
 pub const RAY_CULL_BACK_FACES: u32 = rasray_shaders_glsl::constants::contract::RAY_CULL_BACK_FACES;
 
 /// Compiles the examples of the readme.

@@ -1,4 +1,4 @@
-//! Lists of any length, sorted on the device.
+//! Passes that sort lists of any length on the device.
 
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS, SORT_GROUP_SIZE};
@@ -6,9 +6,10 @@ use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS, SOR
 use crate::AdsError;
 use crate::kit::{BuildPipelines, BuildTarget};
 
-/// Sorts each list of a structure in place: `ads/build_sort.comp` and `ads/build_sort_long.comp` as compiled
-/// for it, whose `sorted.glsl` says what its lists are. A first pass sorts short lists and stores the others
-/// in a table; a second one, of `LONG_LIST_ROUNDS` dispatches, sorts those.
+/// Sorts each list of a structure in place with `ads/build_sort.comp` and `ads/build_sort_long.comp` as
+/// compiled for the structure, whose `sorted.glsl` defines the lists. A first pass sorts short lists and
+/// stores the other lists in a table; a second pass, of `LONG_LIST_ROUNDS` dispatches, sorts the lists in the
+/// table.
 #[derive(Debug)]
 pub struct ListSort {
     short: (String, ComputePipeline),
@@ -16,8 +17,8 @@ pub struct ListSort {
 }
 
 impl ListSort {
-    /// Makes the pipelines of two modules; the first may have a variant, which its label leaves out
-    /// (`.pages`, or nothing).
+    /// Makes the pipelines of two modules. The first module may have a variant, `.pages` or none, which its
+    /// label leaves out.
     ///
     /// # Errors
     /// A module is not compiled in, or the device refuses it.
@@ -33,15 +34,15 @@ impl ListSort {
         })
     }
 
-    /// Workgroups of the first pass: a thread for each list, or where they are linked for [`NODE_SORT_LISTS`]
-    /// of them.
+    /// Returns the number of workgroups of the first pass: one thread per list, or per [`NODE_SORT_LISTS`]
+    /// lists if the lists are linked.
     fn groups(lists: u64, linked: bool) -> u64 {
         let per_thread = if linked { NODE_SORT_LISTS } else { 1 };
         lists.div_ceil(u64::from(SORT_GROUP_SIZE) * u64::from(per_thread))
     }
 
-    /// Records both passes over `lists` lists, of which `long` fit into the table, visible to `readers`. The
-    /// second pass is left out where none does.
+    /// Records both passes over `lists` lists, visible to `readers`; `long` is the number of lists that fit
+    /// into the table. The second pass is left out if `long` is 0.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
@@ -52,7 +53,7 @@ impl ListSort {
         readers: Access,
     ) {
         let (label, pipeline) = &self.short;
-        // The second pass reads the table.
+        // The second pass reads the table that the first pass writes.
         let between = Access::COMPUTE | readers;
         target.compute_pass(recorder, label, pipeline, Self::groups(lists, linked), 0, between);
         let (label, pipeline) = &self.long;

@@ -1,4 +1,4 @@
-//! The passes of a build: how their pipelines are made, bound, dispatched and drawn.
+//! Passes of a build: making their pipelines, binding, dispatching and drawing.
 
 use bytemuck::bytes_of;
 use rasray_gpu::{
@@ -12,7 +12,7 @@ use crate::groups::folded;
 use crate::kit::{Modules, PoolName, Pools};
 use crate::{AdsError, Geometry, SceneBinding};
 
-/// Makes the pipelines of a build. Sets are geometry, structure and, where given, scene.
+/// Maker of the pipelines of a build. Their sets are geometry, structure and, if given, scene.
 #[derive(Clone, Debug)]
 pub struct BuildPipelines<'a> {
     device: &'a Device,
@@ -23,7 +23,8 @@ pub struct BuildPipelines<'a> {
 }
 
 impl<'a> BuildPipelines<'a> {
-    /// `constants` are the specialisation constants of the structure: id and bits.
+    /// Makes a maker of pipelines; `constants` are the specialisation constants of the structure: id and
+    /// bits.
     pub fn new(
         device: &'a Device,
         modules: Modules,
@@ -39,24 +40,24 @@ impl<'a> BuildPipelines<'a> {
         Self { device, modules, sets, constants, raster: RasterOptions::default() }
     }
 
-    /// Makes the same pipelines, but with draws that cover every pixel that a triangle touches, which need
-    /// [`Feature::ConservativeRasterization`](rasray_gpu::Feature::ConservativeRasterization).
+    /// Returns a maker of the same pipelines whose draws cover every pixel that a triangle touches, which
+    /// needs [`Feature::ConservativeRasterization`](rasray_gpu::Feature::ConservativeRasterization).
     #[must_use]
     pub fn touching(&self) -> Self {
         Self { raster: RasterOptions { conservative: true, ..self.raster }, ..self.clone() }
     }
 
-    /// True if the device is a processor, on which a pass takes as long as all its work.
+    /// Returns true if the device is a CPU, on which the duration of a pass is that of all its work.
     pub fn is_software(&self) -> bool {
         self.device.is_software()
     }
 
-    /// The label of the pass of the module of that name.
+    /// Returns the label of the pass of the module with that name.
     pub fn label(&self, name: &str) -> String {
         format!("{}/{name}", self.modules.prefix)
     }
 
-    /// A compute pass of that name.
+    /// Makes a compute pipeline from the module with that name.
     ///
     /// # Errors
     /// The module is not compiled in, or the device refuses it.
@@ -71,7 +72,7 @@ impl<'a> BuildPipelines<'a> {
         })?)
     }
 
-    /// A pass without attachments that draws with the vertex and the fragment shader of these names.
+    /// Makes a raster pipeline without attachments from the vertex and the fragment shader with these names.
     ///
     /// # Errors
     /// A module is not compiled in, or the device refuses it.
@@ -89,27 +90,27 @@ impl<'a> BuildPipelines<'a> {
     }
 }
 
-/// Views of one size that are drawn together, one instance each.
+/// A group of views of one size that are drawn together, one instance each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ViewDraw {
-    /// Cells along a side, border included.
+    /// Number of cells along a side, border included.
     pub side: u32,
     /// Number of views.
     pub views: u32,
-    /// Number of the first: instance 0.
+    /// Number of the first view, which is instance 0.
     pub first: u32,
 }
 
 /// Triangles, pools and scene that the passes of one recording work on.
 #[derive(Clone, Copy, Debug)]
 pub struct BuildTarget<'a> {
-    /// The triangles.
+    /// Triangles to build from.
     pub geometry: &'a Geometry,
-    /// The pools; the host has written the header.
+    /// Pools to build into; the host has written the header.
     pub pools: &'a Pools,
-    /// The pass that works out what of the header follows from bounds and eye.
+    /// Pass that computes the values of the header that follow from bounds and eye.
     pub header_pass: &'a ComputePipeline,
-    /// The scene's set, where the pipelines were made with one.
+    /// The scene's set, if the pipelines were made with a scene.
     pub scene: Option<&'a BindingSet>,
 }
 
@@ -126,9 +127,9 @@ impl BuildTarget<'_> {
         recorder.push_constants(bytes_of(&BuildConstants { structure, step }));
     }
 
-    /// Records the first pass of a build: the header as the host wrote it, zeros in the pools of `cleared`,
-    /// what of the header follows from bounds and eye, all visible to `readers`, and the check of the
-    /// triangles, whose result the pass of the status looks at.
+    /// Records the first pass of a build. It writes the header from the host, zeros the pools of `cleared`,
+    /// computes the values of the header that follow from bounds and eye, and checks the triangles. All
+    /// results are visible to `readers`; the status pass reads the result of the check.
     pub fn record_header(
         &self,
         recorder: &mut Recorder<'_>,
@@ -143,7 +144,7 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// Dispatches that number of workgroups; nothing for 0.
+    /// Records a dispatch of that number of workgroups; nothing for 0.
     pub fn dispatch(&self, recorder: &mut Recorder<'_>, pipeline: &ComputePipeline, groups: u64, step: u32) {
         let Some(groups) = folded(groups) else { return };
         recorder.bind_compute(pipeline);
@@ -151,8 +152,8 @@ impl BuildTarget<'_> {
         recorder.dispatch(groups);
     }
 
-    /// A labelled indirect pass: its workgroups are three u32 of the header, at a byte that is a multiple of
-    /// 4. The pass before made the header visible to [`Access::INDIRECT_READ`].
+    /// Records a labelled indirect pass. Its numbers of workgroups are three u32 of the header, at a byte
+    /// that is a multiple of 4. The pass before must make the header visible to [`Access::INDIRECT_READ`].
     pub fn indirect_pass(
         &self,
         recorder: &mut Recorder<'_>,
@@ -170,7 +171,8 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// A labelled pass of one dispatch, visible to compute and fragment shaders after it.
+    /// Records a labelled pass of one dispatch whose results are visible to compute and fragment shaders
+    /// after it.
     pub fn compute_pass(
         &self,
         recorder: &mut Recorder<'_>,
@@ -186,8 +188,8 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// A labelled pass of several dispatches one after the other, each with its number as step; no pass where
-    /// there are no workgroups.
+    /// Records a labelled pass of several dispatches one after the other, each with its number as step;
+    /// records nothing if there are no workgroups.
     pub fn rounds_pass(
         &self,
         recorder: &mut Recorder<'_>,
@@ -208,7 +210,7 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// Draws every triangle once per view onto a square of `side` cells; nothing where there are no
+    /// Draws every triangle once per view onto a square of `side` cells; draws nothing if there are no
     /// triangles.
     pub fn draw(
         &self,
@@ -222,8 +224,8 @@ impl BuildTarget<'_> {
         self.draw_onto(recorder, pipeline, draw, |recorder| self.geometry.record_draw(recorder, views));
     }
 
-    /// Draws that many vertices per view in place of those of all triangles; nothing where there are no
-    /// triangles.
+    /// Draws that number of vertices per view in place of those of all triangles; draws nothing if there are
+    /// no triangles.
     pub fn draw_vertices(
         &self,
         recorder: &mut Recorder<'_>,
@@ -251,9 +253,9 @@ impl BuildTarget<'_> {
         recorder.end_rendering();
     }
 
-    /// A labelled pass that draws every triangle once per view, onto squares of several sizes, visible to
-    /// compute and fragment shaders after it. The push constant that is the step in other passes is the
-    /// number of a draw's first view.
+    /// Records a labelled pass that draws every triangle once per view, onto squares of several sizes, with
+    /// results visible to compute and fragment shaders after it. The push constant that is the step in other
+    /// passes is here the number of a draw's first view.
     pub fn raster_views(
         &self,
         recorder: &mut Recorder<'_>,
@@ -269,8 +271,8 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// The last pass of every build: one workgroup checks whether everything was stored, and the header is
-    /// copied to the host.
+    /// Records the last pass of every build: one workgroup checks whether the build stored everything, and
+    /// the header is copied to the host.
     pub fn status_pass(&self, recorder: &mut Recorder<'_>, label: &str, pipeline: &ComputePipeline) {
         recorder.begin_pass(Stage::Build, label);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE);

@@ -1,4 +1,4 @@
-//! The pools of a structure: one row for each says all that does not depend on options.
+//! Pools of a structure, with their properties that do not depend on options.
 
 use std::fmt;
 
@@ -7,47 +7,49 @@ use rasray_gpu::{Device, GpuError};
 
 use crate::kit::Parts;
 
-/// The header's name among the pools.
+/// Name of the header among the pools.
 pub const HEADER_POOL: &str = "header";
 
-/// The pools of one structure, in the order of their bindings; the header is the first.
-/// [`pools!`](crate::pools) makes one.
+/// Enumeration of the pools of one structure, in the order of their bindings; the header is the first. The
+/// macro [`pools!`](crate::pools) makes one.
 pub trait PoolName: Copy + fmt::Debug + PartialEq + 'static {
-    /// Header that shaders start from: the only element of the first pool.
+    /// Header that shaders start from: the single element of the first pool.
     type Header: Pod;
 
-    /// Every pool.
+    /// All pools.
     const ALL: &'static [Self];
 
-    /// Its name in sizes, statuses and reports.
+    /// Returns the name of the pool in sizes, statuses and reports.
     fn name(self) -> &'static str;
 
-    /// Place of its device address in the header, low word first; absent for the header itself.
+    /// Returns the field of the header for the device address of the pool, low word first; absent for the
+    /// header itself.
     fn address_in(self, header: &mut Self::Header) -> Option<&mut [u32; 2]>;
 }
 
-/// Pools with their bytes.
+/// Pools, each with its bytes.
 pub type PoolBytes<'a, P> = Vec<(P, &'a [u8])>;
 
-/// The pools of a structure on the host, for checks. `C` is its configuration, `P` its pools.
+/// Copy of the pools of a structure on the host, for checks. `C` is the structure's configuration, `P` its
+/// pools.
 pub trait PoolContents<C, P: PoolName>: Sized {
-    /// Pools as downloaded.
+    /// Downloads the pools.
     ///
     /// # Errors
     /// The device failed.
     fn download(parts: &Parts<C>, device: &Device, header: P::Header) -> Result<Self, GpuError>;
 
-    /// Header and other pools to write back, with their bytes.
+    /// Returns the header and the other pools to write back, with their bytes.
     fn pools(&self) -> (P::Header, PoolBytes<'_, P>);
 }
 
-/// Makes the enum of a structure's pools. After the header, which is there by itself, each has a row in the
-/// order of bindings: the variant, its name in sizes, statuses and reports, and the header's field of its
-/// device address.
+/// Makes the enum of a structure's pools. The header is included automatically. Each other pool has a row, in
+/// the order of bindings: the variant, its name in sizes, statuses and reports, and the field of the header
+/// for its device address.
 ///
-/// A last line names the configuration and the struct with the words to be checked on the host, and its field
-/// for the configuration where it has one; then a row ends with `=> field` where the struct has the words of
-/// its pool:
+/// A last line names the configuration and the struct with the words to be checked on the host, and that
+/// struct's field for the configuration, if it has one; then a row ends with `=> field` if the struct has the
+/// words of its pool:
 ///
 /// ```ignore
 /// rasray_ads::pools! {
@@ -62,7 +64,7 @@ pub trait PoolContents<C, P: PoolName>: Sized {
 /// }
 /// ```
 ///
-/// It names the crate `rasray_gpu`.
+/// The expansion names the crate `rasray_gpu`.
 #[macro_export]
 macro_rules! pools {
     ($(#[$about:meta])* pub enum $pool:ident: $header:ty {
@@ -127,7 +129,7 @@ macro_rules! pools {
     };
 }
 
-/// Words as the bytes that are uploaded, for [`pools!`].
+/// Returns words as the bytes that are uploaded, for [`pools!`].
 #[doc(hidden)]
 pub fn bytes_of_words(words: &[u32]) -> &[u8] {
     bytemuck::cast_slice(words)

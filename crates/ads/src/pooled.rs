@@ -1,4 +1,4 @@
-//! A structure of a header, pools and passes: what all such structures have in common.
+//! Structures that consist of a header, pools and passes: the code that they share.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -16,31 +16,32 @@ use crate::{
     StructureKind, StructureReport, Trace, TracedPart, Viewpoint,
 };
 
-/// A demand that [varies](Design::varies) is met with capacity for one in so many more. Pages of a small
-/// scene differ by up to one in 33 from build to build where tens of thousands of threads run at a time.
+/// Share of a demand that is added as margin if the demand [varies](Design::varies): one in this number. The
+/// number of pages of a small scene differs by up to one in 33 from build to build if tens of thousands of
+/// threads run at a time.
 pub const VARYING_SHARE: u64 = 16;
 
-/// The linear part of a [`GeometryRigid`], which begins with it.
+/// Bytes of the linear part of a [`GeometryRigid`], which is at its start.
 const LINEAR_BYTES: u64 = std::mem::offset_of!(GeometryRigid, centre) as u64;
 
 /// Structure of a [`Design`]: it implements [`Structure`] with a header, pools and the passes of the design.
-/// Every structure but brute force and structures in parts is one; `rasray_bvh::Bvh`, for example, is
-/// `Pooled<rasray_bvh::Passes>`.
+/// All structures except brute force and structures in parts are of this type; `rasray_bvh::Bvh`, for
+/// example, is `Pooled<rasray_bvh::Passes>`.
 #[derive(Debug)]
 pub struct Pooled<D: Design> {
     description: Description,
     design: D,
     parts: Parts<D::Config>,
-    /// Triangles traced: those that builds read, or where these are in a space of their own, the same as
-    /// posed.
+    /// Triangles that are traced: those that builds read, or if these are in a space of their own, the same
+    /// triangles as posed.
     traced: Geometry,
     kernels: TraceKernels,
-    /// The scene's set, where passes of the build read it.
+    /// The scene's set, if passes of the build read it.
     scene: Option<BindingSet>,
-    /// True if that is another one than the last build recorded read.
+    /// True if the last recorded build read another set than `scene`.
     is_scene_new: bool,
-    /// The header as [`Structure::status`] last read it; zeros until then. Reports and rounds are of this
-    /// build, also where triangles or pools have changed since: consecutive frames have much the same demand.
+    /// Header as [`Structure::status`] last read it; zeros until then. Reports and rounds refer to this
+    /// build, even if triangles or pools have changed since: consecutive frames have nearly the same demand.
     known: Mutex<D::Header>,
 }
 
@@ -49,15 +50,15 @@ fn modules<D: Design>(config: &D::Config) -> Modules {
 }
 
 impl<D: Design> Pooled<D> {
-    /// Records that it shares with its shaders, the header first.
+    /// Records that the structure shares with its shaders, the header first.
     pub const RECORDS: &'static [RecordLayout] = D::RECORDS;
 
-    /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks, surfaces and payloads
-    /// that keep something of it.
+    /// Makes the pipelines and a first set of pools. `scene` is needed for alpha masks, for surfaces, and for
+    /// payloads that keep data of the scene.
     ///
     /// # Errors
-    /// An option is out of range or needs what neither the device nor the caller provides; out of memory; a
-    /// pool exceeds what one binding can hold (then use device addresses).
+    /// An option is out of range or needs a feature or input that neither the device nor the caller provides;
+    /// out of memory; a pool exceeds the maximum size of a binding (device addresses avoid that limit).
     pub fn new(
         device: &Device,
         mut config: D::Config,
@@ -125,24 +126,24 @@ impl<D: Design> Pooled<D> {
         })
     }
 
-    /// Features that a device must and may have for a configuration.
+    /// Returns the features that a configuration requires of a device, and those that it uses if present.
     pub fn requirements_of(config: &D::Config) -> Requirements {
         let mut requirements = D::requirements(config);
         modules::<D>(config).add_to(&mut requirements);
         requirements
     }
 
-    /// Kind of the hits of a configuration.
+    /// Returns the kind of the hits of a configuration.
     pub fn kind_of(config: &D::Config) -> StructureKind {
         D::kind(config)
     }
 
-    /// The configuration it was made with.
+    /// Returns the configuration that the structure was made with.
     pub fn config(&self) -> &D::Config {
         &self.parts.config
     }
 
-    /// The header after the last build of slot 0. The caller has waited for the submission.
+    /// Returns the header after the last build of slot 0. The caller has waited for the submission.
     ///
     /// # Errors
     /// Host-visible memory could not be read.
@@ -150,12 +151,12 @@ impl<D: Design> Pooled<D> {
         self.parts.pools.header(0)
     }
 
-    /// The header that the host knows.
+    /// Returns the header that the host last read.
     fn known(&self) -> D::Header {
         *self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Downloads what rays read, for checks. Submits and waits: for tests and tools.
+    /// Downloads the data that rays read, for checks. Submits and waits: for tests and tools.
     ///
     /// # Errors
     /// The device failed.
@@ -164,8 +165,8 @@ impl<D: Design> Pooled<D> {
         D::Contents::download(&self.parts, device, header)
     }
 
-    /// Writes back what [`Pooled::download`] returned, or what was made of it. Submits and waits: for tests
-    /// and tools. Traces end within their bounds whatever the other pools say.
+    /// Writes back contents that [`Pooled::download`] returned, changed or not. Submits and waits: for tests
+    /// and tools. Traces stay within their bounds whatever the pools other than the header contain.
     ///
     /// # Safety
     /// Capacities and addresses in the header are those that were downloaded from this structure since its
@@ -180,7 +181,7 @@ impl<D: Design> Pooled<D> {
         pools.into_iter().try_for_each(|(pool, bytes)| device.upload(self.parts.pools.pool(pool), 0, bytes))
     }
 
-    /// The capacity of the pools, in the terms of the demand.
+    /// Returns the capacity of the pools, in the terms of the demand.
     fn capacity(&self) -> D::Demand {
         D::capacity(&self.parts.config, self.parts.pools.sizes(), &self.parts.extent())
     }
@@ -369,7 +370,7 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn inline_trace(&self) -> Option<InlineTrace<'_>> {
-        // Where it was built in a space of its own rays have to be mapped.
+        // Rays would have to be mapped if the structure was built in a space of its own.
         (!self.description.follows).then(|| self.parts.pools.inline_trace(D::constants(&self.parts.config)))
     }
 

@@ -1,4 +1,4 @@
-//! The buffers of one structure: a header that shaders start from, and pools.
+//! Buffers of one structure: a header that shaders start from, and pools.
 
 use std::mem::offset_of;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -16,18 +16,19 @@ use crate::{
     Addressing, AdsError, Domain, Geometry, InlineTrace, PoolSize, QueueHeader, RayQueue, Sizes, Trace,
 };
 
-/// Place in the header of a queue of the number of list entries with an invalid index that a structure met.
+/// Byte in the header of a queue of the number of list entries with an invalid index that traces through a
+/// structure met.
 const NOTED: u64 = offset_of!(QueueHeader, corrupted) as u64;
 
-/// Factor by which the number of rounds grows where rays did not finish.
+/// Factor by which the number of rounds grows if rays did not finish.
 const MORE_ROUNDS: u32 = 4;
 
-/// Maximum number of rounds: 2^15 dispatches per trace, and as many times the work budget per ray, on
-/// software drivers 2^26 units.
+/// Maximum number of rounds: 2^15 dispatches per trace, and that number times the work budget per ray, which
+/// on software drivers is 2^26 units.
 const MOST_ROUNDS: u32 = 1 << 14;
 
-/// Buffers of one size, one per pool, in the order of [`Sizes::pools`]. The first is the header, of one
-/// element. Its first word is the status, which traces read before anything else.
+/// Buffers of one set of sizes, one per pool, in the order of [`Sizes::pools`]. The first is the header, of
+/// one element. Its first word is the status, which traces read before any other data.
 #[derive(Debug)]
 pub struct Pools {
     structure: &'static str,
@@ -36,20 +37,21 @@ pub struct Pools {
     sizes: Sizes,
     /// Header that the next build begins with.
     header: Vec<u8>,
-    /// Outcomes of builds that the host reads.
+    /// Outcomes of builds, which the host reads.
     slots: Slots,
     pools: Vec<Buffer>,
     set: Option<BindingSet>,
-    /// Rounds that were allowed in addition to those that a trace has at first. Traces raise it, so it
-    /// changes behind a shared reference.
+    /// Number of rounds allowed so far, if more than a trace has at first. Traces raise it, so it changes
+    /// behind a shared reference.
     rounds: AtomicU32,
 }
 
 impl Pools {
-    /// Allocates. The set has one binding per pool in the order of `sizes`, and none by address.
+    /// Allocates the buffers. The set has one binding per pool in the order of `sizes`, or no binding if
+    /// shaders use addresses.
     ///
     /// # Errors
-    /// Out of memory; a pool exceeds what one binding can hold (then use device addresses).
+    /// Out of memory; a pool exceeds the maximum size of a binding (device addresses avoid that limit).
     pub fn new(
         device: &Device,
         structure: &'static str,
@@ -76,11 +78,11 @@ impl Pools {
         })
     }
 
-    /// Allocates again. What was built is lost, but not what the device has yet to say of builds that were
-    /// recorded before.
+    /// Allocates the buffers again. The build is lost; outcomes that the device has yet to write for builds
+    /// recorded before are kept.
     ///
     /// # Errors
-    /// As for [`Pools::new`]; then the pools are as they were.
+    /// As for [`Pools::new`]; the pools are then unchanged.
     pub fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
         (self.pools, self.set) = allocate(device, self.structure, self.addressing, &self.layout, sizes)?;
         self.sizes = sizes.clone();
@@ -90,36 +92,36 @@ impl Pools {
         Ok(())
     }
 
-    /// True if the pools are those that the last build of a slot was recorded for.
+    /// Returns true if the pools are those for which the last build of a slot was recorded.
     pub fn are_of(&self, slot: u32) -> bool {
         self.slots.are_pools_of(slot)
     }
 
-    /// Keeps the outcome of `slots` builds separately from now on, at least 1; outcomes of earlier builds are
-    /// lost.
+    /// Keeps the outcomes of `slots` builds separately from now on, at least 1; outcomes of earlier builds
+    /// are lost.
     ///
     /// # Errors
-    /// Out of memory; then all is as it was.
+    /// Out of memory; nothing changes then.
     pub fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError> {
         self.slots.set_count(device, slots)
     }
 
-    /// Layout of the set; empty by address.
+    /// Returns the layout of the set; empty if shaders use addresses.
     pub fn layout(&self) -> &SetLayout {
         &self.layout
     }
 
-    /// The set; absent by address.
+    /// Returns the set; absent if shaders use addresses.
     pub fn set(&self) -> Option<&BindingSet> {
         self.set.as_ref()
     }
 
-    /// Sizes of the pools allocated.
+    /// Returns the sizes of the allocated pools.
     pub fn sizes(&self) -> &Sizes {
         &self.sizes
     }
 
-    /// The buffer of a pool.
+    /// Returns the buffer of a pool.
     ///
     /// # Panics
     /// The sizes were those of another structure.
@@ -128,12 +130,12 @@ impl Pools {
         &self.pools[index.unwrap_or_else(|| panic!("{} has no pool {pool:?}", self.structure))]
     }
 
-    /// The buffer of the header.
+    /// Returns the buffer of the header.
     pub fn header_buffer(&self) -> &Buffer {
         &self.pools[0]
     }
 
-    /// Device address of the header, which shaders start from; 0 with descriptors.
+    /// Returns the device address of the header, which shaders start from; 0 with descriptors.
     pub fn address(&self) -> u64 {
         match self.addressing {
             Addressing::Descriptor => 0,
@@ -141,7 +143,7 @@ impl Pools {
         }
     }
 
-    /// Device address of a pool as a header holds it, low word first; zero with descriptors.
+    /// Returns the device address of a pool as a header holds it, low word first; zero with descriptors.
     fn address_of(&self, pool: impl PoolName) -> [u32; 2] {
         let address = match self.addressing {
             Addressing::Descriptor => 0,
@@ -150,12 +152,12 @@ impl Pools {
         halves(address)
     }
 
-    /// Takes the header that the passes recorded next start from, but for the addresses of `P`, and the slot
-    /// that keeps their outcome. Each recording has its own header: builds that wait for the device together
-    /// do not share one.
+    /// Sets the header from which the passes recorded next start, except the addresses of `P`, and the slot
+    /// that keeps their outcome. Each recording has its own header, so several builds that wait for the
+    /// device do not share one.
     ///
     /// # Errors
-    /// There is no such slot.
+    /// The slot does not exist.
     ///
     /// # Panics
     /// The pools are those of another structure.
@@ -165,7 +167,7 @@ impl Pools {
         Ok(())
     }
 
-    /// As [`Pools::begin`], where nobody asks for the outcome.
+    /// Sets the header as [`Pools::begin`] does, for a build whose outcome the host does not read.
     ///
     /// # Panics
     /// The pools are those of another structure.
@@ -183,8 +185,8 @@ impl Pools {
         self.header.copy_from_slice(bytemuck::bytes_of(&header));
     }
 
-    /// Records the header, zeros in the pools of `cleared` and the check of the triangles, visible to
-    /// `readers`.
+    /// Records the upload of the header, zeros in the pools of `cleared` and the check of the triangles,
+    /// visible to `readers`.
     pub(crate) fn record_header(
         &self,
         recorder: &mut Recorder<'_>,
@@ -204,14 +206,15 @@ impl Pools {
         self.keep(recorder);
     }
 
-    /// Records that nothing is built.
+    /// Records a status that says that nothing is built.
     pub(crate) fn record_forget(&self, recorder: &mut Recorder<'_>) {
         recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::TRANSFER_WRITE);
         recorder.fill(&self.pools[0], 0, size_of::<u32>() as u64, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
     }
 
-    /// Keeps what is reached by address alive until the device is done; a set does so for what it binds.
+    /// Keeps buffers that shaders reach by address alive until the device has finished; a set keeps those
+    /// that it binds.
     fn keep(&self, recorder: &mut Recorder<'_>) {
         if self.set.is_none() {
             for pool in &self.pools {
@@ -220,11 +223,11 @@ impl Pools {
         }
     }
 
-    /// Triangles that the last build of a slot found outside of their geometry's bounds, or with a vertex
-    /// that there is not. The caller has waited for the submission.
+    /// Returns the number of triangles that the last build of a slot found outside of their geometry's
+    /// bounds, or with a vertex that does not exist. The caller has waited for the submission.
     ///
     /// # Errors
-    /// There is no such slot, or host-visible memory could not be read.
+    /// The slot does not exist, or host-visible memory could not be read.
     pub fn outside(&self, slot: u32) -> Result<u32, GpuError> {
         self.slots.outside(slot)
     }
@@ -237,16 +240,16 @@ impl Pools {
         recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::HOST_READ);
     }
 
-    /// The header after the last build of a slot, zeros before the first. The caller has waited for the
-    /// submission.
+    /// Returns the header after the last build of a slot, zeros before the first build. The caller has waited
+    /// for the submission.
     ///
     /// # Errors
-    /// There is no such slot, or host-visible memory could not be read.
+    /// The slot does not exist, or host-visible memory could not be read.
     pub fn header<H: AnyBitPattern>(&self, slot: u32) -> Result<H, GpuError> {
         self.slots.header(slot)
     }
 
-    /// Downloads a pool in words. Submits and waits: for tests and tools.
+    /// Downloads a pool as words. Submits and waits: for tests and tools.
     ///
     /// # Errors
     /// The device failed.
@@ -254,8 +257,8 @@ impl Pools {
         device.download_as::<u32>(self.pool(pool), 0, (bytes(&self.sizes, pool.name()) / 4) as usize)
     }
 
-    /// Bytes by part for a report: `used` gives the elements of a pool that are in use, all others are
-    /// "slack".
+    /// Returns the bytes by part for a report: `used` returns the number of elements of a pool that are in
+    /// use; all other elements are "slack".
     pub fn bytes_by_part(&self, used: impl Fn(&PoolSize) -> u64) -> Vec<(&'static str, u64)> {
         let mut slack = 0;
         let mut parts = Vec::with_capacity(self.sizes.pools.len() + 1);
@@ -268,18 +271,19 @@ impl Pools {
         parts
     }
 
-    /// Interface for a shader of one's own to the pools, with the structure's specialisation constants.
+    /// Returns the interface through which an embedder's shader reaches the pools, with the structure's
+    /// specialisation constants.
     pub fn inline_trace(&self, constants: Vec<(u32, u32)>) -> InlineTrace<'_> {
         InlineTrace { layout: &self.layout, set: self.set(), address: self.address(), constants }
     }
 
-    /// The rounds of a structure: `first`, until more are allowed.
+    /// Returns the number of rounds of a structure: `first`, until more are allowed.
     pub fn rounds(&self, first: u32) -> u32 {
         self.rounds.load(Ordering::Relaxed).max(first)
     }
 
-    /// Multiplies [`Pools::rounds`] of `first`, up to `most`, in which every ray finishes, and up to 2^14
-    /// rounds. False where that changes nothing.
+    /// Multiplies the number of [`Pools::rounds`] of `first`, up to `most`, in which every ray finishes, and
+    /// up to 2^14 rounds. Returns false if the number does not change.
     pub fn allow_more_rounds(&self, first: u32, most: u32) -> bool {
         let now = self.rounds(first);
         let more = now.saturating_mul(MORE_ROUNDS).min(most).min(MOST_ROUNDS);
@@ -287,16 +291,17 @@ impl Pools {
         more > now
     }
 
-    /// As [`Pools::allow_more_rounds`], up to `first` rounds plus those in which a ray reads everything that
-    /// is stored. A ray that needs more is in a list without an end, which only damaged memory has.
+    /// Raises the number as [`Pools::allow_more_rounds`] does, up to `first` rounds plus those in which a ray
+    /// reads every stored element. A ray that needs more is in a list without an end, which only damaged
+    /// memory has.
     pub fn allow_rounds_to_read_all(&self, first: u32, work_budget: u32) -> bool {
         let elements: u64 = self.sizes.pools.iter().map(|pool| pool.elements).sum();
         let most = u64::from(first) + elements.div_ceil(work_budget.into());
         self.allow_more_rounds(first, most.min(u32::MAX.into()) as u32)
     }
 
-    /// Records a trace, as [`TraceKernels::record_trace`]. Traces count list entries with an invalid index in
-    /// the word of the header at byte `corrupted`; the queue takes note of it
+    /// Records a trace as [`TraceKernels::record_trace`] does. Traces count list entries with an invalid
+    /// index in the word of the header at byte `corrupted`, and the queue copies that count
     /// ([`crate::QueueCounters::corrupted`]).
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
@@ -321,7 +326,7 @@ impl Pools {
         recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::INDIRECT_READ);
     }
 
-    /// Records a lookup for the slots of `domain`, as [`Pools::record_trace`].
+    /// Records a lookup for the slots of `domain`, with faults counted as in [`Pools::record_trace`].
     pub fn record_lookup(
         &self,
         recorder: &mut Recorder<'_>,
@@ -337,7 +342,7 @@ impl Pools {
     }
 }
 
-/// Pools, and the set that binds them; none by address.
+/// Allocates the pools, and the set that binds them unless shaders use addresses.
 fn allocate(
     device: &Device,
     structure: &'static str,
@@ -345,10 +350,10 @@ fn allocate(
     layout: &SetLayout,
     sizes: &Sizes,
 ) -> Result<(Vec<Buffer>, Option<BindingSet>), AdsError> {
-    // Headers may hold the arguments of dispatches.
+    // Headers may hold the arguments of indirect dispatches.
     let usage =
         BufferUsage::STORAGE | BufferUsage::INDIRECT | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST;
-    // Fresh memory may hold the header of a structure that was dropped: nothing is built until it says so.
+    // Fresh memory may hold the header of a structure that was dropped. Zeros state that nothing is built.
     let name = |pool: &str| format!("{structure} {pool}");
     let mut pools =
         vec![device.create_buffer_of_zeros(&name(HEADER_POOL), usage, bytes(sizes, HEADER_POOL))?];

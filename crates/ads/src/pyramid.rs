@@ -1,4 +1,4 @@
-//! Depth bounds of blocks of cells on the device: what rays skip blocks by.
+//! Pyramid of depth bounds of blocks of cells, built on the device: rays skip blocks by it.
 
 use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::ads::PYRAMID_THREADS;
@@ -6,16 +6,16 @@ use rasray_shaders_glsl::constants::ads::PYRAMID_THREADS;
 use crate::AdsError;
 use crate::kit::{BuildPipelines, BuildTarget, ViewDraw};
 
-/// Builds blocks of 2x2, 4x4 ... cells up to one per view: the pipeline of `ads/build_pyramid.comp` as
-/// compiled for a structure, whose `pyramid.glsl` says where the cells and the blocks are. A dispatch a
-/// level.
+/// Builds blocks of 2x2, 4x4 and more cells, up to one block per view, with the pipeline of
+/// `ads/build_pyramid.comp` as compiled for a structure. The structure's `pyramid.glsl` locates the cells and
+/// the blocks. Each level takes one dispatch.
 #[derive(Debug)]
 pub struct Pyramid {
     level: ComputePipeline,
 }
 
 impl Pyramid {
-    /// Makes the pipeline of the module of that name.
+    /// Makes the pipeline of the module with that name.
     ///
     /// # Errors
     /// The module is not compiled in, or the device refuses it.
@@ -23,7 +23,7 @@ impl Pyramid {
         Ok(Self { level: pipelines.compute(name)? })
     }
 
-    /// Words that a structure keeps for the blocks of views.
+    /// Returns the number of words that a structure keeps for the blocks of views.
     pub fn words(views: &[ViewDraw]) -> u64 {
         let of_view = |view: &ViewDraw| (1..=levels(view)).map(|level| 2 * blocks(view, level)).sum::<u64>();
         views.iter().map(of_view).sum()
@@ -50,12 +50,12 @@ impl Pyramid {
     }
 }
 
-/// Levels up to one block per view.
+/// Returns the number of levels up to one block per view.
 fn levels(view: &ViewDraw) -> u32 {
     view.side.next_power_of_two().trailing_zeros()
 }
 
-/// Blocks of a level, of 2^level cells a side.
+/// Returns the number of blocks of a level, each with 2^level cells along a side.
 fn blocks(view: &ViewDraw, level: u32) -> u64 {
     let side = u64::from(view.side).div_ceil(1 << level);
     u64::from(view.views) * side * side

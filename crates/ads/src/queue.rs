@@ -13,7 +13,7 @@ use rasray_shaders_glsl::records::QueueTakeConstants;
 use crate::queue_buffers::{BUFFERS, HEADER, STEPS};
 use crate::{AdsError, Hit, QueueBuffers, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 
-/// Bytes before the first step: the logged slot and the number of steps.
+/// Bytes before the first step: the logged slot and the number of steps, one u32 each.
 const STEP_HEADER: u64 = 8;
 
 /// Slots of a queue that a pass works on.
@@ -21,14 +21,14 @@ const STEP_HEADER: u64 = 8;
 pub enum Domain {
     /// The first n slots.
     First(u32),
-    /// Those that shaders selected (`queue_select` of `ads/queue.glsl`) before the last
-    /// [`RayQueue::record_take`], in no particular order: as many as the device counted, so that the pass
-    /// costs nothing for the others.
+    /// The slots that shaders selected (`queue_select` of `ads/queue.glsl`) before the last
+    /// [`RayQueue::record_take`], in no particular order. The device counts them, so the pass costs nothing
+    /// for the other slots.
     Selected,
 }
 
 impl Domain {
-    /// Word for shaders: the number of first slots, or `DOMAIN_SELECTED`.
+    /// Returns the word for shaders: the number of first slots, or `DOMAIN_SELECTED`.
     pub fn word(self) -> u32 {
         match self {
             Self::First(count) => count,
@@ -37,13 +37,13 @@ impl Domain {
     }
 }
 
-/// Buffers of a queue in addition to rays, hits and states. A part that is not requested is a placeholder of
-/// 16 bytes.
+/// Optional buffers of a queue, in addition to rays, hits and states. A buffer that is not requested is a
+/// placeholder of 16 bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct QueueParts {
-    /// A [`Surface`] per slot.
+    /// True for a [`Surface`] per slot.
     pub surfaces: bool,
-    /// A [`RayWork`] per slot, written by structures that count per ray.
+    /// True for a [`RayWork`] per slot, written by structures that count per ray.
     pub work: bool,
     /// Capacity for [`TraceStep`]s of slot 0, written by structures that log steps.
     pub steps: u32,
@@ -53,9 +53,9 @@ pub struct QueueParts {
 /// slots. A structure traces the rays of a queue and writes their hits. Clones are cheap handles to the same
 /// buffers.
 ///
-/// A queue that is made here is as [`RayQueue::record_reset`] leaves it, and no slot is selected. Its other
-/// buffers are zero, rays included, which miss; on a device without a queue to clear them through they are
-/// undefined until something is written there.
+/// A queue that is made here is in the state after [`RayQueue::record_reset`], and no slot is selected. The
+/// other buffers contain zeros, rays included, and zero rays miss. On a device without a queue to clear them,
+/// the contents are undefined until something is written there.
 #[derive(Clone, Debug)]
 pub struct RayQueue {
     capacity: u32,
@@ -73,33 +73,33 @@ pub struct RayQueue {
     set: BindingSet,
 }
 
-/// Sums over all traces since the last reset.
+/// Sums over all traces since the last reset of the queue.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct QueueCounters {
-    /// Rays given up after their last round.
+    /// Number of rays given up after their last round.
     pub unfinished: u32,
-    /// Rays traced while the structure was incomplete.
+    /// Number of rays traced while the structure was incomplete.
     pub not_ready: u32,
-    /// List entries with an invalid index in the structure last traced, all its parts together, since it was
-    /// built; anything but 0 is a fault.
+    /// Number of list entries with an invalid index in the structure last traced, summed over all its parts,
+    /// since it was built; anything but 0 is a fault.
     pub corrupted: u32,
-    /// Cells stepped; zero unless counters are enabled.
+    /// Number of cells stepped; zero unless counters are enabled.
     pub cells: u64,
-    /// List entries read; zero unless counters are enabled.
+    /// Number of list entries read; zero unless counters are enabled.
     pub entries: u64,
-    /// Primitives tested; zero unless counters are enabled.
+    /// Number of primitives tested; zero unless counters are enabled.
     pub tests: u64,
-    /// Views entered, each once until another is, the near region not counted; zero unless counters are
-    /// enabled.
+    /// Number of views entered; a view counts again only after another view, and the near region does not
+    /// count. Zero unless counters are enabled.
     pub views: u64,
-    /// Cells stepped that were not rejected: in which a list entry was read, or which are voxels with
-    /// something in them; zero unless counters are enabled.
+    /// Number of cells stepped that were not rejected: cells in which a list entry was read, or occupied
+    /// voxels. Zero unless counters are enabled.
     pub searched: u64,
 }
 
 impl RayQueue {
-    /// Allocates a queue, with surfaces if requested. Submits and waits where the device has a queue to clear
-    /// it through.
+    /// Allocates a queue, with surfaces if requested. Submits and waits if the device has a queue, which
+    /// clears the buffers.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
@@ -107,8 +107,8 @@ impl RayQueue {
         Self::with_parts(device, name, capacity, QueueParts { surfaces, ..QueueParts::default() })
     }
 
-    /// Allocates a queue with the requested parts. Submits and waits where the device has a queue to clear it
-    /// through.
+    /// Allocates a queue with the requested parts. Submits and waits if the device has a queue, which clears
+    /// the buffers.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
@@ -122,12 +122,12 @@ impl RayQueue {
         Self::made(device, name, capacity, parts, [const { None }; BUFFERS])
     }
 
-    /// A queue of `capacity` slots, at least 1, whose rays and hits, and whatever else is given, are buffers
-    /// of the host. Their contents stay.
+    /// Makes a queue of `capacity` slots, at least 1, of buffers of the host: rays, hits, and any others
+    /// given. Their contents stay.
     ///
     /// # Errors
-    /// [`AdsError::Queue`] where a buffer is too small, was not made for what it is used for, or is given
-    /// twice; out of memory, or a buffer exceeds what one binding can hold.
+    /// [`AdsError::Queue`] if a buffer is too small, lacks a usage, or is given twice; out of memory, or a
+    /// buffer exceeds the maximum size of a binding.
     pub fn from_buffers(
         device: &Device,
         name: &str,
@@ -154,7 +154,7 @@ impl RayQueue {
                 buffers.push(buffer);
                 continue;
             }
-            // The host writes what has to be known at once, where commands cannot.
+            // The host writes the buffers that must have known contents at once, if commands cannot.
             let by_host = !has_queue && (place == HEADER || place == STEPS);
             buffers.push(device.create_buffer(&BufferDesc {
                 name: &format!("{name} {part}"),
@@ -222,19 +222,19 @@ impl RayQueue {
         Ok(queue)
     }
 
-    /// In the order of bindings.
+    /// Returns the buffers in the order of bindings.
     fn buffers(&self) -> [&Buffer; BUFFERS] {
         let Self { header, rays, hits, states, list, surfaces, work, steps, .. } = self;
         [header, rays, hits, states, list, surfaces, work, steps]
     }
 
-    /// Words before the steps: slot 0 is logged, or no slot where there is no capacity; and there is no step
-    /// yet.
+    /// Returns the words before the steps: slot 0 as the logged slot, or no slot if the capacity is 0, and
+    /// the step count 0.
     fn first_step_words(&self) -> [u32; 2] {
         [if self.step_capacity > 0 { 0 } else { u32::MAX }, 0]
     }
 
-    /// The layout that all queues share.
+    /// Returns the layout that all queues share.
     ///
     /// # Errors
     /// Out of memory.
@@ -242,8 +242,8 @@ impl RayQueue {
         Ok(device.create_set_layout("ray queue", BUFFERS as u32)?)
     }
 
-    /// Clears counters and book-keeping, whenever counters are to start anew, and once before first use where
-    /// the header is a buffer of the host. No slot is selected then.
+    /// Records the reset of counters and book-keeping: whenever counters shall start at 0, and once before
+    /// first use if the header is a buffer of the host. No slot is selected afterwards.
     pub fn record_reset(&self, recorder: &mut Recorder<'_>) {
         let size = size_of::<QueueHeader>() as u64;
         recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
@@ -256,16 +256,15 @@ impl RayQueue {
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
     }
 
-    /// Records that the slots selected so far are those of [`Domain::Selected`] from now on, and that a new
-    /// selection begins. Shaders that selected them came before it, and a barrier towards compute shaders
-    /// between.
+    /// Records that the slots selected so far become those of [`Domain::Selected`], and that a new selection
+    /// begins. The shaders that selected them must precede it, with a barrier to compute shaders in between.
     pub fn record_take(&self, recorder: &mut Recorder<'_>) {
         self.record_taken(recorder, QueueTakeConstants { back: 0 });
     }
 
-    /// Records that the slots of [`Domain::Selected`] are again those before the last take: after a pass that
-    /// selected some of them for others. Once per take, and before any slot is selected after it; no slot is
-    /// selected for the next take.
+    /// Records that the slots of [`Domain::Selected`] are again those before the last take, after a pass that
+    /// selected some of them for other uses. Permitted once per take, and before any slot is selected after
+    /// the take; afterwards no slot is selected for the next take.
     pub fn record_take_back(&self, recorder: &mut Recorder<'_>) {
         self.record_taken(recorder, QueueTakeConstants { back: 1 });
     }
@@ -278,7 +277,8 @@ impl RayQueue {
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::INDIRECT_READ | Access::TRANSFER);
     }
 
-    /// Records that no slot is selected for the passes after the next take, whatever shaders selected before.
+    /// Records that no slot is selected for the passes after the next take, regardless of earlier selections
+    /// by shaders.
     pub fn record_select_none(&self, recorder: &mut Recorder<'_>) {
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
         recorder.fill(&self.header, offset_of!(QueueHeader, selecting) as u64, 4, 0);
@@ -286,7 +286,7 @@ impl RayQueue {
     }
 
     /// Records a dispatch of one invocation per slot of `domain`, in workgroups of `QUEUE_GROUP_SIZE`;
-    /// pipeline, sets and constants are bound.
+    /// pipeline, sets and constants must be bound.
     pub fn record_dispatch(&self, recorder: &mut Recorder<'_>, domain: Domain) {
         match domain {
             Domain::First(count) if count > self.capacity => {
@@ -299,54 +299,55 @@ impl RayQueue {
         }
     }
 
-    /// Slots.
+    /// Returns the number of slots.
     pub fn capacity(&self) -> u32 {
         self.capacity
     }
 
-    /// The queue's binding set.
+    /// Returns the queue's binding set.
     pub fn set(&self) -> &BindingSet {
         &self.set
     }
 
-    /// The layout of [`Self::set`].
+    /// Returns the layout of [`Self::set`].
     pub fn set_layout(&self) -> &SetLayout {
         &self.layout
     }
 
-    /// [`QueueHeader`].
+    /// Returns the buffer of the [`QueueHeader`].
     pub fn header(&self) -> &Buffer {
         &self.header
     }
 
-    /// [`Ray`] per slot.
+    /// Returns the buffer of the [`Ray`] per slot.
     pub fn rays(&self) -> &Buffer {
         &self.rays
     }
 
-    /// [`Hit`] per slot.
+    /// Returns the buffer of the [`Hit`] per slot.
     pub fn hits(&self) -> &Buffer {
         &self.hits
     }
 
-    /// Lists of slots, each as long as there are slots: two of paused rays, then two of those selected.
+    /// Returns the buffer with the lists of slots, each with capacity for all slots: two of paused rays, then
+    /// two of selected slots.
     pub fn list(&self) -> &Buffer {
         &self.list
     }
 
-    /// [`Surface`] per slot.
+    /// Returns the buffer of the [`Surface`] per slot.
     pub fn surfaces(&self) -> &Buffer {
         &self.surfaces
     }
 
-    /// [`RayWork`] per slot, after the last trace through a structure that counts per ray; a placeholder
-    /// unless the queue was made with [`QueueParts::work`].
+    /// Returns the buffer of the [`RayWork`] per slot, written by the last trace through a structure that
+    /// counts per ray; a placeholder unless the queue was made with [`QueueParts::work`].
     pub fn work(&self) -> &Buffer {
         &self.work
     }
 
-    /// The steps of slot 0 since the reset, and how many there were, which may be more than the queue has
-    /// capacity for. Submits and waits: for tests and tools.
+    /// Downloads the steps of slot 0 since the reset, and their number, which may exceed the capacity of the
+    /// queue. Submits and waits: for tests and tools.
     ///
     /// # Errors
     /// The device failed.
@@ -360,19 +361,20 @@ impl RayQueue {
         Ok((device.download_as::<TraceStep>(&self.steps, STEP_HEADER, kept)?, taken))
     }
 
-    /// Bytes of all buffers.
+    /// Returns the bytes of all buffers.
     pub fn bytes(&self) -> u64 {
         self.buffers().iter().map(|buffer| buffer.size()).sum()
     }
 
-    /// Names and bytes of the buffers.
+    /// Returns names and bytes of the buffers.
     pub fn bytes_by_part(&self) -> impl Iterator<Item = (&'static str, u64)> {
         const NAMES: [&str; BUFFERS] =
             ["header", "rays", "hits", "traversal states", "lists", "surfaces", "work", "steps"];
         NAMES.into_iter().zip(self.buffers().map(Buffer::size))
     }
 
-    /// Sums over all traces since the reset. Submits and waits: for use after a trace, in tests and tools.
+    /// Downloads the sums over all traces since the reset. Submits and waits: for use after a trace, in tests
+    /// and tools.
     ///
     /// # Errors
     /// The device failed.
@@ -381,7 +383,7 @@ impl RayQueue {
         Ok(header.first().map(Self::counters).unwrap_or_default())
     }
 
-    /// Counters of a downloaded header.
+    /// Returns the counters in a downloaded header.
     pub fn counters(header: &QueueHeader) -> QueueCounters {
         let wide = |low: u32, high: u32| u64::from(low) | u64::from(high) << 32;
         QueueCounters {
@@ -397,12 +399,12 @@ impl RayQueue {
     }
 }
 
-/// Names and bytes of the buffers, in the order of bindings; 0 where there is a placeholder.
+/// Returns names and bytes of the buffers, in the order of bindings; 0 bytes for a placeholder.
 pub(crate) fn sizes(capacity: u32, parts: QueueParts) -> [(&'static str, u64); BUFFERS] {
     let of = |element: usize, count: u64| element as u64 * count;
     let slots = u64::from(capacity);
     let where_asked = |is_asked: bool| if is_asked { slots } else { 0 };
-    // A placeholder holds no step.
+    // A placeholder has capacity for no step.
     let steps =
         if parts.steps > 0 { STEP_HEADER + of(size_of::<TraceStep>(), parts.steps.into()) } else { 0 };
     [

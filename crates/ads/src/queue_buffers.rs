@@ -1,56 +1,57 @@
-//! Buffers of a queue of rays, and the check of those of a host.
+//! Buffers of a queue of rays, and the check of buffers that a host supplies.
 
 use rasray_gpu::{Buffer, BufferUsage};
 
 use crate::queue::sizes;
 use crate::{AdsError, QueueParts};
 
-/// Buffers of a queue, each at the binding of its place.
+/// Number of buffers of a queue; the index of a buffer is its binding.
 pub(crate) const BUFFERS: usize = 8;
 
-/// Place of the header among the buffers.
+/// Index of the header among the buffers.
 pub(crate) const HEADER: usize = 0;
 
-/// Place of the steps.
+/// Index of the steps among the buffers.
 pub(crate) const STEPS: usize = 7;
 
 /// Buffers of a host that a queue is made of ([`RayQueue::from_buffers`](crate::RayQueue::from_buffers)).
-/// Each is used from its start, for all slots of the queue, and may be larger; all of them have the usage
-/// [`BufferUsage::STORAGE`]. No two are the same buffer.
+/// Each buffer is used from its start, for all slots of the queue, and may be larger; all have the usage
+/// [`BufferUsage::STORAGE`]. No two may be the same buffer.
 #[derive(Clone, Debug)]
 pub struct QueueBuffers {
-    /// A [`Ray`](crate::Ray) per slot, 48 bytes. What the host has written there is traced.
+    /// A [`Ray`](crate::Ray) per slot, 48 bytes. Traces read the rays that the host has written.
     pub rays: Buffer,
-    /// A [`Hit`](crate::Hit) per slot, 16 bytes, which traces write. Where camera rays are answered by
-    /// drawing, also with the usage [`BufferUsage::TRANSFER_DST`].
+    /// A [`Hit`](crate::Hit) per slot, 16 bytes, which traces write. If camera rays are answered by drawing,
+    /// the buffer also has the usage [`BufferUsage::TRANSFER_DST`].
     pub hits: Buffer,
-    /// A [`QueueHeader`](crate::QueueHeader), with all usages ([`BufferUsage::ALL`]):
-    /// [`RayQueue::record_reset`](crate::RayQueue::record_reset) is recorded before anything else of the
-    /// queue, whatever it holds. Absent: one is made, which is reset.
+    /// A [`QueueHeader`](crate::QueueHeader), with all usages ([`BufferUsage::ALL`]).
+    /// [`RayQueue::record_reset`](crate::RayQueue::record_reset) is recorded before any other pass of the
+    /// queue, whatever the buffer contains. If absent, the queue makes one, which is reset.
     pub header: Option<Buffer>,
-    /// A [`TraceState`](crate::TraceState) per slot, 64 bytes, of rays that pause; what it holds at first is
-    /// not read. Absent: one is made.
+    /// A [`TraceState`](crate::TraceState) per slot, 64 bytes, for rays that pause; its initial contents are
+    /// not read. If absent, the queue makes one.
     pub states: Option<Buffer>,
-    /// Four u32 per slot, lists of slots; what it holds at first is not read. Absent: one is made.
+    /// Four u32 per slot, for lists of slots; the initial contents are not read. If absent, the queue makes
+    /// one.
     pub list: Option<Buffer>,
-    /// A [`Surface`](crate::Surface) per slot, 128 bytes, which lookups of surfaces write. Absent: there are
-    /// none, as without [`QueueParts::surfaces`].
+    /// A [`Surface`](crate::Surface) per slot, 128 bytes, which lookups of surfaces write. If absent, the
+    /// queue has none, as without [`QueueParts::surfaces`].
     pub surfaces: Option<Buffer>,
-    /// A [`RayWork`](crate::RayWork) per slot, 24 bytes. Absent: work is not kept per ray, as without
+    /// A [`RayWork`](crate::RayWork) per slot, 24 bytes. If absent, work is not kept per ray, as without
     /// [`QueueParts::work`].
     pub work: Option<Buffer>,
 }
 
 impl QueueBuffers {
-    /// These rays and hits, and of everything else what a queue makes.
+    /// Uses the given rays and hits; the queue makes all other buffers.
     pub fn new(rays: Buffer, hits: Buffer) -> Self {
         Self { rays, hits, header: None, states: None, list: None, surfaces: None, work: None }
     }
 
-    /// The parts, and the buffers in the order of bindings.
+    /// Returns the parts, and the buffers in the order of bindings.
     ///
     /// # Errors
-    /// One of them is too small for that many slots, was not made for what it is used for, or is given twice.
+    /// A buffer is too small for `capacity` slots, lacks a usage, or is given twice.
     pub(crate) fn checked(self, capacity: u32) -> Result<(QueueParts, [Option<Buffer>; BUFFERS]), AdsError> {
         let Self { rays, hits, header, states, list, surfaces, work } = self;
         let parts = QueueParts { surfaces: surfaces.is_some(), work: work.is_some(), steps: 0 };

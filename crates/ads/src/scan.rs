@@ -1,4 +1,4 @@
-//! Running sums on the device: what turns lengths of lists into places.
+//! Prefix sums on the device, which turn lengths of lists into offsets.
 
 use rasray_gpu::{Access, ComputePipeline, Recorder, Stage};
 use rasray_shaders_glsl::constants::ads::SCAN_BLOCK;
@@ -6,8 +6,8 @@ use rasray_shaders_glsl::constants::ads::SCAN_BLOCK;
 use crate::AdsError;
 use crate::kit::{BuildPipelines, BuildTarget};
 
-/// Replaces numbers by the sum of all before them: the pipelines of `ads/scan_*.comp` as compiled for a
-/// structure, whose `scanned.glsl` says which numbers. Three dispatches; O(n) work.
+/// Replaces each number by the sum of all numbers before it, with the pipelines of `ads/scan_*.comp` as
+/// compiled for a structure. The structure's `scanned.glsl` locates the numbers. Three dispatches; O(n) work.
 #[derive(Debug)]
 pub struct Scan {
     blocks: ComputePipeline,
@@ -25,13 +25,13 @@ impl Scan {
         Ok(Self { blocks: compute("blocks")?, sums: compute("sums")?, places: compute("places")? })
     }
 
-    /// Words that a structure keeps for the sums of `numbers` numbers.
+    /// Returns the number of words that a structure keeps for the sums of `numbers` numbers.
     pub fn sums(numbers: u64) -> u64 {
         numbers.div_ceil(SCAN_BLOCK.into())
     }
 
-    /// Records a labelled pass over `numbers` numbers, as many as `scan_count` of the structure says, visible
-    /// to `readers`. The total is written also where there is no number.
+    /// Records a labelled pass over `numbers` numbers, visible to `readers`; `scan_count` of the structure
+    /// gives the same number. The total is written even if there is no number.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,

@@ -1,28 +1,28 @@
-//! The scene's set, for structures that read it.
+//! The scene's binding set, for structures that read the scene.
 
 use rasray_gpu::{BindingSet, SetLayout};
 
 use crate::AdsError;
 
-/// The scene's set, which surfaces and alpha masks are read from.
+/// Binding set of a scene, from which surfaces and alpha masks are read.
 #[derive(Clone, Debug)]
 pub struct SceneBinding {
     /// Layout of the set.
     pub layout: SetLayout,
-    /// The set.
+    /// Set of the scene's buffers and images.
     pub set: BindingSet,
     /// True if any draw is alpha-masked.
     pub alpha_masked: bool,
-    /// Specialisation constants of modules that read the scene: id and bits. They disable code for features
-    /// that the scene does not have.
+    /// Specialisation constants of modules that read the scene: id and bits. The constants disable code for
+    /// features that the scene does not have.
     pub constants: Vec<(u32, u32)>,
 }
 
 impl SceneBinding {
-    /// The scene that a structure with such a `payload` reads while it is built.
+    /// Returns the scene that a structure with the payload `payload` reads while it is built.
     ///
     /// # Errors
-    /// There is none.
+    /// There is no scene.
     pub fn for_payload<'a>(scene: Option<&'a Self>, payload: &str) -> Result<&'a Self, AdsError> {
         scene.ok_or(AdsError::Option {
             option: "payload",
@@ -31,13 +31,14 @@ impl SceneBinding {
         })
     }
 
-    /// The suffix of modules that test alpha masks: `.alpha` where a draw is masked, else nothing.
+    /// Returns the suffix of modules that test alpha masks: `.alpha` if a draw is masked, else the empty
+    /// string.
     pub fn mask_suffix(scene: Option<&Self>) -> &'static str {
         if scene.is_some_and(|scene| scene.alpha_masked) { ".alpha" } else { "" }
     }
 
-    /// Returns what pipelines for this scene are compiled for and another scene does not have; `None`: they
-    /// read that one as well.
+    /// Returns the property that pipelines for this scene are compiled for and `other` does not have; `None`
+    /// if the pipelines can read `other` as well.
     pub fn difference(&self, other: &Self) -> Option<&'static str> {
         if self.layout.storage_buffers() != other.layout.storage_buffers() {
             Some("buffers")

@@ -5,12 +5,12 @@ use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 use crate::AdsError;
 use crate::kit::{HEADER_POOL, PoolName};
 
-/// One pool of a structure.
+/// Size of one pool of a structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PoolSize {
-    /// Name, as the structure's page uses it.
+    /// Name of the pool, as the structure's page uses it.
     pub name: &'static str,
-    /// Elements to hold.
+    /// Capacity of the pool, in elements.
     pub elements: u64,
     /// Bytes of one element.
     pub element_bytes: u64,
@@ -19,13 +19,13 @@ pub struct PoolSize {
 /// Sizes of the pools of a structure: the result of planning, which is plain arithmetic.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
-    /// All pools; their order is the structure's.
+    /// Sizes of all pools, in the structure's order.
     pub pools: Vec<PoolSize>,
 }
 
 impl Sizes {
-    /// Pools of a structure: the header, then the others with their elements and the bytes of one, in the
-    /// order of their bindings.
+    /// Returns the sizes of the pools of a structure: the header, then the other pools with their numbers of
+    /// elements and the bytes of an element, in the order of their bindings.
     ///
     /// # Errors
     /// A pool has more words than 32-bit indices can address with one value reserved for "none" or "more".
@@ -50,7 +50,8 @@ impl Sizes {
         }
     }
 
-    /// These sizes, where one pool holds pages: fewer of them have numbers, since lists mark their links.
+    /// Checks a pool of pages in these sizes, and returns the sizes. Fewer pages can have numbers than
+    /// elements of other pools, because lists mark the links to pages.
     ///
     /// # Errors
     /// There are more pages than [`PAGE_LIMIT`].
@@ -62,22 +63,22 @@ impl Sizes {
         Ok(self)
     }
 
-    /// True if a pool is larger than the pool of the same name in `other`.
+    /// Returns true if a pool is larger than the pool with the same name in `other`.
     pub fn exceed(&self, other: &Self) -> bool {
         self.pools.iter().any(|pool| pool.elements > other.elements(pool.name))
     }
 
-    /// Elements of one of a structure's own pools.
+    /// Returns the number of elements of a pool.
     pub fn elements_of(&self, pool: impl PoolName) -> u64 {
         self.elements(pool.name())
     }
 
-    /// Sum over all pools, bytes.
+    /// Returns the sum over all pools, bytes.
     pub fn bytes(&self) -> u64 {
         self.pools.iter().map(|pool| pool.elements * pool.element_bytes).sum()
     }
 
-    /// Elements of a pool; 0 where none has that name.
+    /// Returns the number of elements of the pool with that name; 0 if there is none.
     pub fn elements(&self, name: &str) -> u64 {
         self.pools.iter().find(|pool| pool.name == name).map_or(0, |pool| pool.elements)
     }

@@ -1,16 +1,16 @@
-//! Outcomes of builds that the host reads, kept apart per slot.
+//! Outcomes of builds, which the host reads, kept separately per slot.
 
 use bytemuck::{AnyBitPattern, pod_read_unaligned};
 use rasray_gpu::{Buffer, BufferDesc, BufferUsage, Device, GpuError, MemoryLocation};
 
 use crate::AdsError;
 
-/// An error unless a build can be recorded for `slot`.
+/// Returns an error unless a build can be recorded for `slot`.
 pub(crate) fn check_recorded(structure: &'static str, slot: u32, slots: u32) -> Result<(), AdsError> {
     if slot < slots { Ok(()) } else { Err(AdsError::Slot { structure, slot, slots }) }
 }
 
-/// An error unless there is a build of `slot` to read.
+/// Returns an error unless `slot` has an outcome to read.
 pub(crate) fn check_read(structure: &str, slot: u32, slots: u32) -> Result<(), GpuError> {
     if slot < slots {
         return Ok(());
@@ -19,26 +19,27 @@ pub(crate) fn check_read(structure: &str, slot: u32, slots: u32) -> Result<(), G
     Err(GpuError::InvalidUse { name: structure.to_owned(), reason })
 }
 
-/// An entry per slot, and which pools its build was recorded for.
+/// Outcome of a build per slot, and the pools for which each build was recorded.
 #[derive(Debug)]
 pub(crate) struct Slots {
     structure: &'static str,
     header_bytes: u64,
-    /// Per slot the header after its build, and behind it the count of triangles outside; one more entry for
+    /// Per slot, the header after its build followed by the count of triangles outside; one more entry for
     /// builds without a slot.
     entries: Buffer,
-    /// Builds whose outcome is kept apart: frames that the device works on at a time.
+    /// Number of builds whose outcomes are kept separately: the maximum number of frames that the device
+    /// works on at a time.
     count: u32,
-    /// The slot of the build that is recorded; the count where it has none.
+    /// Slot of the build that is being recorded; equal to `count` if the build has none.
     recorded: u32,
-    /// Times that the pools were replaced.
+    /// Number of times that the pools were replaced.
     replaced: u32,
-    /// That number when the last build of each slot was recorded.
+    /// Value of `replaced` when the last build of each slot was recorded.
     replaced_before: Vec<u32>,
 }
 
 impl Slots {
-    /// One slot, of zeros.
+    /// Makes one slot with zeros.
     pub fn new(device: &Device, structure: &'static str, header_bytes: u64) -> Result<Self, AdsError> {
         Ok(Self {
             structure,
@@ -51,7 +52,8 @@ impl Slots {
         })
     }
 
-    /// That many slots from now on, at least 1, of zeros. After an error all is as it was.
+    /// Sets the number of slots, at least 1, and fills all slots with zeros. After an error nothing has
+    /// changed.
     pub fn set_count(&mut self, device: &Device, count: u32) -> Result<(), AdsError> {
         let count = count.max(1);
         self.entries = entries(device, self.structure, self.header_bytes, count)?;
@@ -60,7 +62,7 @@ impl Slots {
         Ok(())
     }
 
-    /// Begins the recording of a build of `slot`, for the pools that there are.
+    /// Begins the recording of a build of `slot`, for the present pools.
     pub fn begin(&mut self, slot: u32) -> Result<(), AdsError> {
         check_recorded(self.structure, slot, self.count)?;
         self.recorded = slot;
@@ -68,40 +70,40 @@ impl Slots {
         Ok(())
     }
 
-    /// Begins the recording of a build that nobody reads.
+    /// Begins the recording of a build whose outcome the host does not read.
     pub fn begin_unread(&mut self) {
         self.recorded = self.count;
     }
 
-    /// The pools are others. Entries stay: the device may have yet to write those of builds that were
+    /// Notes that the pools were replaced. Entries are kept: the device may have yet to write those of builds
     /// recorded before.
     pub fn replace_pools(&mut self) {
         self.replaced += 1;
         self.begin_unread();
     }
 
-    /// True if the pools are those that the last build of a slot was recorded for.
+    /// Returns true if the pools are those for which the last build of a slot was recorded.
     pub fn are_pools_of(&self, slot: u32) -> bool {
         self.replaced_before.get(slot as usize) == Some(&self.replaced)
     }
 
-    /// Buffer that a recording copies the header to.
+    /// Returns buffer and byte to which a recording copies the header.
     pub fn header_target(&self) -> (&Buffer, u64) {
         (&self.entries, self.place(self.recorded))
     }
 
-    /// Buffer that a recording copies the count of triangles outside to.
+    /// Returns buffer and byte to which a recording copies the count of triangles outside.
     pub fn outside_target(&self) -> (&Buffer, u64) {
         (&self.entries, self.place(self.recorded) + self.header_bytes)
     }
 
-    /// The header after the last build of a slot.
+    /// Returns the header after the last build of a slot.
     pub fn header<H: AnyBitPattern>(&self, slot: u32) -> Result<H, GpuError> {
         check_read(self.structure, slot, self.count)?;
         Ok(pod_read_unaligned(&self.entries.read(self.place(slot), size_of::<H>() as u64)?))
     }
 
-    /// Triangles that the last build of a slot found outside.
+    /// Returns the number of triangles that the last build of a slot found outside of the bounds.
     pub fn outside(&self, slot: u32) -> Result<u32, GpuError> {
         check_read(self.structure, slot, self.count)?;
         Ok(pod_read_unaligned(&self.entries.read(self.place(slot) + self.header_bytes, 4)?))
@@ -112,12 +114,12 @@ impl Slots {
     }
 }
 
-/// Bytes of an entry: the header, and the count of triangles outside.
+/// Returns the bytes of an entry: the header, and the count of triangles outside.
 fn entry_bytes(header_bytes: u64) -> u64 {
     header_bytes + 4
 }
 
-/// Zeros for the entries of `slots` slots, and one more.
+/// Makes a buffer of zeros for the entries of `slots` slots, and one more.
 fn entries(device: &Device, structure: &str, header_bytes: u64, slots: u32) -> Result<Buffer, AdsError> {
     let size = entry_bytes(header_bytes) * (u64::from(slots) + 1);
     let buffer = device.create_buffer(&BufferDesc {

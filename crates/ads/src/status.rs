@@ -1,30 +1,30 @@
-//! Outcome of a build, and what to do then.
+//! Outcome of a build, and the action to take then.
 
 use std::fmt;
 
 use crate::{AdsError, Sizes};
 
-/// Demand and capacity of a pool in a build.
+/// Demand and capacity of one pool in a build.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PoolStatus {
     /// Name of the pool.
     pub name: &'static str,
-    /// Elements the build needs; exact also beyond the capacity. For pages it is the number that this build
-    /// began or would have begun, which varies slightly with the order of threads; `check` adds a margin for
-    /// it.
+    /// Number of elements that the build needs; exact even beyond the capacity. For pages it is the number
+    /// that this build began or would have begun, which varies slightly with the order of threads; `check`
+    /// adds a margin for it.
     pub demand: u64,
-    /// Elements the pool holds.
+    /// Number of elements that the pool holds.
     pub capacity: u64,
 }
 
 impl PoolStatus {
-    /// Elements that the capacity lacks; 0 where it suffices.
+    /// Returns the number of elements that the capacity lacks; 0 if it suffices.
     pub fn lacking(&self) -> u64 {
         self.demand.saturating_sub(self.capacity)
     }
 }
 
-/// Name and numbers, for messages.
+/// Writes name and numbers, for messages.
 impl fmt::Display for PoolStatus {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "{} holds {} and takes {}", self.name, self.capacity, self.demand)
@@ -34,32 +34,33 @@ impl fmt::Display for PoolStatus {
 /// The outcome of a build, read by the caller after its own wait.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BuildStatus {
-    /// True if traces will answer.
+    /// True if traces through the present structure answer.
     pub complete: bool,
-    /// True if traces that were recorded after the build have answers. Differs from `complete` where pools,
-    /// triangles or a scene that builds read were replaced since.
+    /// True if traces that were recorded directly after the build have answers. It differs from `complete` if
+    /// pools, triangles or a scene that builds read were replaced since.
     pub was_complete: bool,
     /// Pools whose demand the build counted.
     pub pools: Vec<PoolStatus>,
-    /// Lists too long to be sorted; they are searched in full.
+    /// Number of lists too long to be sorted; traces search them in full.
     pub unsorted: u64,
-    /// Triangles with a corner outside of the bounds that their geometry states, with a vertex that it does
-    /// not have, or beyond its maximum; with any of them the build is not complete.
+    /// Number of triangles with a corner outside of the bounds that their geometry states, with a vertex that
+    /// does not exist, or beyond the maximum number; the build is not complete if there are any.
     pub outside: u32,
-    /// List entries with an invalid index that the build found; anything but 0 is a fault. Those that traces
-    /// find are in [`crate::QueueCounters::corrupted`].
+    /// Number of list entries with an invalid index that the build found; anything but 0 is a fault. Entries
+    /// that traces find are counted in [`crate::QueueCounters::corrupted`].
     pub corrupted: u64,
     /// Outcomes of the parts of a [`Combined`](crate::Combined) structure; empty for all others.
     pub parts: Vec<Self>,
 }
 
 impl BuildStatus {
-    /// The demand for a pool; absent where none has that name.
+    /// Returns the demand for the pool with that name; absent if there is none.
     pub fn demand(&self, name: &str) -> Option<u64> {
         self.pools.iter().find(|pool| pool.name == name).map(|pool| pool.demand)
     }
 
-    /// The pool of the structure or of its parts that lacks most elements; absent where all suffice.
+    /// Returns the pool, of the structure or of its parts, that lacks most elements; absent if all pools
+    /// suffice.
     pub fn shortest_pool(&self) -> Option<PoolStatus> {
         let of_parts = self.parts.iter().filter_map(Self::shortest_pool);
         let all = self.pools.iter().copied().chain(of_parts);
@@ -67,18 +68,18 @@ impl BuildStatus {
     }
 }
 
-/// Action after a build.
+/// Action that a caller takes after a build.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Check {
-    /// Everything was stored.
+    /// No action: the build stored everything.
     Complete,
-    /// Resize to this and build again.
+    /// Resize to these sizes and build again.
     Grow(Sizes),
 }
 
 impl BuildStatus {
-    /// The result of [`Structure::check`](crate::Structure::check): `plan` computes the sizes for demands
-    /// with the given growth.
+    /// Returns the result of [`Structure::check`](crate::Structure::check): `plan` computes the sizes for
+    /// demands with the given growth.
     ///
     /// # Errors
     /// As [`Structure::check`](crate::Structure::check).
@@ -93,19 +94,19 @@ impl BuildStatus {
         if self.was_complete {
             return Ok(Check::Complete);
         }
-        // Without headroom is better than not at all.
+        // Sizes without headroom are better than none.
         plan(Growth { percent: headroom }).or_else(|_| plan(Growth { percent: 0 })).map(Check::Grow)
     }
 }
 
-/// Growth of a pool beyond its demand, in percent of it.
+/// Growth of a pool beyond its demand, in percent of the demand.
 #[derive(Clone, Copy, Debug)]
 pub struct Growth {
     percent: u32,
 }
 
 impl Growth {
-    /// Elements for a pool of this demand and capacity: never less than its capacity.
+    /// Returns the number of elements for a pool with this demand and capacity: never less than the capacity.
     pub fn of(self, demand: u64, capacity: u64) -> u64 {
         if demand <= capacity {
             return capacity;

@@ -1,4 +1,4 @@
-//! Logged steps, in words.
+//! Logged steps of traversals, and their text.
 
 use std::fmt;
 use std::ops::Deref;
@@ -22,7 +22,7 @@ pub enum StepKind {
     Node,
     /// A bucket or list was searched.
     List,
-    /// Something was skipped.
+    /// A cell, a list, or the rest of a list or of the ray was skipped.
     Skip,
     /// An entry of a list was read.
     Entry,
@@ -36,63 +36,63 @@ pub enum StepKind {
     Pause,
     /// The ray was answered.
     End,
-    /// The voxel visited holds something, which is searched in cells of its own.
+    /// The visited voxel is occupied; its contents are searched in cells of their own.
     Occupied,
-    /// A number that has no meaning here.
+    /// The number has no meaning here.
     Unknown,
 }
 
-/// The result of a test.
+/// Result of the test of a primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TestVerdict {
-    /// It is the best hit so far.
+    /// The primitive is the best hit so far.
     Accepted,
     /// The ray excludes this primitive.
     Excluded,
-    /// The ray passes outside of the triangle.
+    /// The ray passes outside the triangle.
     Outside,
     /// The ray runs along the triangle's plane, or the triangle has no area.
     Parallel,
-    /// At or before `t_min`, or within rounding of the origin.
+    /// The hit is at or before `t_min`, or within rounding of the origin.
     Before,
-    /// At or beyond `t_max`.
+    /// The hit is at or beyond `t_max`.
     Beyond,
-    /// Outside of the cell's t interval, or of the depth interval searched.
+    /// The hit is outside of the cell's t interval, or of the depth interval searched.
     OutsideCell,
-    /// On the triangle's plane, too far from the triangle.
+    /// The hit is on the triangle's plane, but too far from the triangle.
     OutOfReach,
-    /// The ray starts on the plane.
+    /// The ray starts on the triangle's plane.
     Leaving,
-    /// No better than the best hit.
+    /// The hit is not better than the best one.
     NotBetter,
-    /// Refused by the alpha test.
+    /// The alpha test refused the hit.
     Transparent,
-    /// The ray passes backs of single-sided triangles, and meets one.
+    /// The ray ignores backs of single-sided triangles, and meets one.
     BackFace,
-    /// A number that has no meaning here.
+    /// The number has no meaning here.
     Unknown,
 }
 
-/// Why something was skipped.
+/// Reason of a skip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SkipReason {
     /// The cell or list is empty.
     Empty,
-    /// Nothing in it is within the interval searched.
+    /// No content is within the interval searched.
     Outside,
-    /// It lies behind the best hit.
+    /// The contents lie behind the best hit.
     Behind,
     /// The rest of a sorted list lies beyond the depth interval searched.
     Past,
     /// The rest of the ray's range is outside of the bounds of the geometry.
     Bounds,
-    /// A number that has no meaning here.
+    /// The number has no meaning here.
     Unknown,
 }
 
-/// One step of a logged traversal, as the device writes it; the methods say what its words mean.
+/// One step of a logged traversal, as the device writes it; the methods give the meaning of its words.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct TraceStep(pub records::TraceStep);
@@ -106,7 +106,7 @@ impl Deref for TraceStep {
 }
 
 impl TraceStep {
-    /// Action of the step.
+    /// Returns the action of the step.
     pub fn kind(&self) -> StepKind {
         match self.kind {
             numbers::STEP_ROUND => StepKind::Round,
@@ -126,7 +126,7 @@ impl TraceStep {
         }
     }
 
-    /// The result of a test or of comparing a fragment; `None` for other steps.
+    /// Returns the result of a test or of the comparison of a fragment; `None` for other steps.
     pub fn verdict(&self) -> Option<TestVerdict> {
         if !matches!(self.kind(), StepKind::Test | StepKind::Fragment) {
             return None;
@@ -148,7 +148,7 @@ impl TraceStep {
         })
     }
 
-    /// Why something was skipped; `None` for other steps.
+    /// Returns the reason of a skip; `None` for other steps.
     pub fn skip_reason(&self) -> Option<SkipReason> {
         if self.kind() != StepKind::Skip {
             return None;
@@ -163,18 +163,18 @@ impl TraceStep {
         })
     }
 
-    /// View, column and row of a cell; `None` for other steps. Columns and rows of a cube's border are -1
-    /// and the resolution.
+    /// Returns view, column and row of a cell; `None` for other steps. Columns and rows of a cube's border
+    /// are -1 and the resolution.
     pub fn cell(&self) -> Option<(u32, i32, i32)> {
         (self.kind() == StepKind::Cell).then(|| (self.a, self.b.cast_signed(), self.c.cast_signed()))
     }
 
-    /// True if the near region is entered, which is no view.
+    /// Returns true if the ray enters the near region, which is not a view.
     pub fn is_near_region(&self) -> bool {
         self.kind() == StepKind::View && self.a == numbers::VIEW_NEAR
     }
 
-    /// The primitive of a test, a fragment, a best hit or an answer, where one is known.
+    /// Returns the primitive of a test, a fragment, a best hit or an answer, if it is known.
     pub fn primitive(&self) -> Option<u32> {
         let id = match self.kind() {
             StepKind::Test | StepKind::Fragment | StepKind::Best => self.a,
@@ -185,7 +185,7 @@ impl TraceStep {
     }
 }
 
-/// A primitive in words.
+/// Returns the text for a primitive.
 fn name_of(primitive: u32) -> String {
     match primitive {
         PRIMITIVE_NONE => "no triangle".to_owned(),
@@ -195,7 +195,7 @@ fn name_of(primitive: u32) -> String {
 }
 
 impl fmt::Display for TraceStep {
-    /// One line without indentation.
+    /// Writes one line without indentation.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let records::TraceStep { a, b, t_low, t_high, .. } = self.0;
         match self.kind() {
@@ -237,7 +237,7 @@ impl fmt::Display for TraceStep {
     }
 }
 
-/// The verdict of a test in words, with t where there is one.
+/// Text of the result of a test, with t if there is one.
 struct Words<'a>(&'a TraceStep);
 
 impl fmt::Display for Words<'_> {
@@ -296,7 +296,7 @@ mod tests {
         assert_eq!(skip.skip_reason(), Some(SkipReason::Past));
     }
 
-    /// Numbers that a newer shader might write are shown, not mistaken for another step.
+    /// Numbers that a newer shader might write are shown as numbers, and not as another step.
     #[test]
     fn unknown_numbers_stay_visible() {
         let unknown = step(99, [1, 2, 3], [0.0; 2]);

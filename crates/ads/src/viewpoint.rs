@@ -1,31 +1,31 @@
-//! Eye of a build, and view of a camera there.
+//! Eye of a build, and the view of a camera at that eye.
 
 use rasray_shaders_glsl::constants::ads::PLACEMENT_EYE_LIMIT;
 
 use crate::GeometryExtent;
 
-/// View of a camera: a pyramid whose apex is the eye. Axes are unit and perpendicular.
+/// View of a camera: a pyramid whose apex is the eye. The axes are unit vectors, perpendicular to each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraView {
-    /// Towards the right of the image.
+    /// Unit vector towards the right of the image.
     pub right: [f32; 3],
-    /// Towards the top of the image.
+    /// Unit vector towards the top of the image.
     pub up: [f32; 3],
-    /// Into the image.
+    /// Unit vector into the image.
     pub forward: [f32; 3],
     /// Half the image's width at a distance of one along `forward`; positive.
     pub half_width: f32,
-    /// Half its height there; positive.
+    /// Half the image's height at a distance of one along `forward`; positive.
     pub half_height: f32,
 }
 
 impl CameraView {
-    /// Rows of the matrix under which the pyramid is `|x| <= z`, `|y| <= z`: depth is z.
+    /// Returns the rows of the matrix under which the pyramid is `|x| <= z`, `|y| <= z`: depth is z.
     pub fn rows(&self) -> [[f32; 3]; 3] {
         [self.right.map(|x| x / self.half_width), self.up.map(|x| x / self.half_height), self.forward]
     }
 
-    /// True if a point, relative to the eye, lies within the pyramid.
+    /// Returns true if a point, given relative to the eye, lies within the pyramid.
     pub fn sees(&self, point: [f64; 3]) -> bool {
         let along = |axis: [f32; 3]| (0..3).map(|i| f64::from(axis[i]) * point[i]).sum::<f64>();
         let depth = along(self.forward);
@@ -34,7 +34,7 @@ impl CameraView {
             && along(self.up).abs() <= depth * f64::from(self.half_height)
     }
 
-    /// True if all numbers are finite and the pyramid is open.
+    /// Returns true if all numbers are finite and the pyramid has a positive width and height.
     pub fn is_valid(&self) -> bool {
         let halves = [self.half_width, self.half_height];
         let finite = self.rows().iter().flatten().all(|x| x.is_finite());
@@ -42,39 +42,39 @@ impl CameraView {
     }
 }
 
-/// The eye and the camera that a build is made for. Structures without views ignore both, those without a
+/// The eye and the camera for which a build is made. Structures without views ignore both; those without a
 /// view of the camera ignore the camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Viewpoint {
-    /// Metres relative to the frame origin.
+    /// Position of the eye, metres relative to the frame origin.
     pub eye: [f32; 3],
-    /// View of the camera at the eye; absent where there is none, or none with a perspective.
+    /// View of the camera at the eye; absent if there is no camera, or no perspective one.
     pub camera: Option<CameraView>,
 }
 
 impl Viewpoint {
-    /// Returns this camera at another place.
+    /// Returns the same camera with another eye.
     pub fn at(self, eye: [f32; 3]) -> Self {
         Self { eye, ..self }
     }
 }
 
 impl From<[f32; 3]> for Viewpoint {
-    /// An eye without a camera.
+    /// Makes a viewpoint of an eye without a camera.
     fn from(eye: [f32; 3]) -> Self {
         Self { eye, camera: None }
     }
 }
 
-/// True if cells of one box over the stated bounds of a geometry are the same for both viewpoints.
+/// Returns true if cells of one box over the stated bounds of a geometry are the same for both viewpoints.
 pub fn box_is_same(extent: &GeometryExtent, built: Viewpoint, wanted: Viewpoint) -> bool {
     [built, wanted].iter().all(|viewpoint| box_ignores_eye(extent, viewpoint.eye))
 }
 
-/// True if cells of one box over the stated bounds of a geometry are the same for this eye as for every other
-/// one as near: those of an eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest side, and
-/// outside of the whole of which the geometry is a part, have wider margins (`box_placement` in
-/// `ads/placement.glsl`).
+/// Returns true if cells of one box over the stated bounds of a geometry are the same for this eye as for
+/// every other eye that is as near. An eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest
+/// side, and outside of the whole geometry of which this one is a part, gives cells with wider margins
+/// (`box_placement` in `ads/placement.glsl`).
 fn box_ignores_eye(extent: &GeometryExtent, eye: [f32; 3]) -> bool {
     let [lower, upper] = extent.bounds;
     let [around_lower, around_upper] = extent.around;
@@ -123,7 +123,7 @@ mod tests {
         assert!(
             !box_is_same(&part, at(0.0), at(1.5 * limit)) && !box_is_same(&part, at(-2.0 * limit), at(0.0))
         );
-        // The same box within a whole that reaches as far as that eye.
+        // The same box inside a whole geometry that reaches as far as that eye.
         let within = GeometryExtent { around: [[-2.0 * limit; 3], [2.0 * limit; 3]], ..part };
         assert!(box_is_same(&within, at(-2.0 * limit), at(1.5 * limit)));
         assert!(!box_is_same(&within, at(0.0), at(2.5 * limit)));

@@ -1,4 +1,4 @@
-//! Passes that visit the cells of every triangle, by drawing or by computing.
+//! Passes that visit the cells of every triangle, by rasterization or in compute shaders.
 
 use crate::words;
 use rasray_gpu::{Access, ComputePipeline, Feature, RasterPipeline, Recorder, Requirements};
@@ -7,19 +7,19 @@ use rasray_shaders_glsl::constants::ads::{BIN_GROUP_SIZE, BIN_TURNS};
 use crate::AdsError;
 use crate::kit::{BuildPipelines, BuildTarget, ViewDraw};
 
-/// Way in which triangles are binned into cells. Changes no hit.
+/// Way in which triangles are binned into cells. It does not change any hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builder {
     /// The rasterizer proposes cells, and the shared function decides.
     Raster,
-    /// A compute pass visits all cells that a triangle may reach into; the same function decides.
+    /// A compute pass visits all cells that a triangle may reach into; the same shared function decides.
     Binning,
 }
 
 words! { Builder { Raster "raster", Binning "binning" } }
 
 impl Builder {
-    /// Requirements of a device: to compute, or to draw with stores of fragment shaders.
+    /// Returns the requirements on a device: compute, or drawing with stores of fragment shaders.
     pub fn requirements(self) -> Requirements {
         match self {
             Self::Raster => {
@@ -32,7 +32,7 @@ impl Builder {
     }
 }
 
-/// One such pass.
+/// A pass that visits cells, by one builder.
 #[derive(Debug)]
 pub struct Visit {
     label: String,
@@ -43,17 +43,17 @@ pub struct Visit {
 enum Passes {
     Raster(RasterPipeline),
     Binning {
-        /// Triangles.
+        /// Visits the cells of triangles.
         bin: ComputePipeline,
-        /// Those of the large-triangle queue.
+        /// Visits the cells of triangles of the large-triangle queue.
         large: ComputePipeline,
-        /// Byte of the header with the number of workgroups for those.
+        /// Byte of the header with the numbers of workgroups for the large-triangle queue.
         groups: u64,
     },
 }
 
 impl Visit {
-    /// Records it. The next pass may be a visit by the same builder, or computes.
+    /// Records the visit. The next pass may be a visit by the same builder, or a compute pass.
     pub fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, draws: &[ViewDraw]) {
         match &self.passes {
             Passes::Raster(draw) => target.raster_views(recorder, &self.label, draw, draws),
@@ -67,12 +67,12 @@ impl Visit {
     }
 }
 
-/// Workgroups of binning passes with an invocation for each triangle.
+/// Returns the number of workgroups of binning passes with one invocation per triangle.
 fn triangle_groups(target: BuildTarget<'_>) -> u64 {
     u64::from(target.geometry.triangle_count()).div_ceil(BIN_GROUP_SIZE.into())
 }
 
-/// The pass before all visits by computing: fills the large-triangle queue.
+/// Pass before all visits by compute shaders: it fills the large-triangle queue.
 #[derive(Debug)]
 pub struct LargePass {
     label: String,
@@ -80,29 +80,29 @@ pub struct LargePass {
 }
 
 impl LargePass {
-    /// Records it.
+    /// Records the pass.
     pub fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let readers = Access::COMPUTE | Access::INDIRECT_READ;
         target.compute_pass(recorder, &self.label, &self.pipeline, triangle_groups(target), 0, readers);
     }
 }
 
-/// Makes the visits of a structure that can be built either way. Modules are named alike: a fragment shader
-/// `build_3_bounds.alpha` has compute shaders `build_3_bounds_bin.alpha` and `build_3_bounds_bin_large.alpha`
-/// next to it, and labels have the same suffixes.
+/// Maker of the visits of a structure that either builder can build. Modules have similar names: a fragment
+/// shader `build_3_bounds.alpha` has compute shaders `build_3_bounds_bin.alpha` and
+/// `build_3_bounds_bin_large.alpha` next to it, and labels have the same suffixes.
 #[derive(Clone, Copy, Debug)]
 pub struct Visits<'a> {
     /// Maker of the pipelines.
     pub pipelines: &'a BuildPipelines<'a>,
-    /// The builder.
+    /// Builder of the visits.
     pub builder: Builder,
-    /// Byte of the header with the workgroups for the large-triangle queue: three u32.
+    /// Byte of the header with the numbers of workgroups for the large-triangle queue: three u32.
     pub groups: usize,
 }
 
 impl Visits<'_> {
-    /// The visit of that name, in that variant (`.alpha`, or nothing). Drawing takes this vertex shader,
-    /// which computing ignores.
+    /// Makes the visit with that name, in that variant (`.alpha`, or the empty string). Drawing uses the
+    /// vertex shader; computing ignores it.
     ///
     /// # Errors
     /// A module is not compiled in, or the device refuses it.
@@ -118,7 +118,7 @@ impl Visits<'_> {
         Ok(Visit { label: self.pipelines.label(name), passes })
     }
 
-    /// The pass of that name before all visits, where they compute.
+    /// Makes the pass with that name that precedes all visits by compute shaders; absent for drawing.
     ///
     /// # Errors
     /// The module is not compiled in, or the device refuses it.
@@ -130,8 +130,9 @@ impl Visits<'_> {
     }
 }
 
-/// Workgroups per triangle of the large-triangle queue: enough that no loop of an invocation has more than
-/// `BIN_TURNS` iterations. `turns`: cells of the largest view, times the iterations of a loop within each.
+/// Returns the number of workgroups per triangle of the large-triangle queue: enough that no loop of an
+/// invocation has more than `BIN_TURNS` iterations. `turns` is the number of cells of the largest view, times
+/// the iterations of a loop within each cell.
 pub fn bin_groups(turns: u64) -> u32 {
     turns.div_ceil(u64::from(BIN_GROUP_SIZE) * BIN_TURNS as u64) as u32
 }

@@ -1,7 +1,7 @@
-//! Words of options.
+//! Names of the values of options.
 
-/// Gives each value of an option its word, in options and reports: `ALL` and `WORDS`, every value in order,
-/// and `name`.
+/// Gives each value of an option a word for options and reports. It declares `ALL` and `WORDS`, every value
+/// in order, and `name`.
 ///
 /// ```
 /// #[derive(Clone, Copy)]
@@ -19,13 +19,13 @@
 macro_rules! words {
     ($choice:ident { $($value:ident $word:literal),+ $(,)? }) => {
         impl $choice {
-            /// Every value.
+            /// All values, in order.
             pub const ALL: [Self; [$($word),+].len()] = [$(Self::$value),+];
 
-            /// Every value, by its word in options and reports.
+            /// All values, each with its word in options and reports.
             pub const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$value)),+];
 
-            /// The word of options and reports.
+            /// Returns the word of the value in options and reports.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$value => $word),+

@@ -97,7 +97,6 @@ impl ImageRenderer {
     /// # Errors
     /// [`FrameError::DrawnAdaptively`] if camera rays are drawn, `NotListed` if the film was not made by
     /// [`Film::listed`], or the device fails.
-    /// by [`Film::listed`], or the device fails.
     pub fn adapting(mut self, rule: Adaptive) -> Result<Self, FrameError> {
         if self.passes.visibility().is_some() {
             return Err(FrameError::DrawnAdaptively);

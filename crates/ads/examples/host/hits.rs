@@ -1,16 +1,16 @@
-//! A structure in the command buffers of the host, the same for every one: built, traced, and resized where a
-//! build needs more capacity.
+//! Builds and traces a structure in the command buffers of the host, and resizes it if a build needs more
+//! capacity. The code is the same for every structure.
 
 use rasray_ads::{Check, Domain, Hit, RayQueue, Structure, Trace};
 use rasray_gpu::{Device, Recorder};
 
 use super::{Host, Result, rays};
 
-/// Builds after which a demand counts as not stable. Most structures need two; one whose demand is known only
-/// once an earlier pool sufficed needs a few more.
+/// Maximum number of builds; a demand that takes more counts as not stable. Most structures need two. A
+/// structure whose demand is known only once an earlier pool sufficed needs a few more.
 const BUILDS: u32 = 9;
 
-/// Builds and traces in one command buffer of the host, and again where a build needs more capacity.
+/// Builds and traces in one command buffer of the host; repeats both if a build needs more capacity.
 pub fn hits(host: &Host, device: &Device, structure: &mut dyn Structure) -> Result<Vec<Hit>> {
     let rays = rays();
     let queue = RayQueue::new(device, "rays", rays.len() as u32, false)?;

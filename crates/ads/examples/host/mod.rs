@@ -1,5 +1,5 @@
-//! The host of the examples: a small renderer with a Vulkan instance, device, queue, command buffers and
-//! buffers of its own, and some triangles. [`Host::raw_device`] and [`Host::geometry`] say what rasray is
+//! Host of the examples: a small renderer with its own Vulkan instance, device, queue, command buffers and
+//! buffers, and some triangles. [`Host::raw_device`] and [`Host::geometry`] show the objects that rasray is
 //! handed; `hits.rs` is the loop that builds and traces.
 
 #![allow(dead_code)] // Each example uses some of it.
@@ -15,10 +15,10 @@ use rasray_gpu::{Buffer, BufferUsage, Device, Feature, RawBuffer, RawDevice, Val
 pub type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 const VALIDATION: &std::ffi::CStr = c"VK_LAYER_KHRONOS_validation";
-/// Frames that the host has in flight at most.
+/// Maximum number of frames that the host has in flight.
 pub const FRAMES: usize = 2;
 
-/// A renderer of its own: device, queue and frames. Everything made from it is destroyed before it.
+/// A renderer with its own device, queue and frames. Every object made from it is destroyed before it.
 pub struct Host {
     _entry: ash::Entry,
     instance: ash::Instance,
@@ -29,14 +29,14 @@ pub struct Host {
     pub device: ash::Device,
     queue: vk::Queue,
     family: u32,
-    /// True if buffers have addresses.
+    /// True if buffers have device addresses.
     addresses: bool,
     pool: vk::CommandPool,
     frames: Vec<(vk::CommandBuffer, vk::Fence)>,
     made: RefCell<Vec<Made>>,
 }
 
-/// Objects destroyed with the host.
+/// Objects that are destroyed with the host.
 enum Made {
     Buffer(vk::Buffer, vk::DeviceMemory),
     SetLayout(vk::DescriptorSetLayout),
@@ -53,12 +53,12 @@ pub struct HostBuffer {
 }
 
 impl Host {
-    /// Makes a device with those features and a queue for compute, and for graphics where a feature is about
-    /// drawing.
+    /// Makes a device with the given features and a queue for compute, and also for graphics if a feature
+    /// concerns drawing.
     pub fn new(features: &[Feature]) -> Result<Self> {
         let draws = features.contains(&Feature::DynamicRendering);
         // SAFETY: every handle is used with the instance or device that it was made from, by this thread
-        // alone, and what the calls point to outlives them.
+        // alone, and the data that the calls point to outlives them.
         unsafe {
             let entry = ash::Entry::load()?;
             let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
@@ -67,7 +67,7 @@ impl Host {
             let info = info.enabled_layer_names(&layers).enabled_extension_names(&extensions);
             let instance = entry.create_instance(&info, None)?;
             let watcher = ash::ext::debug_utils::Instance::new(&entry, &instance);
-            // Messages of the validation layer; boxed, since it must stay where it is.
+            // Messages of the validation layer; boxed, because the log must keep its address.
             let log = Box::<ValidationLog>::default();
             let messenger = watcher.create_debug_utils_messenger(&log.messenger(), None)?;
             let physical = *instance.enumerate_physical_devices()?.first().ok_or("no Vulkan device")?;
@@ -89,7 +89,7 @@ impl Host {
             let mut features_13 = vk::PhysicalDeviceVulkan13Features::default()
                 .synchronization2(has(Feature::Synchronization2))
                 .dynamic_rendering(draws);
-            // Features of ray queries, where a structure asks for them.
+            // Features of ray queries, if a structure asks for them.
             let mut trees =
                 vk::PhysicalDeviceAccelerationStructureFeaturesKHR::default().acceleration_structure(true);
             let mut queries = vk::PhysicalDeviceRayQueryFeaturesKHR::default().ray_query(true);
@@ -138,7 +138,7 @@ impl Host {
         }
     }
 
-    /// Describes the device to rasray. `enabled` are the features that it was made with.
+    /// Describes the device to rasray. `enabled` are the features with which the device was made.
     pub fn raw_device(&self, enabled: &[Feature]) -> RawDevice {
         RawDevice {
             instance: self.instance.clone(),
@@ -155,22 +155,23 @@ impl Host {
         }
     }
 
-    /// Waits until the device is done with a frame.
+    /// Waits until the device has finished a frame.
     pub fn wait(&self, frame: usize) -> Result<()> {
         // SAFETY: the fence is of this device and waited for by this thread alone.
         Ok(unsafe { self.device.wait_for_fences(&[self.frames[frame].1], true, u64::MAX) }?)
     }
 
-    /// Waits until the device is done with everything.
+    /// Waits until the device has finished all work.
     pub fn wait_for_all(&self) -> Result<()> {
         // SAFETY: nothing else submits to the device.
         Ok(unsafe { self.device.device_wait_idle() }?)
     }
 
-    /// Records a frame that was waited for, and submits it.
+    /// Records a frame that has been waited for, and submits it.
     pub fn submit<R>(&self, frame: usize, record: impl FnOnce(vk::CommandBuffer) -> Result<R>) -> Result<R> {
         let (commands, fence) = self.frames[frame];
-        // SAFETY: the device is done with command buffer and fence, which this thread alone uses.
+        // SAFETY: the device has finished using the command buffer and the fence, which this thread alone
+        // uses.
         unsafe {
             self.device.begin_command_buffer(commands, &vk::CommandBufferBeginInfo::default())?;
             let recorded = record(commands)?;
@@ -186,7 +187,7 @@ impl Host {
         }
     }
 
-    /// A storage buffer with that in it.
+    /// Makes a storage buffer that contains the values.
     pub fn buffer<T: bytemuck::NoUninit>(&self, values: &[T]) -> Result<HostBuffer> {
         let bytes: &[u8] = bytemuck::cast_slice(values);
         let mut usage = vk::BufferUsageFlags::STORAGE_BUFFER
@@ -199,7 +200,8 @@ impl Host {
         }
         let info = vk::BufferCreateInfo::default().size(bytes.len() as u64).usage(usage);
         let seen = vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
-        // SAFETY: the memory is of a type that suits the buffer, and stays mapped as long as it is there.
+        // SAFETY: the memory is of a type that suits the buffer, and stays mapped as long as the buffer
+        // exists.
         let buffer = unsafe {
             let raw = self.device.create_buffer(&info, None)?;
             let needs = self.device.get_buffer_memory_requirements(raw);
@@ -221,8 +223,8 @@ impl Host {
         Ok(buffer)
     }
 
-    /// A compute pipeline, its layout, and a set at number 0 with one buffer; `sets` are the layouts of sets
-    /// 1 and up.
+    /// Makes a compute pipeline, its layout, and a set with number 0 with one buffer; `sets` are the layouts
+    /// of sets 1 and up.
     pub fn pipeline(
         &self,
         spirv: &[u32],
@@ -244,7 +246,7 @@ impl Host {
             .collect();
         let values: Vec<u8> = constants.iter().flat_map(|(_, bits)| bits.to_ne_bytes()).collect();
         let constants = vk::SpecializationInfo::default().map_entries(&entries).data(&values);
-        // SAFETY: all is of this device, and what the calls point to outlives them.
+        // SAFETY: all handles are of this device, and the data that the calls point to outlives them.
         unsafe {
             let bindings = [binding];
             let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
@@ -283,7 +285,7 @@ impl Host {
         }
     }
 
-    /// An error where the validation layer complained, or hits are not the expected ones.
+    /// Returns an error if the validation layer complained, or if the hits differ from the expected ones.
     pub fn compare(&self, found: &[Hit], expected: &[Hit]) -> Result<()> {
         let same = found.iter().zip(expected).filter(|(found, expected)| found == expected).count();
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
@@ -292,13 +294,13 @@ impl Host {
         (same == expected.len() && hit > 100).then_some(()).ok_or("hits differ".into())
     }
 
-    /// An error where the validation layer complained.
+    /// Returns an error if the validation layer complained.
     pub fn is_silent(&self) -> Result<()> {
         let complaints = self.log.messages();
         if complaints.is_empty() { Ok(()) } else { Err(complaints.join("\n").into()) }
     }
 
-    /// Triangles of the host as rasray takes them, in buffers of the host's.
+    /// Describes triangles in buffers of the host as a rasray geometry.
     pub fn geometry(&self, device: &Device, mesh: &Mesh, positions: HostBuffer) -> Result<Geometry> {
         let triangle_count = mesh.indices.len() as u32 / 3;
         let draws = [Draw { first_triangle: 0, triangle_count, ..Draw::default() }];
@@ -316,16 +318,17 @@ impl Host {
         Ok(Geometry::new(device, desc)?)
     }
 
-    /// A buffer of the host as rasray binds it.
+    /// Wraps a buffer of the host in a rasray buffer.
     pub fn adopted(&self, device: &Device, name: &str, buffer: HostBuffer) -> Buffer {
         let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_DST | BufferUsage::TRANSFER_SRC;
-        // SAFETY: it was made so by `buffer`, and goes with the host, after all that was made from `device`.
+        // SAFETY: `buffer` made it with this usage and size, and it is destroyed with the host, after all
+        // objects made from `device`.
         unsafe { device.buffer_from_raw(&RawBuffer { name, raw: buffer.raw, size: buffer.size, usage }) }
     }
 }
 
 impl HostBuffer {
-    /// Overwrites it from its start; the device must not be using it.
+    /// Overwrites the buffer from its start; the device must not be using it.
     pub fn write<T: bytemuck::NoUninit>(&self, values: &[T]) {
         let bytes: &[u8] = bytemuck::cast_slice(values);
         assert!(bytes.len() as u64 <= self.size);
@@ -333,9 +336,9 @@ impl HostBuffer {
         unsafe { std::ptr::copy_nonoverlapping(bytes.as_ptr(), self.mapped, bytes.len()) };
     }
 
-    /// All of it; the device must be done with it.
+    /// Returns the complete contents of the buffer; the device must have finished with it.
     pub fn read<T: bytemuck::AnyBitPattern>(&self) -> Vec<T> {
-        // SAFETY: the mapping is as long as the buffer, and bytes are bytes.
+        // SAFETY: the mapping is as long as the buffer, and every bit pattern is valid for bytes.
         let bytes = unsafe { std::slice::from_raw_parts(self.mapped, self.size as usize) };
         bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
     }
@@ -343,7 +346,8 @@ impl HostBuffer {
 
 impl Drop for Host {
     fn drop(&mut self) {
-        // SAFETY: the device is idle, all that was made from it elsewhere is gone, and each handle goes once.
+        // SAFETY: the device is idle, all objects that rasray made from it are gone, and each handle is
+        // destroyed once.
         unsafe {
             let _ = self.device.device_wait_idle();
             for made in self.made.take() {
@@ -372,14 +376,14 @@ impl Drop for Host {
     }
 }
 
-/// Triangles of the host.
+/// Triangles of the host: positions and indices.
 pub struct Mesh {
     pub positions: Vec<[f32; 3]>,
     pub indices: Vec<u32>,
     pub bounds: [[f32; 3]; 2],
 }
 
-/// Upright steps of two triangles each, each step behind the one below.
+/// Makes upright steps of two triangles each, each step behind the one below it.
 pub fn staircase(steps: u32) -> Mesh {
     let (y, up) = (|k: u32| k as f32 / steps as f32, 1.0 / steps as f32);
     let step = |k| [[0.0, y(k), y(k)], [1.0, y(k), y(k)], [0.0, y(k) + up, y(k)], [1.0, y(k) + up, y(k)]];
@@ -388,7 +392,7 @@ pub fn staircase(steps: u32) -> Mesh {
     Mesh { positions, indices, bounds: [[0.0; 3], [1.0, 1.001, 1.0]] }
 }
 
-/// Rays, many of which hit the stairs.
+/// Makes rays, many of which hit the stairs.
 pub fn rays() -> Vec<Ray> {
     let origin = |k: u32| [0.1 + 0.0007 * k as f32, 0.0003 + 0.00099 * k as f32, -1.0];
     (0..1000).map(|k| Ray::new(origin(k), [0.05, 0.01, 1.0])).collect()
