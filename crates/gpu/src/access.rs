@@ -4,12 +4,12 @@ use std::ops::{BitOr, BitOrAssign};
 
 use ash::vk;
 
-/// Who touches memory, and how. Values combine with `|`.
+/// Set of memory accesses: the stages that access memory, and the kinds of access. Values combine with `|`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Access(u32);
 
 impl Access {
-    /// No access: only orders execution.
+    /// No access: a barrier orders execution only.
     pub const NONE: Access = Access(0);
     /// Storage buffers read by compute shaders.
     pub const COMPUTE_READ: Access = Access(1);
@@ -23,22 +23,22 @@ impl Access {
     pub const FRAGMENT_READ: Access = Access(1 << 4);
     /// Storage buffers written by fragment shaders, atomics included.
     pub const FRAGMENT_WRITE: Access = Access(1 << 5);
-    /// Sources of copies.
+    /// Reads of buffers as sources of copies.
     pub const TRANSFER_READ: Access = Access(1 << 6);
-    /// Targets of copies and fills.
+    /// Writes to buffers as targets of copies and fills.
     pub const TRANSFER_WRITE: Access = Access(1 << 7);
-    /// Arguments of indirect dispatches and draws.
+    /// Reads of arguments of indirect dispatches and draws.
     pub const INDIRECT_READ: Access = Access(1 << 8);
-    /// Reads by the host after it waited.
+    /// Reads by the host after it waited for the device.
     pub const HOST_READ: Access = Access(1 << 9);
     /// Writes by the host.
     pub const HOST_WRITE: Access = Access(1 << 10);
-    /// Builds of the driver's trees: what they read and write. Only where
+    /// Reads and writes by builds of the driver's trees. Valid only if
     /// [`crate::Feature::AccelerationStructure`] is enabled.
     pub const TREE_BUILD: Access = Access(1 << 11);
-    /// Ray queries of compute shaders. Only where [`crate::Feature::RayQuery`] is enabled.
+    /// Reads by ray queries of compute shaders. Valid only if [`crate::Feature::RayQuery`] is enabled.
     pub const TREE_TRACE: Access = Access(1 << 12);
-    /// Anything.
+    /// All accesses.
     pub const ALL: Access = Access((1 << 13) - 1);
 
     /// Reads and writes of compute shaders.
@@ -48,17 +48,18 @@ impl Access {
     /// Reads and writes of copies and fills.
     pub const TRANSFER: Access = Access(Self::TRANSFER_READ.0 | Self::TRANSFER_WRITE.0);
 
-    /// True if every access of `other` is in this one.
+    /// Returns true if this set contains every access of `other`.
     pub const fn contains(self, other: Access) -> bool {
         self.0 & other.0 == other.0
     }
 
-    /// Both, where `|` cannot stand: in constants.
+    /// Returns the union of both sets, for constants, in which `|` is not available.
     pub const fn union(self, other: Access) -> Access {
         Access(self.0 | other.0)
     }
 
-    /// Stages and accesses as Vulkan has them. `graphics` says whether the queue knows the stages of drawing.
+    /// Returns the Vulkan stages and accesses. `graphics` states whether the queue supports the stages of
+    /// drawing.
     pub(crate) fn scope(self, graphics: bool) -> (vk::PipelineStageFlags2, vk::AccessFlags2) {
         use vk::{AccessFlags2 as Flags, PipelineStageFlags2 as Stages};
         if self == Self::ALL {
@@ -85,7 +86,7 @@ impl Access {
             (
                 Self::TREE_BUILD,
                 Stages::ACCELERATION_STRUCTURE_BUILD_KHR,
-                // Boxes and instances are read as shaders read.
+                // Builds read boxes and instances with the accesses of shader reads.
                 Flags::ACCELERATION_STRUCTURE_READ_KHR
                     | Flags::ACCELERATION_STRUCTURE_WRITE_KHR
                     | Flags::SHADER_READ,

@@ -10,10 +10,10 @@ use crate::error::{GpuError, Result};
 use crate::set_layout::{SetLayout, add_part};
 use crate::set_parts::{Mask, SetParts, all};
 
-/// A part of a buffer to be bound.
+/// A range of a buffer to be bound.
 #[derive(Debug, Clone, Copy)]
 pub struct BufferRange<'a> {
-    /// The buffer.
+    /// Buffer that contains the range.
     pub buffer: &'a Buffer,
     /// Start in bytes, a multiple of [`crate::Limits::min_storage_buffer_offset_alignment`].
     pub offset: u64,
@@ -21,7 +21,7 @@ pub struct BufferRange<'a> {
     pub size: u64,
 }
 
-/// Buffers bound together. It keeps them alive. Clones are handles to the same set.
+/// Set of buffers that are bound together. It keeps the buffers alive. Clones are handles to the same set.
 #[derive(Clone)]
 pub struct BindingSet {
     pub(crate) inner: Arc<BindingSetInner>,
@@ -30,7 +30,7 @@ pub struct BindingSet {
 pub(crate) struct BindingSetInner {
     layout: SetLayout,
     parts: Arc<SetParts>,
-    /// Buffers bound, kept as long as the set is there.
+    /// Buffers of the set, kept as long as the set exists.
     _buffers: Vec<Buffer>,
 }
 
@@ -41,12 +41,12 @@ impl std::fmt::Debug for BindingSet {
 }
 
 impl BindingSet {
-    /// Name for errors and tools.
+    /// Returns the name for errors and tools.
     pub fn name(&self) -> &str {
         &self.inner.parts.name
     }
 
-    /// The Vulkan set of all bindings.
+    /// Returns the Vulkan set of all bindings.
     pub fn raw(&self) -> vk::DescriptorSet {
         self.inner.part(all(self.inner.layout.storage_buffers))
     }
@@ -57,22 +57,22 @@ impl BindingSetInner {
         &self.layout
     }
 
-    /// The Vulkan set of some bindings: those of a pipeline that was made with this layout.
+    /// Returns the Vulkan set of some bindings: those of a pipeline that was made with this layout.
     ///
     /// # Panics
-    /// No part of the layout has them.
+    /// No part of the layout has these bindings.
     pub(crate) fn part(&self, mask: Mask) -> vk::DescriptorSet {
         self.parts.lock()[&mask].raw
     }
 }
 
 impl Device {
-    /// Binds whole buffers, in the order of the bindings.
+    /// Makes a set that binds whole buffers, in the order of the bindings.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`] with the name of a buffer that is too large for a binding,
     /// [`GpuError::InvalidUse`] for a wrong number of buffers, a buffer not made for storage or a layout of
-    /// another device, or what the driver reports.
+    /// another device, or an error that the driver reports.
     pub fn create_binding_set(
         &self,
         layout: &SetLayout,
@@ -84,10 +84,11 @@ impl Device {
         self.create_binding_set_of_ranges(layout, name, &ranges)
     }
 
-    /// Binds parts of buffers, in the order of the bindings.
+    /// Makes a set that binds ranges of buffers, in the order of the bindings.
     ///
     /// # Errors
-    /// As [`Device::create_binding_set`], and [`GpuError::OutOfRange`] for a part beyond its buffer.
+    /// As [`Device::create_binding_set`], and [`GpuError::OutOfRange`] for a range that does not lie within
+    /// its buffer.
     pub fn create_binding_set_of_ranges(
         &self,
         layout: &SetLayout,
@@ -106,7 +107,8 @@ impl Device {
             parts: Arc::new(SetParts::new(name, ranges.iter().map(bound).collect())),
             _buffers: ranges.iter().map(|range| range.buffer.clone()).collect(),
         });
-        // The lock is released before a set that failed is dropped, which takes it again.
+        // The lock must be released before a set that failed is dropped, because dropping takes the lock
+        // again.
         let mut layouts = self.core.set_layouts.lock();
         let of_layout = layouts.entry(layout.storage_buffers).or_default();
         let mut made = of_layout.layouts.iter();
@@ -168,7 +170,8 @@ impl Drop for BindingSetInner {
         let Some(device) = core.usable_device() else { return };
         for part in self.parts.lock().values() {
             // SAFETY: submissions that use the set hold a handle to it, so none is pending; embedders keep
-            // what they record alive. It was taken out of the layout, so that no part is added any more.
+            // the objects that they record alive. The set was taken out of the layout, so no part is added to
+            // it any more.
             unsafe { device.destroy_descriptor_pool(part.pool, None) };
         }
     }

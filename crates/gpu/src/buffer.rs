@@ -1,4 +1,4 @@
-//! Buffers.
+//! Buffers: descriptions, handles, and access by the host.
 
 use std::ops::{BitOr, BitOrAssign};
 use std::ptr::NonNull;
@@ -17,8 +17,8 @@ use crate::memory::{Allocation, MemoryLocation};
 pub struct BufferUsage(u32);
 
 impl BufferUsage {
-    /// Read and written by shaders; also by address where [`Feature::BufferDeviceAddress`] is enabled, and
-    /// read by builds of the driver's trees where [`Feature::AccelerationStructure`] is.
+    /// Read and written by shaders; also by address if [`Feature::BufferDeviceAddress`] is enabled, and read
+    /// by builds of the driver's trees if [`Feature::AccelerationStructure`] is enabled.
     pub const STORAGE: BufferUsage = BufferUsage(1);
     /// Arguments of indirect dispatches and draws.
     pub const INDIRECT: BufferUsage = BufferUsage(1 << 1);
@@ -26,12 +26,12 @@ impl BufferUsage {
     pub const TRANSFER_SRC: BufferUsage = BufferUsage(1 << 2);
     /// Target of copies, fills and uploads.
     pub const TRANSFER_DST: BufferUsage = BufferUsage(1 << 3);
-    /// All of them.
+    /// All public uses.
     pub const ALL: BufferUsage = BufferUsage((1 << 4) - 1);
     /// Memory of a tree of the driver.
     pub(crate) const TREE: BufferUsage = BufferUsage(1 << 4);
 
-    /// True if every use of `other` is in this one.
+    /// Returns true if this set contains every use of `other`.
     pub const fn contains(self, other: BufferUsage) -> bool {
         self.0 & other.0 == other.0
     }
@@ -74,7 +74,7 @@ impl BitOrAssign for BufferUsage {
     }
 }
 
-/// A buffer to be made.
+/// Description of a buffer to be made.
 #[derive(Debug, Clone, Copy)]
 pub struct BufferDesc<'a> {
     /// Name for errors and tools.
@@ -83,20 +83,20 @@ pub struct BufferDesc<'a> {
     pub size: u64,
     /// Uses; must not be empty.
     pub usage: BufferUsage,
-    /// Who reads and writes it.
+    /// Memory accesses by host and device that the buffer is made for.
     pub location: MemoryLocation,
 }
 
-/// A buffer of a host, see [`Device::buffer_from_raw`].
+/// A buffer that a host made, see [`Device::buffer_from_raw`].
 #[derive(Debug, Clone, Copy)]
 pub struct RawBuffer<'a> {
     /// Name for errors and tools.
     pub name: &'a str,
-    /// The buffer.
+    /// Vulkan buffer.
     pub raw: vk::Buffer,
-    /// Its size in bytes.
+    /// Size of the buffer in bytes.
     pub size: u64,
-    /// Uses that it was made for.
+    /// Uses that the buffer was made for.
     pub usage: BufferUsage,
 }
 
@@ -114,17 +114,17 @@ pub(crate) struct BufferInner {
     size: u64,
     usage: BufferUsage,
     address: Option<u64>,
-    /// The lock keeps host accesses of different threads apart.
+    /// Host address of the memory; the lock separates host accesses by different threads.
     mapped: Option<Mutex<Mapped>>,
-    /// `None` for a buffer of a host.
+    /// Memory of the buffer; `None` for a buffer that a host made.
     owned: Option<OwnedMemory>,
 }
 
 /// Host address of the first byte of a buffer.
 struct Mapped(NonNull<u8>);
 
-// SAFETY: the memory behind the address belongs to the buffer alone and may be touched from any thread, one
-// at a time, which the lock around this value ensures.
+// SAFETY: the memory behind the address belongs to this buffer only and may be accessed from any thread, by
+// one thread at a time, which the lock around this value ensures.
 unsafe impl Send for Mapped {}
 
 struct OwnedMemory {
@@ -139,12 +139,12 @@ impl std::fmt::Debug for Buffer {
 }
 
 impl Device {
-    /// Makes a buffer. Its content is undefined.
+    /// Makes a buffer. Its contents are undefined.
     ///
     /// # Errors
     /// [`GpuError::OutOfDeviceMemory`] with the name of the buffer, [`GpuError::InvalidUse`] if no usage is
-    /// given, or what the driver reports. That it may be too large for a storage binding is found by
-    /// [`Device::create_binding_set`].
+    /// given, or an error that the driver reports. [`Device::create_binding_set`] detects a buffer that is
+    /// too large for a storage binding.
     pub fn create_buffer(&self, desc: &BufferDesc<'_>) -> Result<Buffer> {
         let core = &self.core;
         let size = if desc.size == 0 { 16 } else { desc.size };
@@ -171,7 +171,7 @@ impl Device {
         // SAFETY: size and usage are not empty, and the address usage is set only if its feature is enabled.
         let raw = unsafe { core.device.create_buffer(&info, None) }.during("vkCreateBuffer", desc.name)?;
         core.name_object(raw, desc.name);
-        // From here on dropping `inner` destroys the buffer and gives its memory back.
+        // From here on, dropping `inner` destroys the buffer and frees its memory.
         let mut inner = BufferInner {
             core: core.clone(),
             raw,
@@ -201,14 +201,14 @@ impl Device {
         Ok(Buffer { inner: Arc::new(inner) })
     }
 
-    /// Wraps a buffer of a host, so that it can be bound and recorded. It is not destroyed here, has no host
-    /// access and does not count as allocated.
+    /// Wraps a buffer that a host made, so that it can be bound and recorded. This crate does not destroy the
+    /// buffer, does not access it from the host, and does not count it as allocated.
     ///
     /// # Safety
     /// The buffer was made from this device with exactly this size and at least this usage (with
-    /// `VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT` where [`Feature::BufferDeviceAddress`] is enabled and the
-    /// usage holds [`BufferUsage::STORAGE`]), is bound to memory, and outlives every handle of the returned
-    /// value and all work recorded with it.
+    /// `VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT` if [`Feature::BufferDeviceAddress`] is enabled and the
+    /// usage contains [`BufferUsage::STORAGE`]), is bound to memory, and outlives every handle of the
+    /// returned value and all work recorded with it.
     pub unsafe fn buffer_from_raw(&self, raw: &RawBuffer<'_>) -> Buffer {
         let inner = BufferInner {
             core: self.core.clone(),
@@ -234,52 +234,53 @@ impl Device {
 }
 
 impl Buffer {
-    /// Name for errors and tools.
+    /// Returns the name for errors and tools.
     pub fn name(&self) -> &str {
         &self.inner.name
     }
 
-    /// Size in bytes.
+    /// Returns the size in bytes.
     pub fn size(&self) -> u64 {
         self.inner.size
     }
 
-    /// Uses that it was made for.
+    /// Returns the uses that the buffer was made for.
     pub fn usage(&self) -> BufferUsage {
         self.inner.usage
     }
 
-    /// The Vulkan buffer.
+    /// Returns the Vulkan buffer.
     pub fn raw(&self) -> vk::Buffer {
         self.inner.raw
     }
 
-    /// Device address of the first byte, where [`Feature::BufferDeviceAddress`] is enabled and the usage
-    /// holds [`BufferUsage::STORAGE`].
+    /// Returns the device address of the first byte; absent unless [`Feature::BufferDeviceAddress`] is
+    /// enabled and the usage contains [`BufferUsage::STORAGE`].
     pub fn address(&self) -> Option<u64> {
         self.inner.address
     }
 
-    /// The address of the first byte for builds of the driver's trees; none for a buffer of a host, which may
-    /// not be made for them.
+    /// Returns the address of the first byte for builds of the driver's trees; absent for a buffer that a
+    /// host made, because its usage may not include builds.
     pub(crate) fn input_address(&self) -> Option<u64> {
         self.inner.owned.as_ref().and(self.inner.address)
     }
 
-    /// True if the host can read and write it.
+    /// Returns true if the host can read and write the buffer.
     pub fn is_host_visible(&self) -> bool {
         self.inner.mapped.is_some()
     }
 
-    /// Writes bytes from the host. The device must not be using the range: see
-    /// [ranges of buffers](crate#ranges-of-buffers) for the rule, and for what a race can do.
+    /// Writes bytes from the host. The device must not be using the range: see [ranges of
+    /// buffers](crate#ranges-of-buffers) for the rule, and for the effects of a race.
     ///
     /// # Errors
-    /// [`GpuError::InvalidUse`] for a device-local buffer, [`GpuError::OutOfRange`] beyond its end.
+    /// [`GpuError::InvalidUse`] for a device-local buffer, [`GpuError::OutOfRange`] for bytes beyond the end
+    /// of the buffer.
     pub fn write(&self, offset: u64, bytes: &[u8]) -> Result<()> {
         self.check_range(offset, bytes.len() as u64)?;
         let mapped = self.mapped()?.lock().unwrap_or_else(PoisonError::into_inner);
-        // SAFETY: the mapping spans the buffer, the range lies in it, the lock keeps other threads out, and
+        // SAFETY: the mapping spans the buffer, the range lies in it, the lock excludes other threads, and
         // `bytes` cannot overlap memory that only this buffer knows.
         unsafe {
             let target = mapped.0.as_ptr().add(offset as usize);
@@ -289,8 +290,8 @@ impl Buffer {
     }
 
     /// Reads bytes to the host. The device must not be writing the range, and must have made its writes
-    /// visible to the host (every submission of [`Device::submit`] ends so): see
-    /// [ranges of buffers](crate#ranges-of-buffers).
+    /// visible to the host, as every submission of [`Device::submit`] does at its end: see [ranges of
+    /// buffers](crate#ranges-of-buffers).
     ///
     /// # Errors
     /// As [`Buffer::write`].
@@ -316,7 +317,7 @@ impl Buffer {
         Ok(bytes)
     }
 
-    /// An error unless the range lies within the buffer.
+    /// Returns an error unless the range lies within the buffer.
     pub(crate) fn check_range(&self, offset: u64, size: u64) -> Result<()> {
         if offset.checked_add(size).is_some_and(|end| end <= self.size()) {
             return Ok(());
@@ -324,7 +325,7 @@ impl Buffer {
         Err(GpuError::OutOfRange { name: self.name().to_owned(), offset, size, buffer_size: self.size() })
     }
 
-    /// An error unless the buffer was made for this.
+    /// Returns an error unless the buffer was made for this usage.
     pub(crate) fn check_usage(&self, usage: BufferUsage, what: &str) -> Result<()> {
         if self.usage().contains(usage) {
             return Ok(());
@@ -350,8 +351,8 @@ impl Drop for BufferInner {
             std::mem::forget(owned);
             return;
         }
-        // SAFETY: made from this device; binding sets and submissions that use it hold handles, so none is
-        // left, and embedders keep what they record alive.
+        // SAFETY: the buffer was made from this device; binding sets and submissions that use it hold
+        // handles, so none is left, and embedders keep the objects that they record alive.
         unsafe { self.core.device.destroy_buffer(self.raw, None) };
         if let Some(allocation) = owned.allocation {
             // SAFETY: the only buffer bound to this piece was just destroyed.

@@ -1,4 +1,4 @@
-//! Choice of a device: properties of each one, and the one preferred.
+//! Choice of a device: the properties of every device, and the selection of one.
 
 use std::collections::BTreeSet;
 use std::ffi::{CStr, CString};
@@ -22,7 +22,7 @@ pub enum DeviceKind {
     Virtual,
     /// A software driver.
     Software,
-    /// Anything else.
+    /// Any other kind of device.
     Other,
 }
 
@@ -50,32 +50,32 @@ impl fmt::Display for DeviceKind {
     }
 }
 
-/// One device of this machine, held against requirements.
+/// Properties of one device of this machine, compared with requirements.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DeviceSummary {
-    /// Position in the list; a valid preference.
+    /// Index in the list of devices; also a valid preference.
     pub index: usize,
     /// Name given by the driver.
     pub name: String,
-    /// Name and version of the driver; empty where the device is older than Vulkan 1.2.
+    /// Name and version of the driver; empty if the device is older than Vulkan 1.2.
     pub driver: String,
     /// Kind of the device.
     pub kind: DeviceKind,
     /// Vulkan version as major, minor, patch.
     pub api_version: [u32; 3],
-    /// True if it has the Vulkan version (1.2) and the compute queue without which nothing works.
+    /// True if the device has the Vulkan version (1.2) and the compute queue that this crate always needs.
     pub usable: bool,
-    /// Features of [`Feature::ALL`] that it has.
+    /// Features of [`Feature::ALL`] that the device has.
     pub features: Vec<Feature>,
-    /// Required features that it lacks.
+    /// Required features that the device lacks.
     pub missing: Vec<Feature>,
-    /// Optional features that it lacks, with what each would buy.
+    /// Optional features that the device lacks, with the benefit of each.
     pub missing_optional: Vec<(Feature, &'static str)>,
 }
 
 impl DeviceSummary {
-    /// True if the device fulfils the requirements it was held against.
+    /// Returns true if the device fulfils the requirements that it was compared with.
     pub fn is_suitable(&self) -> bool {
         self.usable && self.missing.is_empty()
     }
@@ -95,7 +95,7 @@ impl fmt::Display for DeviceSummary {
     }
 }
 
-/// The queue family that everything runs on.
+/// Queue family that all commands run on.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct QueueFamily {
     pub(crate) index: u32,
@@ -103,7 +103,7 @@ pub(crate) struct QueueFamily {
     pub(crate) timestamp_valid_bits: u32,
 }
 
-/// A physical device and what it offers.
+/// A physical device with its properties.
 pub(crate) struct Candidate {
     pub(crate) physical: vk::PhysicalDevice,
     pub(crate) name: String,
@@ -116,7 +116,8 @@ pub(crate) struct Candidate {
 }
 
 impl Candidate {
-    /// Reads what one device offers. `queue_family` fixes the family; without it the best one is taken.
+    /// Reads the properties of one device. `queue_family` fixes the queue family; without it the best family
+    /// is chosen.
     ///
     /// # Safety
     /// `physical` belongs to `instance`.
@@ -125,7 +126,8 @@ impl Candidate {
         physical: vk::PhysicalDevice,
         queue_family: Option<u32>,
     ) -> Result<Self> {
-        // SAFETY: the caller vouches that the device belongs to the instance; so in all calls below.
+        // SAFETY: the caller guarantees that the device belongs to the instance; the same holds for all calls
+        // below.
         let properties = unsafe { instance.get_physical_device_properties(physical) };
         let name = properties
             .device_name_as_c_str()
@@ -166,7 +168,7 @@ impl Candidate {
         let mut driver = vk::PhysicalDeviceDriverProperties::default();
         let mut properties =
             vk::PhysicalDeviceProperties2::default().push_next(&mut subgroup).push_next(&mut driver);
-        // SAFETY: the caller vouches for device and version; both structures are core in 1.2.
+        // SAFETY: the caller guarantees device and version; both structures are core in 1.2.
         unsafe { instance.get_physical_device_properties2(self.physical, &mut properties) };
         let text = |name: std::result::Result<&CStr, _>| {
             name.map_or_else(|_| String::new(), |name: &CStr| name.to_string_lossy().into_owned())
@@ -203,7 +205,7 @@ impl Candidate {
         }
     }
 
-    /// Takes away what a test hides.
+    /// Removes the features that a test hides.
     #[cfg(feature = "fault-injection")]
     fn hide(&mut self) {
         self.present.retain(|feature| !crate::faults::hides(*feature));
@@ -214,17 +216,17 @@ impl Candidate {
         }
     }
 
-    /// True if the device has this extension.
+    /// Returns true if the device has this extension.
     pub(crate) fn has_extension(&self, name: &CStr) -> bool {
         self.extensions.contains(name)
     }
 
-    /// True if version and queue suffice for this crate.
+    /// Returns true if version and queue suffice for this crate.
     pub(crate) fn is_usable(&self) -> bool {
         self.api_version >= vk::API_VERSION_1_2 && self.queue_family.is_some()
     }
 
-    /// The public description, held against requirements.
+    /// Returns the public description, compared with requirements.
     pub(crate) fn summary(&self, index: usize, requirements: &Requirements) -> DeviceSummary {
         let lacks = |feature: &Feature| !self.present.contains(feature);
         DeviceSummary {
@@ -250,7 +252,7 @@ impl Candidate {
     }
 }
 
-/// Compute is needed; a queue with graphics as well is preferred.
+/// Chooses a queue family that supports compute, preferably one that supports graphics as well.
 fn choose_family(families: &[vk::QueueFamilyProperties], fixed: Option<u32>) -> Option<QueueFamily> {
     let offer = |index: usize, family: &vk::QueueFamilyProperties| {
         let computes = family.queue_flags.contains(vk::QueueFlags::COMPUTE) && family.queue_count > 0;
@@ -269,7 +271,7 @@ fn choose_family(families: &[vk::QueueFamilyProperties], fixed: Option<u32>) -> 
     if first.graphics { Some(first) } else { offers.find(|family| family.graphics).or(Some(first)) }
 }
 
-/// All devices of an instance.
+/// Returns all devices of an instance.
 pub(crate) fn candidates(instance: &ash::Instance) -> Result<Vec<Candidate>> {
     // SAFETY: the instance is alive.
     let physical = unsafe { instance.enumerate_physical_devices() }
@@ -278,7 +280,7 @@ pub(crate) fn candidates(instance: &ash::Instance) -> Result<Vec<Candidate>> {
     physical.into_iter().map(|physical| unsafe { Candidate::inspect(instance, physical, None) }).collect()
 }
 
-/// Position of the best device, and why it is that.
+/// Returns the index of the best device, and the reason of the choice.
 pub(crate) fn choose(summaries: &[DeviceSummary], preference: Option<&str>) -> Result<(usize, String)> {
     if summaries.is_empty() {
         return Err(GpuError::NoDevice);
@@ -310,7 +312,8 @@ pub(crate) fn choose(summaries: &[DeviceSummary], preference: Option<&str>) -> R
     Ok((best.index, why))
 }
 
-/// An index if there is a device of that index, else a part of the name in any case.
+/// Returns the device whose index is the preference; if there is none, those whose name contains it, ignoring
+/// case.
 fn matching<'a>(summaries: &[&'a DeviceSummary], preference: &str) -> Vec<&'a DeviceSummary> {
     let preference = preference.trim();
     if let Some(found) =

@@ -1,4 +1,4 @@
-//! The device: chosen and made here (or handed in, see [`crate::RawDevice`]).
+//! The device: chosen and made here, or made by a host (see [`crate::RawDevice`]).
 
 use std::collections::BTreeSet;
 use std::ffi::CStr;
@@ -19,21 +19,21 @@ use crate::pipeline_store::PipelineStore;
 use crate::requirements::{Missing, Requirements};
 use crate::set_parts::SetLayouts;
 
-/// Choice and settings of a device to be made.
+/// Description of a device to be made: its selection and settings.
 #[derive(Debug, Clone)]
 pub struct DeviceDesc {
-    /// Requirements, of features that it must and may have. Nothing else is enabled.
+    /// Features that the device must have and those that it may have. No other feature is enabled.
     pub requirements: Requirements,
-    /// Index or part of the name; without it the best suitable device is taken.
+    /// Index or part of the name of the preferred device; if absent, the best suitable device is chosen.
     pub preference: Option<String>,
-    /// True if the validation layer watches; an error if it is not installed.
+    /// True if the validation layer checks all calls; an error if the layer is not installed.
     pub validation: bool,
     /// Name of the application, shown by tools.
     pub application: String,
 }
 
 impl Default for DeviceDesc {
-    /// The device floor, no preference, no validation.
+    /// The requirements of the device floor, no preference, no validation.
     fn default() -> Self {
         Self {
             requirements: Requirements::floor(),
@@ -60,16 +60,16 @@ impl std::fmt::Debug for Device {
 }
 
 impl Device {
-    /// Makes the best device that has what is required: discrete before integrated before virtual before
-    /// software. Logs which one it is and why.
+    /// Makes the best device that fulfils the requirements: discrete before integrated before virtual before
+    /// software. Logs the chosen device and the reason.
     ///
     /// # Errors
     /// [`GpuError::LoaderMissing`], [`GpuError::LoaderTooOld`], [`GpuError::ValidationLayerMissing`],
-    /// [`GpuError::NoDevice`], [`GpuError::NoMatchingDevice`], [`GpuError::NoSuitableDevice`], or what the
-    /// driver reports.
+    /// [`GpuError::NoDevice`], [`GpuError::NoMatchingDevice`], [`GpuError::NoSuitableDevice`], or an error
+    /// that the driver reports.
     pub fn create(desc: &DeviceDesc) -> Result<Device> {
         let instance = Instance::create(&desc.application, desc.validation)?;
-        // synchronization2 is used by every barrier, so it is required whatever was asked for.
+        // Every barrier uses synchronization2, so it is always required.
         let needed = Requirements { required: vec![Feature::Synchronization2], ..Requirements::default() };
         let requirements = needed.merge(&desc.requirements);
         let candidates = candidates(&instance.raw)?;
@@ -108,18 +108,19 @@ impl Device {
         })
     }
 
-    /// All devices of this machine, held against requirements.
+    /// Returns all devices of this machine, compared with requirements.
     ///
     /// # Errors
-    /// As [`Device::create`], but for the choice. No device at all is an empty list or
-    /// [`GpuError::NoDevice`], depending on the loader.
+    /// Those of [`Device::create`], except the errors of the choice. Without any device the result is an
+    /// empty list or [`GpuError::NoDevice`], depending on the loader.
     pub fn list(requirements: &Requirements) -> Result<Vec<DeviceSummary>> {
         let instance = Instance::create("rasray", false)?;
         let candidates = candidates(&instance.raw)?;
         Ok(candidates.iter().enumerate().map(|(index, each)| each.summary(index, requirements)).collect())
     }
 
-    /// Puts the shared part together; destroys the device again if it is owned and something is missing.
+    /// Assembles the shared state of a device; destroys the device again if it is owned and a part is
+    /// missing.
     pub(crate) fn assemble(parts: Parts<'_>) -> Result<Device> {
         let Parts { instance, candidate, device, .. } = parts;
         let destroy = |owned: &Option<Instance>| {
@@ -197,51 +198,53 @@ impl Device {
         Ok(Device { core: Arc::new(core) })
     }
 
-    /// Name given by the driver.
+    /// Returns the name given by the driver.
     pub fn name(&self) -> &str {
         &self.core.identity.name
     }
 
-    /// Name and version of the driver.
+    /// Returns name and version of the driver.
     pub fn driver(&self) -> &str {
         &self.core.identity.driver
     }
 
-    /// True for a software driver, whose timestamps are wrong around compute work.
+    /// Returns true for a software driver, whose timestamps are wrong around compute work.
     pub fn is_software(&self) -> bool {
         self.core.identity.software
     }
 
-    /// Why this device was chosen, in words.
+    /// Returns the reason why this device was chosen, in words.
     pub fn why_chosen(&self) -> &str {
         &self.core.identity.why_chosen
     }
 
-    /// True if a feature is enabled (required, or optional and present).
+    /// Returns true if a feature is enabled (required, or optional and present).
     pub fn has(&self, feature: Feature) -> bool {
         self.core.enabled.contains(&feature)
     }
 
-    /// True if everything required is enabled and within its limits, asked before anything is made.
+    /// Returns true if all required features are enabled and the limits suffice, for checks before an object
+    /// is made.
     pub fn supports(&self, requirements: &Requirements) -> bool {
         self.missing(requirements).next().is_none()
     }
 
-    /// Returns the requirements that it lacks, each as words of an error message; nothing where all is there.
+    /// Returns the requirements that the device lacks, each as words of an error message; empty if it lacks
+    /// none.
     pub fn lacks(&self, requirements: &Requirements) -> Vec<String> {
         self.missing(requirements).map(Missing::words).collect()
     }
 
-    /// That everything `what` requires is enabled and within the device's limits.
+    /// Checks that every requirement of `what` is enabled and within the device's limits.
     ///
     /// # Errors
-    /// [`GpuError::FeatureNotEnabled`] for the first required feature that is not,
+    /// [`GpuError::FeatureNotEnabled`] for the first required feature that is not enabled,
     /// [`GpuError::LimitExceeded`] for too many storage buffers.
     pub fn require(&self, what: &str, requirements: &Requirements) -> Result<(), GpuError> {
         self.missing(requirements).next().map_or(Ok(()), |missing| Err(missing.error(what)))
     }
 
-    /// Features that are not enabled, then limits that are too small.
+    /// Returns the features that are not enabled, then the limits that are too small.
     fn missing<'a>(&'a self, requirements: &'a Requirements) -> impl Iterator<Item = Missing> + 'a {
         let lacking = |feature: &Feature| !self.has(*feature);
         let features = requirements.required.iter().copied().filter(lacking).map(Missing::Feature);
@@ -249,96 +252,101 @@ impl Device {
         features.chain((asked > limit).then_some(Missing::StorageBuffers { asked, limit }))
     }
 
-    /// All enabled features.
+    /// Returns all enabled features.
     pub fn enabled(&self) -> Vec<Feature> {
         self.core.enabled.iter().copied().collect()
     }
 
-    /// Limits of the device.
+    /// Returns the limits of the device.
     pub fn limits(&self) -> &Limits {
         &self.core.limits
     }
 
-    /// Vulkan version in use, packed as Vulkan packs it.
+    /// Returns the Vulkan version in use, in Vulkan's packed format.
     pub fn api_version(&self) -> u32 {
         self.core.api_version
     }
 
-    /// Warnings and errors of the validation layer so far; empty without validation.
+    /// Returns the warnings and errors of the validation layer so far; empty without validation.
     pub fn validation_messages(&self) -> Vec<String> {
         self.core.log.messages()
     }
 
-    /// The list behind [`Device::validation_messages`]; it outlives the device, so that its destruction can
-    /// be checked as well.
+    /// Returns the log that [`Device::validation_messages`] reads. It outlives the device, so the destruction
+    /// of the device can be checked as well.
     pub fn validation_log(&self) -> ValidationLog {
         self.core.log.clone()
     }
 
-    /// Bytes of memory in use by buffers of this device, host-visible ones included.
+    /// Returns the bytes of memory in use by buffers of this device, including host-visible buffers.
     pub fn allocated_bytes(&self) -> u64 {
         self.core.ledger.allocated()
     }
 
-    /// Bytes that the memory source of this device has given out and not taken back, by its own books; `None`
-    /// where it keeps none. It may exceed [`Device::allocated_bytes`] by alignment.
+    /// Returns the bytes that the memory source of this device has given out and not taken back, by its own
+    /// count; `None` if it does not count. The number may exceed [`Device::allocated_bytes`] because of
+    /// alignment.
     pub fn bytes_given_out(&self) -> Option<u64> {
         self.core.memory.as_ref().and_then(|memory| memory.bytes_given_out())
     }
 
-    /// Largest value of [`Device::allocated_bytes`] so far, or since [`Device::reset_peak_bytes`].
+    /// Returns the largest value of [`Device::allocated_bytes`] so far, or since
+    /// [`Device::reset_peak_bytes`].
     pub fn peak_bytes(&self) -> u64 {
         self.core.ledger.peak()
     }
 
-    /// Begins a new measurement of the peak.
+    /// Starts a new measurement of the peak.
     pub fn reset_peak_bytes(&self) {
         self.core.ledger.reset_peak();
     }
 
-    /// Limits the memory of this device to `bytes`; `None` lifts the limit. What is allocated stays.
+    /// Limits the memory of this device to `bytes`; `None` removes the limit. Existing allocations are not
+    /// affected.
     pub fn set_memory_limit(&self, bytes: Option<u64>) {
         self.core.ledger.set_limit(bytes);
     }
 
-    /// The Vulkan device. What is made from it must be destroyed before the last handle of this value is.
+    /// Returns the Vulkan device. Objects made from it must be destroyed before the last handle of this value
+    /// is.
     pub fn raw(&self) -> &ash::Device {
         &self.core.device
     }
 
-    /// The Vulkan instance.
+    /// Returns the Vulkan instance.
     pub fn raw_instance(&self) -> &ash::Instance {
         &self.core.instance
     }
 
-    /// The Vulkan physical device.
+    /// Returns the Vulkan physical device.
     pub fn raw_physical(&self) -> vk::PhysicalDevice {
         self.core.physical
     }
 
-    /// The queue. Whoever submits to it must not do so while [`Device::submit`] and its relatives run.
+    /// Returns the queue. Callers that submit to it must not do so while [`Device::submit`] or a related
+    /// function runs.
     pub fn raw_queue(&self) -> vk::Queue {
         *self.core.queue.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
-    /// The family of the queue.
+    /// Returns the family of the queue.
     pub fn queue_family(&self) -> u32 {
         self.core.queue_family
     }
 }
 
-/// Parts that a device is put together from.
+/// Parts that a device is assembled from.
 pub(crate) struct Parts<'a> {
     pub(crate) instance: ash::Instance,
     pub(crate) owned: Option<Instance>,
     pub(crate) log: ValidationLog,
     pub(crate) candidate: &'a Candidate,
     pub(crate) device: ash::Device,
-    /// Without it queue 0 of the family of the candidate.
+    /// Queue of the device; if absent, queue 0 of the candidate's family.
     pub(crate) queue: Option<vk::Queue>,
     pub(crate) enabled: BTreeSet<Feature>,
     pub(crate) debug_utils: bool,
-    /// True if passes have labels, where `debug_utils` is enabled.
+    /// True if passes get labels when `debug_utils` is enabled.
     pub(crate) labels: bool,
     pub(crate) pipeline_cache: vk::PipelineCache,
     pub(crate) memory: Option<Arc<dyn crate::Memory>>,
@@ -347,7 +355,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) why_chosen: String,
 }
 
-/// Makes a device with one queue and exactly the features given.
+/// Makes a device with one queue and exactly the given features.
 fn make_device(
     instance: &ash::Instance,
     candidate: &Candidate,
@@ -357,7 +365,7 @@ fn make_device(
         enabled.iter().flat_map(|feature| feature.extensions(candidate.api_version)).copied().collect();
     let portability = ash::khr::portability_subset::NAME;
     if candidate.has_extension(portability) {
-        // Vulkan demands it wherever it is offered.
+        // Vulkan requires this extension to be enabled if the device has it.
         extensions.insert(portability);
     }
     let names: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
@@ -373,7 +381,7 @@ fn make_device(
     let priorities = [1.0];
     let queues =
         [vk::DeviceQueueCreateInfo::default().queue_family_index(family.index).queue_priorities(&priorities)];
-    // Only extensions that are enabled may have their structure in the chain.
+    // The chain may contain only structures of enabled extensions.
     let is_enabled = |name: &CStr| extensions.contains(name);
     structs
         .with_chain(candidate.api_version, &is_enabled, |chain| {
@@ -381,8 +389,8 @@ fn make_device(
                 .queue_create_infos(&queues)
                 .enabled_extension_names(&names)
                 .push_next(chain);
-            // SAFETY: the physical device belongs to the instance, has the queue family, extensions and
-            // features asked for, and all pointers live until the call returns.
+            // SAFETY: the physical device belongs to the instance and has the requested queue family,
+            // extensions and features, and all pointers live until the call returns.
             unsafe { instance.create_device(candidate.physical, &info, None) }
         })
         .during("vkCreateDevice", &candidate.name)

@@ -1,4 +1,4 @@
-//! State shared by every object of a device: handles, functions, books about memory, and the order of
+//! State that all objects of a device share: handles, functions, memory accounting, and the order of
 //! destruction.
 
 use std::collections::BTreeSet;
@@ -17,7 +17,7 @@ use crate::messages::ValidationLog;
 use crate::pipeline_store::PipelineStore;
 use crate::set_parts::SetLayouts;
 
-/// Commands that are core in Vulkan 1.3 and an extension before.
+/// Commands that are core in Vulkan 1.3 and part of an extension in earlier versions.
 pub(crate) struct Commands {
     pub(crate) pipeline_barrier: vk::PFN_vkCmdPipelineBarrier2,
     pub(crate) begin_rendering: Option<vk::PFN_vkCmdBeginRendering>,
@@ -25,7 +25,8 @@ pub(crate) struct Commands {
 }
 
 impl Commands {
-    /// Loads the commands under the name that fits the version; `None` if barriers are missing.
+    /// Loads the commands under the names of the given version; `None` if the command for barriers is
+    /// missing.
     pub(crate) fn load(instance: &ash::Instance, device: &ash::Device, api_version: u32) -> Option<Self> {
         let find = |core: &CStr, extension: &CStr| {
             let name = if api_version >= vk::API_VERSION_1_3 { core } else { extension };
@@ -38,7 +39,7 @@ impl Commands {
         type Untyped = unsafe extern "system" fn();
         Some(Self {
             // SAFETY: Vulkan returned this pointer for the command of exactly this type (the extension's
-            // command is an alias of the core one); so in the two below.
+            // command is an alias of the core one); the same holds for the two below.
             pipeline_barrier: unsafe {
                 std::mem::transmute::<Untyped, vk::PFN_vkCmdPipelineBarrier2>(barrier)
             },
@@ -52,7 +53,7 @@ impl Commands {
     }
 }
 
-/// Who the device is, for people and reports.
+/// Names that identify the device, for people and reports.
 pub(crate) struct Identity {
     pub(crate) name: String,
     pub(crate) driver: String,
@@ -60,23 +61,23 @@ pub(crate) struct Identity {
     pub(crate) why_chosen: String,
 }
 
-/// The shared part of a device.
+/// State that all handles of a device share.
 pub(crate) struct Core {
     pub(crate) instance: ash::Instance,
     pub(crate) physical: vk::PhysicalDevice,
     pub(crate) device: ash::Device,
-    /// Locked while something is submitted.
+    /// Queue of the device; locked during each submission.
     pub(crate) queue: Mutex<vk::Queue>,
     pub(crate) queue_family: u32,
-    /// True if the queue can draw.
+    /// True if the queue supports drawing.
     pub(crate) graphics: bool,
     pub(crate) api_version: u32,
     pub(crate) commands: Commands,
-    /// Names of objects, where `VK_EXT_debug_utils` is enabled.
+    /// Functions that name objects, if `VK_EXT_debug_utils` is enabled.
     pub(crate) names: Option<ash::ext::debug_utils::Device>,
-    /// Labels of passes, where it is and they do no harm.
+    /// Functions that label passes, if `VK_EXT_debug_utils` is enabled and labels are safe.
     pub(crate) labels: Option<ash::ext::debug_utils::Device>,
-    /// Trees of the driver, where [`Feature::AccelerationStructure`] is enabled.
+    /// Functions for the driver's trees, if [`Feature::AccelerationStructure`] is enabled.
     pub(crate) trees: Option<ash::khr::acceleration_structure::Device>,
     pub(crate) pipeline_cache: vk::PipelineCache,
     pub(crate) pipelines: PipelineStore,
@@ -86,30 +87,30 @@ pub(crate) struct Core {
     pub(crate) identity: Identity,
     pub(crate) ledger: Ledger,
     pub(crate) log: ValidationLog,
-    /// Taken out before the device is destroyed.
+    /// Source of memory; taken out before the device is destroyed.
     pub(crate) memory: Option<Arc<dyn Memory>>,
-    /// The instance, if this crate made instance and device; dropped after the device.
+    /// The instance, if this crate made both instance and device; dropped after the device.
     pub(crate) owned: Option<Instance>,
     pub(crate) abandoned: AtomicBool,
 }
 
 impl Core {
-    /// True if objects may still be destroyed and work submitted; false after a timeout.
+    /// Returns true if objects may still be destroyed and work submitted; false after a timeout.
     pub(crate) fn is_usable(&self) -> bool {
         !self.abandoned.load(Ordering::Acquire)
     }
 
-    /// The Vulkan device while objects may still be destroyed.
+    /// Returns the Vulkan device if objects may still be destroyed.
     pub(crate) fn usable_device(&self) -> Option<&ash::Device> {
         self.is_usable().then_some(&self.device)
     }
 
-    /// From now on nothing is destroyed or submitted, as the device may be using it.
+    /// Stops all destruction and submission from now on, because the device may be using the objects.
     pub(crate) fn abandon(&self) {
         self.abandoned.store(true, Ordering::Release);
     }
 
-    /// An error unless the feature is enabled.
+    /// Returns an error unless the feature is enabled.
     pub(crate) fn require(&self, feature: Feature, what: &str) -> Result<()> {
         if self.enabled.contains(&feature) {
             return Ok(());
@@ -117,7 +118,7 @@ impl Core {
         Err(GpuError::FeatureNotEnabled { feature, what: what.to_owned() })
     }
 
-    /// Allocates memory and enters it into the books.
+    /// Allocates memory and adds it to the accounting.
     pub(crate) fn allocate(
         &self,
         requirements: vk::MemoryRequirements,
@@ -138,24 +139,24 @@ impl Core {
         })
     }
 
-    /// Gives memory back that was allocated here for `bytes`.
+    /// Frees memory that [`Core::allocate`] allocated for `bytes`.
     ///
     /// # Safety
-    /// Nothing uses the memory any more, and it is given back once.
+    /// Nothing uses the memory any more, and it is freed once.
     pub(crate) unsafe fn free(&self, allocation: Allocation, bytes: u64) {
         let memory = self.memory.as_ref().expect("memory is taken out only when the device is dropped");
-        // SAFETY: the caller vouches for it.
+        // SAFETY: the caller guarantees the conditions of `free`.
         unsafe { memory.free(allocation) };
         self.ledger.release(bytes);
     }
 
-    /// Gives an object the name under which tools and validation show it.
+    /// Gives an object the name under which tools and the validation layer show it.
     pub(crate) fn name_object<H: vk::Handle>(&self, handle: H, name: &str) {
         let Some(names) = &self.names else { return };
         let name = c_name(name);
         let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
         // SAFETY: the handle was just made from this device and is not shared yet. A name that could not be
-        // stored is only a loss for debugging.
+        // stored is a loss for debugging only.
         let _ = unsafe { names.set_debug_utils_object_name(&info) };
     }
 }
@@ -171,19 +172,21 @@ impl Drop for Core {
             return;
         }
         self.pipelines.clear(&self.device);
-        // SAFETY: pipelines are gone, and every set keeps this value alive.
+        // SAFETY: pipelines are destroyed, and every set keeps this value alive, so none is left.
         unsafe { self.set_layouts.clear(&self.device) };
         drop(memory);
         if owned.is_some() {
             // SAFETY: every object made from the device keeps this value alive, so all are destroyed; every
-            // submission was waited for (else the device is abandoned); and the device was made here.
+            // submission was waited for (otherwise the device is abandoned); and the device was made by this
+            // crate.
             unsafe { self.device.destroy_device(None) };
         }
         drop(owned);
     }
 }
 
-/// A name as Vulkan takes it. Vulkan's strings end at the first NUL, so none may be inside.
+/// Converts a name to a C string. Vulkan's strings end at the first NUL, so NULs inside are replaced by
+/// spaces.
 pub(crate) fn c_name(name: &str) -> CString {
     CString::new(name.replace('\0', " ")).unwrap_or_default()
 }

@@ -1,4 +1,5 @@
-//! Trees that the driver builds over boxes, for ray queries of shaders (`VK_KHR_acceleration_structure`).
+//! Acceleration structures that the driver builds over boxes, for ray queries of shaders
+//! (`VK_KHR_acceleration_structure`).
 
 use std::sync::Arc;
 
@@ -11,31 +12,31 @@ use crate::error::{During, GpuError, Result};
 use crate::features::Feature;
 use crate::memory::MemoryLocation;
 
-/// Bytes of a box as the driver reads it: two corners.
+/// Bytes of a box in the driver's format: two corners.
 pub const DRIVER_BOX_BYTES: u64 = size_of::<vk::AabbPositionsKHR>() as u64;
 
-/// Goal of a tree.
+/// Property of a tree that the driver favours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DriverTreeGoal {
-    /// Traces.
+    /// Fast traces.
     Trace,
-    /// Builds.
+    /// Fast builds.
     Build,
 }
 
-/// A tree to be made.
+/// Description of a tree to be made.
 #[derive(Debug, Clone, Copy)]
 pub struct DriverTreeDesc<'a> {
     /// Name for errors and tools.
     pub name: &'a str,
-    /// Boxes over which it is built, at most.
+    /// Maximum number of boxes that the tree is built over.
     pub boxes: u32,
-    /// Goal of the tree.
+    /// Property that the driver favours.
     pub goal: DriverTreeGoal,
 }
 
-/// A tree of the driver over boxes, one instance of it on top, and the memory of both. Clones are handles to
-/// the same tree.
+/// A tree of the driver over boxes, a top level with one instance of it, and the memory of both. Clones are
+/// handles to the same tree.
 #[derive(Clone)]
 pub struct DriverTree {
     inner: Arc<TreeInner>,
@@ -47,15 +48,15 @@ struct TreeInner {
     goal: DriverTreeGoal,
     bottom: Level,
     top: Level,
-    /// The instance, as the host wrote it.
+    /// Instance record that the host wrote.
     instance: Buffer,
-    /// Scratch memory, which one level uses after the other.
+    /// Scratch memory, which both levels use, one after the other.
     scratch: Buffer,
-    /// First address within it that a build may use.
+    /// First address within the scratch memory that a build may use.
     scratch_address: u64,
 }
 
-/// One `VkAccelerationStructureKHR` with its buffer.
+/// A `VkAccelerationStructureKHR` with its buffer.
 struct Level {
     core: Arc<Core>,
     raw: vk::AccelerationStructureKHR,
@@ -74,12 +75,12 @@ impl std::fmt::Debug for DriverTree {
 }
 
 impl Device {
-    /// Makes a tree. It holds nothing until a build is recorded ([`crate::Recorder::build_driver_tree`]).
+    /// Makes a tree. It is empty until a build is recorded ([`crate::Recorder::build_driver_tree`]).
     ///
     /// # Errors
     /// [`GpuError::FeatureNotEnabled`] without [`Feature::AccelerationStructure`] and
-    /// [`Feature::BufferDeviceAddress`]; [`GpuError::LimitExceeded`] for more boxes than the device takes;
-    /// out of memory, or what the driver reports.
+    /// [`Feature::BufferDeviceAddress`]; [`GpuError::LimitExceeded`] for more boxes than the device supports;
+    /// out of memory, or an error that the driver reports.
     pub fn create_driver_tree(&self, desc: &DriverTreeDesc<'_>) -> Result<DriverTree> {
         let core = &self.core;
         for feature in [Feature::AccelerationStructure, Feature::BufferDeviceAddress] {
@@ -127,7 +128,7 @@ impl Device {
         Ok(DriverTree { inner: Arc::new(inner) })
     }
 
-    /// Makes one level in memory of its own.
+    /// Makes one level with its own memory.
     fn level(
         &self,
         name: &str,
@@ -146,7 +147,7 @@ impl Device {
             .buffer(buffer.raw())
             .size(sizes.acceleration_structure_size)
             .ty(kind);
-        // SAFETY: the buffer was made for this, as large as the driver asked for.
+        // SAFETY: the buffer was made for this purpose, with the size that the driver requested.
         let raw = unsafe { trees.create_acceleration_structure(&info, None) }
             .during("vkCreateAccelerationStructureKHR", name)?;
         core.name_object(raw, name);
@@ -158,28 +159,28 @@ impl Device {
 }
 
 impl DriverTree {
-    /// The address from which shaders make an `accelerationStructureEXT`.
+    /// Returns the address from which shaders make an `accelerationStructureEXT`.
     pub fn address(&self) -> u64 {
         self.inner.top.address
     }
 
-    /// Boxes over which it is built, at most.
+    /// Returns the maximum number of boxes that the tree is built over.
     pub fn boxes(&self) -> u32 {
         self.inner.boxes
     }
 
-    /// Bytes of both levels and the instance.
+    /// Returns the bytes of both levels and the instance.
     pub fn bytes(&self) -> u64 {
         let TreeInner { bottom, top, instance, .. } = &*self.inner;
         bottom.buffer.size() + top.buffer.size() + instance.size()
     }
 
-    /// Bytes that only builds use.
+    /// Returns the bytes that only builds use.
     pub fn scratch_bytes(&self) -> u64 {
         self.inner.scratch.size()
     }
 
-    /// Handles that must live until the device is done.
+    /// Returns the handles that must live until the device has finished with the tree.
     pub(crate) fn kept(&self) -> Arc<dyn std::any::Any + Send + Sync> {
         self.inner.clone()
     }
@@ -187,9 +188,9 @@ impl DriverTree {
     /// Records both builds over `count` boxes at an address, with a barrier between them.
     ///
     /// # Safety
-    /// The command buffer is being recorded outside of rendering; the boxes at `address` (a multiple of 8)
-    /// are no more than the tree was made for, in memory that was made for it and lives until the device is
-    /// done, as this tree does.
+    /// The command buffer is being recorded, outside of rendering. The boxes at `address` (a multiple of 8)
+    /// are at most as many as the tree was made for, and lie in memory that was made for builds. That memory
+    /// and this tree live until the device has finished.
     pub(crate) unsafe fn record(
         &self,
         command: vk::CommandBuffer,
@@ -207,8 +208,8 @@ impl DriverTree {
                 .scratch_data(vk::DeviceOrHostAddressKHR { device_address: *scratch_address });
             let range =
                 [vk::AccelerationStructureBuildRangeInfoKHR::default().primitive_count(input.count())];
-            // SAFETY: the caller vouches for the command buffer and the boxes; levels and scratch memory are
-            // as large as the driver asked for, and the scratch address is aligned.
+            // SAFETY: the caller guarantees the command buffer and the boxes; levels and scratch memory have
+            // the sizes that the driver requested, and the scratch address is aligned.
             unsafe { trees.cmd_build_acceleration_structures(command, &[info], &[&range]) };
         };
         build(&Input::Boxes { address, count }, bottom);
@@ -221,7 +222,8 @@ impl DriverTree {
 impl Drop for Level {
     fn drop(&mut self) {
         if let (true, Some(trees)) = (self.core.is_usable(), &self.core.trees) {
-            // SAFETY: made from this device; submissions that use it hold handles, so none is left.
+            // SAFETY: the tree was made from this device; submissions that use it hold handles, so none is
+            // left.
             unsafe { trees.destroy_acceleration_structure(self.raw, None) };
         }
     }
@@ -284,7 +286,7 @@ impl Input {
     }
 }
 
-/// The functions of trees.
+/// Returns the functions of `VK_KHR_acceleration_structure`.
 fn trees(core: &Core) -> Result<&ash::khr::acceleration_structure::Device> {
     core.trees.as_ref().ok_or_else(|| GpuError::FeatureNotEnabled {
         feature: Feature::AccelerationStructure,
@@ -299,7 +301,7 @@ fn address_of(buffer: &Buffer) -> Result<u64> {
     })
 }
 
-/// Memory that a level takes, and its build.
+/// Returns the sizes of the memory that a level and its build need.
 fn sizes(
     core: &Core,
     input: &Input,
@@ -308,7 +310,7 @@ fn sizes(
     let geometries = [input.geometry()];
     let info = input.info(&geometries, goal);
     let mut sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
-    // SAFETY: one count for the one geometry; addresses are not read.
+    // SAFETY: the build has one geometry, and one count is given; addresses are not read.
     unsafe {
         trees(core)?.get_acceleration_structure_build_sizes(
             vk::AccelerationStructureBuildTypeKHR::DEVICE,
@@ -323,13 +325,14 @@ fn sizes(
 fn tree_limits(core: &Core) -> vk::PhysicalDeviceAccelerationStructurePropertiesKHR<'static> {
     let mut limits = vk::PhysicalDeviceAccelerationStructurePropertiesKHR::default();
     let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut limits);
-    // SAFETY: the device belongs to the instance and has the extension, which is enabled.
+    // SAFETY: the device belongs to the instance, and the extension of the structure is enabled.
     unsafe { core.instance.get_physical_device_properties2(core.physical, &mut properties) };
     limits
 }
 
-/// The instance of a level in place, as `VkAccelerationStructureInstanceKHR` lies in memory: rows of a
-/// matrix, a number and a mask, two words of flags, an address.
+/// Returns the bytes of an identity instance of a level in the layout of
+/// `VkAccelerationStructureInstanceKHR`: rows of a matrix, a number and a mask, two words of flags, an
+/// address.
 fn instance_bytes(address: u64) -> [u8; 64] {
     const IDENTITY: [f32; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
     const SEEN_BY_ALL: u32 = 0xFF << 24;
@@ -356,7 +359,8 @@ mod tests {
             },
         };
         assert_eq!(size_of_val(&instance), 64);
-        // SAFETY: 64 bytes without padding, as the lengths of the members add up to.
+        // SAFETY: both types have 64 bytes; the lengths of the members add up to that, so there is no
+        // padding.
         let expected =
             unsafe { std::mem::transmute::<vk::AccelerationStructureInstanceKHR, [u8; 64]>(instance) };
         assert_eq!(instance_bytes(0x0123_4567_89AB_CDEF), expected);

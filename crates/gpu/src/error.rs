@@ -1,10 +1,11 @@
-//! Errors, named after the thing that they happened to and with the fix where there is one.
+//! Errors; each names the object or pass that it concerns, and the remedy if there is one.
 
 use ash::vk;
 
 use crate::features::Feature;
 
-/// Result of this crate; the error can be replaced, so that a glob import does no harm.
+/// Result of this crate. The error type can be replaced, so that code with a glob import can still write
+/// `Result<T, E>`.
 pub type Result<T, E = GpuError> = std::result::Result<T, E>;
 
 /// An error of the Vulkan layer.
@@ -23,7 +24,7 @@ pub enum GpuError {
         /// The version found, as `major.minor`.
         found: String,
     },
-    /// Validation was asked for and its layer is not installed.
+    /// Validation was requested, but its layer is not installed.
     #[error(
         "validation was asked for, but VK_LAYER_KHRONOS_validation is not installed: \
          install the Debian package vulkan-validationlayers or switch validation off"
@@ -35,34 +36,34 @@ pub enum GpuError {
          mesa-vulkan-drivers)"
     )]
     NoDevice,
-    /// No device has the index or name asked for.
+    /// No device has the requested index or name.
     #[error(
         "no Vulkan device matches `{preference}`: give an index or a part of a name from this list\n{devices}"
     )]
     NoMatchingDevice {
         /// The preference as given.
         preference: String,
-        /// One line for each device.
+        /// List of devices, one per line.
         devices: String,
     },
-    /// Devices exist, but none has what is required.
+    /// Devices exist, but none fulfils the requirements.
     #[error("no Vulkan device has everything that is required:\n{devices}")]
     NoSuitableDevice {
-        /// One line for each device, with what it lacks.
+        /// List of devices with the requirements that each lacks, one per line.
         devices: String,
     },
-    /// Something was used whose feature was not enabled.
+    /// An object or call needs a feature that was not enabled.
     #[error(
         "{what} needs the device feature {feature}: add it to the requirements the device is created with"
     )]
     FeatureNotEnabled {
-        /// The feature that is needed.
+        /// Feature that is needed.
         feature: Feature,
         /// Object or call that needs it.
         what: String,
     },
-    /// A buffer is larger than a storage buffer binding may be. Pools of structures can be reached by device
-    /// address instead (`addressing` of their configurations); nothing else can.
+    /// A buffer exceeds the maximum size of a storage buffer binding. Pools of structures can be reached by
+    /// device address instead (`addressing` of their configurations); other buffers cannot.
     #[error(
         "buffer `{name}` has {size} bytes, but a storage buffer binding ends at {limit} bytes on this device"
     )]
@@ -71,7 +72,7 @@ pub enum GpuError {
         name: String,
         /// Size of the binding in bytes.
         size: u64,
-        /// Largest binding in bytes.
+        /// Maximum size of a binding in bytes.
         limit: u64,
     },
     /// Memory is exhausted, or the memory limit given for this device would be exceeded.
@@ -82,17 +83,17 @@ pub enum GpuError {
     OutOfDeviceMemory {
         /// Name of the buffer.
         name: String,
-        /// Bytes asked for.
+        /// Requested bytes.
         asked: u64,
-        /// Limit in bytes: the one given, else what the device can hold.
+        /// Limit in bytes: the limit given for the device, else the capacity of the device.
         limit: u64,
-        /// Bytes in use through this device when it failed.
+        /// Bytes in use through this device at the time of the error.
         allocated: u64,
-        /// Who refused: a Vulkan call, or the name of a limit.
+        /// Origin of the refusal: a Vulkan call, or the name of a limit.
         refused_by: &'static str,
     },
-    /// Memory could not be had for another reason than that there is none left: no type of memory fits, or
-    /// the driver refused to allocate or map it.
+    /// Memory could not be allocated although some is left: no memory type fits, or the driver refused to
+    /// allocate or map it.
     #[error("memory for `{name}` could not be had: {reason}")]
     Memory {
         /// Name of the buffer, or "memory pool".
@@ -100,12 +101,12 @@ pub enum GpuError {
         /// Report of the allocator.
         reason: String,
     },
-    /// The driver has no device memory left for something else than the memory of a buffer.
+    /// The driver has no device memory left for an object other than the memory of a buffer.
     #[error(
         "the device ran out of memory in {call} for `{during}`: free memory or give it less work at once"
     )]
     DeviceMemoryExhausted {
-        /// The call that reported it.
+        /// Vulkan call that reported the error.
         call: &'static str,
         /// Name of the object or pass.
         during: String,
@@ -113,7 +114,7 @@ pub enum GpuError {
     /// The driver has no host memory left.
     #[error("there was no host memory in {call} for `{during}`: free memory or make it smaller")]
     OutOfHostMemory {
-        /// The call that reported it.
+        /// Vulkan call that reported the error.
         call: &'static str,
         /// Name of the object or pass.
         during: String,
@@ -123,11 +124,11 @@ pub enum GpuError {
     LimitExceeded {
         /// Name of the object or pass.
         name: String,
-        /// The quantity.
+        /// Quantity that exceeds the limit.
         what: &'static str,
-        /// Value asked for.
+        /// Requested value.
         asked: u64,
-        /// Largest value allowed.
+        /// Maximum value.
         limit: u64,
     },
     /// A range lies outside its buffer.
@@ -142,7 +143,7 @@ pub enum GpuError {
         /// Size of the buffer in bytes.
         buffer_size: u64,
     },
-    /// Words that are no SPIR-V module.
+    /// The words of a shader are not a SPIR-V module.
     #[error("shader of `{name}` is no SPIR-V module: {reason}")]
     InvalidShader {
         /// Name of the pipeline.
@@ -164,7 +165,7 @@ pub enum GpuError {
          create a new device"
     )]
     DeviceLost {
-        /// The call that reported it.
+        /// Vulkan call that reported the error.
         call: &'static str,
         /// Name of the object or pass.
         during: String,
@@ -176,10 +177,10 @@ pub enum GpuError {
     Timeout {
         /// Label of the pass, or of all passes of the submission.
         pass: String,
-        /// The timeout in seconds.
+        /// Timeout in seconds.
         seconds: f64,
     },
-    /// An earlier submission timed out, so this device takes no more work.
+    /// The device accepts no more work, because an earlier submission timed out.
     #[error("`{during}` was not submitted: an earlier submission timed out, create a new device")]
     Abandoned {
         /// Work that was to be submitted.
@@ -188,17 +189,18 @@ pub enum GpuError {
     /// Any other failure reported by Vulkan.
     #[error("{call} reported {result} for `{during}`")]
     Vulkan {
-        /// The call that reported it.
+        /// Vulkan call that reported the error.
         call: &'static str,
         /// Name of the object or pass.
         during: String,
-        /// The result code.
+        /// Result code of the call.
         result: vk::Result,
     },
 }
 
 impl GpuError {
-    /// The typed error for what a call reported; `during` names the object or pass it was made for.
+    /// Makes the typed error for a result of a Vulkan call; `during` names the object or pass that the call
+    /// concerned.
     pub(crate) fn from_vulkan(result: vk::Result, call: &'static str, during: &str) -> Self {
         let during = during.to_owned();
         match result {
@@ -210,9 +212,9 @@ impl GpuError {
     }
 }
 
-/// Turns a result of ash into one of this crate.
+/// Conversion of results of `ash` to results of this crate.
 pub(crate) trait During<T> {
-    /// Names the call that failed, and the object or pass it was made for.
+    /// Adds the name of the call that failed, and of the object or pass that it concerned.
     fn during(self, call: &'static str, what: &str) -> Result<T>;
 }
 

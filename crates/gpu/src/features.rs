@@ -5,7 +5,7 @@ use std::fmt;
 
 use ash::vk;
 
-/// A capability of a device that must be asked for before it is used.
+/// A capability of a device that must be requested before it is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Feature {
@@ -19,23 +19,23 @@ pub enum Feature {
     FragmentStoresAndAtomics,
     /// Several views in one draw (`multiview`).
     Multiview,
-    /// Coverage of every touched pixel by the hardware (`VK_EXT_conservative_rasterization`).
+    /// Rasterization that covers every pixel a triangle touches (`VK_EXT_conservative_rasterization`).
     ConservativeRasterization,
-    /// Buffers reached by 64-bit address (`bufferDeviceAddress`).
+    /// Access to buffers by 64-bit address (`bufferDeviceAddress`).
     BufferDeviceAddress,
-    /// Trees that the driver builds (`VK_KHR_acceleration_structure`); also needs
+    /// Acceleration structures that the driver builds (`VK_KHR_acceleration_structure`); also needs
     /// [`Feature::BufferDeviceAddress`].
     AccelerationStructure,
-    /// Shaders that traverse such a tree (`VK_KHR_ray_query`).
+    /// Shaders that traverse acceleration structures of the driver (`VK_KHR_ray_query`).
     RayQuery,
     /// Basic, vote, ballot, shuffle and arithmetic subgroup operations in compute shaders.
     SubgroupOperations,
-    /// Timestamps on the queue. Nothing has to be enabled for it: pools are reset in the command buffer.
+    /// Timestamps on the queue. It needs no Vulkan feature, because pools are reset in the command buffer.
     TimestampQueries,
 }
 
 impl Feature {
-    /// Every feature this crate knows.
+    /// All features that this crate knows.
     pub const ALL: [Feature; 11] = [
         Self::ScalarBlockLayout,
         Self::Synchronization2,
@@ -50,7 +50,7 @@ impl Feature {
         Self::TimestampQueries,
     ];
 
-    /// The name Vulkan has for it, for messages and reports.
+    /// Returns Vulkan's name of the feature, for messages and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::ScalarBlockLayout => "scalarBlockLayout",
@@ -67,7 +67,8 @@ impl Feature {
         }
     }
 
-    /// The extensions that bring this feature to a device of the given API version; none where it is core.
+    /// Returns the extensions that bring this feature to a device of the given API version; empty if the
+    /// feature is core in that version.
     pub(crate) fn extensions(self, api_version: u32) -> &'static [&'static CStr] {
         match self {
             Self::Synchronization2 if api_version < vk::API_VERSION_1_3 => {
@@ -77,7 +78,7 @@ impl Feature {
                 &[ash::khr::dynamic_rendering::NAME]
             }
             Self::ConservativeRasterization => &[ash::ext::conservative_rasterization::NAME],
-            // Each with those that it depends on.
+            // Each extension is listed with those that it depends on.
             Self::AccelerationStructure => {
                 &[ash::khr::acceleration_structure::NAME, ash::khr::deferred_host_operations::NAME]
             }
@@ -90,7 +91,7 @@ impl Feature {
         }
     }
 
-    /// True if the feature is of no use without a graphics queue.
+    /// Returns true if the feature needs a graphics queue.
     pub(crate) fn needs_graphics(self) -> bool {
         matches!(
             self,
@@ -101,7 +102,7 @@ impl Feature {
         )
     }
 
-    /// The switch of the feature; `None` where Vulkan has none.
+    /// Returns the Vulkan switch of the feature; `None` if Vulkan has no switch for it.
     pub(crate) fn switch(self, structs: &mut FeatureStructs) -> Option<&mut vk::Bool32> {
         match self {
             Self::ScalarBlockLayout => Some(&mut structs.v12.scalar_block_layout),
@@ -123,7 +124,7 @@ impl fmt::Display for Feature {
     }
 }
 
-/// The Vulkan structures that hold the switches.
+/// Vulkan structures that contain the switches.
 #[derive(Default)]
 pub(crate) struct FeatureStructs {
     core: vk::PhysicalDeviceFeatures,

@@ -1,4 +1,4 @@
-//! Submitting without waiting: frames in flight.
+//! Frames in flight: submissions that the host does not wait for at once.
 
 use crate::device::Device;
 use crate::error::{GpuError, Result};
@@ -7,10 +7,10 @@ use crate::recorder::{Completed, Recorder};
 use crate::timers::{PassTiming, TIMED_PASSES, Timers, Timing};
 
 /// A ring of command buffers that are submitted without waiting, one per frame in flight: the host records
-/// the next while the device works on the last.
+/// the next frame while the device works on the last one.
 ///
-/// Submissions run in the order in which they were made, each after all earlier ones have ended, and what
-/// they use lives until they are waited for. Dropping the ring waits for all.
+/// Submissions run in the order in which they were made, each after all earlier ones have ended. Objects that
+/// they use live until they are waited for. Dropping the ring waits for all submissions.
 pub struct Flights {
     device: Device,
     slots: Vec<Slot>,
@@ -19,7 +19,7 @@ pub struct Flights {
 struct Slot {
     work: OneTime,
     timers: Option<Timers>,
-    /// Work that the device may still be doing.
+    /// Recording of submitted work that the device may still be executing.
     pending: Option<Completed>,
 }
 
@@ -35,12 +35,12 @@ impl std::fmt::Debug for Flights {
 }
 
 impl Flights {
-    /// Makes a ring of that many slots, at least 1.
+    /// Makes a ring with `slots` slots, at least 1.
     ///
     /// # Errors
     /// [`GpuError::InvalidUse`] for [`Timing::Host`], which waits for every pass, and for a device without a
-    /// queue; [`GpuError::FeatureNotEnabled`] for [`Timing::Device`] on a queue without timestamps, or what
-    /// the driver reports.
+    /// queue; [`GpuError::FeatureNotEnabled`] for [`Timing::Device`] on a queue without timestamps, or an
+    /// error that the driver reports.
     pub fn new(device: &Device, slots: u32, timing: Timing) -> Result<Self> {
         if timing == Timing::Host {
             return Err(GpuError::InvalidUse {
@@ -59,20 +59,20 @@ impl Flights {
         Ok(Self { device: device.clone(), slots })
     }
 
-    /// Slots.
+    /// Returns the number of slots.
     pub fn slots(&self) -> u32 {
         self.slots.len() as u32
     }
 
-    /// True if something was submitted from a slot that was not waited for.
+    /// Returns true if a slot has a submission that was not waited for.
     pub fn is_pending(&self, slot: u32) -> bool {
         self.slots.get(slot as usize).is_some_and(|slot| slot.pending.is_some())
     }
 
-    /// True if [`Flights::wait`] returns at once.
+    /// Returns true if [`Flights::wait`] would return at once.
     ///
     /// # Errors
-    /// There is no such slot, or the device is lost.
+    /// The slot does not exist, or the device is lost.
     pub fn is_done(&self, slot: u32) -> Result<bool> {
         let slot = self.slots.get(slot as usize).ok_or_else(|| missing(slot))?;
         match &slot.pending {
@@ -81,11 +81,11 @@ impl Flights {
         }
     }
 
-    /// Records commands and submits them; returns what `record` did.
+    /// Records commands and submits them; returns the value that `record` returned.
     ///
     /// # Errors
-    /// There is no such slot, or what was submitted from it was not waited for; the first mistake of the
-    /// recording, of which nothing is submitted then; [`GpuError::Abandoned`], or what the driver reports.
+    /// The slot does not exist, or its last submission was not waited for; the first mistake of the
+    /// recording, which then submits nothing; [`GpuError::Abandoned`], or an error that the driver reports.
     pub fn submit<R>(&mut self, slot: u32, record: impl FnOnce(&mut Recorder<'_>) -> R) -> Result<R> {
         let device = self.device.clone();
         let Slot { work, timers, pending } =
@@ -102,11 +102,11 @@ impl Flights {
         Ok(value)
     }
 
-    /// Waits, at most [`Device::timeout`], for what was submitted from a slot, and returns the times of its
-    /// passes, if the ring times them. Nothing where nothing was submitted since the last wait.
+    /// Waits, at most [`Device::timeout`], for the last submission of a slot, and returns the times of its
+    /// passes, if the ring times them. `None` if nothing was submitted since the last wait.
     ///
     /// # Errors
-    /// There is no such slot; [`GpuError::Timeout`], after which the device is abandoned, or
+    /// The slot does not exist; [`GpuError::Timeout`], after which the device is abandoned, or
     /// [`GpuError::DeviceLost`].
     pub fn wait(&mut self, slot: u32) -> Result<Option<Vec<PassTiming>>> {
         let Slot { work, timers, pending } =
@@ -116,7 +116,7 @@ impl Flights {
         timers.as_ref().map_or(Ok(Vec::new()), |timers| completed.read(timers)).map(Some)
     }
 
-    /// Waits for everything that was submitted.
+    /// Waits for all submissions.
     ///
     /// # Errors
     /// As [`Flights::wait`].
@@ -128,7 +128,7 @@ impl Flights {
 impl Drop for Flights {
     fn drop(&mut self) {
         for slot in 0..self.slots() {
-            // Nothing is waited for any more where the device is lost or abandoned.
+            // A lost or abandoned device is not waited for any more.
             if let Err(error) = self.wait(slot) {
                 tracing::warn!("a frame in flight did not end: {error}");
             }

@@ -1,4 +1,4 @@
-//! The Vulkan instance: loader, validation layer, messenger.
+//! The Vulkan instance, with the loader, the validation layer and the messenger.
 
 use std::ffi::{CStr, CString};
 
@@ -9,28 +9,28 @@ use crate::messages::{ValidationLog, messenger_info};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
-/// The first version of the layer whose thread for a queue locks the labels of command buffers. Earlier ones,
-/// such as 1.3.239 of Debian 12, forget those of a destroyed command buffer without a lock, some time after a
-/// wait for its fence ended: where its handle is in use again by then, labels are written to freed memory
-/// (Vulkan-ValidationLayers, issue 5172).
+/// First version of the validation layer whose queue thread locks the labels of command buffers. Earlier
+/// versions, such as 1.3.239 of Debian 12, delete the labels of a destroyed command buffer without a lock,
+/// some time after a wait for its fence ended. If the handle is in use again by then, labels are written to
+/// freed memory (Vulkan-ValidationLayers, issue 5172).
 const LABELS_ARE_LOCKED: u32 = vk::make_api_version(0, 1, 3, 242);
 
-/// An instance made here, with the library it came from.
+/// An instance that this crate made, with the library that it came from.
 pub(crate) struct Instance {
     pub(crate) raw: ash::Instance,
     /// True if `VK_EXT_debug_utils` is enabled.
     pub(crate) debug_utils: bool,
     /// True if passes may have labels.
     pub(crate) labels: bool,
-    /// Boxed because the messenger holds its address.
+    /// Log of the validation messages; boxed because the messenger holds its address.
     log: Box<ValidationLog>,
     messenger: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
-    /// Owns the loaded library, so it is dropped last.
+    /// Owner of the loaded library; must be dropped last.
     _entry: ash::Entry,
 }
 
 impl Instance {
-    /// Loads Vulkan and creates an instance for version 1.3 (devices of version 1.2 are seen all the same).
+    /// Loads Vulkan and creates an instance for version 1.3 (which also lists devices of version 1.2).
     pub(crate) fn create(application: &str, validation: bool) -> Result<Self> {
         let entry = load()?;
         // SAFETY: global-level command of a loaded library.
@@ -60,7 +60,7 @@ impl Instance {
         let mut flags = vk::InstanceCreateFlags::empty();
         let portability = ash::khr::portability_enumeration::NAME;
         if extensions.iter().any(|extension| extension.as_c_str() == portability) {
-            // Without it the loader hides drivers that layer Vulkan over another interface.
+            // Without this extension the loader hides drivers that layer Vulkan over another interface.
             enabled.push(portability);
             flags |= vk::InstanceCreateFlags::ENUMERATE_PORTABILITY_KHR;
         }
@@ -100,7 +100,7 @@ impl Instance {
         Ok(instance)
     }
 
-    /// The messages of the validation layer.
+    /// Returns the log of the validation layer's messages.
     pub(crate) fn log(&self) -> &ValidationLog {
         &self.log
     }
@@ -109,29 +109,30 @@ impl Instance {
 impl Drop for Instance {
     fn drop(&mut self) {
         if let Some((functions, messenger)) = self.messenger.take() {
-            // SAFETY: created from this instance, and nothing else refers to it.
+            // SAFETY: the messenger was created from this instance, and nothing else refers to it.
             unsafe { functions.destroy_debug_utils_messenger(messenger, None) };
         }
-        // SAFETY: the device made from this instance is destroyed before (it is owned next to it and dropped
-        // first), and the library is still loaded.
+        // SAFETY: the device made from this instance is already destroyed (it is owned next to the instance
+        // and dropped first), and the library is still loaded.
         unsafe { self.raw.destroy_instance(None) };
     }
 }
 
-/// The functions of the system's Vulkan loader.
+/// Loads the functions of the system's Vulkan loader.
 #[cfg(not(feature = "fault-injection"))]
 fn load() -> Result<ash::Entry> {
-    // SAFETY: the system's Vulkan loader is trusted to be one; its initialisers have no preconditions.
+    // SAFETY: the library is trusted to be the system's Vulkan loader, whose initialisers have no
+    // preconditions.
     unsafe { ash::Entry::load() }.map_err(|error| GpuError::LoaderMissing { reason: error.to_string() })
 }
 
-/// The functions of the system's Vulkan loader, each behind the schedule of tests.
+/// Loads the functions of the system's Vulkan loader, each behind the schedule of tests.
 #[cfg(feature = "fault-injection")]
 fn load() -> Result<ash::Entry> {
     crate::faults::entry()
 }
 
-/// The version of the validation layer, where it is installed.
+/// Returns the version of the validation layer, if it is installed.
 fn validation_layer(entry: &ash::Entry) -> Result<Option<u32>> {
     // SAFETY: global-level command of a loaded library.
     let layers = unsafe { entry.enumerate_instance_layer_properties() }

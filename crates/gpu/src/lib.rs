@@ -1,6 +1,6 @@
-//! Vulkan for rasray: devices, memory, buffers, pipelines, recorded commands and timings. All crates that run
-//! on a device use it. It knows no scene, no window and no ray-tracing structure, and works on the device of
-//! a host that has a renderer.
+//! Vulkan layer of rasray: devices, memory, buffers, pipelines, recorded commands and timings. All crates
+//! that run on a device use it. It contains no code for scenes, windows or ray-tracing structures, and it
+//! works on the device of a host that has its own renderer.
 //!
 //! - [`Device`] is a device with one queue, made here ([`Device::create`]) or handed in
 //!   ([`Device::from_raw`]).
@@ -12,54 +12,57 @@
 //! # Contracts
 //!
 //! **Who owns what.** [`Device::create`] owns instance, device and queue. [`Device::from_raw`] owns none of
-//! them: the host keeps everything it hands in and destroys it after the last object made from the [`Device`]
-//! is gone. Buffers, set layouts, binding sets, pipelines and timers are cheap handles to counted values;
-//! each keeps its device alive, a binding set keeps its buffers and layout, a pipeline its set layouts. A
-//! value is destroyed when its last handle is dropped, so what a pending command buffer uses must outlive it.
-//! Pipelines of the same making are one; [`Device::keep_pipelines`] keeps some that are not in use.
+//! them: the host keeps all objects that it hands in, and destroys them after the last object made from the
+//! [`Device`] is dropped. Buffers, set layouts, binding sets, pipelines and timers are cheap handles to
+//! reference-counted values; each keeps its device alive, a binding set also keeps its buffers and layout, a
+//! pipeline its set layouts. A value is destroyed when its last handle is dropped, so objects that a pending
+//! command buffer uses must outlive it. Pipelines made from equal descriptions are shared;
+//! [`Device::keep_pipelines`] keeps some that are not in use.
 //!
 //! **Who waits.** A [`Recorder`] only records: it never submits, never waits, never allocates device memory.
 //! [`Device::submit`], [`Device::upload`], [`Device::download`] and [`Device::create_cleared_buffer`] submit
-//! and wait with a timeout; they are for applications, tests and what is made before frames begin.
-//! [`Flights`] submits without waiting, frame after frame. Code that is to run inside somebody else's frame
-//! uses a [`Recorder`] alone. Submissions keep what they use alive until the device is done with it.
+//! and wait with a timeout; they are for applications, tests and objects that are made before frames begin.
+//! [`Flights`] submits without waiting, frame after frame. Code that runs inside the frame of a host uses a
+//! [`Recorder`] alone. Submissions keep the objects that they use alive until the device has finished with
+//! them.
 //!
 //! **Synchronisation.** Within one command buffer the caller records [`Recorder::barrier`]. Every submission
 //! of [`Device::submit`] begins with a barrier against all earlier ones and ends with one towards host reads.
 //!
 //! **Ranges of buffers** have one user at a time, see [below](#ranges-of-buffers).
 //!
-//! **Errors.** Creation returns [`GpuError`]. Recording does not return errors: the first mistake is kept,
-//! what follows is not recorded, and [`Recorder::finish`] or the submission reports it.
+//! **Errors.** Creation returns [`GpuError`]. Recording does not return errors: the recorder keeps the first
+//! mistake and ignores all later commands, and [`Recorder::finish`] or the submission reports the mistake.
 //!
-//! **After a timeout** the device may still be running the work. The device is then *abandoned*: nothing made
-//! from it is destroyed any more, and every later submission fails with [`GpuError::Abandoned`].
+//! **After a timeout** the device may still be running the work. The device is then *abandoned*: objects made
+//! from it are not destroyed any more, and every later submission fails with [`GpuError::Abandoned`].
 //!
-//! **Threads.** All types but [`Recorder`] can be shared between threads. Submissions are serialised.
+//! **Threads.** All types except [`Recorder`] can be shared between threads. Submissions are serialised.
 //!
-//! **Validation** is asked for when the device is made and reports warnings and errors through `tracing` and
-//! [`Device::validation_messages`]. Synchronisation checks are switched on from outside, by
-//! `VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT`.
+//! **Validation** is requested when the device is made, and reports warnings and errors through `tracing` and
+//! [`Device::validation_messages`]. The environment variable
+//! `VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT` enables synchronisation
+//! checks.
 //!
 //! # Ranges of buffers
 //!
 //! The host ([`Buffer::write`], [`Buffer::read_into`], [`Buffer::read`]) and recorded commands use the same
-//! memory. Callers keep these rules:
+//! memory. Callers must keep these rules:
 //!
 //! - The host writes a range only while no pending work uses it, and reads it only while no pending work
 //!   writes it.
 //! - Work is pending from its submission until its fence is signalled. [`Device::submit`] waits for that;
 //!   with [`Flights`] and submissions of a host the caller waits.
-//! - Before the host reads, the work has made its writes visible to the host. Submissions of
-//!   [`Device::submit`] end so.
+//! - Before the host reads, the work must have made its writes visible to the host, as submissions of
+//!   [`Device::submit`] do at their end.
 //! - Ranges that do not overlap are independent. Threads of the host exclude each other: each access locks
 //!   the buffer.
 //!
-//! Nothing checks these rules, and the functions are safe all the same: they copy plain bytes under a lock,
-//! stay within the buffer and return no reference into it. Of a race the host reads old bytes, new ones or a
-//! mix, and so do shaders; no other memory of the host is touched. Shaders treat the mix as any other bytes
-//! that were written there. Hosts that mark every function as unsafe whose misuse gives wrong bytes have to
-//! wrap these.
+//! Nothing checks these rules, but the functions are safe nevertheless: they copy plain bytes under a lock,
+//! stay within the buffer and return no reference into it. In a race the host reads old bytes, new bytes or a
+//! mix, and so do shaders; no other memory of the host is affected. Shaders treat the mix like any other
+//! bytes that were written there. Hosts that mark every function as unsafe whose misuse gives wrong bytes
+//! have to wrap these functions.
 //!
 //! # Example
 //!

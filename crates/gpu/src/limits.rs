@@ -1,4 +1,4 @@
-//! Limits of a device, as far as this project depends on them.
+//! Limits of a device that this project depends on.
 
 use ash::vk;
 
@@ -8,39 +8,39 @@ use crate::memory::device_local_bytes;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Limits {
-    /// Largest range of one storage buffer binding.
+    /// Maximum range of one storage buffer binding.
     pub max_storage_buffer_range: u64,
     /// Alignment of the offset of a storage buffer binding.
     pub min_storage_buffer_offset_alignment: u64,
-    /// Storage buffers that one shader stage can reach, all sets together.
+    /// Maximum number of storage buffers that one shader stage can access, over all sets.
     pub max_storage_buffers_per_stage: u32,
-    /// Descriptor sets bound at once.
+    /// Maximum number of descriptor sets bound at once.
     pub max_bound_sets: u32,
-    /// Push constants of a pipeline.
+    /// Maximum size of the push constants of a pipeline.
     pub max_push_constants: u32,
-    /// Workgroups of one dispatch along each axis.
+    /// Maximum number of workgroups of one dispatch along each axis.
     pub max_workgroup_count: [u32; 3],
-    /// Invocations of one workgroup along each axis.
+    /// Maximum number of invocations of one workgroup along each axis.
     pub max_workgroup_size: [u32; 3],
-    /// Invocations of one workgroup.
+    /// Maximum number of invocations of one workgroup.
     pub max_workgroup_invocations: u32,
-    /// Shared memory of one workgroup.
+    /// Maximum size of the shared memory of one workgroup.
     pub max_shared_memory: u32,
-    /// Width and height of a raster view, in pixels.
+    /// Maximum width and height of a raster view, in pixels.
     pub max_framebuffer_size: [u32; 2],
-    /// Layers of a raster view.
+    /// Maximum number of layers of a raster view.
     pub max_framebuffer_layers: u32,
-    /// Views of a multiview draw.
+    /// Maximum number of views of a multiview draw.
     pub max_multiview_views: u32,
-    /// Largest single allocation.
+    /// Maximum size of a single allocation.
     pub max_memory_allocation: u64,
     /// Size of the largest device-local heap.
     pub device_local_bytes: u64,
-    /// Nanoseconds of one tick of a timestamp.
+    /// Duration of one tick of a timestamp, in nanoseconds.
     pub timestamp_period: f32,
-    /// Valid bits of a timestamp on the queue in use; 0 where it has none.
+    /// Number of valid bits of a timestamp on the queue in use; 0 if the queue has no timestamps.
     pub timestamp_valid_bits: u32,
-    /// Invocations of a subgroup.
+    /// Number of invocations of a subgroup.
     pub subgroup_size: u32,
 }
 
@@ -56,7 +56,7 @@ impl Limits {
     ) -> Self {
         let mut v11 = vk::PhysicalDeviceVulkan11Properties::default();
         let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut v11);
-        // SAFETY: the caller vouches for device and instance; the structure is core in 1.2.
+        // SAFETY: the caller guarantees device and instance; the structure is core in 1.2.
         unsafe { instance.get_physical_device_properties2(physical, &mut properties) };
         // SAFETY: as above.
         let memory = unsafe { instance.get_physical_device_memory_properties(physical) };

@@ -1,4 +1,4 @@
-//! Memory of buffers: its source, and the bytes in use.
+//! Memory of buffers: its source, and the accounting of the bytes in use.
 
 use std::any::Any;
 use std::ptr::NonNull;
@@ -9,48 +9,48 @@ use gpu_allocator::vulkan as pooled;
 
 use crate::error::{GpuError, Result};
 
-/// Who reads and writes a buffer.
+/// Location of a buffer's memory, by the parties that read and write it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum MemoryLocation {
-    /// Only the device.
+    /// Read and written by the device only.
     Device,
-    /// The host writes, the device reads.
+    /// Written by the host, read by the device.
     Upload,
-    /// The device writes, the host reads.
+    /// Written by the device, read by the host.
     Readback,
 }
 
 /// A piece of device memory.
 pub struct Allocation {
-    /// The memory object.
+    /// Vulkan memory object that contains the piece.
     pub memory: vk::DeviceMemory,
-    /// Start of the piece within it, in bytes.
+    /// Start of the piece within the memory object, in bytes.
     pub offset: u64,
-    /// Host address of the piece where it is host-visible.
+    /// Host address of the piece, if it is host-visible.
     pub mapped: Option<NonNull<u8>>,
-    /// State that the allocator needs to take the piece back.
+    /// Data that the allocator needs to free the piece.
     pub token: Option<Box<dyn Any + Send + Sync>>,
 }
 
-// SAFETY: the address is only a number here; whoever reads or writes through it synchronises the accesses
+// SAFETY: the address is only a number here; code that reads or writes through it synchronises the accesses
 // (`Buffer` does so with a lock).
 unsafe impl Send for Allocation {}
 // SAFETY: a shared reference gives access to plain values only, see above.
 unsafe impl Sync for Allocation {}
 
-/// A source of device memory; a host may bring its own.
+/// A source of device memory; a host may supply its own.
 ///
 /// # Safety
-/// A piece returned by [`Memory::allocate`] must fulfil the requirements, belong to nobody else, stay valid
-/// and in place until it is freed, and be host-visible, host-coherent and mapped for
-/// [`MemoryLocation::Upload`] and [`MemoryLocation::Readback`]. Where
+/// A piece returned by [`Memory::allocate`] must fulfil the requirements, belong to no other buffer, stay
+/// valid and in place until it is freed, and be host-visible, host-coherent and mapped for
+/// [`MemoryLocation::Upload`] and [`MemoryLocation::Readback`]. If
 /// [`Feature::BufferDeviceAddress`](crate::Feature::BufferDeviceAddress) is enabled, it must come from an
 /// allocation with `VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT`.
 pub unsafe trait Memory: Send + Sync {
     /// Allocates a piece for a buffer.
     ///
     /// # Errors
-    /// [`GpuError::OutOfDeviceMemory`] if there is none left.
+    /// [`GpuError::OutOfDeviceMemory`] if no memory is left.
     fn allocate(
         &self,
         requirements: vk::MemoryRequirements,
@@ -58,20 +58,20 @@ pub unsafe trait Memory: Send + Sync {
         name: &str,
     ) -> Result<Allocation>;
 
-    /// Takes a piece back.
+    /// Frees a piece.
     ///
     /// # Safety
     /// The piece came from [`Memory::allocate`] of this value, and nothing uses it any more.
     unsafe fn free(&self, allocation: Allocation);
 
-    /// Bytes given out and not taken back, by the books of this source; `None` where it keeps none.
+    /// Returns the bytes given out and not taken back, by the count of this source; `None` if it does not
+    /// count.
     fn bytes_given_out(&self) -> Option<u64> {
         None
     }
 }
 
-/// The memory source used unless a host brings one: blocks of 16 MiB on the device and 4 MiB on the host,
-/// shared by small buffers.
+/// Default source of memory: blocks of 16 MiB on the device and 4 MiB on the host, which small buffers share.
 pub struct PooledMemory {
     allocator: Mutex<pooled::Allocator>,
     device_local_bytes: u64,
@@ -81,11 +81,11 @@ impl PooledMemory {
     const DEVICE_BLOCK_BYTES: u64 = 16 << 20;
     const HOST_BLOCK_BYTES: u64 = 4 << 20;
 
-    /// A pool on a device; `addresses` if buffers will be reached by device address. It must be dropped
-    /// before the device is destroyed.
+    /// Makes a pool on a device; `addresses` is true if buffers will be reached by device address. The pool
+    /// must be dropped before the device is destroyed.
     ///
     /// # Errors
-    /// [`GpuError::Memory`] with what the allocator reports.
+    /// [`GpuError::Memory`] with the report of the allocator.
     pub fn new(
         instance: &ash::Instance,
         physical: vk::PhysicalDevice,
@@ -117,8 +117,8 @@ impl PooledMemory {
 }
 
 // SAFETY: gpu-allocator gives out disjoint pieces that fulfil the requirements, maps host-visible blocks once
-// for their life, takes only coherent types for the two host locations, and sets the address flag on its
-// blocks if told so in `new`.
+// for their lifetime, uses only coherent types for the two host locations, and sets the address flag on its
+// blocks if `new` told it so.
 unsafe impl Memory for PooledMemory {
     fn allocate(
         &self,
@@ -147,7 +147,7 @@ unsafe impl Memory for PooledMemory {
             },
             other => from_allocator(&other, name),
         })?;
-        // SAFETY: the handle is only used to bind a buffer to it, and freed with the piece.
+        // SAFETY: the handle is used only to bind a buffer to it, and is freed with the piece.
         let memory = unsafe { piece.memory() };
         let mapped = match location {
             MemoryLocation::Device => None,
@@ -173,7 +173,8 @@ unsafe impl Memory for PooledMemory {
 
 const ALLOCATE: &str = "vkAllocateMemory";
 
-/// Turns an error of the allocator into one of this crate. It passes result codes on as words only.
+/// Converts an error of the allocator to one of this crate. The allocator passes on result codes as words
+/// only.
 fn from_allocator(error: &gpu_allocator::AllocationError, name: &str) -> GpuError {
     use gpu_allocator::AllocationError as Refusal;
     let (call, text) = match error {
@@ -195,14 +196,14 @@ fn from_allocator(error: &gpu_allocator::AllocationError, name: &str) -> GpuErro
     }
 }
 
-/// Bytes of the largest device-local heap; 0 where there is none.
+/// Returns the bytes of the largest device-local heap; 0 if there is none.
 pub(crate) fn device_local_bytes(properties: &vk::PhysicalDeviceMemoryProperties) -> u64 {
     let heaps = properties.memory_heaps_as_slice().iter();
     let local = heaps.filter(|heap| heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL));
     local.map(|heap| heap.size).max().unwrap_or(0)
 }
 
-/// Amounts of memory in use, and its limit.
+/// Accounting of the memory in use, with its limit.
 pub(crate) struct Ledger {
     totals: Mutex<Totals>,
 }
@@ -222,7 +223,7 @@ impl Ledger {
         self.totals.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Enters `bytes`, unless they exceed the limit.
+    /// Adds `bytes` to the memory in use, unless that would exceed the limit.
     pub(crate) fn reserve(&self, name: &str, bytes: u64) -> Result<()> {
         let mut totals = self.lock();
         let after = totals.allocated.saturating_add(bytes);

@@ -1,12 +1,13 @@
-//! Messages of the validation layer, kept for tests and logged for people.
+//! Messages of the validation layer, kept for tests and logged for users.
 
 use std::ffi::{CStr, c_void};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
 
-/// Messages about calls that are not ours, by id: a driver's own layer asks for functions of the instance
-/// through the device (NVIDIA 580). `ash` asks for functions of a device alone.
+/// Ids of messages about calls that neither this crate nor its callers make: a driver's own layer looks up
+/// functions of the instance through the device (NVIDIA 580). `ash` looks up only functions of a device in
+/// that way.
 const OF_OTHERS: &[&str] = &["WARNING-vkGetDeviceProcAddr-device"];
 
 /// Warnings and errors of the validation layer, in order. Clones share one list, which outlives the device.
@@ -16,16 +17,16 @@ pub struct ValidationLog {
 }
 
 impl ValidationLog {
-    /// All messages so far.
+    /// Returns all messages so far.
     pub fn messages(&self) -> Vec<String> {
         self.messages.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Description of a messenger for an instance that a host makes, so that its messages are gathered here
-    /// as well.
+    /// Returns the description of a messenger for an instance that a host makes, so that this log collects
+    /// its messages as well.
     ///
     /// # Safety
-    /// The log stays where it is until the messenger and its instance are gone.
+    /// The log keeps its address until the messenger and its instance are destroyed.
     pub unsafe fn messenger(&self) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
         messenger_info(self)
     }
@@ -35,13 +36,15 @@ impl ValidationLog {
     }
 }
 
-/// The messenger that writes into `log`, which must stay where it is until the instance is gone.
+/// Returns the description of a messenger that writes into `log`, which must keep its address until the
+/// instance is destroyed.
 pub(crate) fn messenger_info(log: &ValidationLog) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
     vk::DebugUtilsMessengerCreateInfoEXT::default()
         .message_severity(
             vk::DebugUtilsMessageSeverityFlagsEXT::WARNING | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR,
         )
-        // General messages come from the loader (drivers it could not open) and say nothing about our calls.
+        // General messages come from the loader (drivers it could not open) and are unrelated to the calls of
+        // this crate.
         .message_type(
             vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
         )
@@ -49,7 +52,7 @@ pub(crate) fn messenger_info(log: &ValidationLog) -> vk::DebugUtilsMessengerCrea
         .user_data(std::ptr::from_ref(log).cast_mut().cast())
 }
 
-/// Called by Vulkan for each message.
+/// Receives each message from Vulkan.
 ///
 /// # Safety
 /// `data` is null or valid for the call, and `user` is null or points to a live [`ValidationLog`].

@@ -1,4 +1,4 @@
-//! A command buffer that this crate submits itself.
+//! A command buffer that this crate submits.
 
 use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
@@ -9,10 +9,10 @@ use crate::device::Device;
 use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 
-/// Longest time that anything is waited for.
+/// Maximum duration of any wait.
 const LONGEST_WAIT: Duration = Duration::from_secs(3600);
 
-/// Name in errors of calls that come before the passes of their work are known.
+/// Name of the work in errors of calls before its passes are known.
 const NEW_WORK: &str = "new work";
 
 /// A command buffer that is recorded, submitted and waited for, once or repeatedly.
@@ -42,7 +42,7 @@ impl OneTime {
         // SAFETY: the family exists.
         let pool = unsafe { core.device.create_command_pool(&info, None) }
             .during("vkCreateCommandPool", NEW_WORK)?;
-        // From here on dropping `work` destroys what was made; null handles are ignored.
+        // From here on, dropping `work` destroys the objects made so far; null handles are ignored.
         let mut work = Self {
             core: core.clone(),
             pool,
@@ -68,10 +68,10 @@ impl OneTime {
         self.command
     }
 
-    /// Starts recording; the command buffer is fresh or was waited for.
+    /// Starts recording; the command buffer must be new or waited for.
     pub(crate) fn begin(&self, device: &Device) -> Result<()> {
         let raw = device.raw();
-        // SAFETY: no command buffer of the pool is pending, see above.
+        // SAFETY: no command buffer of the pool is pending, as the caller has waited for it.
         unsafe { raw.reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty()) }
             .during("vkResetCommandPool", NEW_WORK)?;
         let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
@@ -79,15 +79,16 @@ impl OneTime {
         unsafe { raw.begin_command_buffer(self.command, &info) }.during("vkBeginCommandBuffer", NEW_WORK)
     }
 
-    /// Ends recording, submits, waits, and returns the time from submission to the end of the wait. `during`
-    /// names the work in errors. After a timeout the device is abandoned.
+    /// Ends recording, submits and waits; returns the time from the submission to the end of the wait.
+    /// `during` names the work in errors. After a timeout the device is abandoned.
     pub(crate) fn run(&self, device: &Device, during: &str) -> Result<Duration> {
         let start = self.submit(device, during)?;
         self.wait(device, during)?;
         Ok(start.elapsed())
     }
 
-    /// Ends recording and submits; returns when that was. [`OneTime::wait`] comes before anything else.
+    /// Ends recording and submits; returns the time of the submission. The next call must be
+    /// [`OneTime::wait`].
     pub(crate) fn submit(&self, device: &Device, during: &str) -> Result<Instant> {
         let raw = device.raw();
         if !self.core.is_usable() {
@@ -99,22 +100,22 @@ impl OneTime {
         let submit = vk::SubmitInfo::default().command_buffers(&commands);
         let start = Instant::now();
         let queue = self.core.queue.lock().unwrap_or_else(PoisonError::into_inner);
-        // SAFETY: the lock keeps other submissions of this crate out (and the contract of adoption those
-        // of a host); the fence is unsignalled; what the commands use is kept by the recorder.
+        // SAFETY: the lock excludes other submissions of this crate, and the contract of adoption those of a
+        // host; the fence is unsignalled; the recorder keeps the objects that the commands use.
         unsafe { raw.queue_submit(*queue, &[submit], self.fence) }.during("vkQueueSubmit", during)?;
         Ok(start)
     }
 
-    /// True if the device is done with what was submitted last.
+    /// Returns true if the device has finished the last submission.
     pub(crate) fn is_done(&self, device: &Device, during: &str) -> Result<bool> {
         // SAFETY: the fence belongs to the last submission.
         unsafe { device.raw().get_fence_status(self.fence) }.during("vkGetFenceStatus", during)
     }
 
-    /// Waits for what was submitted last. After a timeout the device is abandoned.
+    /// Waits for the last submission. After a timeout the device is abandoned.
     pub(crate) fn wait(&self, device: &Device, during: &str) -> Result<()> {
         let raw = device.raw();
-        // An hour of nanoseconds fits by far.
+        // An hour in nanoseconds fits into 64 bits.
         let timeout = self.timeout.as_nanos() as u64;
         // SAFETY: the fence belongs to the last submission.
         let wait = || unsafe { raw.wait_for_fences(&[self.fence], true, timeout) };
@@ -126,8 +127,8 @@ impl OneTime {
                 return Err(GpuError::Timeout { pass: during.to_owned(), seconds });
             }
             Err(failed) => {
-                // The wait failed, not the work. Nothing that the work uses may be destroyed while it runs,
-                // so it is waited for once more; a lost device runs nothing any more.
+                // The wait failed, not the work. Objects that the work uses must not be destroyed while it
+                // runs, so the function waits once more; a lost device runs nothing any more.
                 let ended = failed == vk::Result::ERROR_DEVICE_LOST
                     || matches!(wait(), Ok(()) | Err(vk::Result::ERROR_DEVICE_LOST));
                 if !ended {

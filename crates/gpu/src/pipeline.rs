@@ -34,7 +34,7 @@ pub(crate) struct PipelineInner {
     pub(crate) raw: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
     pub(crate) sets: Vec<SetLayout>,
-    /// The bindings of each set that the layout has.
+    /// Bindings of each set that the pipeline layout contains.
     pub(crate) used: Arc<[Mask]>,
     pub(crate) push_constant_bytes: u32,
     pub(crate) stages: vk::ShaderStageFlags,
@@ -50,36 +50,36 @@ impl std::fmt::Debug for PipelineInner {
 }
 
 impl ComputePipeline {
-    /// Name for errors and tools.
+    /// Returns the name for errors and tools.
     pub fn name(&self) -> &str {
         &self.inner.name
     }
 
-    /// The Vulkan pipeline.
+    /// Returns the Vulkan pipeline.
     pub fn raw(&self) -> vk::Pipeline {
         self.inner.raw
     }
 }
 
 impl RasterPipeline {
-    /// Name for errors and tools.
+    /// Returns the name for errors and tools.
     pub fn name(&self) -> &str {
         &self.inner.name
     }
 
-    /// The Vulkan pipeline.
+    /// Returns the Vulkan pipeline.
     pub fn raw(&self) -> vk::Pipeline {
         self.inner.raw
     }
 }
 
 impl Device {
-    /// A compute pipeline. Asked for again with the same module, constants and layouts it is the same one, as
-    /// long as there is a handle to it or [`Device::keep_pipelines`] keeps it.
+    /// Makes a compute pipeline. A further call with the same module, constants and layouts returns a handle
+    /// to the same pipeline, as long as a handle to it exists or [`Device::keep_pipelines`] keeps it.
     ///
     /// # Errors
-    /// [`GpuError::InvalidShader`] for words that are no module, [`GpuError::LimitExceeded`] for too many
-    /// sets, buffers or push constants, or what the driver reports, with the name of the pipeline.
+    /// [`GpuError::InvalidShader`] for words that are not a module, [`GpuError::LimitExceeded`] for too many
+    /// sets, buffers or push constants, or an error that the driver reports, with the name of the pipeline.
     pub fn create_compute_pipeline(&self, desc: &ComputePipelineDesc<'_>) -> Result<ComputePipeline> {
         let asked = PipelineRequest {
             name: desc.name,
@@ -95,8 +95,8 @@ impl Device {
             let specialisation = values.info();
             let stage = module.stage(vk::ShaderStageFlags::COMPUTE, &specialisation);
             let info = vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout);
-            // SAFETY: module and layout are alive and of this device; shader and layout agree (layout
-            // reflection tests hold them together, and validation checks it).
+            // SAFETY: module and layout are alive and of this device; shader and layout agree (tests of
+            // layout reflection ensure it, and the validation layer checks it).
             let made =
                 unsafe { self.core.device.create_compute_pipelines(self.core.pipeline_cache, &[info], None) };
             first_pipeline(&self.core, made, "vkCreateComputePipelines", desc.name)
@@ -104,7 +104,7 @@ impl Device {
         Ok(ComputePipeline { inner })
     }
 
-    /// A raster pipeline, shared as compute pipelines are.
+    /// Makes a raster pipeline, shared in the same way as compute pipelines.
     ///
     /// # Errors
     /// As [`Device::create_compute_pipeline`], and [`GpuError::FeatureNotEnabled`] without
@@ -113,7 +113,7 @@ impl Device {
         self.create_raster_pipeline_with(desc, RasterOptions::default())
     }
 
-    /// A raster pipeline with options.
+    /// Makes a raster pipeline with options.
     ///
     /// # Errors
     /// As [`Device::create_raster_pipeline`], and [`GpuError::FeatureNotEnabled`] without the feature of an
@@ -181,21 +181,23 @@ impl Device {
                 .dynamic_state(&dynamic)
                 .layout(layout)
                 .push_next(&mut rendering);
-            // SAFETY: as for compute; the features behind dynamic rendering and the options were checked.
+            // SAFETY: as for compute pipelines; the features for dynamic rendering and the options were
+            // checked.
             let made = unsafe { core.device.create_graphics_pipelines(core.pipeline_cache, &[info], None) };
             first_pipeline(core, made, "vkCreateGraphicsPipelines", desc.name)
         })?;
         Ok(RasterPipeline { inner })
     }
 
-    /// Keeps up to `count` pipelines that no handle is left to, so that they need not be compiled again; 0
-    /// unless set. Beyond that the longest unused are destroyed. For those who make structures again and
-    /// again: a change of options, or an experiment over many of them.
+    /// Keeps up to `count` pipelines without handles, so that they need not be compiled again; the default is
+    /// 0. Beyond that number, the pipelines that have been unused for longest are destroyed. It serves
+    /// programs that make structures repeatedly: for a change of options, or an experiment over many
+    /// structures.
     pub fn keep_pipelines(&self, count: usize) {
         self.core.pipelines.keep(self.core.usable_device(), count);
     }
 
-    /// Finds what was made by the recipe before, or makes it by `compile` now.
+    /// Returns the pipeline that was made by the recipe before, or makes it with `compile`.
     fn shared_pipeline(
         &self,
         asked: &PipelineRequest<'_>,
@@ -231,7 +233,7 @@ impl Device {
         }))
     }
 
-    /// Masks of the bindings of each set that the modules of a pipeline use.
+    /// Returns the masks of the bindings of each set that the modules of a pipeline use.
     fn used_bindings(&self, asked: &PipelineRequest<'_>, recipe: &Recipe) -> Result<Arc<[Mask]>> {
         let name = asked.name;
         let mut used = vec![0; asked.sets.len()];
@@ -257,7 +259,7 @@ impl Device {
         Ok(used.into())
     }
 
-    /// Checks what both kinds share.
+    /// Checks the properties that both kinds of pipeline share.
     fn check_pipeline(&self, asked: &PipelineRequest<'_>) -> Result<()> {
         let PipelineRequest { name, sets, push_constant_bytes, .. } = *asked;
         let core = &self.core;
@@ -302,14 +304,14 @@ impl PipelineRequest<'_> {
     }
 }
 
-/// A pipeline layout, destroyed unless its pipeline is made.
+/// A pipeline layout that is destroyed unless its pipeline is made.
 struct Layout<'a> {
     core: &'a Core,
     raw: vk::PipelineLayout,
 }
 
 impl<'a> Layout<'a> {
-    /// The layout of the bindings that are used.
+    /// Makes the layout of the bindings that are used.
     fn create(core: &'a Core, asked: &PipelineRequest<'_>, used: &[Mask]) -> Result<Self> {
         let parts = asked.sets.iter().zip(used).map(|(set, used)| set.part(*used));
         let layouts = parts.collect::<Result<Vec<_>>>()?;
@@ -317,14 +319,14 @@ impl<'a> Layout<'a> {
             vk::PushConstantRange::default().stage_flags(asked.stages).size(asked.push_constant_bytes);
         let ranges = if asked.push_constant_bytes == 0 { &[][..] } else { std::slice::from_ref(&range) };
         let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts).push_constant_ranges(ranges);
-        // SAFETY: layouts of this device, within its limits.
+        // SAFETY: the layouts are of this device and within its limits.
         let raw = unsafe { core.device.create_pipeline_layout(&info, None) }
             .during("vkCreatePipelineLayout", asked.name)?;
         core.name_object(raw, asked.name);
         Ok(Self { core, raw })
     }
 
-    /// The layout, for whoever destroys it from now on.
+    /// Returns the Vulkan layout; the caller must destroy it.
     fn into_raw(self) -> vk::PipelineLayout {
         std::mem::ManuallyDrop::new(self).raw
     }
@@ -332,7 +334,7 @@ impl<'a> Layout<'a> {
 
 impl Drop for Layout<'_> {
     fn drop(&mut self) {
-        // SAFETY: no pipeline was made with it.
+        // SAFETY: no pipeline was made with this layout.
         unsafe { self.core.device.destroy_pipeline_layout(self.raw, None) };
     }
 }
@@ -343,7 +345,7 @@ impl Drop for PipelineInner {
     }
 }
 
-/// Takes the only pipeline out of what Vulkan returned.
+/// Returns the only pipeline of a result of Vulkan.
 fn first_pipeline(
     core: &Core,
     made: std::result::Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
@@ -357,7 +359,7 @@ fn first_pipeline(
         }),
         Err((pipelines, result)) => {
             for pipeline in pipelines {
-                // SAFETY: just made, used by nothing; null is ignored.
+                // SAFETY: the pipeline was just made and is not used; null is ignored.
                 unsafe { core.device.destroy_pipeline(pipeline, None) };
             }
             Err(GpuError::from_vulkan(result, call, name))

@@ -2,35 +2,35 @@
 
 use crate::set_layout::SetLayout;
 
-/// A compute pipeline to be made. The entry point is `main`.
+/// Description of a compute pipeline to be made. The entry point is `main`.
 #[derive(Debug, Clone, Copy)]
 pub struct ComputePipelineDesc<'a> {
     /// Name for errors and tools: the path of the shader.
     pub name: &'a str,
-    /// The module, in words.
+    /// SPIR-V module, in words.
     pub spirv: &'a [u32],
-    /// Layouts of sets 0 and up.
+    /// Layouts of the sets, from set 0 up.
     pub sets: &'a [&'a SetLayout],
     /// Bytes of push constants, a multiple of 4.
     pub push_constant_bytes: u32,
-    /// Specialisation constants: id, and bits of a 32-bit value (a boolean is 0 or 1).
+    /// Specialisation constants: id, and bits of a 32-bit value (0 or 1 for a boolean).
     pub constants: &'a [(u32, u32)],
 }
 
-/// A raster pipeline to be made. It draws triangle lists without attachments, vertex input or culling; what
-/// it produces is what its shaders store. Depth is 0 to 1, y is not flipped, viewport and scissor are
-/// dynamic.
+/// Description of a raster pipeline to be made. It draws triangle lists without attachments, vertex input or
+/// culling; its only output is the data that its shaders store. Depth is 0 to 1, y is not flipped, viewport
+/// and scissor are dynamic.
 #[derive(Debug, Clone, Copy)]
 pub struct RasterPipelineDesc<'a> {
     /// Name for errors and tools: the path of the shaders.
     pub name: &'a str,
-    /// The vertex module, in words.
+    /// SPIR-V module of the vertex shader, in words.
     pub vertex_spirv: &'a [u32],
-    /// The fragment module, in words.
+    /// SPIR-V module of the fragment shader, in words.
     pub fragment_spirv: &'a [u32],
-    /// Layouts of sets 0 and up.
+    /// Layouts of the sets, from set 0 up.
     pub sets: &'a [&'a SetLayout],
-    /// Bytes of push constants, a multiple of 4; both stages see them.
+    /// Bytes of push constants, a multiple of 4; both stages can read them.
     pub push_constant_bytes: u32,
     /// Specialisation constants of both stages, as in [`ComputePipelineDesc::constants`].
     pub constants: &'a [(u32, u32)],

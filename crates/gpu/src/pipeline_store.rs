@@ -1,7 +1,7 @@
-//! The pipelines of a device: one of a kind, however many handles there are.
+//! Store of the pipelines of a device: one pipeline per description, with any number of handles.
 //!
-//! Compiling is what most of the time of making a structure goes to, and structures of one device share
-//! passes: what was made of the same modules, constants and layouts is the same pipeline.
+//! Compilation takes most of the time of making a structure, and structures of one device share passes: equal
+//! modules, constants and layouts give the same pipeline.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -11,13 +11,13 @@ use ash::vk;
 use crate::raster_options::RasterOptions;
 use crate::set_parts::Mask;
 
-/// Everything that a pipeline is made of but its name.
+/// Everything that determines a pipeline, except its name.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Recipe {
-    /// One module computes; two draw: vertex, fragment.
+    /// Modules: one for compute, or two for drawing (vertex, fragment).
     pub(crate) modules: Vec<Box<[u32]>>,
     pub(crate) constants: Box<[(u32, u32)]>,
-    /// Storage buffers of each set: layouts of the same content are compatible, even if made twice.
+    /// Number of storage buffers of each set: layouts with equal contents are compatible, even if made twice.
     pub(crate) sets: Box<[u32]>,
     pub(crate) push_constant_bytes: u32,
     pub(crate) options: RasterOptions,
@@ -28,15 +28,17 @@ pub(crate) struct Recipe {
 pub(crate) struct PipelineObjects {
     pub(crate) raw: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
-    /// The bindings of each set that its layout has.
+    /// Bindings of each set that the pipeline layout contains.
     pub(crate) used: Arc<[Mask]>,
 }
 
 impl PipelineObjects {
+    /// Destroys the pipeline and its layout.
+    ///
     /// # Safety
     /// Nothing uses the pipeline any more, and it is destroyed once.
     unsafe fn destroy(&self, device: &ash::Device) {
-        // SAFETY: the caller vouches for it.
+        // SAFETY: the caller guarantees the conditions.
         unsafe {
             device.destroy_pipeline(self.raw, None);
             device.destroy_pipeline_layout(self.layout, None);
@@ -46,9 +48,9 @@ impl PipelineObjects {
 
 struct Entry {
     made: PipelineObjects,
-    /// Handles that are out; idle at 0.
+    /// Number of existing handles; the pipeline is idle at 0.
     handles: usize,
-    /// When it became idle; a key of [`Books::idle`] while it is.
+    /// Time at which the pipeline became idle; a key of [`Books::idle`] while it is idle.
     since: u64,
 }
 
@@ -57,15 +59,15 @@ struct Books {
     entries: HashMap<Arc<Recipe>, Entry>,
     /// Pipelines without handles, the longest idle first.
     idle: BTreeMap<u64, Arc<Recipe>>,
-    /// Counts releases.
+    /// Number of handles released so far, which serves as time.
     clock: u64,
-    /// Number of idle pipelines kept.
+    /// Maximum number of idle pipelines that are kept.
     kept: usize,
 }
 
-/// The pipelines of a device. Every handle to one was given out by [`PipelineStore::find`] or
-/// [`PipelineStore::insert`] and goes back by [`PipelineStore::release`]. Where nothing may be destroyed any
-/// more, its device is `None`.
+/// Store of the pipelines of a device. [`PipelineStore::find`] and [`PipelineStore::insert`] give out the
+/// handles, and [`PipelineStore::release`] takes them back. If objects may not be destroyed any more, the
+/// device argument is `None`.
 #[derive(Default)]
 pub(crate) struct PipelineStore {
     books: Mutex<Books>,
@@ -76,13 +78,13 @@ impl PipelineStore {
         self.books.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A handle to what was made by this recipe, if anything was.
+    /// Returns a handle to the pipeline that was made by this recipe, if there is one.
     pub(crate) fn find(&self, recipe: &Recipe) -> Option<(Arc<Recipe>, PipelineObjects)> {
         self.books().find(recipe)
     }
 
-    /// The first handle to what was just made. Where another thread was faster, its pipeline is given out and
-    /// this one destroyed.
+    /// Stores a pipeline that was just made, and returns its first handle. If another thread stored the same
+    /// pipeline earlier, returns a handle to that one and destroys `made`.
     pub(crate) fn insert(
         &self,
         device: &ash::Device,
@@ -91,7 +93,7 @@ impl PipelineStore {
     ) -> (Arc<Recipe>, PipelineObjects) {
         let mut books = self.books();
         if let Some(found) = books.find(&recipe) {
-            // SAFETY: it was made for this call and given to nobody.
+            // SAFETY: the pipeline was made for this call, and no other code has a handle to it.
             unsafe { made.destroy(device) };
             return found;
         }
@@ -100,7 +102,8 @@ impl PipelineStore {
         (recipe, made)
     }
 
-    /// Takes a handle back; of idle pipelines the longest idle are destroyed beyond those that are kept.
+    /// Takes a handle back. If more pipelines are idle than are kept, destroys those that have been idle for
+    /// longest.
     pub(crate) fn release(&self, device: Option<&ash::Device>, recipe: &Arc<Recipe>) {
         let mut books = self.books();
         books.clock += 1;
@@ -114,14 +117,14 @@ impl PipelineStore {
         }
     }
 
-    /// Sets how many pipelines without handles are kept from now on.
+    /// Sets the number of pipelines without handles that are kept from now on.
     pub(crate) fn keep(&self, device: Option<&ash::Device>, count: usize) {
         let mut books = self.books();
         books.kept = count;
         books.trim(device);
     }
 
-    /// Destroys all; for a device that goes.
+    /// Destroys all idle pipelines, before the device is destroyed.
     pub(crate) fn clear(&self, device: &ash::Device) {
         self.keep(Some(device), 0);
     }
@@ -143,8 +146,8 @@ impl Books {
             let Some((_, recipe)) = self.idle.pop_first() else { return };
             let Some(entry) = self.entries.remove(&recipe) else { continue };
             if let Some(device) = device {
-                // SAFETY: there is no handle to it. Submissions that use a pipeline hold one, so none is
-                // pending; embedders keep what they record alive.
+                // SAFETY: no handle to the pipeline is left. Submissions that use a pipeline hold a handle,
+                // so none is pending; embedders keep the objects that they record alive.
                 unsafe { entry.made.destroy(device) };
             }
         }

@@ -1,4 +1,4 @@
-//! Submitting and waiting, for applications and tests.
+//! Submissions that wait, for applications and tests.
 
 use std::sync::PoisonError;
 use std::time::Duration;
@@ -15,10 +15,10 @@ use crate::timers::{PassTiming, TIMED_PASSES, Timers, Timing};
 /// Options of a submission.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct SubmitOptions {
-    /// Timing of passes.
+    /// Method by which passes are timed.
     pub timing: Timing,
-    /// Longest wait for the device, at most an hour: every wait has an end. [`Device::timeout`] where absent.
-    /// With [`Timing::Host`] it holds for each pass by itself.
+    /// Maximum wait for the device, at most an hour, so that every wait ends. If absent, [`Device::timeout`].
+    /// With [`Timing::Host`] it applies to each pass separately.
     pub timeout: Option<Duration>,
 }
 
@@ -27,33 +27,33 @@ pub struct SubmitOptions {
 pub struct Submitted<R> {
     /// Value that the recording function returned.
     pub value: R,
-    /// Times of the passes in order; empty with [`Timing::None`].
+    /// Times of the passes, in order; empty with [`Timing::None`].
     pub passes: Vec<PassTiming>,
 }
 
 impl Device {
-    /// Longest wait of submissions unless told: 60 seconds, and ten minutes on a software driver, whose
-    /// passes take hundreds of times as long and hold up no display.
+    /// Returns the default maximum wait of submissions: 60 seconds, or ten minutes on a software driver,
+    /// whose passes take hundreds of times as long and block no display.
     pub fn timeout(&self) -> Duration {
         Duration::from_secs(if self.is_software() { 600 } else { 60 })
     }
 
-    /// True if this crate may submit: an adopted device may come without a queue.
+    /// Returns true if this crate may submit; an adopted device may come without a queue.
     pub fn has_queue(&self) -> bool {
         *self.core.queue.lock().unwrap_or_else(PoisonError::into_inner) != vk::Queue::null()
     }
 
-    /// Records commands, submits them and waits up to [`Device::timeout`].
+    /// Records commands, submits them and waits for at most [`Device::timeout`].
     ///
     /// # Errors
     /// The first mistake of the recording, [`GpuError::Timeout`](crate::GpuError::Timeout),
     /// [`GpuError::DeviceLost`](crate::GpuError::DeviceLost),
-    /// [`GpuError::Abandoned`](crate::GpuError::Abandoned), or what the driver reports.
+    /// [`GpuError::Abandoned`](crate::GpuError::Abandoned), or an error that the driver reports.
     pub fn submit<R>(&self, record: impl FnOnce(&mut Recorder<'_>) -> R) -> Result<Submitted<R>> {
         self.submit_passes(Timing::None, record)
     }
 
-    /// As [`Device::submit`], with times of the passes.
+    /// Submits as [`Device::submit`] does, and measures the times of the passes.
     ///
     /// # Errors
     /// As [`Device::submit`], and [`GpuError::FeatureNotEnabled`](crate::GpuError::FeatureNotEnabled) for
@@ -66,10 +66,10 @@ impl Device {
         self.submit_with(&SubmitOptions { timing, timeout: None }, record)
     }
 
-    /// As [`Device::submit`], with options.
+    /// Submits as [`Device::submit`] does, with options.
     ///
     /// With [`Timing::Host`] every pass becomes a submission of its own; bound pipeline, sets and push
-    /// constants go on across it.
+    /// constants persist across passes.
     ///
     /// # Errors
     /// As [`Device::submit_passes`].
@@ -96,9 +96,9 @@ impl Device {
 }
 
 impl OneTime {
-    /// Records what a submission does, after everything submitted before it and visible to the host at its
-    /// end. What was submitted last was waited for. Returns what `record` did and what the recording left
-    /// behind.
+    /// Records the commands of a submission: they run after all earlier submissions, and their results are
+    /// visible to the host at its end. The last submission must have been waited for. Returns the value of
+    /// `record` and the objects that the recording collected.
     pub(crate) fn record<R>(
         &self,
         device: &Device,

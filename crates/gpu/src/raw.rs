@@ -1,4 +1,4 @@
-//! A device that a host made, for structures that run inside somebody else's renderer.
+//! A device that a host made, for structures that run inside the renderer of the host.
 
 use std::sync::Arc;
 
@@ -11,37 +11,38 @@ use crate::features::Feature;
 use crate::memory::Memory;
 use crate::messages::ValidationLog;
 
-/// A device of a host, with what this crate must know about it. The host keeps ownership of every handle.
+/// A device of a host, with the facts about it that this crate must know. The host keeps ownership of every
+/// handle.
 #[derive(Clone)]
 pub struct RawDevice {
-    /// The instance the device was made from.
+    /// Instance that the device was made from.
     pub instance: ash::Instance,
-    /// The physical device.
+    /// Physical device.
     pub physical: vk::PhysicalDevice,
-    /// The device.
+    /// Logical device.
     pub device: ash::Device,
-    /// Queue used by [`Device::submit`] and its relatives; null if those are never called.
+    /// Queue that [`Device::submit`] and related functions use; null if these are never called.
     pub queue: vk::Queue,
-    /// Family of the command buffers that will be recorded into; it must support compute.
+    /// Family of the command buffers that will be recorded into; the family must support compute.
     pub queue_family: u32,
-    /// The Vulkan version the host asked for when it made the instance, as in `VkApplicationInfo`.
+    /// Vulkan version that the host requested when it made the instance, as in `VkApplicationInfo`.
     pub api_version: u32,
-    /// Features the host enabled; at least [`Feature::Synchronization2`].
+    /// Features that the host enabled; at least [`Feature::Synchronization2`].
     pub enabled: Vec<Feature>,
-    /// True if the host enabled `VK_EXT_debug_utils`; names and labels are then set. Under a validation layer
-    /// older than 1.3.242 labels of a destroyed command buffer may be written to freed memory: say false
-    /// there.
+    /// True if the host enabled `VK_EXT_debug_utils`, so that this crate sets names and labels. Must be false
+    /// with a validation layer older than 1.3.242, which may write labels of a destroyed command buffer to
+    /// freed memory.
     pub debug_utils: bool,
-    /// Cache used for all pipelines, or null.
+    /// Cache for all pipelines, or null.
     pub pipeline_cache: vk::PipelineCache,
-    /// Allocator of memory; without it this crate allocates by itself.
+    /// Source of memory; if absent, this crate allocates memory itself.
     pub memory: Option<Arc<dyn Memory>>,
-    /// Limit of the memory allocated through this device, in bytes.
+    /// Maximum of the memory allocated through this device, in bytes.
     pub memory_limit: Option<u64>,
 }
 
 impl Device {
-    /// Adopts a device of a host. Nothing in `raw` is destroyed by this crate.
+    /// Adopts a device of a host. This crate destroys no handle of `raw`.
     ///
     /// # Safety
     /// - Instance, physical device, device, queue, queue family and pipeline cache belong together and are
@@ -49,21 +50,22 @@ impl Device {
     /// - Every feature in `enabled` was enabled when the device was made (with its extension where it is
     ///   one), and `debug_utils` is true only if that extension is enabled.
     /// - The queue is not used elsewhere while [`Device::submit`], [`Device::upload`], [`Device::download`]
-    ///   or whatever else says that it submits runs, such as what makes a queue of rays or a film; and the
-    ///   pipeline cache was made without `VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT`.
+    ///   or any other function that is documented to submit runs, such as a constructor of a queue of rays or
+    ///   of a film; and the pipeline cache was made without
+    ///   `VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT`.
     ///
     /// # Errors
-    /// [`GpuError::FeatureNotEnabled`] if synchronization2 is not in `enabled`, [`GpuError::InvalidUse`] if a
-    /// feature in it is not supported by the device or the queue family cannot compute.
+    /// [`GpuError::FeatureNotEnabled`] if synchronization2 is not in `enabled`, [`GpuError::InvalidUse`] if
+    /// the device does not support a feature in `enabled` or the queue family cannot compute.
     pub unsafe fn from_raw(raw: RawDevice) -> Result<Device> {
         if raw.api_version < vk::API_VERSION_1_2 {
-            // The queries below exist only in instances of newer versions.
+            // The queries below exist only in instances of Vulkan 1.2 or newer.
             return Err(GpuError::InvalidUse {
                 name: "the device handed in".to_owned(),
                 reason: "its instance must be made for Vulkan 1.2 or newer".to_owned(),
             });
         }
-        // SAFETY: the caller vouches that the physical device belongs to the instance.
+        // SAFETY: the caller guarantees that the physical device belongs to the instance.
         let candidate = unsafe { Candidate::inspect(&raw.instance, raw.physical, Some(raw.queue_family)) }?;
         let invalid = |reason: String| GpuError::InvalidUse { name: candidate.name.clone(), reason };
         let api_version = raw.api_version.min(candidate.api_version);

@@ -1,4 +1,4 @@
-//! Recording into a command buffer.
+//! Recorder of commands into a command buffer.
 
 mod bind;
 mod bound;
@@ -34,29 +34,30 @@ pub use self::render_area::RenderArea;
 /// submission of this crate whose passes the host times one by one.
 ///
 /// Mistakes (a range beyond a buffer, a dispatch without a pipeline …) do not end the program: the recorder
-/// keeps the first one and records nothing more, and [`Recorder::finish`] or the submission returns it.
+/// keeps the first one and ignores all later commands, and [`Recorder::finish`] or the submission returns it.
 ///
-/// Recorded resources stay alive until the device is done with them, even if their owner drops or replaces
-/// them before: a submission of this crate keeps them, and [`Recorded`] keeps them for command buffers of a
-/// host.
+/// Recorded resources stay alive until the device has finished with them, even if their owner drops or
+/// replaces them earlier: a submission of this crate keeps them, and [`Recorded`] keeps them for command
+/// buffers of a host.
 pub struct Recorder<'a> {
     device: &'a Device,
     command: vk::CommandBuffer,
     error: Option<GpuError>,
-    /// The pass being recorded, with its timer.
+    /// Pass that is being recorded, with its timer.
     pass: Option<(Stage, String, Option<u32>)>,
-    /// Commands recorded in each pass so far.
+    /// Counts of the commands in each pass so far.
     passes: Vec<PassCommands>,
     rendering: Option<RenderArea>,
     bound: Bound,
     timers: Option<Timers>,
-    /// Handles that must live until the device is done.
+    /// Handles that must live until the device has finished.
     kept: Vec<Arc<dyn Any + Send + Sync>>,
     submission: Option<Submission<'a>>,
 }
 
-/// Resources that a command buffer of a host uses. Keep it until the device has executed the command buffer
-/// for the last time: then nothing that was recorded is destroyed too early, whatever happens to its owners.
+/// Resources that a command buffer of a host uses. The host keeps it until the device has executed the
+/// command buffer for the last time, so that no recorded resource is destroyed too early, whatever happens to
+/// its owners.
 #[must_use = "what was recorded may be destroyed once this is dropped: keep it until the device is done"]
 pub struct Recorded {
     kept: Vec<Arc<dyn Any + Send + Sync>>,
@@ -71,22 +72,22 @@ impl std::fmt::Debug for Recorded {
 /// State that a recorder keeps for a submission of this crate.
 struct Submission<'a> {
     work: &'a OneTime,
-    /// True if every pass is submitted by itself and timed by the host.
+    /// True if every pass is submitted separately and timed by the host.
     split: bool,
     labels: Vec<String>,
     timings: Vec<PassTiming>,
 }
 
 impl<'a> Recorder<'a> {
-    /// Records into a command buffer of a host.
+    /// Makes a recorder into a command buffer of a host.
     ///
     /// # Safety
     /// - The command buffer was made from this device for its queue family, is being recorded, is outside of
     ///   a render pass or rendering, and is not used elsewhere while this value lives.
-    /// - The device has executed the command buffer, or it never will, when the [`Recorded`] that
-    ///   [`Recorder::finish`] returns is dropped; where `finish` was not called or failed, it is not
+    /// - When the [`Recorded`] that [`Recorder::finish`] returns is dropped, the device has executed the
+    ///   command buffer, or never will. If `finish` was not called or failed, the command buffer is not
     ///   submitted.
-    /// - What is bound in the command buffer (pipelines, sets, push constants, viewport, scissor) may change.
+    /// - The bindings of the command buffer (pipelines, sets, push constants, viewport, scissor) may change.
     pub unsafe fn from_raw(device: &'a Device, command: vk::CommandBuffer) -> Recorder<'a> {
         Self {
             device,
@@ -102,7 +103,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// A recorder for a submission, whose command buffer is being recorded.
+    /// Makes a recorder for a submission, whose command buffer is being recorded.
     pub(crate) fn for_submission(
         device: &'a Device,
         work: &'a OneTime,
@@ -124,18 +125,18 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// The device recorded for.
+    /// Returns the device recorded for.
     pub fn device(&self) -> &'a Device {
         self.device
     }
 
-    /// The command buffer, for commands this type does not have. After it was used to bind something, bind
-    /// pipeline, sets and push constants again.
+    /// Returns the command buffer, for commands that this type does not have. After binding an object through
+    /// it, pipeline, sets and push constants must be bound again.
     pub fn raw(&self) -> vk::CommandBuffer {
         self.command
     }
 
-    /// Times the passes recorded from now on.
+    /// Times the passes that are recorded from now on.
     pub fn set_timers(&mut self, timers: &Timers) {
         self.timers = Some(timers.clone());
     }
@@ -143,28 +144,30 @@ impl<'a> Recorder<'a> {
     /// Ends recording.
     ///
     /// # Errors
-    /// The first mistake of the recording, a pass or rendering left open included.
+    /// The first mistake of the recording; a pass or rendering that was left open is also a mistake.
     pub fn finish(mut self) -> Result<Recorded> {
         self.check_closed();
         self.error.map_or(Ok(Recorded { kept: self.kept }), Err)
     }
 
-    /// Keeps a buffer alive until the device is done, for one that shaders reach by its address.
+    /// Keeps a buffer that shaders reach by its address alive until the device has finished.
     pub fn keep_buffer(&mut self, buffer: &Buffer) {
         self.keep(buffer.inner.clone());
     }
 
-    /// Keeps a tree alive until the device is done, for ray queries of shaders.
+    /// Keeps a tree that ray queries of shaders use alive until the device has finished.
     pub fn keep_driver_tree(&mut self, tree: &DriverTree) {
         self.keep(tree.kept());
     }
 
-    /// Refuses what was asked for: as a mistake of the recording it is, nothing more is recorded.
+    /// Refuses a request of the caller: it counts as a mistake of the recording, and no later command is
+    /// recorded.
     pub fn refuse(&mut self, reason: &str) {
         self.misuse(reason);
     }
 
-    /// Begins a pass: a label in tools and, as a part of a stage, a time in reports. Passes do not nest.
+    /// Begins a pass, which has a label in tools and, as part of a stage, a time in reports. Passes do not
+    /// nest.
     pub fn begin_pass(&mut self, stage: Stage, label: &str) {
         if !self.outside_rendering("begin_pass") {
             return;
@@ -195,7 +198,7 @@ impl<'a> Recorder<'a> {
         self.pass = Some((stage, label.to_owned(), timer));
     }
 
-    /// Ends the pass.
+    /// Ends the open pass.
     pub fn end_pass(&mut self) {
         if !self.outside_rendering("end_pass") {
             return;
@@ -215,19 +218,20 @@ impl<'a> Recorder<'a> {
         self.split_here(Some((stage, label)));
     }
 
-    /// Makes `to` wait for `from` and see what it wrote, for all memory.
+    /// Makes accesses `to` wait for accesses `from` and see their writes, for all memory.
     pub fn barrier(&mut self, from: Access, to: Access) {
         if self.outside_rendering("barrier") {
             self.emit_barrier(from, to);
         }
     }
 
-    /// Commands recorded so far in each pass, in order. Commands outside of passes are not counted.
+    /// Returns the counts of the commands recorded so far in each pass, in order. Commands outside of passes
+    /// are not counted.
     pub fn passes(&self) -> &[PassCommands] {
         &self.passes
     }
 
-    /// Counts a command of the open pass.
+    /// Counts a command in the open pass, if there is one.
     fn count(&mut self, command: impl FnOnce(&mut PassCommands)) {
         if self.pass.is_some()
             && let Some(pass) = self.passes.last_mut()
@@ -236,7 +240,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Closes a recording for a submission: hands out what it collected, or the first mistake.
+    /// Ends a recording for a submission: returns the data that it collected, or the first mistake.
     pub(crate) fn complete(mut self) -> Completed {
         self.check_closed();
         let (labels, timings) = match self.submission.take() {
@@ -246,7 +250,8 @@ impl<'a> Recorder<'a> {
         Completed { error: self.error, _kept: self.kept, labels, timings }
     }
 
-    /// The device outlives the recorder, so this borrow is independent of it.
+    /// Returns the shared state of the device. The device outlives the recorder, so this borrow does not
+    /// depend on the recorder.
     fn core(&self) -> &'a Core {
         &self.device.core
     }
@@ -267,7 +272,7 @@ impl<'a> Recorder<'a> {
         self.error.get_or_insert(error);
     }
 
-    /// The thing a mistake is blamed on: the pass, else the recording.
+    /// Returns the name that an error gives for a mistake: the pass, or the recording outside of a pass.
     fn place(&self) -> String {
         self.pass.as_ref().map_or_else(|| "recording".to_owned(), |(_, label, _)| label.clone())
     }
@@ -291,7 +296,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// True if a command that is forbidden within rendering may be recorded.
+    /// Returns true if a command that is forbidden within rendering may be recorded.
     fn outside_rendering(&mut self, command: &str) -> bool {
         if self.rendering.is_some() {
             self.misuse(&format!("{command} was called between begin_rendering and end_rendering"));
@@ -332,19 +337,20 @@ impl<'a> Recorder<'a> {
             .dst_stage_mask(to_stages)
             .dst_access_mask(to_access)];
         let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-        // SAFETY: recording, outside of rendering, stages known to the queue.
+        // SAFETY: the command buffer is being recorded, outside of rendering, and the queue supports the
+        // stages.
         unsafe { (core.commands.pipeline_barrier)(self.command, &info) };
     }
 
-    /// Makes everything recorded visible to the host once the submission was waited for.
+    /// Makes all recorded results visible to the host once the submission has been waited for.
     pub(crate) fn emit_host_barrier(&mut self) {
         if self.is_recording() && self.rendering.is_none() {
             self.emit_barrier(Access::ALL, Access::HOST_READ);
         }
     }
 
-    /// Where passes are submitted one by one: submits what was recorded, waits, notes the time of `pass`, and
-    /// goes on with the same state bound. True if that failed.
+    /// If passes are submitted separately, submits the commands recorded so far, waits, notes the time of
+    /// `pass`, and continues with the same state bound. Returns true if that failed.
     fn split_here(&mut self, pass: Option<(Stage, String)>) -> bool {
         if !self.submission.as_ref().is_some_and(|submission| submission.split) {
             return false;
@@ -373,19 +379,19 @@ impl<'a> Recorder<'a> {
 /// Outcome of a recording for a submission.
 pub(crate) struct Completed {
     pub(crate) error: Option<GpuError>,
-    /// Lives until the device is done.
+    /// Resources that live until the device has finished.
     _kept: Vec<Arc<dyn Any + Send + Sync>>,
     pub(crate) labels: Vec<String>,
     pub(crate) timings: Vec<PassTiming>,
 }
 
 impl Completed {
-    /// The passes in words, for errors.
+    /// Returns the labels of the passes in words, for errors.
     pub(crate) fn work(&self) -> String {
         if self.labels.is_empty() { "work without a pass".to_owned() } else { self.labels.join(", ") }
     }
 
-    /// The times of the passes, once the device is done.
+    /// Returns the times of the passes, after the device has finished.
     pub(crate) fn read(&self, timers: &Timers) -> Result<Vec<PassTiming>> {
         let passes = timers.read()?;
         if passes.len() < self.labels.len() {

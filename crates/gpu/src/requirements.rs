@@ -1,35 +1,36 @@
-//! Requirements of a device: features that are required, and optional ones with what they buy.
+//! Requirements on a device: required features, and optional features with their benefits.
 
 use crate::error::GpuError;
 use crate::features::Feature;
 
-/// Features that a device must have, and those that it may have.
+/// Features that a device must have, and features that it may have.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Requirements {
-    /// A device without one of these is not chosen.
+    /// Required features; a device that lacks one of them is not chosen.
     pub required: Vec<Feature>,
-    /// Enabled where present; with each what it buys.
+    /// Optional features, enabled if present, with the benefit of each.
     pub optional: Vec<(Feature, &'static str)>,
-    /// Storage buffers that one shader stage must be able to use, all sets together; 0 where any device will
-    /// do.
+    /// Number of storage buffers that one shader stage must be able to use, over all sets; 0 if any device
+    /// suffices.
     pub storage_buffers: u32,
 }
 
 impl Requirements {
-    /// The needs of everything that draws nothing: scalar block layout and synchronization2. A queue that
-    /// computes will do.
+    /// Returns the requirements of passes that do not draw: scalar block layout and synchronization2. A queue
+    /// that supports compute suffices.
     pub fn compute() -> Self {
         Self { required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2], ..Self::default() }
     }
 
-    /// The device floor: [`Requirements::compute`] and dynamic rendering.
+    /// Returns the requirements of the device floor: [`Requirements::compute`] and dynamic rendering.
     pub fn floor() -> Self {
         let mut requirements = Self::compute();
         requirements.required.push(Feature::DynamicRendering);
         requirements
     }
 
-    /// These requirements and the other ones. What either requires is required, and no longer optional.
+    /// Merges these requirements with others. A feature that either requires is required, and no longer
+    /// optional.
     #[must_use]
     pub fn merge(mut self, other: &Requirements) -> Self {
         self.required.extend_from_slice(&other.required);
@@ -45,7 +46,7 @@ impl Requirements {
     }
 }
 
-/// Something of [`Requirements`] that a device lacks.
+/// A requirement that a device does not fulfil.
 pub(crate) enum Missing {
     /// A feature that is not enabled.
     Feature(Feature),
@@ -54,7 +55,7 @@ pub(crate) enum Missing {
 }
 
 impl Missing {
-    /// The lack as words of a message.
+    /// Returns the missing requirement as words of a message.
     pub(crate) fn words(self) -> String {
         match self {
             Self::Feature(feature) => feature.name().to_owned(),
@@ -64,7 +65,7 @@ impl Missing {
         }
     }
 
-    /// The error of `what`, which cannot do without it.
+    /// Returns the error of `what`, which needs the requirement.
     pub(crate) fn error(self, what: &str) -> GpuError {
         match self {
             Self::Feature(feature) => GpuError::FeatureNotEnabled { feature, what: what.to_owned() },

@@ -9,11 +9,11 @@ use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 use crate::set_parts::{MOST_BINDINGS, Mask, SetPart, SetParts, all, bindings};
 
-/// Layout of a set: storage buffers at bindings 0, 1, 2 …, seen by vertex, fragment and compute shaders.
-/// Clones are handles to the same layout, and so are layouts of the same number of buffers of one device.
+/// Layout of a set: storage buffers at bindings 0, 1, 2 …, visible to vertex, fragment and compute shaders.
+/// Clones are handles to the same layout, and so are layouts with the same number of buffers on one device.
 ///
-/// A pipeline is made with those bindings alone that its modules use, so that what a device lets a stage see
-/// is compared with what a stage does see.
+/// A pipeline is made with only those bindings that its modules use, so that the limit of buffers per stage
+/// applies to the buffers that a stage really uses.
 #[derive(Clone)]
 pub struct SetLayout {
     pub(crate) core: Arc<Core>,
@@ -28,33 +28,33 @@ impl std::fmt::Debug for SetLayout {
 }
 
 impl SetLayout {
-    /// Number of storage buffers.
+    /// Returns the number of storage buffers.
     pub fn storage_buffers(&self) -> u32 {
         self.storage_buffers
     }
 
-    /// The Vulkan layout of all bindings.
+    /// Returns the Vulkan layout of all bindings.
     pub fn raw(&self) -> vk::DescriptorSetLayout {
         self.core.set_layouts.lock()[&self.storage_buffers].layouts[&all(self.storage_buffers)]
     }
 
-    /// Name for errors and tools.
+    /// Returns the name for errors and tools.
     pub(crate) fn name(&self) -> &str {
         &self.name
     }
 
-    /// True if it is of this device.
+    /// Returns true if the layout is of this device.
     pub(crate) fn is_of(&self, core: &Arc<Core>) -> bool {
         Arc::ptr_eq(&self.core, core)
     }
 
-    /// True if sets of the one can be bound as sets of the other.
+    /// Returns true if sets of either layout can be bound as sets of the other.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.is_of(&other.core) && self.storage_buffers == other.storage_buffers
     }
 
-    /// The Vulkan layout of some bindings. Every set of this layout, of now and of later, has that part from
-    /// here on.
+    /// Returns the Vulkan layout of some bindings. From now on, every set of this layout, existing or made
+    /// later, has a Vulkan set for that part.
     pub(crate) fn part(&self, mask: Mask) -> Result<vk::DescriptorSetLayout> {
         let mut layouts = self.core.set_layouts.lock();
         let parts = layouts.entry(self.storage_buffers).or_default();
@@ -64,8 +64,8 @@ impl SetLayout {
         let layout = create_layout(&self.core, &self.name, mask)?;
         let mut sets = parts.sets.iter();
         if let Err(error) = sets.try_for_each(|set| add_part(&self.core, set, mask, layout)) {
-            // Sets that have the part keep it: those of the same bindings are alike.
-            // SAFETY: a layout may go before the sets made with it, which are updated no more.
+            // Sets that already have the part keep it, because parts of the same bindings are alike.
+            // SAFETY: a layout may be destroyed before the sets made with it, which are not updated any more.
             unsafe { self.core.device.destroy_descriptor_set_layout(layout, None) };
             return Err(error);
         }
@@ -74,7 +74,7 @@ impl SetLayout {
     }
 }
 
-/// Makes the Vulkan set of a part, unless the set has it.
+/// Makes the Vulkan set of a part, unless the set already has it.
 pub(crate) fn add_part(
     core: &Core,
     set: &SetParts,
@@ -88,15 +88,15 @@ pub(crate) fn add_part(
     let name = set.name.as_str();
     let sizes = [vk::DescriptorPoolSize::default()
         .ty(vk::DescriptorType::STORAGE_BUFFER)
-        // A pool without descriptors is not allowed; a set without them is.
+        // Vulkan forbids a pool without descriptors, but permits a set without them.
         .descriptor_count(mask.count_ones().max(1))];
     let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
-    // SAFETY: one set of a known type.
+    // SAFETY: the pool is for one set of a known type.
     let pool =
         unsafe { core.device.create_descriptor_pool(&info, None) }.during("vkCreateDescriptorPool", name)?;
     let layouts = [layout];
     let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
-    // SAFETY: the pool is fresh and holds what one set of this layout needs.
+    // SAFETY: the pool is new and has room for one set of this layout.
     let allocated =
         unsafe { core.device.allocate_descriptor_sets(&info) }.during("vkAllocateDescriptorSets", name);
     let raw = match allocated.as_deref() {
@@ -128,7 +128,7 @@ pub(crate) fn add_part(
                 .buffer_info(info)
         })
         .collect();
-    // SAFETY: the set is fresh, the buffers are storage buffers of this device, and the ranges were checked.
+    // SAFETY: the set is new, the buffers are storage buffers of this device, and the ranges were checked.
     unsafe { core.device.update_descriptor_sets(&writes, &[]) };
     parts.insert(mask, SetPart { pool, raw });
     Ok(())
@@ -149,7 +149,7 @@ fn create_layout(core: &Core, name: &str, mask: Mask) -> Result<vk::DescriptorSe
         })
         .collect();
     let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
-    // SAFETY: distinct bindings of a type every device has, within its limit.
+    // SAFETY: the bindings are distinct, of a type that every device has, and within its limit.
     let raw = unsafe { core.device.create_descriptor_set_layout(&info, None) }
         .during("vkCreateDescriptorSetLayout", name)?;
     core.name_object(raw, name);
@@ -157,13 +157,14 @@ fn create_layout(core: &Core, name: &str, mask: Mask) -> Result<vk::DescriptorSe
 }
 
 impl Device {
-    /// A layout of `storage_buffers` storage buffers at bindings 0 and up.
+    /// Makes a layout of `storage_buffers` storage buffers at bindings 0 and up.
     ///
     /// # Errors
-    /// [`GpuError::LimitExceeded`] if a shader stage cannot reach that many, or what the driver reports.
+    /// [`GpuError::LimitExceeded`] if a shader stage cannot access that many buffers, or an error that the
+    /// driver reports.
     pub fn create_set_layout(&self, name: &str, storage_buffers: u32) -> Result<SetLayout> {
         let core = &self.core;
-        // A pipeline may use few bindings of each set, but some pipeline uses every binding.
+        // A pipeline may use few bindings of each set, but some pipeline uses all bindings of one.
         let limit = core.limits.max_storage_buffers_per_stage.min(MOST_BINDINGS);
         if storage_buffers > limit {
             return Err(GpuError::LimitExceeded {

@@ -1,55 +1,55 @@
-//! Keeps the set layouts of a device and the sets made with them, part by part.
+//! Store of the set layouts of a device and the sets made with them, divided into parts.
 //!
 //! A pipeline is made with a part of a layout: the bindings that its modules use. Every set of the layout has
-//! a Vulkan set for each part.
+//! one Vulkan set for each part.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ash::vk;
 
-/// Bindings of one set at most: a bit of a [`Mask`] each.
+/// Maximum number of bindings of one set: each is one bit of a [`Mask`].
 pub(crate) const MOST_BINDINGS: u32 = u64::BITS;
 
-/// Some of a set's bindings, one bit each.
+/// Subset of a set's bindings, one bit each.
 pub(crate) type Mask = u64;
 
-/// The bindings of a mask, in order.
+/// Returns the bindings of a mask, in order.
 pub(crate) fn bindings(mask: Mask) -> impl Iterator<Item = u32> {
     (0..MOST_BINDINGS).filter(move |binding| mask >> binding & 1 != 0)
 }
 
-/// The mask of the first `count` bindings.
+/// Returns the mask of the first `count` bindings.
 pub(crate) fn all(count: u32) -> Mask {
     Mask::MAX.checked_shr(MOST_BINDINGS - count).unwrap_or(0)
 }
 
-/// The parts of the layouts of a device, by their number of buffers. They live as long as the device:
-/// pipelines that are kept without a handle to them are made of them.
+/// Parts of the layouts of a device, by the layouts' number of buffers. The parts live as long as the device,
+/// because pipelines that are kept without a handle are made of them.
 #[derive(Default)]
 pub(crate) struct SetLayouts(Mutex<BTreeMap<u32, LayoutParts>>);
 
-/// The parts of a layout that something was made of.
+/// Parts of a layout that pipelines or sets were made of.
 #[derive(Default)]
 pub(crate) struct LayoutParts {
-    /// Layouts of all bindings, and of those that pipelines use.
+    /// Vulkan layouts: that of all bindings, and those of the bindings that pipelines use.
     pub(crate) layouts: BTreeMap<Mask, vk::DescriptorSetLayout>,
-    /// Sets of the layout; each is taken out before its buffers go.
+    /// Sets of the layout; each is taken out before its buffers are dropped.
     pub(crate) sets: Vec<Arc<SetParts>>,
 }
 
-/// The Vulkan sets of a set, one a part of its layout.
+/// Vulkan sets of one set: one per part of its layout.
 pub(crate) struct SetParts {
     pub(crate) name: String,
-    /// Buffers bound, in the order of the bindings.
+    /// Ranges of the bound buffers, in the order of the bindings.
     pub(crate) buffers: Vec<vk::DescriptorBufferInfo>,
     parts: Mutex<BTreeMap<Mask, SetPart>>,
 }
 
-/// The Vulkan set of a part.
+/// Vulkan set of one part.
 #[derive(Clone, Copy)]
 pub(crate) struct SetPart {
-    /// One pool a set: sets are few, and each can be dropped by itself.
+    /// Pool of this set alone: sets are few, and each can be dropped separately.
     pub(crate) pool: vk::DescriptorPool,
     pub(crate) raw: vk::DescriptorSet,
 }
@@ -59,14 +59,14 @@ impl SetLayouts {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Destroys all.
+    /// Destroys all layouts.
     ///
     /// # Safety
-    /// Nothing uses a layout any more: sets and pipelines are gone.
+    /// Nothing uses a layout any more: sets and pipelines are destroyed.
     pub(crate) unsafe fn clear(&self, device: &ash::Device) {
         for parts in std::mem::take(&mut *self.lock()).into_values() {
             for layout in parts.layouts.into_values() {
-                // SAFETY: the caller vouches for it.
+                // SAFETY: the caller guarantees the conditions.
                 unsafe { device.destroy_descriptor_set_layout(layout, None) };
             }
         }

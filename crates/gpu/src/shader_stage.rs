@@ -1,4 +1,4 @@
-//! Stages of a pipeline: a module and its specialisation constants.
+//! Stage of a pipeline: a module and its specialisation constants.
 
 use ash::vk;
 
@@ -6,7 +6,7 @@ use crate::device_core::Core;
 use crate::error::{During, Result};
 use crate::spirv::check_header;
 
-/// A shader module, needed only until its pipeline is made.
+/// A shader module that exists only until its pipeline is made.
 pub(crate) struct Module<'a> {
     core: &'a Core,
     raw: vk::ShaderModule,
@@ -16,7 +16,7 @@ impl<'a> Module<'a> {
     pub(crate) fn create(core: &'a Core, name: &str, spirv: &[u32]) -> Result<Self> {
         check_header(name, spirv)?;
         let info = vk::ShaderModuleCreateInfo::default().code(spirv);
-        // SAFETY: the words are a module at least by their header; the shader compiler vouches for the rest.
+        // SAFETY: the header of the words is that of a module; the shader compiler guarantees the rest.
         let raw =
             unsafe { core.device.create_shader_module(&info, None) }.during("vkCreateShaderModule", name)?;
         core.name_object(raw, name);
@@ -43,7 +43,7 @@ impl Drop for Module<'_> {
     }
 }
 
-/// Specialisation constants as Vulkan takes them.
+/// Specialisation constants in the form that Vulkan takes.
 pub(crate) struct Specialisation {
     entries: Vec<vk::SpecializationMapEntry>,
     words: Vec<u32>,

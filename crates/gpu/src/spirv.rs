@@ -1,4 +1,4 @@
-//! Bindings of its descriptor sets that a SPIR-V module uses.
+//! Analysis of SPIR-V modules: the descriptor bindings that they use.
 
 use std::collections::HashMap;
 
@@ -12,11 +12,12 @@ const OP_DECORATE: u32 = 71;
 const DECORATION_BINDING: u32 = 33;
 const DECORATION_DESCRIPTOR_SET: u32 = 34;
 
-/// The bindings of each set, from set 0 up, that the functions of a module name: one bit a binding. A set
-/// layout of these alone is enough for it, which counts where a device lets a stage see few buffers.
+/// Returns the bindings of each set, from set 0 up, that the functions of a module name: one bit per binding.
+/// A set layout with only these bindings suffices for the module, which matters if a device lets a stage
+/// access few buffers.
 ///
 /// # Errors
-/// [`GpuError::InvalidShader`] for words that are no module, and for bindings beyond 63.
+/// [`GpuError::InvalidShader`] for words that are not a module, and for bindings beyond 63.
 pub(crate) fn used_bindings(name: &str, spirv: &[u32]) -> Result<Vec<u64>> {
     let invalid = |reason| GpuError::InvalidShader { name: name.to_owned(), reason };
     check_header(name, spirv)?;
@@ -40,7 +41,8 @@ pub(crate) fn used_bindings(name: &str, spirv: &[u32]) -> Result<Vec<u64>> {
             (OP_DECORATE, [_, variable, DECORATION_BINDING, binding]) => {
                 places.entry(*variable).or_default()[1] = Some(*binding);
             }
-            // Decorations come before functions. A literal that equals an id only makes the answer larger.
+            // Decorations precede functions. A literal that happens to equal an id only adds a binding to the
+            // result.
             _ if in_function => {
                 for word in &instruction[1..] {
                     let Some([Some(set), Some(binding)]) = places.get(word) else { continue };
@@ -60,15 +62,16 @@ pub(crate) fn used_bindings(name: &str, spirv: &[u32]) -> Result<Vec<u64>> {
     Ok(used)
 }
 
-/// Storage buffers that a module uses, all sets together: what a device must let one stage see.
+/// Returns the number of storage buffers that a module uses, over all sets: the number that a device must let
+/// one stage access.
 ///
 /// # Errors
-/// [`GpuError::InvalidShader`] for words that are no module.
+/// [`GpuError::InvalidShader`] for words that are not a module.
 pub fn storage_buffers_used(name: &str, spirv: &[u32]) -> Result<u32> {
     Ok(used_bindings(name, spirv)?.iter().map(|used| used.count_ones()).sum())
 }
 
-/// Checks that the words begin as a module does.
+/// Checks that the words begin with the header of a module.
 ///
 /// # Errors
 /// [`GpuError::InvalidShader`].
@@ -90,7 +93,8 @@ mod tests {
         length << 16 | operation
     }
 
-    /// Buffers 10 to 12 at (0, 1), (2, 0) and (2, 3); a function whose one instruction has `operands`.
+    /// Makes a module with buffers 10 to 12 at (0, 1), (2, 0) and (2, 3), and a function whose single
+    /// instruction has `operands`.
     fn module(operands: &[u32]) -> Vec<u32> {
         let mut words = vec![MAGIC, 0x0001_0500, 0, 20, 0];
         for (id, set, binding) in [(10, 0, 1), (11, 2, 0), (12, 2, 3)] {

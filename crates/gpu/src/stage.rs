@@ -1,8 +1,8 @@
-//! The part of a frame that a pass belongs to.
+//! Stage of a frame that a pass belongs to.
 
 use std::fmt;
 
-/// Question that a trace answers.
+/// Kind of answer of a trace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TraceMode {
     /// The nearest hit.
@@ -11,29 +11,29 @@ pub enum TraceMode {
     Occluded,
 }
 
-/// The part of a frame that a pass belongs to, in the order of a frame: what times are summed by.
+/// Stage of a frame that a pass belongs to, in the order of a frame. Reports sum times by stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
-    /// Instances to posed positions, with bounds and lights.
+    /// Posing: instances to posed positions, with bounds and lights.
     Pose,
-    /// Posed positions to a structure that can be traced.
+    /// Building: posed positions to a structure that can be traced.
     Build,
-    /// Posed positions and lights to maps of what lights see.
+    /// Drawing of shadow maps: posed positions and lights to maps of the surfaces that lights see.
     ShadowMaps,
-    /// First hits and their surfaces, by drawing.
+    /// Drawing of first hits and their surfaces.
     Visible,
-    /// Rays to hits.
+    /// Tracing: rays to hits.
     Trace(TraceMode),
-    /// Hits to surfaces.
+    /// Lookup of surfaces: hits to surfaces.
     Surfaces,
-    /// Surfaces to radiance and to further rays, camera rays included.
+    /// Shading: surfaces to radiance and to further rays, camera rays included.
     Shade,
-    /// Radiance to pixels, by passes that do nothing else.
+    /// Film: radiance to pixels, by passes that do nothing else.
     Film,
 }
 
 impl Stage {
-    /// All of them.
+    /// All stages, in order.
     pub const ALL: [Self; 9] = [
         Self::Pose,
         Self::Build,
@@ -46,7 +46,7 @@ impl Stage {
         Self::Film,
     ];
 
-    /// Its name in reports.
+    /// Returns the name of the stage in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Pose => "pose",

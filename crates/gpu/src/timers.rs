@@ -1,4 +1,4 @@
-//! Times of passes.
+//! Times of passes, by timestamps of the device or by the clock of the host.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -9,19 +9,20 @@ use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 use crate::stage::Stage;
 
-/// Passes of a submission that the device times at most.
+/// Maximum number of passes of a submission that the device times.
 pub(crate) const TIMED_PASSES: u32 = 1024;
 
-/// Timing of passes.
+/// Method by which passes are timed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Timing {
-    /// Not at all.
+    /// Passes are not timed.
     #[default]
     None,
-    /// By timestamps of the device, all passes in one submission. Passes that no barrier separates overlap.
+    /// Timestamps of the device measure all passes in one submission. Passes without a barrier between them
+    /// overlap.
     Device,
-    /// By the clock of the host, with a submission and a wait for every pass. A time includes what a
-    /// submission costs.
+    /// The clock of the host measures each pass, with a submission and a wait for every pass. A time includes
+    /// the cost of a submission.
     Host,
 }
 
@@ -34,16 +35,16 @@ pub enum TimerKind {
     Host,
 }
 
-/// The time of one pass.
+/// Time of one pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassTiming {
     /// Part of a frame that the pass belongs to.
     pub stage: Stage,
     /// Label of the pass.
     pub label: String,
-    /// Its time in milliseconds.
+    /// Duration of the pass in milliseconds.
     pub milliseconds: f64,
-    /// Clock that measured it.
+    /// Clock that measured the duration.
     pub timer: TimerKind,
 }
 
@@ -57,7 +58,7 @@ struct TimersInner {
     core: Arc<Core>,
     pool: vk::QueryPool,
     capacity: u32,
-    /// Stage and name of each pass recorded so far.
+    /// Stage and label of each pass recorded so far.
     passes: Mutex<Vec<(Stage, String)>>,
 }
 
@@ -68,8 +69,8 @@ impl std::fmt::Debug for Timers {
 }
 
 impl Device {
-    /// The timing that gives true times on this device: the host's clock on software drivers and on queues
-    /// without timestamps, the device's elsewhere.
+    /// Returns the timing method that gives correct times on this device: the host's clock on software
+    /// drivers and on queues without timestamps, the device's timestamps elsewhere.
     pub fn best_timing(&self) -> Timing {
         if self.is_software() || self.limits().timestamp_valid_bits == 0 {
             Timing::Host
@@ -78,10 +79,10 @@ impl Device {
         }
     }
 
-    /// Timers for up to `capacity` passes; further passes are not timed.
+    /// Makes timers for up to `capacity` passes; further passes are not timed.
     ///
     /// # Errors
-    /// [`GpuError::FeatureNotEnabled`] if the queue has no timestamps, or what the driver reports.
+    /// [`GpuError::FeatureNotEnabled`] if the queue has no timestamps, or an error that the driver reports.
     pub fn create_timers(&self, capacity: u32) -> Result<Timers> {
         let core = &self.core;
         if core.limits.timestamp_valid_bits == 0 {
@@ -103,8 +104,8 @@ impl Device {
 }
 
 impl Timers {
-    /// The times of the passes recorded with these timers, in order, and forgets them. The caller has waited
-    /// for the recorded commands.
+    /// Returns the times of the passes recorded with these timers, in order, and forgets the passes. The
+    /// caller has waited for the recorded commands.
     ///
     /// # Errors
     /// [`GpuError::Vulkan`] with `NOT_READY` if the commands were not submitted or not waited for.
@@ -138,7 +139,7 @@ impl Timers {
         self.inner.passes.lock().unwrap_or_else(PoisonError::into_inner).clear();
     }
 
-    /// Handles that a submission keeps until the device is done.
+    /// Returns the handles that a submission keeps until the device has finished.
     pub(crate) fn kept(&self) -> Arc<dyn std::any::Any + Send + Sync> {
         self.inner.clone()
     }
@@ -152,7 +153,7 @@ impl Timers {
         let mut passes = inner.passes.lock().unwrap_or_else(PoisonError::into_inner);
         let index = u32::try_from(passes.len()).ok().filter(|index| *index < inner.capacity)?;
         passes.push((stage, label.to_owned()));
-        // SAFETY: the caller vouches for the command buffer; the queries lie within the pool.
+        // SAFETY: the caller guarantees the command buffer; the queries lie within the pool.
         unsafe {
             inner.core.device.cmd_reset_query_pool(command, inner.pool, 2 * index, 2);
             inner.core.device.cmd_write_timestamp(
@@ -170,7 +171,7 @@ impl Timers {
     /// # Safety
     /// `command` is the one in which the pass was begun with this `index`, outside of rendering.
     pub(crate) unsafe fn end(&self, command: vk::CommandBuffer, index: u32) {
-        // SAFETY: the caller vouches for the command buffer; the query lies within the pool and was reset.
+        // SAFETY: the caller guarantees the command buffer; the query lies within the pool and was reset.
         unsafe {
             self.inner.core.device.cmd_write_timestamp(
                 command,
@@ -186,7 +187,7 @@ impl Drop for TimersInner {
     fn drop(&mut self) {
         if self.core.is_usable() {
             // SAFETY: submissions that use the pool hold a handle to it, so none is pending; embedders keep
-            // what they record alive.
+            // the objects that they record alive.
             unsafe { self.core.device.destroy_query_pool(self.pool, None) };
         }
     }

@@ -1,4 +1,4 @@
-//! Bytes between host and buffers, for applications and tests: each call waits.
+//! Transfers between host and buffers, for applications and tests: each call waits.
 
 use bytemuck::{NoUninit, Pod};
 
@@ -7,15 +7,15 @@ use crate::device::Device;
 use crate::error::{GpuError, Result};
 use crate::memory::MemoryLocation;
 
-/// Largest staging buffer in bytes: small enough for devices with little host-visible memory.
+/// Maximum size of a staging buffer in bytes: small enough for devices with little host-visible memory.
 const STAGING_BYTES: u64 = 16 << 20;
 
 impl Device {
-    /// Writes bytes into a buffer, through staging buffers of at most 16 MiB unless it is host-visible.
+    /// Writes bytes into a buffer; if it is not host-visible, through staging buffers of at most 16 MiB.
     ///
     /// # Errors
-    /// [`GpuError::OutOfRange`] beyond its end, [`GpuError::InvalidUse`] if a device-local buffer was not
-    /// made for [`BufferUsage::TRANSFER_DST`], or as [`Device::submit`].
+    /// [`GpuError::OutOfRange`] for bytes beyond the buffer's end, [`GpuError::InvalidUse`] if a device-local
+    /// buffer was not made for [`BufferUsage::TRANSFER_DST`], or as [`Device::submit`].
     pub fn upload(&self, buffer: &Buffer, offset: u64, bytes: &[u8]) -> Result<()> {
         buffer.check_range(offset, bytes.len() as u64)?;
         if bytes.is_empty() {
@@ -40,11 +40,11 @@ impl Device {
         Ok(())
     }
 
-    /// Reads bytes from a buffer, through staging buffers of at most 16 MiB unless it is host-visible.
+    /// Reads bytes from a buffer; if it is not host-visible, through staging buffers of at most 16 MiB.
     ///
     /// # Errors
-    /// [`GpuError::OutOfRange`] beyond its end, [`GpuError::InvalidUse`] if a device-local buffer was not
-    /// made for [`BufferUsage::TRANSFER_SRC`], or as [`Device::submit`].
+    /// [`GpuError::OutOfRange`] for bytes beyond the buffer's end, [`GpuError::InvalidUse`] if a device-local
+    /// buffer was not made for [`BufferUsage::TRANSFER_SRC`], or as [`Device::submit`].
     pub fn download(&self, buffer: &Buffer, offset: u64, size: u64) -> Result<Vec<u8>> {
         let length = host_length(buffer, offset, size)?;
         let mut bytes = vec![0; length];
@@ -52,7 +52,7 @@ impl Device {
         Ok(bytes)
     }
 
-    /// As [`Device::download`], into memory of the caller.
+    /// Reads bytes as [`Device::download`] does, into memory of the caller.
     ///
     /// # Errors
     /// As [`Device::download`].
@@ -80,7 +80,7 @@ impl Device {
         Ok(())
     }
 
-    /// Writes values into a buffer, `offset` in bytes.
+    /// Writes values into a buffer; `offset` is in bytes.
     ///
     /// # Errors
     /// As [`Device::upload`].
@@ -88,7 +88,7 @@ impl Device {
         self.upload(buffer, offset, bytemuck::cast_slice(values))
     }
 
-    /// Reads `count` values from a buffer, `offset` in bytes.
+    /// Reads `count` values from a buffer; `offset` is in bytes.
     ///
     /// # Errors
     /// As [`Device::download`].
@@ -99,8 +99,8 @@ impl Device {
         Ok(values)
     }
 
-    /// Makes a device-local buffer that holds `values`, for shaders and copies. No values become 16 undefined
-    /// bytes.
+    /// Makes a device-local buffer that contains `values`, for shaders and copies. Without values the buffer
+    /// has 16 undefined bytes.
     ///
     /// # Errors
     /// As [`Device::create_buffer`] and [`Device::upload`].
@@ -121,9 +121,9 @@ impl Device {
         Ok(buffer)
     }
 
-    /// Makes a buffer that holds zeros before anything is recorded: for what shaders look at first. The host
-    /// writes them without a submission, so the buffer is host-visible: on the device, where that has such
-    /// memory. For what is small.
+    /// Makes a buffer that contains zeros before any command is recorded, for data that shaders read first.
+    /// The host writes the zeros without a submission, so the buffer is host-visible; it is on the device if
+    /// the device has such memory. It is meant for small buffers.
     ///
     /// # Errors
     /// As [`Device::create_buffer`].
@@ -135,9 +135,9 @@ impl Device {
         Ok(buffer)
     }
 
-    /// Makes a device-local buffer, cleared where this device has a queue to clear it through: then it
-    /// submits and waits. Without one its content is undefined until it is recorded: for what is large, and
-    /// read only where something was written.
+    /// Makes a device-local buffer. If this device has a queue, the function clears the buffer through it,
+    /// which submits and waits; otherwise the contents are undefined until commands write them. It is meant
+    /// for large buffers that are read only where data was written.
     ///
     /// # Errors
     /// As [`Device::create_buffer`] and [`Device::submit`].
@@ -152,7 +152,7 @@ impl Device {
     }
 }
 
-/// Checks the range before host memory is allocated for it.
+/// Checks the range before host memory of its size is allocated, and returns its length.
 fn host_length(buffer: &Buffer, offset: u64, size: u64) -> Result<usize> {
     buffer.check_range(offset, size)?;
     usize::try_from(size)

@@ -1,14 +1,14 @@
-//! Errors of an incomplete installation. Each runs in a process of its own, as they come from its
-//! environment.
+//! Errors of an incomplete installation. Each test runs in a process of its own, because the errors depend on
+//! its environment.
 
 use std::process::Command;
 
 use rasray_gpu::*;
 
-/// Set in the child process.
+/// Environment variable that is set in the child process.
 const CHILD: &str = "RASRAY_GPU_INSTALLATION_CHILD";
 
-/// Runs the test of this name again with an environment; true in the child.
+/// Runs the test of this name again in a child process with an environment; returns true in the child.
 fn in_child(test: &str, environment: &[(&str, &str)]) -> bool {
     if std::env::var_os(CHILD).is_some() {
         return true;

@@ -1,4 +1,4 @@
-//! The functions of Vulkan with a schedule around those that can fail.
+//! Vulkan functions, with a schedule around those that can fail.
 
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::sync::OnceLock;
@@ -8,10 +8,10 @@ use ash::vk::{self, Handle, Result as Code};
 
 use super::schedule::{note, verdict};
 
-/// The loader's own function and the library it is in, which stays loaded.
+/// Functions of the loader, with the library that contains them, which stays loaded.
 static LOADER: OnceLock<std::result::Result<ash::Entry, String>> = OnceLock::new();
 
-/// The functions of the loader, with `vkGetInstanceProcAddr` replaced.
+/// Returns the functions of the loader, with `vkGetInstanceProcAddr` replaced.
 pub(super) fn entry() -> std::result::Result<ash::Entry, String> {
     let loader = LOADER.get_or_init(|| {
         // SAFETY: the system's Vulkan loader is trusted to be one; its initialisers have no preconditions.
@@ -19,62 +19,62 @@ pub(super) fn entry() -> std::result::Result<ash::Entry, String> {
     });
     loader.as_ref().map_err(Clone::clone)?;
     let functions = ash::StaticFn { get_instance_proc_addr: instance_function };
-    // SAFETY: the function answers as the loader does, which stays loaded; functions that it leaves out are
-    // not used.
+    // SAFETY: the function answers as the loader does, which stays loaded; functions that it does not hand
+    // out are not used.
     Ok(unsafe { ash::Entry::from_static_fn(functions) })
 }
 
-/// Function that the loader has under a name.
+/// Returns the loader's function with that name.
 ///
 /// # Safety
 /// `instance` is null or an instance that is not destroyed.
 unsafe fn original(instance: vk::Instance, name: &CStr) -> vk::PFN_vkVoidFunction {
     let loader = LOADER.get()?.as_ref().ok()?;
-    // SAFETY: the caller vouches for the instance, and the name is NUL-terminated.
+    // SAFETY: the caller guarantees the instance, and the name is NUL-terminated.
     unsafe { (loader.static_fn().get_instance_proc_addr)(instance, name.as_ptr()) }
 }
 
-/// The type of a result of a creation: what counts as one kind of object.
+/// Returns the name of a handle's type, by which objects are counted.
 fn kind_of<T>(_: *const T) -> &'static str {
     std::any::type_name::<T>().rsplit("::").next().unwrap_or("object")
 }
 
-/// Notes objects that a call made; the call may leave null behind.
+/// Notes the objects that a call made; some handles may be null.
 ///
 /// # Safety
 /// `made` points to `count` handles, all of them written.
 unsafe fn note_made<T: Handle + Copy>(made: *mut T, count: u32) {
     for index in 0..count as usize {
-        // SAFETY: the caller vouches for `count` handles that the call has written.
+        // SAFETY: the caller guarantees `count` handles that the call has written.
         if !unsafe { *made.add(index) }.is_null() {
             note(kind_of(made), 1);
         }
     }
 }
 
-/// Leaves null behind for what was not made, as Vulkan demands of pipelines.
+/// Writes null handles for objects that were not made, as Vulkan requires of pipelines.
 ///
 /// # Safety
 /// `made` points to space for `count` handles, to which nothing else has access.
 unsafe fn leave_none<T: Handle>(made: *mut T, count: u32) {
     for index in 0..count as usize {
-        // SAFETY: the caller vouches for space for `count` handles.
+        // SAFETY: the caller guarantees space for `count` handles.
         unsafe { made.add(index).write(T::from_raw(0)) };
     }
 }
 
-/// Functions that return `VkResult`: for each a function of the same type that asks the schedule first.
-/// Listed are the codes that the function may return; of those of creation, how many objects are in the last
-/// argument.
+/// Declares functions that return `VkResult`: for each, a function of the same type that asks the schedule
+/// first. The list contains the codes that a function may return and, for functions that create objects, the
+/// number of objects in the last argument.
 macro_rules! fallible {
     ($($name:ident($($argument:ident: $type:ty),*) [$($code:ident),*] $(makes($made:ident, $count:expr))?;)*) => {
         /// Names of the functions that can fail.
         const FALLIBLE: &[&str] = &[$(stringify!($name)),*];
 
-        /// The functions that can fail, by name.
+        /// Returns the wrapper of a function that can fail, by name, and the place of the loader's function.
         fn fallible(name: &CStr) -> Option<(&'static AtomicPtr<c_void>, vk::PFN_vkVoidFunction)> {
             $({
-                /// The loader's function.
+                /// Loader's function of this name.
                 static ORIGINAL: AtomicPtr<c_void> = AtomicPtr::new(std::ptr::null_mut());
                 #[allow(non_snake_case, unused_variables)]
                 unsafe extern "system" fn $name($($argument: $type),*) -> Code {
@@ -82,19 +82,19 @@ macro_rules! fallible {
                     let is_lost_wait =
                         failed == Some(Code::ERROR_DEVICE_LOST) && stringify!($name).contains("Wait");
                     if let (Some(code), false) = (failed, is_lost_wait) {
-                        // SAFETY: the caller provides space for as many handles.
+                        // SAFETY: the caller provides space for `count` handles.
                         $(unsafe { leave_none($made, $count) };)?
                         return code;
                     }
                     type Function = unsafe extern "system" fn($($type),*) -> Code;
                     let original = ORIGINAL.load(Ordering::Acquire);
-                    // SAFETY: this function is handed out only once the loader's of the same name, which has
-                    // this type, is stored.
+                    // SAFETY: this function is handed out only after the loader's function of the same name,
+                    // which has this type, is stored.
                     let original = unsafe { std::mem::transmute::<*mut c_void, Function>(original) };
-                    // SAFETY: the caller keeps the conditions of the function of this name.
+                    // SAFETY: the caller fulfils the conditions of the function of this name.
                     let code = unsafe { original($($argument),*) };
                     $(if code == Code::SUCCESS {
-                        // SAFETY: after success as many handles have been written.
+                        // SAFETY: after success the call has written `count` handles.
                         unsafe { note_made($made, $count) };
                     })?
                     failed.unwrap_or(code)
@@ -116,13 +116,13 @@ macro_rules! fallible {
     };
 }
 
-/// Functions that destroy: for each a function of the same type that notes it.
+/// Declares functions that destroy objects: for each, a function of the same type that notes the destruction.
 macro_rules! destroying {
     ($($name:ident[$($parent:ty)?] $object:ty;)*) => {
         /// Names of the functions that destroy.
         const DESTROYING: &[&str] = &[$(stringify!($name)),*];
 
-        /// The functions that destroy, by name.
+        /// Returns the wrapper of a function that destroys, by name, and the place of the loader's function.
         fn destroying(name: &CStr) -> Option<(&'static AtomicPtr<c_void>, vk::PFN_vkVoidFunction)> {
             $({
                 static ORIGINAL: AtomicPtr<c_void> = AtomicPtr::new(std::ptr::null_mut());
@@ -137,11 +137,11 @@ macro_rules! destroying {
                     if !object.is_null() {
                         note(kind_of(&raw const object), -1);
                     }
-                    // SAFETY: handed out only once the loader's function of this name and type is stored.
+                    // SAFETY: handed out only after the loader's function of this name and type is stored.
                     let original = unsafe {
                         std::mem::transmute::<*mut c_void, Function>(ORIGINAL.load(Ordering::Acquire))
                     };
-                    // SAFETY: the caller keeps the conditions of the function of this name.
+                    // SAFETY: the caller fulfils the conditions of the function of this name.
                     unsafe { original($({ let parent: $parent = parent; parent },)? object, callbacks) }
                 }
                 if name.to_bytes() == stringify!($name).as_bytes() {
@@ -215,7 +215,7 @@ destroying! {
     vkFreeMemory[vk::Device] vk::DeviceMemory;
 }
 
-/// Functions without a result, of which nothing is to be noted.
+/// Returns true for functions without a result whose calls need not be noted.
 fn harmless(name: &CStr) -> bool {
     const NAMES: [&str; 14] = [
         "vkGetPhysicalDeviceProperties",
@@ -236,7 +236,7 @@ fn harmless(name: &CStr) -> bool {
     name.to_str().is_ok_and(|name| name.starts_with("vkCmd") || NAMES.contains(&name))
 }
 
-/// Stands for `vkGetInstanceProcAddr`.
+/// Replaces `vkGetInstanceProcAddr`.
 ///
 /// # Safety
 /// `instance` is null or an instance that is not destroyed, and `name` points to a NUL-terminated string.
@@ -246,24 +246,24 @@ unsafe extern "system" fn instance_function(
 ) -> vk::PFN_vkVoidFunction {
     // SAFETY: Vulkan's names are NUL-terminated.
     let name = unsafe { CStr::from_ptr(name) };
-    // SAFETY: the caller vouches for the instance.
+    // SAFETY: the caller guarantees the instance.
     unsafe { wrapped(instance, name) }
 }
 
 /// The loader's `vkGetDeviceProcAddr`.
 static DEVICE_LOOKUP: AtomicPtr<c_void> = AtomicPtr::new(std::ptr::null_mut());
 
-/// Stands for `vkGetDeviceProcAddr`. Functions with a schedule forward to the loader's own, which find the
-/// device by the handle they are called with: they serve every device, with layers or without.
+/// Replaces `vkGetDeviceProcAddr`. Functions with a schedule forward to the loader's own functions, which
+/// find the device by the handle they are called with: they serve every device, with layers or without.
 ///
 /// # Safety
 /// `device` is a device that is not destroyed, and `name` points to a NUL-terminated string.
 unsafe extern "system" fn device_function(device: vk::Device, name: *const c_char) -> vk::PFN_vkVoidFunction {
-    // SAFETY: this function is handed out only once the loader's is stored, which has this type.
+    // SAFETY: this function is handed out only after the loader's function is stored, which has this type.
     let lookup = unsafe {
         std::mem::transmute::<*mut c_void, vk::PFN_vkGetDeviceProcAddr>(DEVICE_LOOKUP.load(Ordering::Acquire))
     };
-    // SAFETY: the caller vouches for device and name.
+    // SAFETY: the caller guarantees device and name.
     let own = unsafe { lookup(device, name) }?;
     // SAFETY: Vulkan's names are NUL-terminated.
     let name = unsafe { CStr::from_ptr(name) };
@@ -274,21 +274,22 @@ unsafe extern "system" fn device_function(device: vk::Device, name: *const c_cha
     if slot.load(Ordering::Acquire).is_null() { None } else { function }
 }
 
-/// A function that fails or destroys, and where the loader's own of that name is kept.
+/// Returns the wrapper of a function that can fail or that destroys, and the place of the loader's function.
 fn known(name: &CStr) -> Option<(&'static AtomicPtr<c_void>, vk::PFN_vkVoidFunction)> {
     fallible(name).or_else(|| destroying(name))
 }
 
-/// The function of a name with the schedule around it; `None` for those that this module does not know.
+/// Returns the function with that name, with the schedule around it; `None` for names that this module does
+/// not know.
 ///
 /// # Safety
 /// As [`original`].
 unsafe fn wrapped(instance: vk::Instance, name: &CStr) -> vk::PFN_vkVoidFunction {
-    // SAFETY: the caller vouches for the instance.
+    // SAFETY: the caller guarantees the instance.
     let own = unsafe { original(instance, name) }?;
     if name == c"vkGetDeviceProcAddr" {
         DEVICE_LOOKUP.store(own as *mut c_void, Ordering::Release);
-        // Devices of this instance will ask for these, when the instance may be gone.
+        // Devices of this instance will look these functions up, possibly after the instance is destroyed.
         for name in FALLIBLE.iter().chain(DESTROYING) {
             let name = CString::new(*name).unwrap_or_default();
             // SAFETY: as above.

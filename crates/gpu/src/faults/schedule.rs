@@ -1,43 +1,43 @@
-//! Schedule of failing calls, and account of what has been made and not destroyed.
+//! Schedule of failing calls, and count of the objects that were made and not destroyed.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use ash::vk;
 
-/// The failing call.
+/// Selection of the call that fails.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum At {
-    /// The call of this index among all that can fail, from 0.
+    /// The call with this index among all calls that can fail, from 0.
     Call(usize),
-    /// The call of this index among those of one function, from 0.
+    /// The call with this index among those of one function, from 0.
     Named(&'static str, usize),
 }
 
-/// Failure of a call.
+/// Result that the failing call returns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum With {
-    /// With one of the codes that the function may return; beyond their number it begins again.
+    /// One of the codes that the function may return, by index; an index beyond the last code wraps around.
     Code(usize),
-    /// With this code.
+    /// This code.
     Result(vk::Result),
 }
 
-/// A call that was failed.
+/// A call that was made to fail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Injected {
-    /// Its function.
+    /// Function of the call.
     pub call: &'static str,
-    /// Result that it was made to return.
+    /// Result that the call returned.
     pub result: vk::Result,
 }
 
 #[derive(Default)]
 struct State {
-    /// True if calls are watched at all; elsewhere they pass without a trace.
+    /// True if calls are watched; otherwise they pass unnoticed.
     watched: bool,
     plan: Option<(At, With)>,
-    /// Functions called since the watch began.
+    /// Functions called since the watch began, in order.
     calls: Vec<&'static str>,
     injected: Option<Injected>,
     live: BTreeMap<&'static str, i64>,
@@ -47,7 +47,7 @@ thread_local! {
     static STATE: RefCell<State> = RefCell::default();
 }
 
-/// Runs `work` and returns the functions that it called and that can fail, in order.
+/// Runs `work`; returns its result and the functions that it called and that can fail, in order.
 pub fn calls_of<R>(work: impl FnOnce() -> R) -> (R, Vec<&'static str>) {
     begin(None);
     let answer = work();
@@ -60,7 +60,7 @@ pub fn calls_of<R>(work: impl FnOnce() -> R) -> (R, Vec<&'static str>) {
     )
 }
 
-/// Runs `work`, in which one call fails. Tells which; `None` if there was no such call.
+/// Runs `work`, in which one call fails. Returns its result and the failed call; `None` if no call matched.
 pub fn inject<R>(at: At, with: With, work: impl FnOnce() -> R) -> (R, Option<Injected>) {
     begin(Some((at, with)));
     let answer = work();
@@ -72,8 +72,8 @@ pub fn inject<R>(at: At, with: With, work: impl FnOnce() -> R) -> (R, Option<Inj
     (answer, injected)
 }
 
-/// Objects that this thread has made less those that it has destroyed, by their type. Command buffers and
-/// descriptor sets, which go with their pools, and objects of the driver are not counted.
+/// Returns the number of objects that this thread has made and not destroyed, by type. Command buffers and
+/// descriptor sets, which are freed with their pools, and objects of the driver are not counted.
 pub fn live_objects() -> BTreeMap<&'static str, i64> {
     STATE.with_borrow(|state| {
         state.live.iter().filter(|(_, count)| **count != 0).map(|(name, count)| (*name, *count)).collect()
@@ -89,7 +89,7 @@ fn begin(plan: Option<(At, With)>) {
     });
 }
 
-/// Asked by every call that can fail: what it shall return instead of being made.
+/// Returns the result that a call shall return instead of being made; every call that can fail asks for it.
 pub(super) fn verdict(call: &'static str, codes: &[vk::Result]) -> Option<vk::Result> {
     STATE.with_borrow_mut(|state| {
         if !state.watched {
@@ -115,7 +115,7 @@ pub(super) fn verdict(call: &'static str, codes: &[vk::Result]) -> Option<vk::Re
     })
 }
 
-/// Notes objects made (positive) or destroyed (negative).
+/// Adds `change` to the number of objects of a type: positive if made, negative if destroyed.
 pub(super) fn note(kind: &'static str, change: i64) {
     STATE.with_borrow_mut(|state| *state.live.entry(kind).or_default() += change);
 }

@@ -1,4 +1,4 @@
-//! Binding pipelines, sets and push constants.
+//! Commands that bind pipelines, sets and push constants.
 
 use std::sync::Arc;
 
@@ -20,8 +20,9 @@ impl Recorder<'_> {
         self.bind_pipeline(&pipeline.inner);
     }
 
-    /// Binds sets from number `first` up, for the bound pipeline. Binding a pipeline with other set layouts
-    /// or push constants in front of a set makes Vulkan forget the set: bind sets after the pipeline.
+    /// Binds sets from number `first` up, for the bound pipeline. If a pipeline with other set layouts or
+    /// push constants before a set is bound later, Vulkan drops the set: sets must be bound after the
+    /// pipeline.
     pub fn bind_sets(&mut self, first: u32, sets: &[&BindingSet]) {
         if !self.is_recording() || sets.is_empty() {
             return;
@@ -91,13 +92,13 @@ impl Recorder<'_> {
         self.keep(pipeline.clone());
         self.bound.pipeline = Some(pipeline.clone());
         self.bound.constants.clear();
-        // SAFETY: recording; a pipeline of this device.
+        // SAFETY: the command buffer is being recorded; the pipeline is of this device.
         unsafe { self.raw_device().cmd_bind_pipeline(self.command, pipeline.bind_point, pipeline.raw) };
     }
 
     fn emit_sets(&self, pipeline: &PipelineInner, first: u32, sets: &[vk::DescriptorSet]) {
-        // SAFETY: recording; sets and pipeline layout were found compatible, and live as the caller promises
-        // (or as long as the submission, which keeps them).
+        // SAFETY: the command buffer is being recorded; sets and pipeline layout were found compatible, and
+        // live as long as the caller promises (or as long as the submission, which keeps them).
         unsafe {
             self.raw_device().cmd_bind_descriptor_sets(
                 self.command,
@@ -111,16 +112,17 @@ impl Recorder<'_> {
     }
 
     fn emit_constants(&self, pipeline: &PipelineInner, bytes: &[u8]) {
-        // SAFETY: recording; the bytes lie within the only range of the layout, which has these stages.
+        // SAFETY: the command buffer is being recorded; the bytes lie within the only range of the layout,
+        // which has these stages.
         unsafe {
             self.raw_device().cmd_push_constants(self.command, pipeline.layout, pipeline.stages, 0, bytes);
         }
     }
 
-    /// Binds again what was bound before the command buffer was replaced.
+    /// Binds the present state again, after the command buffer was replaced.
     pub(super) fn emit_state(&self) {
         let Some(pipeline) = &self.bound.pipeline else { return };
-        // SAFETY: recording; a pipeline of this device.
+        // SAFETY: the command buffer is being recorded; the pipeline is of this device.
         unsafe { self.raw_device().cmd_bind_pipeline(self.command, pipeline.bind_point, pipeline.raw) };
         let wanted = pipeline.sets.iter().zip(pipeline.used.iter());
         for (number, (set, (layout, used))) in (0_u32..).zip(self.bound.sets.iter().zip(wanted)) {

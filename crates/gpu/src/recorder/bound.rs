@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::binding::BindingSet;
 use crate::pipeline::PipelineInner;
 
-/// Objects bound.
+/// State that is bound: pipeline, sets and bytes of push constants.
 #[derive(Default)]
 pub(super) struct Bound {
     pub(super) pipeline: Option<Arc<PipelineInner>>,

@@ -1,32 +1,32 @@
-//! Commands recorded, pass by pass.
+//! Counts of the recorded commands, pass by pass.
 
 use crate::stage::Stage;
 
-/// The commands of one pass: how much a device is told to do, without running it.
+/// Counts of the commands of one pass: the amount of work that a device is given, without running it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PassCommands {
     /// Part of a frame that the pass belongs to.
     pub stage: Stage,
     /// Label of the pass.
     pub label: String,
-    /// Dispatches whose workgroups the host knows.
+    /// Number of dispatches with workgroups that the host knows.
     pub dispatches: u32,
-    /// Workgroups of them all.
+    /// Number of workgroups of all these dispatches.
     pub workgroups: u64,
-    /// Dispatches and draws whose size the device reads from a buffer.
+    /// Number of dispatches and draws whose size the device reads from a buffer.
     pub indirect: u32,
-    /// Draws whose vertices the host knows.
+    /// Number of draws with vertices that the host knows.
     pub draws: u32,
-    /// Vertices of them all, once per instance.
+    /// Number of vertices of all these draws, once per instance.
     pub vertices: u64,
-    /// Fills, updates and copies of buffers.
+    /// Number of fills, updates and copies of buffers.
     pub transfers: u32,
-    /// Trees that the driver builds.
+    /// Number of trees that the driver builds.
     pub trees: u32,
 }
 
 impl PassCommands {
-    /// A pass without commands.
+    /// Makes the counts of a pass without commands.
     pub fn of(stage: Stage, label: &str) -> Self {
         Self {
             stage,

@@ -17,8 +17,9 @@ impl Recorder<'_> {
                 return self.exceed("the number of workgroups", asked.into(), limit.into());
             }
         }
-        // SAFETY: recording, outside of rendering, with a compute pipeline and within the limits; the caller
-        // has bound what the shader reads (validation checks it).
+        // SAFETY: the command buffer is being recorded, outside of rendering, with a compute pipeline and
+        // within the limits; the caller has bound the resources that the shader reads (the validation layer
+        // checks it).
         unsafe { self.raw_device().cmd_dispatch(self.command, groups[0], groups[1], groups[2]) };
         self.count(|pass| {
             pass.dispatches += 1;
@@ -26,8 +27,9 @@ impl Recorder<'_> {
         });
     }
 
-    /// Runs the bound compute pipeline on a number of workgroups read from three u32 in a buffer, at an
-    /// offset that is a multiple of 4. The numbers must be within [`crate::Limits::max_workgroup_count`].
+    /// Runs the bound compute pipeline on a number of workgroups that the device reads as three u32 from a
+    /// buffer, at an offset that is a multiple of 4. The numbers must be within
+    /// [`crate::Limits::max_workgroup_count`].
     pub fn dispatch_indirect(&mut self, buffer: &Buffer, offset: u64) {
         if !self.outside_rendering("dispatch_indirect") || !self.has_pipeline(vk::PipelineBindPoint::COMPUTE)
         {

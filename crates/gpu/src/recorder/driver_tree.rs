@@ -6,9 +6,9 @@ use crate::buffer::Buffer;
 use crate::driver_tree::{DRIVER_BOX_BYTES, DriverTree};
 
 impl Recorder<'_> {
-    /// Builds a tree over the first `count` boxes of a buffer, [`DRIVER_BOX_BYTES`] each, which are visible
-    /// to [`Access::TREE_BUILD`] and have no upper corner below their lower one. It is visible to ray queries
-    /// of compute shaders afterwards.
+    /// Builds a tree over the first `count` boxes of a buffer, [`DRIVER_BOX_BYTES`] each. The boxes must be
+    /// visible to [`Access::TREE_BUILD`], and no upper corner may be below the lower one. The tree is visible
+    /// to ray queries of compute shaders afterwards.
     pub fn build_driver_tree(&mut self, tree: &DriverTree, boxes: &Buffer, count: u32) {
         if !self.outside_rendering("build_driver_tree") {
             return;
@@ -25,8 +25,8 @@ impl Recorder<'_> {
         self.keep(tree.kept());
         self.keep_buffer(boxes);
         let command = self.command;
-        // SAFETY: recording, outside of rendering; the boxes lie within their buffer, which was made for
-        // builds, and buffer and tree are kept.
+        // SAFETY: the command buffer is being recorded, outside of rendering; the boxes lie within their
+        // buffer, which was made for builds, and the recorder keeps buffer and tree.
         let recorded = unsafe {
             tree.record(command, address, count, || self.emit_barrier(Access::TREE_BUILD, Access::TREE_BUILD))
         };

@@ -7,19 +7,19 @@ use crate::access::Access;
 use crate::binding::BufferRange;
 
 impl Recorder<'_> {
-    /// Takes ranges of buffers over from another queue family, for accesses `to` after it: the second half of
-    /// a transfer of ownership. The first half, over the same ranges, is recorded for a queue of that family,
-    /// and a semaphore orders the two. No byte is in two ranges. Nothing is recorded where the family is that
-    /// of the device.
+    /// Takes ranges of buffers over from another queue family, for accesses `to` after it. It records the
+    /// second half of a transfer of ownership. The first half, over the same ranges, is recorded for a queue
+    /// of the other family, and a semaphore orders the two halves. No byte may be in two ranges. If the other
+    /// family is that of the device, nothing is recorded.
     pub fn acquire(&mut self, ranges: &[BufferRange<'_>], from_family: u32, to: Access) {
         let half = acquiring(from_family, self.core().queue_family, to, self.core().graphics);
         self.transfer(ranges, half);
     }
 
-    /// Hands ranges of buffers over to another queue family, after accesses `from` to them: the first half of
-    /// a transfer of ownership. The second half, over the same ranges, is recorded for a queue of that
-    /// family, and a semaphore orders the two. No byte is in two ranges. Nothing is recorded where the family
-    /// is that of the device.
+    /// Hands ranges of buffers over to another queue family, after accesses `from` to them. It records the
+    /// first half of a transfer of ownership. The second half, over the same ranges, is recorded for a queue
+    /// of the other family, and a semaphore orders the two halves. No byte may be in two ranges. If the other
+    /// family is that of the device, nothing is recorded.
     pub fn release(&mut self, ranges: &[BufferRange<'_>], to_family: u32, from: Access) {
         let half = releasing(self.core().queue_family, to_family, from, self.core().graphics);
         self.transfer(ranges, half);
@@ -41,18 +41,18 @@ impl Recorder<'_> {
             return;
         }
         let info = vk::DependencyInfo::default().buffer_memory_barriers(&barriers);
-        // SAFETY: recording, outside of rendering; the ranges lie within their buffers, the stages are known
-        // to the queue. That the families exist and the other half is recorded is the caller's to see to
-        // (validation checks it).
+        // SAFETY: the command buffer is being recorded, outside of rendering; the ranges lie within their
+        // buffers, and the queue supports the stages. The caller ensures that the families exist and that the
+        // other half is recorded (the validation layer checks it).
         unsafe { (self.core().commands.pipeline_barrier)(self.command, &info) };
     }
 }
 
-/// Barrier of a queue of `own` for a transfer from another family. Accesses before it are those of the other
-/// half.
+/// Returns the barrier with which a queue of family `own` takes a range over from another family. The other
+/// half states the accesses before it.
 fn acquiring(from: u32, own: u32, to: Access, graphics: bool) -> vk::BufferMemoryBarrier2<'static> {
     let (stages, access) = scope_of_queue(to, graphics);
-    // All stages before: whichever the semaphore is waited for in.
+    // The barrier waits for all stages, because the semaphore may be waited for in any of them.
     vk::BufferMemoryBarrier2::default()
         .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
         .dst_stage_mask(stages)
@@ -61,8 +61,8 @@ fn acquiring(from: u32, own: u32, to: Access, graphics: bool) -> vk::BufferMemor
         .dst_queue_family_index(own)
 }
 
-/// Barrier of a queue of `own` for a transfer to another family. Accesses after it are those of the other
-/// half.
+/// Returns the barrier with which a queue of family `own` hands a range over to another family. The other
+/// half states the accesses after it.
 fn releasing(own: u32, to: u32, from: Access, graphics: bool) -> vk::BufferMemoryBarrier2<'static> {
     let (stages, access) = scope_of_queue(from, graphics);
     vk::BufferMemoryBarrier2::default()
@@ -73,14 +73,15 @@ fn releasing(own: u32, to: u32, from: Access, graphics: bool) -> vk::BufferMemor
         .dst_queue_family_index(to)
 }
 
-/// Stages and accesses without those of the host, which no transfer between families may have.
+/// Returns the stages and accesses without those of the host, which a transfer between families must not
+/// contain.
 fn scope_of_queue(access: Access, graphics: bool) -> (vk::PipelineStageFlags2, vk::AccessFlags2) {
     let (stages, flags) = access.scope(graphics);
     let of_host = vk::AccessFlags2::HOST_READ | vk::AccessFlags2::HOST_WRITE;
     (stages & !vk::PipelineStageFlags2::HOST, flags & !of_host)
 }
 
-/// A barrier for each range that is not empty; none within one family.
+/// Returns a barrier for each range that is not empty; none within one family.
 fn barriers<'a>(
     ranges: impl Iterator<Item = (vk::Buffer, u64, u64)>,
     half: vk::BufferMemoryBarrier2<'a>,
@@ -101,7 +102,8 @@ mod tests {
 
     const READ: Access = Access::COMPUTE_READ.union(Access::VERTEX_READ).union(Access::TRANSFER_READ);
 
-    /// Barriers of both halves of a transfer from family 3 to family 1, the first of a queue that draws.
+    /// Returns the barriers of both halves of a transfer from family 3 to family 1; the queue of the first
+    /// half can draw.
     fn halves(ranges: &[(vk::Buffer, u64, u64)]) -> [Vec<vk::BufferMemoryBarrier2<'static>>; 2] {
         [releasing(3, 1, Access::COMPUTE_WRITE, true), acquiring(3, 1, READ, false)]
             .map(|half| barriers(ranges.iter().copied(), half))
@@ -112,7 +114,8 @@ mod tests {
         [(second, 64, 12), (first, 100, 50), (second, 0, 0)]
     }
 
-    /// Both halves of a transfer name the same bytes and the same families, or it is none.
+    /// Both halves of a transfer must name the same bytes and the same families, or Vulkan performs no
+    /// transfer.
     #[test]
     fn halves_of_a_transfer_match() {
         let [released, acquired] = halves(&ranges());
@@ -125,8 +128,8 @@ mod tests {
         }
     }
 
-    /// The first half makes writes available and nothing visible, the second the other way round. All stages
-    /// of either are ordered with the semaphore between them.
+    /// The first half makes writes available and nothing visible; the second half does the opposite. All
+    /// stages of both halves are ordered with the semaphore between them.
     #[test]
     fn each_half_has_the_accesses_of_its_side() {
         let [released, acquired] = halves(&ranges());
@@ -143,7 +146,7 @@ mod tests {
                 (barrier.src_stage_mask, barrier.src_access_mask),
                 (Stages::ALL_COMMANDS, Flags::NONE)
             );
-            // That queue does not draw.
+            // The queue of the second half does not draw.
             assert_eq!(barrier.dst_stage_mask, Stages::COMPUTE_SHADER | Stages::ALL_TRANSFER);
             assert_eq!(barrier.dst_access_mask, Flags::SHADER_STORAGE_READ | Flags::TRANSFER_READ);
         }
@@ -151,7 +154,7 @@ mod tests {
         assert!(drawn.dst_stage_mask.contains(Stages::VERTEX_SHADER));
     }
 
-    /// VUID-VkBufferMemoryBarrier2-srcStageMask-03851: the host is no part of a transfer.
+    /// VUID-VkBufferMemoryBarrier2-srcStageMask-03851: a transfer must not contain host accesses.
     #[test]
     fn the_host_takes_no_part() {
         for access in [Access::ALL, READ | Access::HOST_READ | Access::HOST_WRITE] {

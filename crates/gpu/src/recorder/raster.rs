@@ -1,4 +1,4 @@
-//! Draws without attachments.
+//! Commands that draw without attachments.
 
 use ash::vk;
 
@@ -8,12 +8,13 @@ use crate::error::GpuError;
 use crate::features::Feature;
 
 impl Recorder<'_> {
-    /// Begins to draw into `width` x `height` pixels of one layer. Viewport and scissor are set to all of it.
+    /// Begins a rendering of `width` x `height` pixels of one layer. Viewport and scissor cover the whole
+    /// area.
     pub fn begin_rendering(&mut self, width: u32, height: u32) {
         self.begin_rendering_area(RenderArea { width, height, layers: 1, view_mask: 0 });
     }
 
-    /// Begins to draw into several layers or views.
+    /// Begins a rendering of several layers or views.
     pub fn begin_rendering_area(&mut self, area: RenderArea) {
         if !self.outside_rendering("begin_rendering") {
             return;
@@ -52,7 +53,8 @@ impl Recorder<'_> {
             vk::RenderingInfo::default().render_area(extent).layer_count(layers.max(1)).view_mask(view_mask);
         let viewport =
             vk::Viewport::default().width(width as f32).height(height as f32).min_depth(0.0).max_depth(1.0);
-        // SAFETY: recording, outside of rendering, on a device with dynamic rendering and within its limits.
+        // SAFETY: the command buffer is being recorded, outside of rendering, on a device with dynamic
+        // rendering and within its limits.
         unsafe {
             begin(self.command, &info);
             self.raw_device().cmd_set_viewport(self.command, 0, &[viewport]);
@@ -66,8 +68,8 @@ impl Recorder<'_> {
         if !self.can_draw() {
             return;
         }
-        // SAFETY: recording, within rendering, with a raster pipeline of the same views; the caller has bound
-        // what the shaders read (validation checks it).
+        // SAFETY: the command buffer is being recorded, within rendering, with a raster pipeline of the same
+        // views; the caller has bound the resources that the shaders read (the validation layer checks it).
         unsafe { self.raw_device().cmd_draw(self.command, vertices, instances, 0, first_instance) };
         self.count(|pass| {
             pass.draws += 1;
@@ -75,8 +77,8 @@ impl Recorder<'_> {
         });
     }
 
-    /// Draws with four u32 read from a buffer (vertices, instances, 0, 0), at an offset that is a multiple of
-    /// 4.
+    /// Draws with arguments that the device reads as four u32 from a buffer (vertices, instances, 0, 0), at
+    /// an offset that is a multiple of 4.
     pub fn draw_indirect(&mut self, buffer: &Buffer, offset: u64) {
         if !self.can_draw() || !self.indirect_arguments(buffer, offset, 16) {
             return;
@@ -86,7 +88,7 @@ impl Recorder<'_> {
         self.count(|pass| pass.indirect += 1);
     }
 
-    /// Ends drawing.
+    /// Ends the rendering.
     pub fn end_rendering(&mut self) {
         if !self.is_recording() {
             return;
@@ -95,7 +97,7 @@ impl Recorder<'_> {
             return self.misuse("rendering was ended that was not begun");
         }
         if let Some(end) = self.core().commands.end_rendering {
-            // SAFETY: recording, within rendering begun by this recorder.
+            // SAFETY: the command buffer is being recorded, within rendering that this recorder began.
             unsafe { end(self.command) };
         }
     }

@@ -1,6 +1,6 @@
-//! Areas that are drawn into.
+//! Area of a rendering.
 
-/// Area that is drawn into: a number of pixels, no images.
+/// Area of a rendering: a number of pixels, without images.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RenderArea {
     /// Width in pixels.
@@ -9,6 +9,6 @@ pub struct RenderArea {
     pub height: u32,
     /// Layers that the vertex shader can choose from; ignored with a view mask.
     pub layers: u32,
-    /// Views drawn at once, one bit each; 0 is off.
+    /// Mask of the views drawn at once, one bit each; 0 turns multiview off.
     pub view_mask: u32,
 }

@@ -1,4 +1,4 @@
-//! Fills, updates and copies.
+//! Commands that fill, update and copy buffers.
 
 use ash::vk;
 
@@ -7,7 +7,7 @@ use crate::buffer::{Buffer, BufferUsage};
 use crate::error::GpuError;
 
 impl Recorder<'_> {
-    /// Fills part of a buffer with a value. Offset and size are in bytes and multiples of 4.
+    /// Fills a range of a buffer with a value. Offset and size are in bytes and multiples of 4.
     pub fn fill(&mut self, buffer: &Buffer, offset: u64, size: u64, value: u32) {
         if !self.outside_rendering("fill") || size == 0 {
             return;
@@ -22,13 +22,14 @@ impl Recorder<'_> {
             return self.fail(GpuError::InvalidUse { name: buffer.name().to_owned(), reason });
         }
         self.keep(buffer.inner.clone());
-        // SAFETY: recording, outside of rendering; range, alignment and usage were checked.
+        // SAFETY: the command buffer is being recorded, outside of rendering; range, alignment and usage were
+        // checked.
         unsafe { self.raw_device().cmd_fill_buffer(self.command, buffer.raw(), offset, size, value) };
         self.count(|pass| pass.transfers += 1);
     }
 
-    /// Writes bytes to a buffer. They travel within the command buffer, so that each recording has its own;
-    /// offset and length are multiples of 4, and at most 65,536 bytes go at a time.
+    /// Writes bytes to a buffer. The bytes are stored in the command buffer, so each recording has its own;
+    /// offset and length are multiples of 4, and the length is at most 65,536.
     pub fn update(&mut self, buffer: &Buffer, offset: u64, bytes: &[u8]) {
         const MOST: usize = 65_536;
         if !self.outside_rendering("update") || bytes.is_empty() {
@@ -46,12 +47,13 @@ impl Recorder<'_> {
             return self.fail(GpuError::InvalidUse { name: buffer.name().to_owned(), reason });
         }
         self.keep(buffer.inner.clone());
-        // SAFETY: recording, outside of rendering; range, alignment, length and usage were checked.
+        // SAFETY: the command buffer is being recorded, outside of rendering; range, alignment, length and
+        // usage were checked.
         unsafe { self.raw_device().cmd_update_buffer(self.command, buffer.raw(), offset, bytes) };
         self.count(|pass| pass.transfers += 1);
     }
 
-    /// Copies bytes between buffers, or within one if the ranges do not overlap.
+    /// Copies bytes between buffers, or within one buffer if the ranges do not overlap.
     pub fn copy(
         &mut self,
         source: &Buffer,
@@ -79,7 +81,8 @@ impl Recorder<'_> {
         self.keep(source.inner.clone());
         self.keep(target.inner.clone());
         let region = vk::BufferCopy::default().src_offset(source_offset).dst_offset(target_offset).size(size);
-        // SAFETY: recording, outside of rendering; ranges, usages and overlap were checked.
+        // SAFETY: the command buffer is being recorded, outside of rendering; ranges, usages and overlap were
+        // checked.
         unsafe { self.raw_device().cmd_copy_buffer(self.command, source.raw(), target.raw(), &[region]) };
         self.count(|pass| pass.transfers += 1);
     }

@@ -1,4 +1,4 @@
-//! Dispatches, transfers and timings on a device made here.
+//! Dispatches, transfers and timings on a device that this crate made.
 
 use crate::device::common::{Scale, bytes_of, device, finish, storage};
 use rasray_gpu::*;
@@ -10,7 +10,7 @@ fn a_dispatch_gives_the_same_values_under_every_timing() {
         let scale = Scale::new(&device, 1000);
         let submitted = device
             .submit_passes(timing, |recorder| {
-                // Bound before the passes: the state must survive being split into submissions.
+                // State is bound before the passes: it must survive the split into submissions.
                 scale.bind(recorder, 3);
                 recorder.begin_pass(Stage::Build, "first");
                 scale.dispatch(recorder);
@@ -78,7 +78,8 @@ fn a_recorder_says_what_each_pass_is_made_of() {
     finish(device);
 }
 
-/// A set has what a pipeline uses, whichever was made first, and in addition what others use.
+/// A set has the bindings that a pipeline uses, in whichever order both were made, and those that other
+/// pipelines use.
 #[test]
 fn a_pipeline_has_the_bindings_that_its_shader_uses() {
     let device = device();
@@ -89,7 +90,7 @@ fn a_pipeline_has_the_bindings_that_its_shader_uses() {
         device.create_binding_set(&layout, name, &[&scale.buffer, &other, &other]).expect("binding set")
     };
     let before = set("before");
-    // Sets 1 to 3 are not used at all.
+    // The pipeline does not use sets 1 to 3 at all.
     let desc = ComputePipelineDesc {
         name: "scale of three",
         spirv: crate::device::common::shaders::SCALE,
@@ -119,7 +120,7 @@ fn a_pipeline_has_the_bindings_that_its_shader_uses() {
     finish(device);
 }
 
-/// The pipeline of [`crate::device::common::shaders::SCALE`] with a bias.
+/// Makes the pipeline of [`crate::device::common::shaders::SCALE`] with a bias.
 fn pipeline(device: &Device, name: &str, bias: u32) -> ComputePipeline {
     let layout = device.create_set_layout(name, 1).expect("set layout");
     let desc = ComputePipelineDesc {
@@ -140,7 +141,7 @@ fn what_is_made_alike_is_one_pipeline_and_keeps_its_names() {
     assert_eq!(first.raw(), same.raw());
     assert_ne!(first.raw(), other.raw());
     assert_eq!((first.name(), same.name()), ("first", "same"));
-    // It outlives the handle and the set layout that it was made with.
+    // The pipeline outlives the handle and the set layout that it was made with.
     drop(first);
     let mut scale = Scale::new(&device, 64);
     scale.pipeline = same;
@@ -167,15 +168,15 @@ fn as_many_idle_pipelines_are_kept_as_was_asked_for_the_last_used_ones() {
         let (_, calls) = calls_of(|| drop(pipeline(&device, "kept", bias)));
         calls.contains(&"vkCreateComputePipelines")
     };
-    // Nothing is kept unless asked for.
+    // No pipeline is kept by default.
     assert!(compiles(1) && compiles(1));
     assert_eq!(live(), before);
     device.keep_pipelines(2);
     assert!(compiles(1) && compiles(2) && !compiles(1) && compiles(3));
-    // The third took the place of the second, which was unused for longest.
+    // The third pipeline replaced the second one, which had been unused for longest.
     assert!(!compiles(1) && !compiles(3) && compiles(2));
     assert_eq!(live(), before + 2);
-    // Those in use do not count.
+    // Pipelines in use do not count.
     let used = pipeline(&device, "used", 2);
     assert!(compiles(4) && !compiles(3));
     assert_eq!(live(), before + 3);

@@ -1,4 +1,4 @@
-//! Trees of the driver: what is made and built, and what is refused.
+//! Trees of the driver: making, building and refusals.
 
 use rasray_gpu::*;
 
@@ -9,7 +9,7 @@ const FEATURES: [Feature; 3] =
 
 const DESC: DriverTreeDesc<'_> = DriverTreeDesc { name: "tree", boxes: 100, goal: DriverTreeGoal::Trace };
 
-/// A device with trees; says so where there is none.
+/// Makes a device with trees; says so if no device has them.
 fn device() -> Option<Device> {
     let trees = Requirements { required: FEATURES.to_vec(), ..Requirements::default() };
     let wanted = requirements().merge(&trees);
@@ -34,7 +34,7 @@ fn trees_are_built_anew_and_outlive_their_owners() {
     let buffer = device.create_buffer_with("boxes", BufferUsage::STORAGE, &boxes).expect("they fit");
     let tree = device.create_driver_tree(&DESC).expect("it fits");
     assert!(tree.address() != 0 && tree.boxes() == 100);
-    // More than the boxes alone, as a driver copies them.
+    // The tree is larger than the boxes alone, because a driver copies them.
     assert!(tree.bytes() > 100 * DRIVER_BOX_BYTES && tree.scratch_bytes() > 0, "{tree:?}");
     let mut counted = Vec::new();
     for count in [100, 7, 0, 1] {

@@ -1,4 +1,4 @@
-//! A device and a command buffer of a host.
+//! Use of a device and a command buffer of a host.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -23,18 +23,18 @@ fn raw(host: &Device) -> RawDevice {
 }
 
 fn adopt(raw: RawDevice) -> Result<Device> {
-    // SAFETY: `raw` describes a device made by this crate, which the tests keep until the adopted one is gone
-    // and whose queue they do not use meanwhile.
+    // SAFETY: `raw` describes a device that this crate made; the tests keep it until the adopted device is
+    // dropped and do not use its queue meanwhile.
     unsafe { Device::from_raw(raw) }
 }
 
-/// Counts the pieces it gives out.
+/// Memory source that counts the pieces that it gives out.
 struct Counted {
     pool: PooledMemory,
     alive: Arc<AtomicUsize>,
 }
 
-// SAFETY: everything is left to the pool.
+// SAFETY: the pool does all the work.
 unsafe impl Memory for Counted {
     fn allocate(
         &self,
@@ -49,7 +49,7 @@ unsafe impl Memory for Counted {
 
     unsafe fn free(&self, allocation: Allocation) {
         self.alive.fetch_sub(1, Ordering::SeqCst);
-        // SAFETY: the caller vouches for it.
+        // SAFETY: the caller guarantees the conditions of `free`.
         unsafe { self.pool.free(allocation) };
     }
 }
@@ -109,7 +109,7 @@ fn memory_cache_and_limit_of_the_host_are_used() {
     assert_eq!(host.allocated_bytes(), 0, "the books of the two are separate");
     drop((scale, device));
     assert_eq!(alive.load(Ordering::SeqCst), 0);
-    // SAFETY: the device that used the cache is gone.
+    // SAFETY: the device that used the cache is destroyed.
     unsafe { host.raw().destroy_pipeline_cache(cache, None) };
     finish(host);
 }
@@ -137,14 +137,15 @@ fn a_command_buffer_of_the_host_is_recorded_into() {
     let timers = device.create_timers(1).expect("timers");
     let raw = device.raw();
     let info = vk::CommandPoolCreateInfo::default().queue_family_index(device.queue_family());
-    // SAFETY: plain Vulkan by a host: every handle is made from this device, the recording ends before the
-    // submission, which is waited for before anything is destroyed, and nothing else uses the queue.
+    // SAFETY: these are plain Vulkan calls of a host: every handle is made from this device, the recording
+    // ends before the submission, which is waited for before anything is destroyed, and nothing else uses the
+    // queue.
     unsafe {
         let pool = raw.create_command_pool(&info, None).expect("command pool");
         let info = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
         let command = raw.allocate_command_buffers(&info).expect("command buffer")[0];
         raw.begin_command_buffer(command, &vk::CommandBufferBeginInfo::default()).expect("begin");
-        // The host wraps a buffer it already has.
+        // The host wraps a buffer that it already has.
         let buffer = device.buffer_from_raw(&RawBuffer {
             name: "the host's values",
             raw: scale.buffer.raw(),
@@ -164,7 +165,7 @@ fn a_command_buffer_of_the_host_is_recorded_into() {
         recorder.end_pass();
         recorder.barrier(Access::COMPUTE_WRITE, Access::TRANSFER_READ | Access::HOST_READ);
         let recorded = recorder.finish().expect("no mistake");
-        // Recorded resources stay until the device is done, whoever else lets go of them.
+        // Recorded resources live until the device has finished, even if all owners drop them.
         drop((set, buffer));
         raw.end_command_buffer(command).expect("end");
         let commands = [command];

@@ -1,11 +1,11 @@
-//! Mistakes become errors that name the thing.
+//! Mistakes of callers give errors that name the object or pass.
 
 use std::time::Duration;
 
 use crate::device::common::{Scale, device, finish, shaders, storage};
 use rasray_gpu::*;
 
-/// The error of a recording, which must also contain `text`.
+/// Returns the error of a recording; its message must contain `text`.
 fn mistake(device: &Device, text: &str, record: impl FnOnce(&mut Recorder<'_>)) -> GpuError {
     let error = device.submit(record).expect_err(text);
     assert!(error.to_string().contains(text), "`{error}` does not say `{text}`");
@@ -61,7 +61,7 @@ fn ranges_usages_and_limits_are_checked() {
     mistake(&device, "`values`", |recorder| recorder.fill(&scale.buffer, 252, 8, 1));
     mistake(&device, "multiples of 4", |recorder| recorder.fill(&scale.buffer, 2, 4, 1));
     mistake(&device, "`source`: was not created for being filled", |recorder| {
-        // The first mistake prevents what follows.
+        // The first mistake prevents all later commands.
         recorder.fill(&source, 0, 4, 1);
         recorder.fill(&scale.buffer, 0, 256, 1);
     });
@@ -180,7 +180,8 @@ fn memory_is_counted_and_limited() {
 
 #[test]
 fn a_timeout_names_the_pass_and_abandons_the_device() {
-    // Without validation: an abandoned device is never destroyed, which the layer would report at exit.
+    // The device has no validation: an abandoned device is never destroyed, which the layer would report at
+    // exit.
     let desc = DeviceDesc { requirements: crate::device::common::requirements(), ..DeviceDesc::default() };
     let device = Device::create(&desc).expect("a Vulkan device");
     let buffer = storage(&device, "values", 256);
@@ -208,6 +209,6 @@ fn a_timeout_names_the_pass_and_abandons_the_device() {
     let error = device.submit(|_| ()).expect_err("abandoned");
     assert!(matches!(error, GpuError::Abandoned { .. }), "{error}");
     drop((pipeline, set, buffer, layout, device));
-    // The work ends by itself; without this pause it might still run while the process ends.
+    // The work ends by itself; without this pause the process might end while it still runs.
     std::thread::sleep(Duration::from_secs(2));
 }

@@ -41,7 +41,7 @@ fn frames_in_flight_run_in_the_order_of_their_submission() {
     finish(device);
 }
 
-/// Values of 0, 1, 2, ... after a number of dispatches.
+/// Returns the values 0, 1, 2, ... after a number of dispatches.
 fn expected_after(dispatches: u32) -> Vec<u32> {
     let once = |value: u32| value.wrapping_mul(3).wrapping_add(Scale::BIAS);
     (0..512).map(|first| (0..dispatches).fold(first, |value, _| once(value))).collect()
@@ -55,7 +55,7 @@ fn a_slot_is_waited_for_before_it_is_used_again() {
     flights.submit(0, |recorder| recorder.fill(&buffer, 0, 64, 5)).expect("submission");
     let error = flights.submit(0, |_| ()).expect_err("the slot is in use");
     assert!(error.to_string().contains("slot 0 was not waited for"), "{error}");
-    // A mistake of the recording submits nothing and leaves the slot free.
+    // A mistake of the recording prevents the submission and leaves the slot free.
     let error = flights.submit(1, |recorder| recorder.fill(&buffer, 0, 128, 5)).expect_err("beyond the end");
     assert!(!flights.is_pending(1), "{error}");
     flights.submit(1, |recorder| recorder.fill(&buffer, 32, 32, 7)).expect("submission");
@@ -82,7 +82,7 @@ fn what_frames_in_flight_use_lives_until_they_end() {
         })
         .expect("submission");
     drop(source);
-    // The ring waits when it is dropped.
+    // Dropping the ring waits for its submissions.
     drop(flights);
     let filled = device.download_as::<u32>(&target, 0, 1 << 18).expect("download");
     assert!(filled.iter().all(|word| *word == 9));

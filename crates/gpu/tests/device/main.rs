@@ -1,4 +1,4 @@
-//! A device: what it is chosen for, what it computes and draws, what it refuses.
+//! Tests of a device: selection, computing, drawing, and refusals.
 
 mod common;
 mod compute;

@@ -52,7 +52,7 @@ fn every_pixel_of_the_area_is_shaded_once_per_instance() {
         assert_eq!(submitted.passes.len(), usize::from(timing != Timing::None));
         let pixels =
             device.download_as::<u32>(&count.buffer, 0, (WIDTH * HEIGHT) as usize).expect("download");
-        // Row 0 is at the top of clip space's negative y: y is not flipped, and rows count upwards in value.
+        // Row 0 is at the negative end of clip space's y: y is not flipped, and values increase with the row.
         for (index, value) in (0_u32..).zip(pixels) {
             assert_eq!(value, 3 * (1 + index / WIDTH), "pixel {index} under {timing:?}");
         }

@@ -1,4 +1,4 @@
-//! Choosing a device.
+//! Selection of a device.
 
 use crate::device::common::requirements;
 use rasray_gpu::*;
@@ -68,8 +68,8 @@ fn validation_reports_a_real_mistake() {
         .expect("memory");
     device
         .submit(|recorder| {
-            // SAFETY: filling a buffer that was not made for it is a mistake without consequence on the
-            // drivers tested; that validation sees it is what is tested.
+            // SAFETY: filling a buffer that was not made for fills is a mistake without consequences on the
+            // tested drivers; the test checks that the validation layer reports it.
             unsafe { recorder.device().raw().cmd_fill_buffer(recorder.raw(), buffer.raw(), 0, 64, 1) };
         })
         .expect("submission");

@@ -1,4 +1,4 @@
-//! Helpers of the tests: a validated device, and the objects of the smallest compute pass.
+//! Helpers of the tests: a device with validation, and the objects of the smallest compute pass.
 
 #![allow(dead_code, reason = "each test binary uses a part")]
 
@@ -6,13 +6,13 @@ pub mod shaders;
 
 use rasray_gpu::*;
 
-/// The device floor and what the raster tests need.
+/// Returns the device floor and the features that the raster tests need.
 pub fn requirements() -> Requirements {
     Requirements::floor()
         .merge(&Requirements { required: vec![Feature::FragmentStoresAndAtomics], ..Requirements::default() })
 }
 
-/// A device under validation.
+/// Makes a device with validation.
 pub fn device() -> Device {
     device_with(requirements())
 }
@@ -22,7 +22,7 @@ pub fn device_with(requirements: Requirements) -> Device {
     Device::create(&desc).expect("a Vulkan device and the validation layer")
 }
 
-/// Drops the last handle of a device and checks that validation was silent from first to last.
+/// Drops the last handle of a device and checks that validation reported nothing during its whole life.
 pub fn finish(device: Device) {
     let log = device.validation_log();
     assert_eq!(device.allocated_bytes(), 0, "memory is left");
@@ -35,7 +35,7 @@ pub fn storage(device: &Device, name: &str, size: u64) -> Buffer {
     device.create_buffer(&desc).expect("memory for a test")
 }
 
-/// The pipeline of [`shaders::SCALE`] and a buffer of `count` values 0, 1, 2 …
+/// Pipeline of [`shaders::SCALE`] and a buffer of `count` values 0, 1, 2 …
 pub struct Scale {
     pub pipeline: ComputePipeline,
     pub layout: SetLayout,

@@ -1,5 +1,5 @@
-//! Shaders of the tests, as `glslangValidator -V --target-env vulkan1.2 -g0` makes them from the source above
-//! each.
+//! Shaders of the tests, as `glslangValidator -V --target-env vulkan1.2 -g0` compiles them from the source
+//! above each of them.
 
 /// Multiplies values by a pushed factor and adds a specialisation constant (id 7).
 ///
@@ -41,7 +41,7 @@ pub const SCALE: &[u32] = &[
     0x20, 0x15, 0x21, 0x3003e, 0x2c, 0x2b, 0x200f9, 0x1c, 0x200f8, 0x1c, 0x100fd, 0x10038,
 ];
 
-/// One triangle that covers everything.
+/// Draws one triangle that covers the whole area.
 ///
 /// ```glsl
 /// #version 460
@@ -109,7 +109,7 @@ pub const COUNT_FRAGMENT: &[u32] = &[
     0x2b, 0x100fd, 0x10038,
 ];
 
-/// Runs long enough to be caught by a timeout.
+/// Runs long enough to exceed a timeout.
 ///
 /// ```glsl
 /// #version 460
