@@ -55,9 +55,9 @@ pub(crate) fn halves(address: u64) -> [u32; 2] {
 pub struct Modules {
     /// Name of the structure, for errors.
     pub structure: &'static str,
-    /// Folder of its shaders.
+    /// Folder of the structure's shaders.
     pub prefix: &'static str,
-    /// Addressing of the pools by its shaders.
+    /// Addressing of the pools by the structure's shaders.
     pub addressing: Addressing,
 }
 

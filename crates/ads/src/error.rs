@@ -50,7 +50,7 @@ pub enum AdsError {
         structure: &'static str,
         /// Name of the pool.
         pool: &'static str,
-        /// Elements needed.
+        /// Number of elements needed.
         elements: u64,
     },
     /// A shader module is not compiled in.

@@ -22,12 +22,12 @@ pub enum TracedPart {
     Whole,
     /// The part that was traced first.
     First {
-        /// Number of parts that were traced after it.
+        /// Number of parts that were traced after this part.
         after: u32,
     },
     /// A part that was traced later, starting from the hits that the parts before it left in the queue.
     Next {
-        /// Number of parts that were traced after it.
+        /// Number of parts that were traced after this part.
         after: u32,
     },
 }

@@ -79,7 +79,7 @@ mod viewpoint;
 mod visit;
 mod words;
 
-// The contract.
+// The contract between structures and hosts.
 pub use error::AdsError;
 pub use inspect::Inspect;
 pub use occluder::Occluder;

@@ -18,7 +18,7 @@ pub struct StructureReport {
     pub bytes_by_part: Vec<(&'static str, u64)>,
     /// Bytes that the formula on the structure's page gives for the counted elements.
     pub formula_bytes: u64,
-    /// Bytes among these that only diagnostics read.
+    /// Bytes among those of `formula_bytes` that only diagnostics read.
     pub diagnostic_bytes: u64,
     /// Number of fragments or entries stored; absent if the structure stores none.
     pub stored: Option<u64>,

@@ -123,7 +123,7 @@ mod tests {
         assert!(
             !box_is_same(&part, at(0.0), at(1.5 * limit)) && !box_is_same(&part, at(-2.0 * limit), at(0.0))
         );
-        // The same box inside a whole geometry that reaches as far as that eye.
+        // An equal box inside a whole geometry that reaches as far as that eye.
         let within = GeometryExtent { around: [[-2.0 * limit; 3], [2.0 * limit; 3]], ..part };
         assert!(box_is_same(&within, at(-2.0 * limit), at(1.5 * limit)));
         assert!(!box_is_same(&within, at(0.0), at(2.5 * limit)));

@@ -28,7 +28,7 @@ pub enum FrameError {
     /// Rays did not finish, and more rounds would not help.
     #[error("{rays} rays did not finish")]
     Unfinished {
-        /// Number of rays.
+        /// Number of rays without an answer.
         rays: u64,
     },
     /// Drawing answers the camera rays of all pixels, so it cannot give some pixels more samples than others.

@@ -25,7 +25,7 @@ pub struct FrameInput {
     /// Poses of everything that moves; if absent, those of the last frame of the same scene, and before any
     /// pose those of the scene's tables.
     pub pose: Option<FramePose>,
-    /// Samples of each pixel.
+    /// Indices of the samples of each pixel.
     pub samples: Samples,
     /// True if the samples are added to those of the frame before; false if the frame starts a new image.
     pub continues: bool,
@@ -59,7 +59,7 @@ pub struct Picture {
     pub drew_maps: bool,
     /// Counters of the integrator's queues.
     pub counters: Vec<QueueCounters>,
-    /// Times of passes, where they are timed.
+    /// Times of passes, if they are timed.
     pub passes: Vec<PassTiming>,
 }
 

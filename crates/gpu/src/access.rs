@@ -11,17 +11,17 @@ pub struct Access(u32);
 impl Access {
     /// No access: a barrier orders execution only.
     pub const NONE: Access = Access(0);
-    /// Storage buffers read by compute shaders.
+    /// Reads of storage buffers by compute shaders.
     pub const COMPUTE_READ: Access = Access(1);
-    /// Storage buffers written by compute shaders, atomics included.
+    /// Writes to storage buffers by compute shaders, atomics included.
     pub const COMPUTE_WRITE: Access = Access(1 << 1);
-    /// Storage buffers read by vertex shaders.
+    /// Reads of storage buffers by vertex shaders.
     pub const VERTEX_READ: Access = Access(1 << 2);
-    /// Storage buffers written by vertex shaders, atomics included.
+    /// Writes to storage buffers by vertex shaders, atomics included.
     pub const VERTEX_WRITE: Access = Access(1 << 3);
-    /// Storage buffers read by fragment shaders.
+    /// Reads of storage buffers by fragment shaders.
     pub const FRAGMENT_READ: Access = Access(1 << 4);
-    /// Storage buffers written by fragment shaders, atomics included.
+    /// Writes to storage buffers by fragment shaders, atomics included.
     pub const FRAGMENT_WRITE: Access = Access(1 << 5);
     /// Reads of buffers as sources of copies.
     pub const TRANSFER_READ: Access = Access(1 << 6);

@@ -28,7 +28,7 @@ impl BufferUsage {
     pub const TRANSFER_DST: BufferUsage = BufferUsage(1 << 3);
     /// All public uses.
     pub const ALL: BufferUsage = BufferUsage((1 << 4) - 1);
-    /// Memory of a tree of the driver.
+    /// Memory of a driver tree.
     pub(crate) const TREE: BufferUsage = BufferUsage(1 << 4);
 
     /// Returns true if this set contains every use of `other`.

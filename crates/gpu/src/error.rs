@@ -59,7 +59,7 @@ pub enum GpuError {
     FeatureNotEnabled {
         /// Feature that is needed.
         feature: Feature,
-        /// Object or call that needs it.
+        /// Object or call that needs the feature.
         what: String,
     },
     /// A buffer exceeds the maximum size of a storage buffer binding. Pools of structures can be reached by

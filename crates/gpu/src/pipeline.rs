@@ -189,8 +189,8 @@ impl Device {
         Ok(RasterPipeline { inner })
     }
 
-    /// Keeps up to `count` pipelines without handles, so that they need not be compiled again; the default is
-    /// 0. Beyond that number, the pipelines that have been unused for longest are destroyed. It serves
+    /// Keeps up to `count` pipelines without handles (0 by default), so that they need not be compiled again.
+    /// Beyond that number, the pipelines that have been unused for longest are destroyed. The function serves
     /// programs that make structures repeatedly: for a change of options, or an experiment over many
     /// structures.
     pub fn keep_pipelines(&self, count: usize) {

@@ -13,7 +13,7 @@ use crate::{Replay, TracerError};
 /// Tracer of batches of rays of any length, through a queue of fixed capacity. It submits and waits.
 ///
 /// The first submission to a structure is small, and later ones hold as many rays as are traced in a second.
-/// The division into submissions changes no hit.
+/// The division into submissions does not change any hit.
 #[derive(Debug)]
 pub struct BatchTracer {
     device: Device,
@@ -26,9 +26,9 @@ pub struct BatchTracer {
 pub struct TraceOutcome {
     /// Hits, one per ray, in the order of the rays.
     pub hits: Vec<Hit>,
-    /// Trace passes, one per submission.
+    /// Times of the trace passes, one per submission.
     pub passes: Vec<PassTiming>,
-    /// Sums over all rays; work is zero unless the structure counts it.
+    /// Counters summed over all rays; those of work are zero unless the structure counts work.
     pub counters: QueueCounters,
     /// Work of each ray, in the order of the rays; empty unless the structure counts per ray.
     pub work: Vec<RayWork>,

@@ -13,7 +13,7 @@ use crate::{FrameOutcome, FrameStructure, TracerError};
 /// for pages differs slightly from build to build, for which [`Structure::check`] adds a margin.
 const REBUILDS: u32 = 8;
 
-/// Cost of a build.
+/// Outcome and cost of a build.
 #[derive(Clone, Debug, Default)]
 pub struct BuildOutcome {
     /// Times of the passes of the last build, which is complete.

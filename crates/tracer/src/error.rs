@@ -21,9 +21,9 @@ pub enum TracerError {
     Unstable {
         /// Name of the structure.
         structure: &'static str,
-        /// Rebuilds made.
+        /// Number of rebuilds made.
         rebuilds: u32,
-        /// The pool that lacked most, where one was too small.
+        /// The pool that lacked most elements, if one was too small.
         pool: Option<PoolStatus>,
     },
     /// A replay was requested of a structure that does not log steps.
@@ -35,9 +35,9 @@ pub enum TracerError {
     /// Rays did not finish within the rounds allowed.
     #[error("{unfinished} rays did not finish within {rounds} rounds; allow more rounds")]
     Unfinished {
-        /// Number of such rays.
+        /// Number of unfinished rays.
         unfinished: u32,
-        /// Rounds allowed.
+        /// Number of rounds allowed.
         rounds: u32,
     },
     /// Traces met list entries with an invalid index: the structure's memory was damaged since the build.
@@ -47,19 +47,19 @@ pub enum TracerError {
     Corrupted {
         /// Name of the structure.
         structure: &'static str,
-        /// Number of such entries since the last build.
+        /// Number of invalid entries since the last build.
         entries: u64,
     },
     /// Rays were traced while the structure was incomplete.
     #[error("{rays} rays were traced through a structure that is not built")]
     NotReady {
-        /// Rays without an answer.
+        /// Number of rays without an answer.
         rays: u32,
     },
     /// All slots hold frames in flight.
     #[error("all {slots} slots hold frames in flight: take the oldest first")]
     Busy {
-        /// Slots of the ring.
+        /// Number of slots of the ring.
         slots: u32,
     },
 }

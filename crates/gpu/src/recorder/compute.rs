@@ -1,4 +1,4 @@
-//! Dispatches.
+//! Commands that dispatch compute work.
 
 use ash::vk;
 

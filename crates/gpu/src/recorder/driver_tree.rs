@@ -1,4 +1,4 @@
-//! Builds of the driver's trees.
+//! Commands that build the driver's trees.
 
 use super::Recorder;
 use crate::access::Access;
