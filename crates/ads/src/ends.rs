@@ -4,8 +4,7 @@ use crate::words;
 use rasray_shaders_glsl::constants::ads::{ENDS_CLEAR, ENDS_TOUCHING};
 
 /// Rule for fragments that are as close to an end of a ray as the fragments of the surface at that end. It
-/// applies to structures whose fragments know neither their triangle nor the point at which the triangle is
-/// hit.
+/// applies to structures whose fragments do not store their triangle, or the point at which it is hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
     /// Such fragments are hits: rays hit the surface that they leave and the surface that they end on.

@@ -282,8 +282,8 @@ impl Pools {
         self.rounds.load(Ordering::Relaxed).max(first)
     }
 
-    /// Multiplies the number of [`Pools::rounds`] of `first`, up to `most`, in which every ray finishes, and
-    /// up to 2^14 rounds. Returns false if the number does not change.
+    /// Multiplies the number that [`Pools::rounds`] returns for `first`, up to 2^14 rounds and up to `most`,
+    /// in which every ray finishes. Returns false if the number does not change.
     pub fn allow_more_rounds(&self, first: u32, most: u32) -> bool {
         let now = self.rounds(first);
         let more = now.saturating_mul(MORE_ROUNDS).min(most).min(MOST_ROUNDS);

@@ -88,9 +88,10 @@ pub trait Structure: Send + Sync {
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError>;
 
     /// Replaces the scene by that of other triangles ([`Structure::set_geometry`]); its surfaces and alpha
-    /// masks are read from the next recording on. Pipelines are kept: the new scene must have alpha masks if
-    /// the first scene had, and the same specialisation constants. If a build reads the scene, traces answer
-    /// *not ready* until the next build is complete. Nothing changes after an error.
+    /// masks are read from the next recording on. Pipelines are kept: the new scene must have as many buffers
+    /// as the first scene and the same specialisation constants, and it must have alpha masks if and only if
+    /// the first scene has. If a build reads the scene, traces answer *not ready* until the next build is
+    /// complete. Nothing changes after an error.
     ///
     /// # Errors
     /// [`AdsError::OtherScene`], or [`AdsError::NoScene`] where the structure was made without one.
