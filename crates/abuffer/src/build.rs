@@ -1,4 +1,4 @@
-//! The build: pipelines, and the passes in the order they are recorded.
+//! Build of the A-buffer: its pipelines, and its passes in the order they are recorded.
 
 use std::mem::offset_of;
 
@@ -12,7 +12,7 @@ use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
 use crate::layout::{box_count, cell_count, draws, scratch};
 use crate::{Bounds, Config, Coverage, Header, March, Pool, Storage};
 
-/// Depth bounds of cells from boxes around objects: what finds these, and what draws them.
+/// Pipelines that find boxes around objects and draw them, which gives cells their depth bounds.
 #[derive(Debug)]
 struct Boxes {
     find: ComputePipeline,
@@ -104,7 +104,7 @@ impl Build {
         })
     }
 
-    /// Records all passes.
+    /// Records all passes of a build.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
         let cells = cell_count(config);
         let lists = cells * u64::from(config.lists());
@@ -113,8 +113,8 @@ impl Build {
         let draws = draws(config);
         let shaders = Access::COMPUTE | Access::FRAGMENT;
 
-        // Backward links of new nodes and depths of unused slots are zero; everything else of a node is
-        // written.
+        // Backward links of new nodes and depths of unused slots have to be zero. The build writes all other
+        // words of a node.
         let paged = config.storage == Storage::Paged;
         let cleared: &[Pool] = if config.storage.is_doubly_linked() || paged {
             &[Pool::Bounds, Pool::Lists, Pool::Nodes]

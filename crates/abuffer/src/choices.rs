@@ -1,4 +1,4 @@
-//! Values that options choose between, and their numbers in shaders.
+//! Enums of the options, and the number of each choice in shaders.
 
 use rasray_ads::words;
 use rasray_shaders_glsl::constants::abuffer as numbers;
@@ -7,13 +7,15 @@ use rasray_shaders_glsl::constants::abuffer as numbers;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
     /// Steps of equal length on the screen, at most [`Config::samples`](crate::Config::samples) per face.
-    /// Cells between are not visited.
+    /// Rays do not visit the cells between two steps.
     Samples,
-    /// As many steps as keep each to a cell of the longer axis, as the paper's march without its limit.
+    /// Enough steps that each spans one cell along the longer axis: the paper's march without its limit of
+    /// samples.
     Dda,
-    /// Every cell the ray crosses.
+    /// Steps through every cell that the ray crosses.
     Exact,
-    /// The hits of [`March::Exact`] with skips over blocks of cells that hold nothing at the ray's depths.
+    /// Steps through cells as [`March::Exact`], which skip blocks of cells that hold nothing at the ray's
+    /// depths. Hits are those of [`March::Exact`].
     Pyramid,
 }
 
@@ -30,17 +32,18 @@ impl March {
     }
 }
 
-/// When a fragment counts as hit.
+/// Condition under which a ray hits a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accept {
-    /// Its depth lies in the ray's half-open depth interval within the cell.
+    /// The fragment's depth lies in the ray's half-open depth interval within the cell.
     Interval,
-    /// As [`Accept::Interval`], with each fragment extended away from the eye by
+    /// The condition of [`Accept::Interval`], with each fragment extended away from the eye by
     /// [`Config::thickness`](crate::Config::thickness).
     Thickness,
-    /// The depths that its triangle takes within the cell overlap those of the ray. Needs [`Payload::Index`].
+    /// The depths that the fragment's triangle takes within the cell overlap those of the ray. Needs
+    /// [`Payload::Index`].
     Slope,
-    /// The ray intersects the plane of its triangle within the cell. Needs [`Payload::Index`] or
+    /// The ray intersects the plane of the fragment's triangle within the cell. Needs [`Payload::Index`] or
     /// [`Payload::Plane`].
     Plane,
 }
@@ -48,8 +51,8 @@ pub enum Accept {
 words! { Accept { Interval "interval", Thickness "thickness", Slope "slope", Plane "plane" } }
 
 impl Accept {
-    /// True if it looks at more of the fragment's triangle than its depth; then cells store how far triangles
-    /// reach in depth.
+    /// Returns true if the test reads more of the fragment's triangle than its depth. Cells then store how
+    /// far triangles reach in depth.
     pub fn needs_triangles(self) -> bool {
         matches!(self, Self::Slope | Self::Plane)
     }
@@ -67,22 +70,21 @@ impl Accept {
 /// Data that a fragment carries in addition to its node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
-    /// The triangle's id, 4 bytes: plane and surface come from the posed triangle.
+    /// Triangle id, 4 bytes. Plane and surface come from the posed triangle.
     Index,
-    /// The paper's quantised attributes for path tracing, 16 bytes. Needs a scene.
+    /// Quantised attributes for path tracing, as in the paper, 16 bytes. Needs a scene.
     Attributes,
-    /// The paper's payload for ambient occlusion: the quantised normal that is shaded by, alone, 4 bytes.
-    /// Needs a scene.
+    /// Quantised shading normal alone, the paper's payload for ambient occlusion, 4 bytes. Needs a scene.
     Normal,
-    /// The triangle's plane in full, 16 bytes: rays intersect it without reading the triangle, and know
-    /// nothing else of it.
+    /// Plane of the triangle in full, 16 bytes. Rays intersect it without reading the triangle, and know
+    /// nothing else of the triangle.
     Plane,
 }
 
 words! { Payload { Index "index", Attributes "attributes", Normal "normal", Plane "plane" } }
 
 impl Payload {
-    /// True if it is read from a scene while fragments are stored.
+    /// Returns true if the build reads the payload from a scene while it stores fragments.
     pub fn needs_scene(self) -> bool {
         matches!(self, Self::Attributes | Self::Normal)
     }
@@ -100,19 +102,19 @@ impl Payload {
 /// Test of which cells a triangle covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// The rasterizer, with its sub-pixel grid.
+    /// Coverage of the rasterizer, with its sub-pixel grid.
     Hardware,
-    /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
+    /// Watertight test of the cell's centre against the triangle; the rasterizer only proposes cells.
     Exact,
-    /// As [`Coverage::Exact`], and a triangle that reaches into a cell outside of its centre is kept in the
-    /// cell's conservative list: edge-on ones, silhouettes, and what is smaller than a cell. Rays then test
-    /// triangles, not their planes, and find what brute force finds
+    /// Test of [`Coverage::Exact`]. A triangle that reaches into a cell without covering its centre is kept
+    /// in the cell's conservative list: edge-on triangles, silhouettes, and triangles smaller than a cell.
+    /// Rays then test triangles, not their planes, and find the hits of brute force
     /// ([`Config::is_exact`](crate::Config::is_exact)). Needs [`Accept::Plane`].
     Conservative,
-    /// As [`Coverage::Exact`], and of the triangles that reach into a cell outside of its centre, those are
-    /// kept that have no fragment in any view, or whose planes are seen edge-on there: what the paper
-    /// mentions as its open limitation. Rays intersect the planes of fragments, and the triangles of
-    /// conservative lists. Needs [`Accept::Plane`].
+    /// Test of [`Coverage::Exact`]. A triangle that reaches into a cell without covering its centre is kept
+    /// only if it has no fragment in any view, or if its plane is seen edge-on there: the open limitation
+    /// that the paper mentions. Rays intersect the planes of fragments, and the triangles of conservative
+    /// lists. Needs [`Accept::Plane`].
     EdgeOn,
 }
 
@@ -129,13 +131,14 @@ impl Coverage {
     }
 }
 
-/// Depths that the bounds of a cell enclose before its fragments are stored. Changes no hit.
+/// Source of the depth bounds that a cell has before its fragments are stored. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bounds {
-    /// The fragments that it will have: all triangles are drawn once more.
+    /// Fragments that the cell will have: the build draws all triangles once more.
     Geometry,
-    /// The boxes around objects that are over it: looser, and a box is drawn in place of its triangles. An
-    /// object is a draw of the geometry; of more than 4096 draws several in a row share a box.
+    /// Boxes around objects that cover the cell. These bounds are looser, and the build draws a box in place
+    /// of the triangles in it. An object is a draw of the geometry; if there are more than 4096 draws,
+    /// several in a row share a box.
     Boxes,
 }
 
@@ -150,27 +153,27 @@ impl Bounds {
     }
 }
 
-/// Views that are drawn.
+/// Views that the build draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Views {
-    /// Six faces of a cube around the eye: all that is around it.
+    /// Six faces of a cube around the eye, which see everything around it.
     Cube,
-    /// The faces of the cube, and the camera's view with
+    /// Faces of the cube, and the camera's view with
     /// [`Config::camera_resolution`](crate::Config::camera_resolution) columns and rows.
     CubeCamera,
-    /// The camera's view and nothing else: rays hit nothing outside of its pyramid.
+    /// Camera's view alone: rays hit nothing outside of its pyramid.
     Camera,
 }
 
 words! { Views { Cube "cube", CubeCamera "cube+camera", Camera "camera" } }
 
 impl Views {
-    /// True if the faces of the cube are among them.
+    /// Returns true if the views include the faces of the cube.
     pub fn has_cube(self) -> bool {
         self != Self::Camera
     }
 
-    /// True if the camera's view is among them.
+    /// Returns true if the views include the camera's view.
     pub fn has_camera(self) -> bool {
         self != Self::Cube
     }
@@ -184,12 +187,12 @@ impl Views {
 /// Method by which a ray passes from one view to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ViewSwitching {
-    /// At the sides of the views' pyramids, which leave nothing out; every view that sees a part of the ray
-    /// is searched over it.
+    /// Passes at the sides of the views' pyramids, so that no part of a ray is left out. Every view that sees
+    /// a part of the ray is searched over that part.
     Exact,
-    /// The paper's: each part of a ray is searched in one view at most. A view ends half a cell before its
-    /// side, and the ray goes on half a cell behind it, in the face that it is in there. The camera's view is
-    /// searched only from the start of a ray that it sees.
+    /// Passes as in the paper: each part of a ray is searched in one view at most. A view ends half a cell
+    /// before its side, and the ray continues half a cell behind that side, in the face that contains it
+    /// there. The camera's view is searched only from the start of a ray that it sees.
     Snap,
 }
 
@@ -207,29 +210,30 @@ impl ViewSwitching {
 /// Storage of the fragments of a cell (MMRT table 2). Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
-    /// One linked list per cell, read from its near end.
+    /// Linked list per cell, read from its near end.
     Ll,
-    /// One doubly linked list per cell, read from either end.
+    /// Doubly linked list per cell, read from either end.
     Dll,
-    /// A linked list per depth bucket.
+    /// Linked list per depth bucket.
     Llb,
-    /// A doubly linked list per depth bucket: the paper's own.
+    /// Doubly linked list per depth bucket: the paper's own storage.
     Dllb,
-    /// Contiguous, counted first (S-buffer). Sorted lists of a cell are searched by bisection.
+    /// Contiguous list per cell, counted before it is stored (S-buffer). Sorted lists are searched by
+    /// bisection.
     Sb,
-    /// A linked list of pages per depth bucket; a page holds [`Config::page`](crate::Config::page) fragments.
+    /// Linked list of pages per depth bucket; a page holds [`Config::page`](crate::Config::page) fragments.
     Paged,
 }
 
 words! { Storage { Ll "ll", Dll "dll", Llb "llb", Dllb "dllb", Sb "sb", Paged "paged" } }
 
 impl Storage {
-    /// True if a cell has depth bounds and a list per bucket.
+    /// Returns true if a cell has depth bounds and a list per bucket.
     pub fn is_bucketed(self) -> bool {
         matches!(self, Self::Llb | Self::Dllb | Self::Paged)
     }
 
-    /// True if nodes link both ways.
+    /// Returns true if nodes have links in both directions.
     pub fn is_doubly_linked(self) -> bool {
         matches!(self, Self::Dll | Self::Dllb)
     }

@@ -6,77 +6,80 @@ use rasray_shaders_glsl::constant_ids::abuffer as ids;
 
 use crate::{Accept, Bounds, Coverage, March, Payload, Storage, ViewSwitching, Views};
 
-/// All options.
+/// Options of an A-buffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// Cells along a side of each face, 1 to 8192. A power of two keeps cell boundaries exact.
     pub resolution: u32,
-    /// Views that are drawn. A view of the camera needs a [`rasray_ads::Viewpoint`] with one.
+    /// Views that the build draws. A view of the camera needs a [`rasray_ads::Viewpoint`] with a camera.
     pub views: Views,
-    /// Columns and rows of the camera's view, 1 to 8192 each; only for views with a camera. If one is even
-    /// and the other odd, the smaller one is increased by one ([`Config::camera_cells`]), so that the cells
-    /// lie evenly around the axis.
+    /// Columns and rows of the camera's view, 1 to 8192 each; used only by views with a camera. If one is
+    /// even and the other odd, the smaller one is increased by one ([`Config::camera_cells`]), so that the
+    /// cells lie evenly around the axis.
     pub camera_resolution: [u32; 2],
-    /// Method by which rays pass from view to view.
+    /// Method by which a ray passes from one view to the next.
     pub view_switching: ViewSwitching,
     /// Storage of a cell's fragments. Changes no hit.
     pub storage: Storage,
-    /// Payload within the nodes instead of in a pool of its own. Changes no hit.
+    /// Place of the payload: within the nodes if true, in a pool of its own if false. Changes no hit.
     pub inline: bool,
-    /// Fragments per page: 1, 2, 4 or 8; only for [`Storage::Paged`]. Changes no hit.
+    /// Fragments per page: 1, 2, 4 or 8; used only by [`Storage::Paged`]. Changes no hit.
     pub page: u32,
-    /// Depth buckets per cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with
-    /// all layers. Changes no hit.
+    /// Depth buckets per cell, 1 to 32; used only by storages with buckets ([`Storage::is_bucketed`]) that
+    /// keep all layers. Changes no hit.
     pub buckets: u32,
-    /// Keep only the nearest fragments of each cell, as the paper's single-layer variant does; not with
-    /// [`Coverage::Conservative`] and [`Coverage::EdgeOn`]. Rays then hit nothing that is behind something
-    /// else as seen from the eye.
+    /// Switch for the paper's single-layer variant, which keeps only the nearest fragments of each cell.
+    /// Cannot be combined with [`Coverage::Conservative`] or [`Coverage::EdgeOn`]. Rays then hit nothing that
+    /// is behind something else as seen from the eye.
     pub single_layer: bool,
     /// Method of stepping rays through cells.
     pub march: March,
-    /// Maximum of samples per face, 1 to 65535; only for [`March::Samples`].
+    /// Maximum number of samples per face, 1 to 65535; used only by [`March::Samples`].
     pub samples: u32,
-    /// Where steps are longer than a cell, each ray places its samples at an offset of its own within them,
-    /// not in the middle; only for [`March::Samples`].
+    /// Switch for jittered samples; used only by [`March::Samples`]. Where steps are longer than a cell, each
+    /// ray places its samples at an offset of its own within the steps, not in the middle.
     pub jitter: bool,
-    /// When a fragment counts.
+    /// Condition under which a ray hits a fragment.
     pub accept: Accept,
-    /// Metres; only for [`Accept::Thickness`]. Default: half the width of a step of the march at the farthest
-    /// geometry: `f / n` for `n` cells along a side, or samples per face where these are fewer, and `f` the
-    /// largest coordinate of the geometry relative to the eye; more for a camera's view with wider cells.
+    /// Thickness of fragments, in metres; used only by [`Accept::Thickness`]. Default: half the width of a
+    /// step of the march at the farthest geometry, `f / n`, where `n` is the number of cells along a side, or
+    /// of samples per face if these are fewer, and `f` is the largest coordinate of the geometry relative to
+    /// the eye. The default is larger for a camera's view with wider cells.
     pub thickness: Option<f32>,
     /// Data that a fragment carries.
     pub payload: Payload,
-    /// For diagnostics: keep the triangle of each fragment behind a payload without it. Hits then name it,
-    /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
+    /// Switch for diagnostics: keeps the triangle of each fragment behind a payload that does not include it.
+    /// Hits then name the triangle, and nothing else follows: rays do not exclude it, and surfaces stay those
+    /// of the payload. Changes no t.
     pub ids: bool,
     /// Test of which cells a triangle covers.
     pub coverage: Coverage,
-    /// Depths that the bounds of cells enclose. [`Bounds::Boxes`] goes with lists by depth bucket only, with
-    /// [`Builder::Raster`], and not with [`Coverage::Hardware`]. Changes no hit.
+    /// Source of the depth bounds of cells. [`Bounds::Boxes`] needs lists by depth bucket and
+    /// [`Builder::Raster`], and cannot be combined with [`Coverage::Hardware`]. Changes no hit.
     pub bounds: Bounds,
     /// Builder that bins triangles into cells. Changes no hit.
     pub builder: Builder,
-    /// Sort lists, so that a search can end early. Changes no hit.
+    /// Switch for sorted lists, in which a search can end early. Changes no hit.
     pub sort: bool,
-    /// Skip cells and buckets that the ray's depths cannot overlap. Changes no hit.
+    /// Switch for skipping cells and buckets that the ray's depths cannot overlap. Changes no hit.
     pub skip: bool,
-    /// Addressing of pools. Changes no hit.
+    /// Addressing of pools: descriptors or device addresses. Changes no hit.
     pub addressing: Addressing,
-    /// Fragments, or pages of them, to allocate for the first build; a guess from the resolution where
-    /// absent.
+    /// Number of fragments, or of pages of fragments, to allocate for the first build. If absent, the
+    /// resolution gives a guess.
     pub fragments: Option<u64>,
-    /// Counters that rays record of their work. Changes no hit.
+    /// Counters of work that rays record. Changes no hit.
     pub counters: Counters,
-    /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
+    /// Work units that a ray may spend in one dispatch. If absent, the default that all structures share.
+    /// Changes no hit.
     pub work_budget: Option<u32>,
 }
 
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The repaired structure: cells keep every triangle that reaches into them, rays test triangles and skip
-    /// blocks of cells. Hits are those of brute force.
+    /// Returns the options of the repaired structure: cells keep every triangle that reaches into them, and
+    /// rays test triangles and skip blocks of cells. Hits are those of brute force.
     pub fn robust(resolution: u32) -> Self {
         Self {
             storage: Storage::Ll,
@@ -86,8 +89,8 @@ impl Config {
         }
     }
 
-    /// Fragments alone: cells keep the triangles that cover their centres, rays visit every cell and meet
-    /// planes.
+    /// Returns the options of fragments without conservative lists: cells keep the triangles that cover their
+    /// centres, and rays visit every cell and intersect planes.
     pub fn at_centres(resolution: u32) -> Self {
         Self {
             resolution,
@@ -118,10 +121,10 @@ impl Config {
         }
     }
 
-    /// The paper's approximations: 100 samples per face with a jitter per ray, fragments as voxels of one
-    /// thickness, quantised attributes, the rasterizer's own coverage, rays that are snapped from view to
-    /// view. The paper has a view of its camera as well: [`Views::CubeCamera`] with the columns and rows of
-    /// the image, where builds are told of a camera.
+    /// Returns the paper's approximations: 100 samples per face with a jitter per ray, fragments as voxels of
+    /// one thickness, quantised attributes, the rasterizer's own coverage, and rays that are snapped from
+    /// view to view. The paper also has a view of its camera: where builds are told of a camera, choose
+    /// [`Views::CubeCamera`] with the columns and rows of the image.
     pub fn published(resolution: u32) -> Self {
         Self {
             view_switching: ViewSwitching::Snap,
@@ -134,10 +137,10 @@ impl Config {
         }
     }
 
-    /// Checks ranges and combinations.
+    /// Checks the ranges of all options and their combinations.
     ///
     /// # Errors
-    /// The first option out of range, or the combination that is not possible.
+    /// The first option that is out of range, or the first combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
         check_range("resolution", self.resolution, 1..=8192, "1 to 8192 cells along a side")?;
         for side in self.camera_resolution {
@@ -203,7 +206,8 @@ impl Config {
         Ok(())
     }
 
-    /// Checks that there are bounds before fragments are stored, and that boxes can enclose these.
+    /// Checks that the configuration finds depth bounds before it stores fragments, and that boxes can
+    /// enclose these fragments.
     fn validate_bounds(&self) -> Result<(), AdsError> {
         let expected = match self.bounds {
             Bounds::Boxes if !self.has_buckets() => {
@@ -220,8 +224,8 @@ impl Config {
         Err(AdsError::Option { option: "bounds", value: self.bounds.name().to_owned(), expected })
     }
 
-    /// True if every hit equals that of brute force: cells keep every triangle that reaches into them, and
-    /// rays visit every cell that they cross, all around the eye.
+    /// Returns true if every hit equals that of brute force: cells keep every triangle that reaches into
+    /// them, and rays visit every cell that they cross, all around the eye.
     pub fn is_exact(&self) -> bool {
         self.tests_triangles()
             && matches!(self.march, March::Exact | March::Pyramid)
@@ -229,7 +233,7 @@ impl Config {
             && self.view_switching == ViewSwitching::Exact
     }
 
-    /// Columns and rows of the camera's view, both even or both odd; border not counted.
+    /// Returns the columns and rows of the camera's view, both even or both odd, without the border.
     pub fn camera_cells(&self) -> [u32; 2] {
         let [columns, rows] = self.camera_resolution;
         if columns % 2 == rows % 2 {
@@ -241,49 +245,51 @@ impl Config {
         }
     }
 
-    /// True if cells may keep triangles outside of their centres, with the other options that there are.
+    /// Returns true if the other options allow cells to keep triangles that do not cover their centres.
     pub fn may_test_triangles(&self) -> bool {
         self.accept == Accept::Plane && self.payload == Payload::Index && !self.single_layer
     }
 
-    /// True if cells keep triangles outside of their centres.
+    /// Returns true if cells keep triangles that do not cover their centres, in conservative lists.
     pub(crate) fn has_conservative_lists(&self) -> bool {
         matches!(self.coverage, Coverage::Conservative | Coverage::EdgeOn)
     }
 
-    /// True if rays intersect fragments by their triangles, not by the planes of these.
+    /// Returns true if rays test the triangles of fragments, not the planes of these triangles.
     pub(crate) fn tests_triangles(&self) -> bool {
         self.coverage == Coverage::Conservative
     }
 
-    /// Sets of marks of triangles: those with a fragment, and where these decide what conservative lists
-    /// keep, those that it does.
+    /// Returns the number of sets of marks of triangles. One set marks the triangles that cells keep. With
+    /// [`Coverage::EdgeOn`] there are two, since marks decide what conservative lists keep: one set marks the
+    /// triangles that have a fragment, the other the triangles of conservative lists.
     pub(crate) fn mark_sets(&self) -> u64 {
         if self.coverage == Coverage::EdgeOn { 2 } else { 1 }
     }
 
-    /// True if cells know the smallest and largest depth of their fragments.
+    /// Returns true if cells store the smallest and largest depth of their fragments.
     pub(crate) fn has_ends(&self) -> bool {
         self.storage.is_bucketed() || self.march == March::Pyramid || self.single_layer
     }
 
-    /// True if depth bounds are found before fragments are stored.
+    /// Returns true if the build finds depth bounds before it stores fragments.
     pub(crate) fn has_bounds_pass(&self) -> bool {
         self.storage.is_bucketed() || self.single_layer
     }
 
-    /// True if the fragments of a cell are kept by depth in several lists: a single layer has one list,
+    /// Returns true if a cell keeps its fragments in several lists by depth. A single layer has one list,
     /// whatever the storage.
     pub(crate) fn has_buckets(&self) -> bool {
         self.storage.is_bucketed() && !self.single_layer
     }
 
-    /// Lists per cell.
+    /// Returns the number of lists per cell.
     pub fn lists(&self) -> u32 {
         if self.has_buckets() { self.buckets } else { 1 }
     }
 
-    /// The ending of the names of the modules that trace it: how rays step, and what they test.
+    /// Returns the ending of the names of the shader modules that trace this configuration: how rays step,
+    /// and what they test.
     pub(crate) fn trace_variant(&self) -> String {
         let steps = match self.march {
             March::Exact => "cells",
@@ -298,7 +304,7 @@ impl Config {
         format!(".{steps}.{tests}")
     }
 
-    /// Specialisation constants: id and bits.
+    /// Returns the specialisation constants, as pairs of id and bits.
     pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
         vec![
             (ids::ABUFFER_BUCKETS, self.lists()),
@@ -320,7 +326,7 @@ impl Config {
         ]
     }
 
-    /// Options as name and value, for reports.
+    /// Returns the options as pairs of name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
         let switch = |on: bool| if on { "on" } else { "off" }.to_owned();
         let mut options = vec![
@@ -361,7 +367,7 @@ impl Config {
         options
     }
 
-    /// Paths as name and value, for reports.
+    /// Returns the chosen code paths as pairs of name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         vec![
             ("builder", self.builder.name().to_owned()),

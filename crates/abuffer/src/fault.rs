@@ -1,111 +1,112 @@
-//! Faults that the check of a built A-buffer may find.
+//! Faults that [`well_formed`](crate::well_formed) may find in a built A-buffer.
 
-/// Fault of a list.
+/// Fault in a list.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A link points to no node.
+    /// Link that points to no node.
     #[error("cell {cell}, bucket {bucket}: link {link} points to no node")]
     Dangling {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// Bucket.
+        /// Index of the bucket.
         bucket: usize,
-        /// The link.
+        /// Link that points to no node.
         link: u32,
     },
-    /// A link of a conservative list points to no node, or leads in a circle.
+    /// Link of a conservative list that points to no node, or leads in a circle.
     #[error("cell {cell}: link {link} of the conservative list points to no node, or leads in a circle")]
     Conservative {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// The link.
+        /// Link at fault.
         link: u32,
     },
-    /// A node is in no list, or in more than one.
+    /// Node that is in no list, or in more than one.
     #[error("{stored} nodes were allocated and {linked} are in lists")]
     Count {
-        /// Nodes allocated.
+        /// Number of nodes that the build allocated.
         stored: usize,
-        /// Nodes found in lists.
+        /// Number of nodes found in lists.
         linked: usize,
     },
-    /// Forward and backward links disagree.
+    /// Forward and backward links that disagree.
     #[error("cell {cell}, bucket {bucket}: the backward link of node {link} is {prev}, expected {expected}")]
     Backward {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// Bucket.
+        /// Index of the bucket.
         bucket: usize,
-        /// The node's link.
+        /// Link that points to the node.
         link: u32,
         /// Backward link stored.
         prev: u32,
         /// Backward link expected.
         expected: u32,
     },
-    /// A contiguous list does not begin where the one before it ends.
+    /// Contiguous list that does not begin where the one before it ends.
     #[error("cell {cell}: the list begins at place {first}, expected {expected}")]
     Place {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// Beginning stored.
+        /// First place, as stored.
         first: u32,
-        /// Beginning expected.
+        /// First place, as expected.
         expected: usize,
     },
-    /// A page is in two lists, or has more or fewer used slots than the word that leads to it says.
+    /// Page that is in two lists, or whose number of used slots differs from the count in the word that leads
+    /// to it.
     #[error(
         "cell {cell}, bucket {bucket}: page {page} is in two lists, or its used slots are not those counted"
     )]
     Page {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// Bucket.
+        /// Index of the bucket.
         bucket: usize,
         /// Number of the page.
         page: usize,
     },
-    /// A contiguous node refers to a payload that does not exist or is another's.
+    /// Contiguous node that refers to a payload that does not exist or belongs to another node.
     #[error("cell {cell}: node {link} refers to the payload {place}, which does not exist or is another's")]
     Payload {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// The node's link.
+        /// Link that points to the node.
         link: u32,
-        /// Payload stored.
+        /// Place of the payload, as stored.
         place: u32,
     },
-    /// The tail is not the last node.
+    /// Tail that is not the last node.
     #[error("cell {cell}, bucket {bucket}: the tail is {tail}, the last node is {last}")]
     Tail {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// Bucket.
+        /// Index of the bucket.
         bucket: usize,
-        /// Tail stored.
+        /// Tail, as stored.
         tail: u32,
-        /// The last node's link.
+        /// Link that points to the last node.
         last: u32,
     },
-    /// A sorted list is not in order.
+    /// Sorted list that is not in order.
     #[error("cell {cell}, bucket {bucket}: node {link} is out of order")]
     Order {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// Bucket.
+        /// Index of the bucket.
         bucket: usize,
-        /// The node's link.
+        /// Link that points to the node out of order.
         link: u32,
     },
-    /// A depth lies outside of the cell's bounds or is not a positive number.
+    /// Depth that lies outside of the cell's bounds or is not a positive number.
     #[error("cell {cell}, bucket {bucket}: depth {z} of node {link} is outside of [{z_min}, {z_max}]")]
     Depth {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// Bucket.
+        /// Index of the bucket.
         bucket: usize,
-        /// The node's link.
+        /// Link that points to the node.
         link: u32,
         /// The depth, as text: it may be NaN.
         z: String,

@@ -1,4 +1,4 @@
-//! Sizes of the pools: plain arithmetic, no device.
+//! Sizes of the pools, by plain arithmetic without a device.
 
 use rasray_ads::kit::{Pyramid, Scan, Scratch, ViewDraw};
 use rasray_ads::{AdsError, ListCounts, Sizes};
@@ -6,12 +6,12 @@ use rasray_shaders_glsl::constants::abuffer::{ABUFFER_BOX_WORDS, ABUFFER_BOXES, 
 
 use crate::{Accept, Bounds, Builder, Config, Coverage, March, Payload, Pool, Storage, Views};
 
-/// Cells of all views, each with a border of one cell.
+/// Returns the number of cells of all views, each view with a border of one cell.
 pub fn cell_count(config: &Config) -> u64 {
     view_cells(config).iter().map(|(_, cells)| cells).sum()
 }
 
-/// Name and cells of each view, in the order of cells.
+/// Returns the name and the number of cells of each view, in the order in which cells are stored.
 pub(crate) fn view_cells(config: &Config) -> Vec<(&'static str, u64)> {
     let mut views = Vec::new();
     if config.views.has_cube() {
@@ -25,7 +25,7 @@ pub(crate) fn view_cells(config: &Config) -> Vec<(&'static str, u64)> {
     views
 }
 
-/// Draws of all views: the faces of the cube, and the camera.
+/// Returns the draws of all views: one for the faces of the cube, and one for the camera.
 pub(crate) fn draws(config: &Config) -> Vec<ViewDraw> {
     let mut draws = Vec::new();
     if config.views.has_cube() {
@@ -38,29 +38,29 @@ pub(crate) fn draws(config: &Config) -> Vec<ViewDraw> {
     draws
 }
 
-/// Cells of the largest view, border counted.
+/// Returns the number of cells of the largest view, with its border.
 pub(crate) fn widest_view(config: &Config) -> u64 {
     draws(config).iter().map(|draw| u64::from(draw.side).pow(2)).max().unwrap_or(0)
 }
 
-/// The demand of a build: how much of each pool it needs.
+/// Demand of a build: the number of elements that it needs in each pool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Nodes: one per fragment, or one per page of them.
+    /// Number of nodes: one per fragment, or one per page of fragments.
     pub nodes: u64,
-    /// Triangles around the eye.
+    /// Number of triangles in the near region, around the eye.
     pub near_triangles: u64,
-    /// Lists that one dispatch does not sort.
+    /// Number of lists that are too long for one dispatch to sort.
     pub long_lists: u64,
-    /// Triangles of the geometry.
+    /// Number of triangles of the geometry.
     pub triangles: u64,
-    /// Triangles that conservative lists keep.
+    /// Number of triangles that conservative lists keep.
     pub conservative: u64,
-    /// Triangles with many cells of a view, for the binning builder.
+    /// Number of triangles with many cells of a view, which the binning builder queues.
     pub large: u64,
 }
 
-/// Words of a fragment's payload, and of the triangle that is kept for diagnostics.
+/// Returns the words of a fragment's payload, plus the triangle that is kept for diagnostics.
 pub(crate) fn data_words(config: &Config) -> u64 {
     let payload = match config.payload {
         Payload::Index | Payload::Normal => 1,
@@ -69,8 +69,8 @@ pub(crate) fn data_words(config: &Config) -> u64 {
     payload + u64::from(config.ids)
 }
 
-/// Words of a fragment's node: depth, links, and the payload where it is inline; a contiguous node refers to
-/// it where it is not.
+/// Returns the words of a fragment's node: the depth, the links, and the payload if it is inline. A
+/// contiguous node refers to its payload if that is not inline.
 pub(crate) fn fragment_words(config: &Config) -> u64 {
     let links = match config.storage {
         Storage::Paged => 0,
@@ -81,7 +81,8 @@ pub(crate) fn fragment_words(config: &Config) -> u64 {
     1 + links + if config.inline { data_words(config) } else { 0 }
 }
 
-/// Words of a node: that of a fragment, or a page of several with a word that leads to the next page.
+/// Returns the words of a node: those of one fragment, or those of a page of several fragments with a word
+/// that leads to the next page.
 pub(crate) fn node_words(config: &Config) -> u64 {
     match config.storage {
         Storage::Paged => 1 + u64::from(config.page) * fragment_words(config),
@@ -89,17 +90,17 @@ pub(crate) fn node_words(config: &Config) -> u64 {
     }
 }
 
-/// Capacity of a node, in fragments.
+/// Returns the capacity of a node, in fragments.
 pub(crate) fn node_slots(config: &Config) -> u64 {
     if config.storage == Storage::Paged { config.page.into() } else { 1 }
 }
 
-/// Bytes of a fragment with its payload and without links; in a page, of a slot.
+/// Returns the bytes of a fragment with its payload and without links; in a page, the bytes of a slot.
 pub(crate) fn slot_bytes(config: &Config) -> u64 {
     4 * (1 + data_words(config))
 }
 
-/// Words of a list: one end, both ends, or first place and count.
+/// Returns the words of a list: one end, both ends, or first place and count.
 pub(crate) fn list_words(storage: Storage) -> u64 {
     match storage {
         Storage::Ll | Storage::Llb | Storage::Paged => 1,
@@ -107,8 +108,9 @@ pub(crate) fn list_words(storage: Storage) -> u64 {
     }
 }
 
-/// Words of a cell's bounds: ends where there are buckets or blocks of cells; where triangles are tested
-/// the extent, and with buckets their scale; with conservative coverage the head of the conservative list.
+/// Returns the words of a cell's bounds: the ends if there are buckets or blocks of cells; the extent if hits
+/// depend on triangles, and its scale if there are also buckets; the head of the conservative list with
+/// conservative coverage.
 pub(crate) fn bounds_words(config: &Config) -> u64 {
     let extent = match (config.accept.needs_triangles(), config.has_buckets()) {
         (true, true) => 2,
@@ -118,35 +120,36 @@ pub(crate) fn bounds_words(config: &Config) -> u64 {
     extent + if config.has_ends() { 2 } else { 0 } + u64::from(config.has_conservative_lists())
 }
 
-/// Words of the bounds of all blocks of cells.
+/// Returns the words of the bounds of all blocks of cells.
 fn pyramid_words(config: &Config) -> u64 {
     if config.march == March::Pyramid { Pyramid::words(&draws(config)) } else { 0 }
 }
 
-/// Words of the boxes around objects.
+/// Returns the words of the boxes around objects.
 fn box_words(config: &Config) -> u64 {
     if config.bounds == Bounds::Boxes { (ABUFFER_BOXES * ABUFFER_BOX_WORDS).into() } else { 0 }
 }
 
-/// Boxes around that many draws: one each, or where there is not room for so many, one for several in a row.
+/// Returns the number of boxes around `draws` draws: one each, or, if there is not room for so many, one for
+/// several draws in a row.
 pub(crate) fn box_count(draws: u32) -> u32 {
     draws.div_ceil(draws.div_ceil(ABUFFER_BOXES).max(1)).max(1)
 }
 
-/// Words of the bounds of all cells and blocks, and of boxes around objects.
+/// Returns the words of the bounds of all cells and blocks, and of the boxes around objects.
 pub(crate) fn bounds_and_blocks(config: &Config) -> u64 {
     cell_count(config) * bounds_words(config) + pyramid_words(config) + box_words(config)
 }
 
-/// Contents of the scratch pool: the sums of the scan of contiguous lists, and the words that binning and
-/// sorting use.
+/// Returns the contents of the scratch pool: the sums of the scan of contiguous lists, and the words that
+/// binning and sorting use.
 pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
     let lists = cell_count(config) * u64::from(config.lists());
     let sums = if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 };
     Scratch { pool: Pool::Scratch, sums, builder: config.builder, sorts: true }
 }
 
-/// Sizes of the pools of an A-buffer of this configuration for a demand.
+/// Returns the sizes of the pools of an A-buffer of this configuration for a demand.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit links can address.
@@ -171,8 +174,8 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     if config.storage == Storage::Paged { sizes.of_pages("abuffer", Pool::Nodes) } else { Ok(sizes) }
 }
 
-/// The first guess where nothing has been counted: a fragment per cell, and a triangle outside of every
-/// fourth centre.
+/// Returns the sizes for the first build, before anything has been counted: one fragment per cell, and one
+/// triangle of a conservative list per four cells.
 pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsError> {
     let cells = cell_count(config);
     let fragments = config.fragments.unwrap_or(cells);
@@ -189,39 +192,42 @@ pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsEr
     )
 }
 
-/// Bytes of table 2 of the paper for counted cells, buckets and fragments.
+/// Bytes of an A-buffer by table 2 of the paper, for counted cells, buckets and fragments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Per cell, `m_p` of the table; of a single layer with one bucket, and 8 where the storage has none.
+    /// Bytes of cells: per cell `m_p` of the table. A single layer counts as one bucket; if the storage has
+    /// no buckets, it adds 8 bytes per cell.
     pub cells: u64,
-    /// Per cell with plane or slope acceptance: extent 4, and scale 4 where there are buckets.
+    /// Bytes of extents, with plane or slope acceptance: per cell an extent of 4, and a scale of 4 if there
+    /// are buckets.
     pub plane: u64,
-    /// March by pyramid: 8 per block of cells, and per cell where there are neither buckets nor a single
-    /// layer.
+    /// Bytes of the pyramid, with [`March::Pyramid`]: 8 per block of cells, and 8 per cell if there are
+    /// neither buckets nor a single layer.
     pub pyramid: u64,
-    /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16.
-    /// Paged: per page 4, and per slot 4 and the payload.
+    /// Bytes of fragments: per fragment `m_f` of the table, without the reference to the payload if it is
+    /// inline, and a payload of 4 or 16. With paged storage: per page 4, and per slot 4 and the payload.
     pub fragments: u64,
-    /// With conservative and edge-on coverage: per cell 4, per triangle outside of a centre 12; with the
-    /// latter 4 per 32 triangles.
+    /// Bytes of conservative lists, with conservative and edge-on coverage: per cell 4, and per triangle that
+    /// is kept without covering the centre 12; with edge-on coverage also 4 per 32 triangles.
     pub conservative: u64,
-    /// With ids: 4 per fragment, or slot of a page.
+    /// Bytes of triangles that are kept for diagnostics ([`Config::ids`]): 4 per fragment, or per slot of a
+    /// page.
     pub ids: u64,
-    /// Header, 4 per triangle of the near-region list, 8 per long list, or where that is more 4 per triangle
-    /// with many cells of a view where they are binned, 4 per 1024 cells for the scan of SB, 4 per 32
-    /// triangles for their marks, and 98,304 for boxes around objects.
+    /// Bytes of all else: the header; 4 per triangle of the near-region list; the larger of 8 per long list
+    /// and, with the binning builder, 4 per triangle with many cells of a view; 4 per 1024 cells for the scan
+    /// of SB; 4 per 32 triangles for their marks; and 98,304 for boxes around objects.
     pub rest: u64,
 }
 
 impl FormulaBytes {
-    /// Sum of all parts.
+    /// Returns the sum of all parts.
     pub fn total(&self) -> u64 {
         self.cells + self.plane + self.pyramid + self.fragments + self.conservative + self.ids + self.rest
     }
 }
 
-/// The page's formula. It follows the paper's table and shares nothing with [`plan`], so that the two
-/// check each other.
+/// Computes the bytes by the formula of `docs/systems/mmrt.md`. It follows the paper's table and shares no
+/// code with [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let side = u64::from(config.resolution + 2);
     let [columns, rows] = config.camera_cells().map(|side| u64::from(side) + 2);
@@ -349,8 +355,9 @@ mod tests {
         }
     }
 
-    /// Bytes per cell with four buckets, and bytes per fragment without the payload, decoupled as in table 2
-    /// of the paper, and inline, where only the S-buffer saves a word: the payload's index.
+    /// Checks the bytes per cell with four buckets, and the bytes per fragment without the payload, both
+    /// decoupled as in table 2 of the paper and inline. Only the S-buffer saves a word inline: the index of
+    /// the payload.
     #[test]
     fn storages_have_the_papers_bytes() {
         let table = [
@@ -375,8 +382,8 @@ mod tests {
         }
     }
 
-    /// Table 1 of the paper: 720x480 and six faces of 480x480, four buckets, 2.4 M fragments with 16
-    /// bytes of payload, is 128 MB. The formula per cell and fragment gives 130 MiB there.
+    /// Checks the formula against table 1 of the paper: 720x480 and six faces of 480x480, four buckets and
+    /// 2.4 M fragments with 16 bytes of payload take 128 MB. The formula per cell and fragment gives 130 MiB.
     #[test]
     fn formula_agrees_with_the_papers_table() {
         let config =
@@ -388,7 +395,7 @@ mod tests {
         assert!((mebibytes - 130.0).abs() < 0.5, "{mebibytes} MiB");
     }
 
-    /// No draw is left without a box, and boxes are as many as there is room for at most.
+    /// Checks that no draw is left without a box, and that there are no more boxes than there is room for.
     #[test]
     fn draws_share_boxes() {
         for (draws, boxes) in [(0, 1), (1, 1), (17, 17), (4096, 4096), (4097, 2049), (10_000, 3334)] {

@@ -1,8 +1,8 @@
-//! Multiview, multilayer A-buffers: a structure of fragments for rays near the eye, after MMRT. Hosts make
+//! Multiview, multilayer A-buffers, after MMRT: a structure of fragments for rays near the eye. Hosts make
 //! one from their triangles and trace it as any [`rasray_ads::Structure`].
 //!
-//! The rasterizer stores every fragment of the six faces of a cube around the eye, of the camera's view
-//! there, or of both, in lists per cell and depth bucket. Rays step through the cells and search their lists.
+//! The rasterizer draws the six faces of a cube around the eye, the camera's view there, or both, and stores
+//! every fragment in lists per cell and depth bucket. Rays step through the cells and search their lists.
 //!
 //! - [`ABuffer`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to
 //!   resize.

@@ -1,17 +1,17 @@
-//! The pools.
+//! Pools of the A-buffer.
 
 use crate::{Config, Contents, Header};
 
 rasray_ads::pools! {
     /// Pools of an A-buffer, in the order of their bindings.
     pub enum Pool: Header {
-        /// Depths of cells and blocks, and marks of triangles.
+        /// Depth bounds of cells and blocks, and marks of triangles.
         Bounds "bounds" bounds_address => bounds,
         /// Heads or ends of lists.
         Lists "lists" lists_address => lists,
-        /// Nodes of fragments, or of pages of them.
+        /// Nodes, each with a fragment or a page of fragments.
         Nodes "nodes" nodes_address => nodes,
-        /// Payload of fragments, where it is not in the nodes.
+        /// Payload of fragments, if it is not in the nodes.
         Data "data" data_address => data,
         /// Triangles in the near region.
         Near "near" near_address => near,

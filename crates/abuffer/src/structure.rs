@@ -1,4 +1,4 @@
-//! The A-buffer as a structure.
+//! Implementation of the A-buffer as a structure.
 
 use std::mem::offset_of;
 
@@ -18,7 +18,7 @@ use crate::{Config, Contents, Header, March, Pool, Storage, well_formed};
 /// A multiview, multilayer A-buffer, made from a [`Config`].
 pub type ABuffer = Pooled<Build>;
 
-/// The header that the next build starts from.
+/// Returns the header that the next build starts from.
 ///
 /// # Errors
 /// The configuration has a view of the camera and the viewpoint has no camera.
@@ -44,14 +44,15 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
                 rows[axis] = rows[axis].map(|x| x * (cells[axis] as f32 / side));
             }
             let width = |axis: usize| 2.0 * halves[axis] / cells[axis] as f32;
-            // Points in the camera's view are also rotated and scaled: twice the rounding, and
-            // narrow views more.
+            // Points in the camera's view are also rotated and scaled, which doubles their rounding; narrow
+            // views scale it further.
             let scale = 2.0 / camera.half_width.min(camera.half_height).min(1.0);
             (rows, scale, scale * side, width(0).max(width(1)))
         });
     let widest = if faces > 0 { (2.0 / faces as f32).max(camera_width) } else { camera_width };
     let scale = if camera.is_some() { camera_scale.max(1.0) } else { 1.0 };
-    // Half the distance that a ray moves sideways between two searches of lists, where steps are widest.
+    // Distance that a ray moves sideways between two searches of lists, where steps are widest. The default
+    // thickness is half of it.
     let step = match config.march {
         March::Samples => widest.max(2.0 / config.samples as f32),
         March::Dda | March::Exact | March::Pyramid => widest,
@@ -83,7 +84,7 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
     })
 }
 
-/// Words of a set of marks of triangles.
+/// Returns the words of a set of marks of triangles.
 fn mark_words(config: &Config, sizes: &Sizes) -> u64 {
     (sizes.elements_of(Pool::Bounds) - bounds_and_blocks(config)) / config.mark_sets()
 }
@@ -191,7 +192,7 @@ impl Design for Build {
     }
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
-        // One cell's conservative list may hold everything: a small object in a large world.
+        // A single conservative list may hold every triangle, as with a small object in a large world.
         parts.usual_rounds()
             + parts.rounds(header.conservative_demand.min(parts.elements(Pool::Conservative) as u32))
     }
@@ -233,7 +234,7 @@ mod tests {
         let extent = GeometryExtent::new(1_000, BOUNDS);
         for config in [Config::robust(64), Config::published(64)] {
             let sizes = Build::first_plan(&config, &extent).expect("options are in range");
-            // Their capacity, in the terms of a demand, is one for these pools.
+            // The capacity of these pools, expressed as a demand, has to plan these pools again.
             let capacity = Build::capacity(&config, &sizes, &extent);
             assert_eq!(Build::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
         }

@@ -1,4 +1,4 @@
-//! Checks the contents of a built A-buffer.
+//! Checks of the contents of a built A-buffer.
 
 use rasray_ads::ListCounts;
 
@@ -7,53 +7,53 @@ use crate::layout::{
 };
 use crate::{Config, Fault, Header, Storage, cell_count};
 
-/// All pools but the large-triangle queue of the binning builder as downloaded, in words.
+/// Downloaded contents of all pools, in words, without the large-triangle queue of the binning builder.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// The configuration they were built with.
+    /// Configuration of the build.
     pub config: Config,
-    /// The header.
+    /// Header after the build.
     pub header: Header,
     /// Bounds of each cell, and of the blocks of the pyramid; marks of triangles; boxes around objects.
     pub bounds: Vec<u32>,
-    /// Head (and tail) of each list; of contiguous lists all first places, then all counts; of paged ones the
-    /// word that leads to the first page.
+    /// Head of each list, and its tail if lists are doubly linked. For contiguous lists all first places,
+    /// then all counts. For paged lists the word that leads to the first page.
     pub lists: Vec<u32>,
-    /// Depth, inline payload, and next, previous or place of the payload, of each node. For a page, the word
-    /// that leads to the next one, and nodes without links.
+    /// Nodes. Each has a depth, the inline payload, and then its next link, its previous link, or the place
+    /// of its payload. A page has the word that leads to the next page, followed by nodes without links.
     pub nodes: Vec<u32>,
-    /// Payload of each fragment, where it is not inline.
+    /// Payload of each fragment, if it is not inline.
     pub data: Vec<u32>,
     /// Triangles in the near region.
     pub near: Vec<u32>,
-    /// Sums of the scan of contiguous lists, and the lists that one dispatch does not sort, with how
-    /// far each is sorted.
+    /// Sums of the scan of contiguous lists, and the lists that are too long for one dispatch to sort, each
+    /// with how far it is sorted.
     pub scratch: Vec<u32>,
     /// Triangle and next link of each node of the conservative lists.
     pub conservative: Vec<u32>,
 }
 
-/// A fragment as it is stored.
+/// Fragment as a node stores it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fragment<'a> {
-    /// Depth at the cell's centre, metres.
+    /// Depth at the cell's centre, in metres.
     pub z: f32,
-    /// The words of its payload.
+    /// Words of the fragment's payload.
     pub payload: &'a [u32],
 }
 
 impl Contents {
-    /// Nodes that were stored; of pages all slots.
+    /// Returns the number of fragment slots that the stored nodes have; of a page all slots count.
     fn stored(&self) -> usize {
         self.header.demand.min(self.header.capacity) as usize * self.slots()
     }
 
-    /// True if all that the build found was stored.
+    /// Returns true if the pool has stored every node that the build asked for.
     fn complete(&self) -> bool {
         self.header.demand <= self.header.capacity
     }
 
-    /// Capacity of a node, in fragments.
+    /// Returns the capacity of a node, in fragments.
     fn slots(&self) -> usize {
         node_slots(&self.config) as usize
     }
@@ -65,7 +65,7 @@ impl Contents {
         &self.nodes[node_words(&self.config) as usize * node + next + slot * words..][..words]
     }
 
-    /// The word of a page that leads to the next one.
+    /// Returns the word of a page that leads to the next page.
     fn next_page(&self, page: usize) -> u32 {
         self.nodes[node_words(&self.config) as usize * page]
     }
@@ -74,12 +74,12 @@ impl Contents {
         f32::from_bits(self.node(link)[0])
     }
 
-    /// Place of a node's payload in its pool; of no meaning where it is inline.
+    /// Returns the place of a node's payload in the payload pool. Meaningless if the payload is inline.
     fn payload_place(&self, link: u32) -> u32 {
         if self.config.storage == Storage::Sb { self.node(link)[1] } else { link - 1 }
     }
 
-    /// The words of a fragment's payload; the first one orders fragments of one depth.
+    /// Returns the words of a fragment's payload. The first word orders fragments of equal depth.
     fn payload(&self, link: u32) -> &[u32] {
         let words = data_words(&self.config) as usize;
         if self.config.inline {
@@ -89,13 +89,13 @@ impl Contents {
         }
     }
 
-    /// The links of a node: next, and previous where it has both.
+    /// Returns the links of a node: next, and previous if lists are doubly linked.
     fn links(&self, link: u32) -> &[u32] {
         let inline = if self.config.inline { data_words(&self.config) as usize } else { 0 };
         &self.node(link)[1 + inline..]
     }
 
-    /// The triangles of a cell's conservative list, as far as they were stored.
+    /// Returns the triangles of a cell's conservative list, as far as the pool has stored them.
     ///
     /// # Errors
     /// A link points to no node, or leads in a circle.
@@ -117,17 +117,17 @@ impl Contents {
         Ok(found)
     }
 
-    /// The fragment to which a hit without an id refers by the bits of its `a`; absent if none is stored
-    /// there.
+    /// Returns the fragment to which a hit without a triangle id refers by the bits of its `a`, or `None` if
+    /// no fragment is stored there.
     pub fn fragment(&self, link: u32) -> Option<Fragment<'_>> {
         let is_stored = link != 0 && link as usize <= self.stored();
         is_stored.then(|| Fragment { z: self.z(link), payload: self.payload(link) })
     }
 
-    /// The fragments of each cell, over all its buckets.
+    /// Returns the fragments of each cell, over all its buckets.
     ///
     /// # Errors
-    /// A link points to no node, or lists are damaged otherwise.
+    /// A link points to no node, or a list is damaged in another way.
     pub fn fragments(&self) -> Result<Vec<Vec<Fragment<'_>>>, Fault> {
         let mut pages = vec![false; self.stored() / self.slots()];
         let (mut linked, mut place) = (0, 0);
@@ -145,10 +145,11 @@ impl Contents {
         Ok(cells)
     }
 
-    /// Counts what the cells of each view hold; triangles of conservative lists are no layers.
+    /// Counts the fragments in the cells of each view. Triangles of conservative lists do not count as
+    /// layers.
     ///
     /// # Errors
-    /// As [`Contents::fragments`].
+    /// Those of [`Contents::fragments`].
     pub fn list_counts(&self) -> Result<Vec<ListCounts>, Fault> {
         let slots = self.slots();
         let mut pages = vec![false; self.stored() / slots];
@@ -178,9 +179,9 @@ impl Contents {
     }
 }
 
-/// Checks that every allocated node is in exactly one list, that links agree in both directions, that
-/// depths lie within bounds, that lists are sorted where they should be, and that every node of the
-/// conservative lists is in exactly one.
+/// Checks that every allocated node is in exactly one list, that links agree in both directions, that depths
+/// lie within bounds, that lists are sorted where they should be, and that every node of the conservative
+/// lists is in exactly one of these lists.
 ///
 /// # Errors
 /// The first fault found.
@@ -208,7 +209,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
                 }
             }
             let key = |link| (contents.z(link), contents.payload(link)[0]);
-            // In paged lists each page is in order.
+            // A paged list is sorted within each page only.
             let together = |pair: &[u32]| {
                 config.storage != Storage::Paged || (pair[0] - 1) / config.page == (pair[1] - 1) / config.page
             };
@@ -220,7 +221,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
         }
         in_conservative += contents.conservative_list_of(cell)?.len();
     }
-    // Fragments in pages beyond the capacity cannot be counted.
+    // Fragments in pages beyond the capacity cannot be found in lists.
     let expected = match config.storage {
         Storage::Paged if contents.complete() => contents.header.fragments as usize,
         Storage::Paged => linked,
@@ -237,8 +238,8 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     }
 }
 
-/// The links of a list. `linked` nodes are in lists before it, a contiguous one begins at `place`, and
-/// `pages` are those that lists before it have.
+/// Returns the links of a list. The lists before this one contain `linked` nodes and the pages marked in
+/// `pages`; a contiguous list begins at `place`.
 fn links(
     contents: &Contents,
     cell: usize,
@@ -254,7 +255,7 @@ fn links(
     }
 }
 
-/// The links of a paged list, as far as its pages were stored.
+/// Returns the links of a paged list, as far as the pool has stored its pages.
 fn turn_pages(
     contents: &Contents,
     cell: usize,
@@ -283,7 +284,8 @@ fn turn_pages(
     Ok(links)
 }
 
-/// The links of a contiguous list, as far as they were stored; `place` is where it should begin.
+/// Returns the links of a contiguous list, as far as the pool has stored them; the list should begin at
+/// `place`.
 fn contiguous(contents: &Contents, cell: usize, place: &mut usize) -> Result<Vec<u32>, Fault> {
     let lists = contents.lists.len() / 2;
     let (first, count) = (contents.lists[cell], contents.lists[lists + cell] as usize);
@@ -302,7 +304,7 @@ fn contiguous(contents: &Contents, cell: usize, place: &mut usize) -> Result<Vec
     Ok(((first as usize).min(stored)..(*place).min(stored)).map(|place| place as u32 + 1).collect())
 }
 
-/// The links of a linked list in order; `linked` nodes are in lists before it.
+/// Returns the links of a linked list in order; the lists before this one contain `linked` nodes.
 fn follow(contents: &Contents, cell: usize, bucket: usize, linked: usize) -> Result<Vec<u32>, Fault> {
     let doubly = contents.config.storage.is_doubly_linked();
     let list = cell * contents.config.lists() as usize + bucket;
@@ -327,7 +329,8 @@ fn follow(contents: &Contents, cell: usize, bucket: usize, linked: usize) -> Res
     Ok(links)
 }
 
-/// Without ends there are no bounds: then a depth is any positive number.
+/// Checks that a depth lies within the cell's bounds. A cell without stored ends has no bounds, and any
+/// positive number is a valid depth.
 fn check_depth(contents: &Contents, cell: usize, bucket: usize, link: u32) -> Result<(), Fault> {
     let (mut z_min, mut z_max) = (0.0, f32::MAX);
     if contents.config.has_ends() {
