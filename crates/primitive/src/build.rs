@@ -1,4 +1,4 @@
-//! The build of lists: pipelines, and the passes in the order they are recorded.
+//! Build of the lists: its pipelines, and its passes in the order they are recorded.
 
 use std::mem::offset_of;
 
@@ -42,7 +42,7 @@ impl Build {
         })
     }
 
-    /// Records all passes.
+    /// Records all passes of a build.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
         let cells = cell_count(config);
         let lists = cells * u64::from(config.buckets);

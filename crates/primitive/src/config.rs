@@ -1,4 +1,4 @@
-//! Options of primitive lists and the presets.
+//! Options of primitive lists, and their presets.
 
 use rasray_ads::kit::{check_range, check_work_budget};
 use rasray_ads::words;
@@ -11,102 +11,106 @@ use crate::{Accept, Coverage, Depths, March, Stop};
 /// Storage of the lists of a cell. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
-    /// Linked nodes of triangle and next, as in the paper: 8 bytes per entry, one geometry pass less.
+    /// Linked nodes with a triangle and the next link, as in the paper: 8 bytes per entry, and one geometry
+    /// pass less.
     Linked,
-    /// Contiguous triangles, by counting first: 4 bytes per entry.
+    /// Contiguous triangles, counted before they are stored: 4 bytes per entry.
     Contiguous,
 }
 
 words! { Storage { Linked "llb", Contiguous "sb" } }
 
-/// The point at which the faces of the cube touch. Changes no hit where [`Config::is_exact`].
+/// Point at which the faces of the cube touch. Changes no hit where [`Config::is_exact`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Centre {
-    /// At the eye, as in the paper.
+    /// The eye, as in the paper.
     Eye,
-    /// At the eye within the geometry's bounds, or where those are flat; for an eye outside of them, at the
-    /// nearest point well within.
+    /// The eye, if it lies within the geometry's bounds or if the bounds are flat; for an eye outside of the
+    /// bounds, the nearest point well within them.
     Scene,
-    /// Within the geometry's bounds or, where those are flat, beside them, wherever the eye is: a build is
-    /// not stale where only the eye moved.
+    /// A point within the geometry's bounds, or beside them if they are flat, wherever the eye is. A build is
+    /// then not stale if only the eye moved.
     Fixed,
 }
 
 words! { Centre { Eye "eye", Scene "scene", Fixed "fixed" } }
 
-/// Views that are drawn.
+/// Views that the build draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Views {
-    /// The six faces of a cube.
+    /// Six faces of a cube.
     Cube,
-    /// The view of the camera: all else is missed (section 5.2, single-view ray tracing). A build needs a
-    /// [`rasray_ads::Viewpoint`] with a camera, and the centre is at the eye.
+    /// View of the camera alone: rays miss everything outside of it (section 5.2, single-view ray tracing). A
+    /// build needs a [`rasray_ads::Viewpoint`] with a camera, and the centre is at the eye.
     Camera,
 }
 
 words! { Views { Cube "cube", Camera "camera" } }
 
-/// With a pyramid, the level that a ray compares its depths with first. Changes no hit where
+/// Level of the pyramid with which a ray compares its depths first. Changes no hit where
 /// [`Config::is_exact`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PyramidStart {
-    /// The finest: up until a block holds something.
+    /// Finest level: the ray ascends until a block holds something.
     Finest,
-    /// The coarsest, as in the paper: down until a block holds nothing.
+    /// Coarsest level, as in the paper: the ray descends until a block holds nothing.
     Coarsest,
 }
 
 words! { PyramidStart { Finest "finest", Coarsest "coarsest" } }
 
-/// All options.
+/// Options of primitive lists.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// Pixels along a side of each face, 1 to 8192. Changes no hit where [`Config::is_exact`].
     pub resolution: u32,
-    /// Pixels along a side of a tile, 1 to 64: lists are kept per tile. Changes no hit where
+    /// Pixels along a side of a tile, 1 to 64. Each tile has its own lists. Changes no hit where
     /// [`Config::is_exact`].
     pub tile: u32,
     /// Depth buckets per tile, 1 to 64. Changes no hit where [`Config::is_exact`].
     pub buckets: u32,
-    /// Views that are drawn.
+    /// Views that the build draws.
     pub views: Views,
-    /// Storage of lists.
+    /// Storage of lists. Changes no hit.
     pub storage: Storage,
-    /// The point at which the faces touch.
+    /// Point at which the faces of the cube touch. Changes no hit where [`Config::is_exact`].
     pub centre: Centre,
-    /// Way of binning triangles into tiles. Changes no hit.
+    /// Builder that bins triangles into tiles. Changes no hit.
     pub builder: Builder,
-    /// With [`Config::skip`]: depth bounds of blocks of tiles, which a ray skips. Changes no hit where
-    /// [`Config::is_exact`].
+    /// Switch for the pyramid: depth bounds of blocks of tiles, so that a ray can skip blocks; used only with
+    /// [`Config::skip`]. Changes no hit where [`Config::is_exact`].
     pub pyramid: bool,
-    /// The one of those that a ray compares with first.
+    /// Level of the pyramid with which a ray compares its depths first.
     pub pyramid_start: PyramidStart,
     /// Tiles that list a triangle.
     pub coverage: Coverage,
-    /// When a triangle that a ray intersects is a hit.
+    /// Condition under which a ray hits a triangle that it intersects.
     pub accept: Accept,
-    /// End of the search of a tile.
+    /// Point at which a ray ends its search of a tile.
     pub stop: Stop,
-    /// Depths of a triangle in a tile.
+    /// Depths of a triangle in a tile, which choose its buckets.
     pub depths: Depths,
     /// Rule by which a ray goes on from a tile.
     pub march: March,
-    /// Skip tiles and buckets that the ray's depths cannot reach. Changes no hit where [`Config::is_exact`].
+    /// Switch for skipping tiles and buckets that the ray's depths cannot reach. Changes no hit where
+    /// [`Config::is_exact`].
     pub skip: bool,
     /// Addressing of pools: descriptors or device addresses.
     pub addressing: Addressing,
-    /// Entries to allocate for the first build; a guess from the cells where absent.
+    /// Number of entries to allocate for the first build. If absent, the number of cells gives a guess.
     pub entries: Option<u64>,
     /// Detail in which rays record their work. Changes no hit.
     pub counters: Counters,
-    /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
+    /// Work units that a ray may spend in one dispatch. If absent, the default that all structures share.
+    /// Changes no hit.
     pub work_budget: Option<u32>,
 }
 
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The exact structure: every tile lists what reaches into it, and every hit equals that of brute force.
+    /// Returns the options of the exact structure: every tile lists all triangles that reach into it, and
+    /// every hit equals that of brute force.
     pub fn robust(resolution: u32) -> Self {
         Self {
             resolution,
@@ -131,7 +135,8 @@ impl Config {
         }
     }
 
-    /// The paper's structure: linked lists, 20 buckets, and its rules, by which hits are lost.
+    /// Returns the options of the paper's structure: linked lists, 20 buckets, and the paper's rules, which
+    /// lose some hits.
     pub fn published(resolution: u32) -> Self {
         Self {
             builder: Builder::Raster,
@@ -146,12 +151,13 @@ impl Config {
         }
     }
 
-    /// True if every hit equals that of brute force: no rule of the paper that loses some is chosen.
+    /// Returns true if every hit equals that of brute force: no option is a rule of the paper that loses
+    /// hits.
     pub fn is_exact(&self) -> bool {
         self.lossy_rule().is_none()
     }
 
-    /// The first rule that loses hits, as option and value.
+    /// Returns the first option with a rule that loses hits, as option and value.
     fn lossy_rule(&self) -> Option<(&'static str, &'static str)> {
         let robust = Self::robust(1);
         [
@@ -166,7 +172,7 @@ impl Config {
         .find_map(|(kept, rule)| (!kept).then_some(rule))
     }
 
-    /// Views with tiles of their own.
+    /// Returns the number of views with tiles of their own.
     pub fn view_count(&self) -> u32 {
         match self.views {
             Views::Cube => 6,
@@ -174,7 +180,7 @@ impl Config {
         }
     }
 
-    /// The point at which views touch: of the camera's view, the eye.
+    /// Returns the point at which views touch. The camera's view always has the eye as its centre.
     pub(crate) fn centre(&self) -> Centre {
         match self.views {
             Views::Cube => self.centre,
@@ -182,20 +188,21 @@ impl Config {
         }
     }
 
-    /// Tiles along a side of a face: the cells of the march. A last tile may reach beyond the face's pixels.
+    /// Returns the number of tiles along a side of a face. Tiles are the cells of the march, and the last
+    /// tile of a row may reach beyond the face's pixels.
     pub fn tiles(&self) -> u32 {
         self.resolution.div_ceil(self.tile.max(1))
     }
 
-    /// True if there are blocks of cells.
+    /// Returns true if there are blocks of cells, that is, a pyramid that rays use.
     pub(crate) fn has_pyramid(&self) -> bool {
         self.pyramid && self.skip
     }
 
-    /// Checks ranges.
+    /// Checks the ranges of all options and their combinations.
     ///
     /// # Errors
-    /// The first option out of range.
+    /// The first option that is out of range, or the first combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
         check_range("resolution", self.resolution, 1..=8192, "1 to 8192 pixels along a side")?;
         check_range("tile", self.tile, 1..=64, "1 to 64 pixels along a side")?;
@@ -212,7 +219,7 @@ impl Config {
         check_work_budget(self.work_budget, false)
     }
 
-    /// Specialisation constants: id and bits.
+    /// Returns the specialisation constants, as pairs of id and bits.
     pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
         let storage = match self.storage {
             Storage::Linked => numbers::PRIMITIVE_STORAGE_LINKED,
@@ -268,7 +275,7 @@ impl Config {
         ]
     }
 
-    /// Options as name and value, for reports.
+    /// Returns the options as pairs of name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
         let switch = |on| if on { "on" } else { "off" }.to_owned();
         vec![
@@ -289,7 +296,7 @@ impl Config {
         ]
     }
 
-    /// Paths as name and value, for reports.
+    /// Returns the chosen code paths as pairs of name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         vec![("builder", self.builder.name().to_owned()), ("addressing", self.addressing.name().to_owned())]
     }

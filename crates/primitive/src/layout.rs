@@ -1,4 +1,4 @@
-//! Sizes of the pools: plain arithmetic, no device.
+//! Sizes of the pools, by plain arithmetic without a device.
 
 use rasray_ads::kit::{Pyramid, Scan, ViewDraw};
 use rasray_ads::{AdsError, Sizes};
@@ -7,29 +7,29 @@ use rasray_shaders_glsl::constants::primitive as numbers;
 
 use crate::{Builder, Config, Pool, Storage, Views};
 
-/// The demand of a build.
+/// Demand of a build: the number of elements that it needs in each pool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Entries of all lists.
+    /// Number of entries of all lists.
     pub entries: u64,
-    /// Triangles around the eye.
+    /// Number of triangles in the near region, around the eye.
     pub near: u64,
-    /// Triangles of the geometry, where a compute pass puts them into tiles.
+    /// Number of triangles of the geometry, if a compute pass puts them into tiles.
     pub triangles: u64,
 }
 
-/// Cells of all views, each with a border of one.
+/// Returns the number of cells of all views, each view with a border of one cell.
 pub fn cell_count(config: &Config) -> u64 {
     let side = u64::from(config.tiles()) + 2;
     u64::from(config.view_count()) * side * side
 }
 
-/// Words of the bounds of a cell: both ends, and the scale where there are several buckets.
+/// Returns the words of a cell's bounds: both ends, and the scale if there are several buckets.
 pub(crate) fn bounds_words(config: &Config) -> u64 {
     if config.buckets > 1 { 3 } else { 2 }
 }
 
-/// Words of an entry of a list.
+/// Returns the words of an entry of a list.
 pub(crate) fn entry_words(storage: Storage) -> u64 {
     match storage {
         Storage::Linked => 2,
@@ -37,8 +37,8 @@ pub(crate) fn entry_words(storage: Storage) -> u64 {
     }
 }
 
-/// Words per triangle of the large-triangle queue, one per face, which binning needs while it
-/// builds. None for lists that are drawn.
+/// Returns the words per triangle of the large-triangle queue, one per face, which binning needs during the
+/// build. Lists that are drawn need none.
 pub(crate) fn large_words(config: &Config) -> u64 {
     match config.builder {
         Builder::Binning => numbers::PRIMITIVE_LARGE_LIMIT.into(),
@@ -46,8 +46,8 @@ pub(crate) fn large_words(config: &Config) -> u64 {
     }
 }
 
-/// Workgroups per triangle with many columns of a face: enough that the loops of an invocation stay within
-/// BIN_TURNS iterations.
+/// Returns the number of workgroups per triangle with many columns of a face. It is large enough that the
+/// loops of an invocation stay within BIN_TURNS iterations.
 pub(crate) fn bin_groups(config: &Config) -> u32 {
     let block = BIN_BLOCK as u64;
     let blocks = u64::from(config.tiles() + 2).div_ceil(block).pow(2);
@@ -56,17 +56,17 @@ pub(crate) fn bin_groups(config: &Config) -> u32 {
     rasray_ads::kit::bin_groups(turns)
 }
 
-/// The faces, whose cells and blocks are built together.
+/// Returns the draw of the faces, whose cells and blocks are built together.
 pub(crate) fn faces(config: &Config) -> ViewDraw {
     ViewDraw { side: config.tiles() + 2, views: config.view_count(), first: 0 }
 }
 
-/// Words of the bounds of all blocks.
+/// Returns the words of the bounds of all blocks.
 fn pyramid_words(config: &Config) -> u64 {
     if config.has_pyramid() { Pyramid::words(&[faces(config)]) } else { 0 }
 }
 
-/// Sizes of the pools of primitive lists of this configuration for `demand`.
+/// Returns the sizes of the pools of primitive lists of this configuration for `demand`.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit indices can address.
@@ -87,35 +87,37 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     Sizes::of("primitive", pools)
 }
 
-/// The first guess where nothing has been counted: four entries per cell.
+/// Returns the sizes for the first build, before anything has been counted: four entries per cell, if the
+/// options do not say.
 pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsError> {
     let entries = config.entries.unwrap_or_else(|| 4 * cell_count(config));
     plan(config, &Demand { entries, near: 64, triangles: triangles.into() })
 }
 
-/// Bytes for counted cells, buckets and entries.
+/// Bytes of primitive lists, for counted cells, buckets and entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Per tile 8, per list of each bucket 4, and a scale of 4 where there are several buckets; 8 per block
-    /// of the pyramid.
+    /// Bytes of cells: 8 per tile, 4 per list of each bucket, and a scale of 4 if there are several buckets;
+    /// and 8 per block of the pyramid.
     pub cells: u64,
-    /// Per entry: 4, or 8 in a linked list.
+    /// Bytes of entries: 4 each, or 8 in a linked list.
     pub entries: u64,
-    /// Per 1024 numbers that are scanned: a sum of 4.
+    /// Bytes of the scan: a sum of 4 per 1024 numbers that are scanned.
     pub scan: u64,
-    /// Header, 4 per triangle of the near-region list, and 24 per triangle where a compute pass puts them
-    /// into tiles.
+    /// Bytes of all else: the header, 4 per triangle of the near-region list, and 24 per triangle if a
+    /// compute pass puts triangles into tiles.
     pub rest: u64,
 }
 
 impl FormulaBytes {
-    /// Sum of all parts.
+    /// Returns the sum of all parts.
     pub fn total(&self) -> u64 {
         self.cells + self.entries + self.scan + self.rest
     }
 }
 
-/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
+/// Computes the bytes by the formula of `docs/systems/dirt.md`. It shares no code with [`plan`], so that the
+/// two check each other.
 pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
     let tiles = u64::from(config.resolution).div_ceil(u64::from(config.tile));
     let views = if config.views == Views::Camera { 1 } else { 6 };
@@ -165,7 +167,8 @@ mod tests {
         }
     }
 
-    /// Table 3 of the paper: a node of a list is 8 bytes, a head 4, and depth bounds 8 per tile.
+    /// Checks the bytes of table 3 of the paper: 8 for a node of a list, 4 for a head, and 8 per tile for
+    /// depth bounds.
     #[test]
     fn published_lists_have_the_papers_bytes() {
         // Terms of the paper's table 3: depths 8 and a third of that for their pyramid, a head of 4 per
@@ -174,7 +177,7 @@ mod tests {
         let demand = Demand { entries: 3_100_000, ..Demand::default() };
         let (formula, cells) = (formula_bytes(&published, &demand), cell_count(&published));
         assert_eq!(formula.entries, 8 * 3_100_000);
-        // One word more per cell than the paper: the scale of its buckets.
+        // A cell has one word more than in the paper: the scale of its buckets.
         let pyramid = formula.cells - cells * (8 + 4 * 4 + 4);
         let third = 8.0 * cells as f64 / 3.0;
         assert!(
@@ -187,8 +190,8 @@ mod tests {
         assert_eq!(formula_bytes(&contiguous, &demand).entries, 4 * 3_100_000);
     }
 
-    /// However many tiles and buckets, an invocation's share of a triangle that covers all columns stays
-    /// bounded.
+    /// Checks that an invocation's share of a triangle that covers all columns stays bounded for any number
+    /// of tiles and buckets.
     #[test]
     fn binning_gives_each_invocation_a_bounded_share() {
         for (resolution, buckets, groups) in [(16, 1, 1), (256, 16, 1), (1024, 64, 36), (8192, 64, 2286)] {

@@ -1,4 +1,4 @@
-//! Primitive lists: a structure of triangle ids per tile of image-space views, after DIRT. Hosts make one
+//! Primitive lists, after DIRT: a structure of triangle ids per tile of image-space views. Hosts make one
 //! from their triangles and trace it as any [`rasray_ads::Structure`].
 //!
 //! The rasterizer stores the ids of triangles in lists per tile and depth bucket of the six faces of a cube

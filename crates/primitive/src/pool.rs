@@ -1,15 +1,15 @@
-//! The pools.
+//! Pools of primitive lists.
 
 use crate::{Config, Contents, Header};
 
 rasray_ads::pools! {
     /// Pools of primitive lists, in the order of their bindings.
     pub enum Pool: Header {
-        /// Depths of tiles, and of blocks of them.
+        /// Depth bounds of tiles and of blocks of tiles.
         Bounds "bounds" bounds_address => bounds,
         /// Heads or ends of lists.
         Lists "lists" lists_address => lists,
-        /// Triangles of all lists.
+        /// Triangle ids of all lists.
         Entries "entries" entries_address => entries,
         /// Sums of the scan.
         Sums "sums" sums_address,

@@ -1,18 +1,20 @@
-//! The paper's rules, each next to the exact one that replaces it.
+//! Rules of the paper, each next to the exact rule that replaces it.
 
 use rasray_ads::words;
 
 /// Cells that list a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// All cells that the triangle reaches into, decided by a shared function; the rasterizer only proposes
+    /// All cells that the triangle reaches into. A shared function decides; the rasterizer only proposes
     /// cells.
     Conservative,
-    /// Those of these that the rasterizer's own conservative rasterization touches (section 3.2): needs
-    /// [`rasray_gpu::Feature::ConservativeRasterization`], and loses what it does not touch.
+    /// Cells that the triangle reaches into and that the rasterizer's own conservative rasterization touches
+    /// (section 3.2). Needs [`rasray_gpu::Feature::ConservativeRasterization`], and loses the cells that the
+    /// rasterizer does not touch.
     ConservativeExtension,
-    /// Those whose centre the rasterizer covers (section 4.2.4, where conservative rasterization is missing):
-    /// rays that pass a listed triangle's neighbour are lost.
+    /// Cells whose centre the rasterizer covers (section 4.2.4, for devices without conservative
+    /// rasterization). A ray that passes only through a neighbour of the cells that list a triangle misses
+    /// the triangle.
     Hardware,
 }
 
@@ -24,24 +26,25 @@ words! {
     }
 }
 
-/// When a triangle that a ray intersects is a hit.
+/// Condition under which a ray hits a triangle that it intersects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accept {
-    /// By its t, wherever it lies.
+    /// The intersection's t is within the ray's range, wherever its point lies.
     T,
-    /// Where the point projects into the tile that listed it (section 4.2.1): rounding at the tiles' borders
-    /// loses hits, and so does every tile that the march skips.
+    /// The point projects into the tile that lists the triangle (section 4.2.1). Rounding at the tiles'
+    /// borders loses hits, and so does every tile that the march skips.
     Tile,
 }
 
 words! { Accept { T "t", Tile "tile" } }
 
-/// End of the search of a tile.
+/// Point at which a ray ends its search of a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// At buckets behind the best hit.
+    /// At the first bucket that lies behind the best hit.
     Best,
-    /// After the first bucket with a hit (section 4.2.1): a nearer hit may be in the next bucket only.
+    /// After the first bucket with a hit (section 4.2.1), although a nearer hit may be in the next bucket
+    /// only.
     Bucket,
 }
 
@@ -50,10 +53,10 @@ words! { Stop { Best "best", Bucket "bucket" } }
 /// Depths of a triangle in a tile, which choose its buckets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depths {
-    /// Those of all of it that lies in the tile.
+    /// Depths of the whole part of the triangle that lies in the tile.
     Clipped,
-    /// Those of its plane at the tile's corners (section 4.1.1, as the authors' program clips): part of the
-    /// triangle may lie outside of them.
+    /// Depths of the triangle's plane at the tile's corners (section 4.1.1, as the authors' program clips).
+    /// Part of the triangle may lie outside of these depths.
     Corners,
 }
 
@@ -62,10 +65,10 @@ words! { Depths { Clipped "clipped", Corners "corners" } }
 /// Rule by which a ray goes on from a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
-    /// Over the boundary at which it leaves the tile.
+    /// Rays step over the boundary at which they leave the tile.
     Exact,
-    /// Half a pixel beyond that along the longer axis (the authors' program): tiles that are crossed in less
-    /// are skipped.
+    /// Rays step half a pixel beyond that boundary along the longer axis (the authors' program), and skip
+    /// tiles that they would cross in less.
     Jump,
 }
 

@@ -1,4 +1,4 @@
-//! Primitive lists as a structure.
+//! Implementation of primitive lists as a structure.
 
 use std::mem::offset_of;
 
@@ -13,18 +13,18 @@ use crate::build::Build;
 use crate::layout::{Demand, bin_groups, first_plan, formula_bytes, plan};
 use crate::{Centre, Config, Contents, Coverage, Header, Pool, Views, well_formed};
 
-/// Lists of triangles per tile and depth bucket; made from a [`Config`].
+/// Structure with lists of triangles per tile and depth bucket, made from a [`Config`].
 pub type PrimitiveLists = Pooled<Passes>;
 
-/// Pipelines of the build: the design of [`PrimitiveLists`].
+/// Pipelines of the build, which are the design of [`PrimitiveLists`].
 #[derive(Debug)]
 pub struct Passes(Build);
 
-/// Camera columns of the header, which give metres along the axes as the camera sees them; zeros without its
-/// view.
+/// Returns the camera columns of the header, which give metres along the axes of the camera's view; zeros if
+/// the configuration does not draw this view.
 ///
 /// # Errors
-/// There is no camera.
+/// The configuration draws the camera's view and the viewpoint has no valid camera.
 fn camera_columns(config: &Config, viewpoint: Viewpoint) -> Result<[[f32; 3]; 3], AdsError> {
     if config.views == Views::Cube {
         return Ok([[0.0; 3]; 3]);
@@ -35,11 +35,11 @@ fn camera_columns(config: &Config, viewpoint: Viewpoint) -> Result<[[f32; 3]; 3]
         expected: "this build has no perspective camera; without one use `cube`",
     })?;
     let [right, up, forward] = camera.rows();
-    // Face 0 looks along the first axis.
+    // Face 0 looks along the first axis, so `forward` comes first.
     Ok([0, 1, 2].map(|axis| [forward[axis], right[axis], up[axis]]))
 }
 
-/// The header that the next build starts from.
+/// Returns the header that the next build starts from.
 fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
     let config = &parts.config;
     let [camera_x, camera_y, camera_z] = camera_columns(config, viewpoint)?;
@@ -181,7 +181,7 @@ mod tests {
         let extent = GeometryExtent::new(1_000, BOUNDS);
         for config in [Config::robust(64), Config { buckets: 1, ..Config::robust(64) }] {
             let sizes = Passes::first_plan(&config, &extent).expect("options are in range");
-            // Their capacity, in the terms of a demand, is one for these pools.
+            // The capacity of these pools, expressed as a demand, has to plan these pools again.
             let capacity = Passes::capacity(&config, &sizes, &extent);
             assert_eq!(Passes::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
             let of = |triangles| {

@@ -1,20 +1,20 @@
-//! Checks the contents of built primitive lists.
+//! Checks of the contents of built primitive lists.
 
 use rasray_ads::ListCounts;
 
 use crate::layout::entry_words;
 use crate::{Config, Header, Storage, Views, cell_count};
 
-/// All pools as downloaded, in words.
+/// Downloaded contents of all pools, in words.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// The configuration they were built with.
+    /// Configuration of the build.
     pub config: Config,
-    /// The header.
+    /// Header after the build.
     pub header: Header,
-    /// Bounds of each cell, and of the blocks of the pyramid.
+    /// Depth bounds of each cell, and of the blocks of the pyramid.
     pub bounds: Vec<u32>,
-    /// Head, or end, of each bucket of each cell.
+    /// Head or end of the list of each bucket of each cell.
     pub lists: Vec<u32>,
     /// Entries of all lists.
     pub entries: Vec<u32>,
@@ -22,52 +22,52 @@ pub struct Contents {
     pub near: Vec<u32>,
 }
 
-/// A fault in a list.
+/// Fault in a list.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A link points to no entry, or a list reaches beyond the pool.
+    /// Link that points to no entry, or list that reaches beyond the pool.
     #[error("cell {cell}, bucket {bucket}: link {link} points to no entry")]
     Dangling {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// Bucket.
+        /// Index of the bucket.
         bucket: usize,
-        /// The link, or the end of the list.
+        /// Link at fault, or end of the list.
         link: u32,
     },
-    /// An entry is in no list, or in more than one.
+    /// Entry that is in no list, or in more than one.
     #[error("{stored} entries were counted and {listed} are in lists")]
     Count {
-        /// Entries counted.
+        /// Number of entries that the build counted.
         stored: usize,
-        /// Entries found in lists.
+        /// Number of entries found in lists.
         listed: usize,
     },
-    /// An entry has an invalid triangle index.
+    /// Entry with an invalid triangle index.
     #[error("cell {cell}, bucket {bucket}: there is no triangle {primitive}")]
     Primitive {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// Bucket.
+        /// Index of the bucket.
         bucket: usize,
-        /// The index that is stored.
+        /// Triangle index, as stored.
         primitive: u32,
     },
-    /// A triangle is in a list twice.
+    /// Triangle that is in a list twice.
     #[error("cell {cell}, bucket {bucket}: triangle {primitive} is in the list twice")]
     Twice {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// Bucket.
+        /// Index of the bucket.
         bucket: usize,
-        /// The triangle.
+        /// Index of the triangle.
         primitive: u32,
     },
 }
 
 impl Contents {
-    /// The triangles of a list, in the order they are stored in.
+    /// Returns the triangles of a list, in the order in which they are stored.
     ///
     /// # Errors
     /// The list leaves the pool.
@@ -85,7 +85,7 @@ impl Contents {
         }
         let (mut link, mut found) = (word, Vec::new());
         while link != 0 {
-            // More entries than there are: the list is a ring.
+            // A list with more entries than were stored is a ring.
             if link as usize > stored || found.len() == stored {
                 return Err(dangling(link));
             }
@@ -98,7 +98,7 @@ impl Contents {
 }
 
 impl Contents {
-    /// Counts of the entries in the tiles of each view; triangles of the near region are not among them.
+    /// Counts the entries in the tiles of each view. Triangles of the near region do not count.
     ///
     /// # Errors
     /// A list leaves the pool.
