@@ -1,4 +1,4 @@
-//! The build: pipelines, and the passes in the order they are recorded.
+//! Build of the voxels: its pipelines, and its passes in the order they are recorded.
 
 use std::mem::offset_of;
 
@@ -12,7 +12,7 @@ use rasray_shaders_glsl::constants::voxel::{VOXEL_GROUP_SIZE, VOXEL_SCAN_OCTANTS
 use crate::layout::{levels, list_count, scratch, upper_nodes};
 use crate::{Axes, Config, Header, Leaves, Marking, Payload, Pool, Storage, Traversal};
 
-/// Pipelines of the build: the design of [`Voxels`](crate::Voxels).
+/// Pipelines of the build, which are the design of [`Voxels`](crate::Voxels).
 #[derive(Debug)]
 pub struct Build {
     large: Option<LargePass>,
@@ -95,12 +95,12 @@ impl Build {
         })
     }
 
-    /// Records all passes.
+    /// Records all passes of a build.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
         let lists = list_count(config.resolution);
         let group = u64::from(VOXEL_GROUP_SIZE);
         let words = u64::from(config.grid()).pow(3).div_ceil(8);
-        // Where a triangle is kept in the view it faces most, one instance draws it there.
+        // If each triangle is kept only in the view it faces most, one instance draws it, in that view.
         let views = if config.axes == Axes::Triangle { 1 } else { 3 };
         let views = [ViewDraw { side: config.resolution + 2, views, first: 0 }];
         let columns = [ViewDraw { side: config.grid() + 2, views: 1, first: 0 }];
@@ -122,7 +122,9 @@ impl Build {
                 target.compute_pass(recorder, "voxel/build_3_axes", axes, words.div_ceil(group), 0, shaders);
             }
         };
-        // Where all views keep all, normals come with the fragments, and the axes after these.
+        // If all views keep all fragments, the pass that stores fragments also sums normals, so the axes
+        // follow it.
+        // follow it.
         if config.axes == Axes::Voxel {
             axes(recorder);
         }

@@ -1,4 +1,4 @@
-//! Options of voxels with axis A-buffers, and the presets.
+//! Options of voxels with axis A-buffers, and their presets.
 
 use rasray_ads::kit::{check_range, check_work_budget};
 use rasray_ads::words;
@@ -6,38 +6,40 @@ use rasray_ads::{Addressing, AdsError, Builder, Counters, Ends};
 use rasray_shaders_glsl::constant_ids::voxel as ids;
 use rasray_shaders_glsl::constants::voxel as numbers;
 
-/// In which of the three views a fragment is kept, and along which axes a voxel is searched.
+/// Rule for the view that keeps a fragment, and for the axes along which a voxel is searched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axes {
-    /// All views keep all; a voxel is searched along the axis of its averaged normal.
+    /// All views keep all fragments. A voxel is searched along the axis of its averaged normal.
     All,
-    /// A view keeps what lies in voxels whose averaged normal has its axis.
+    /// A view keeps the fragments in voxels whose averaged normal has the view's axis.
     Voxel,
-    /// A view keeps the triangles that face it most; a voxel is searched along the axes of all its triangles.
+    /// A view keeps the triangles that face it most. A voxel is searched along the axes of all its triangles.
     Triangle,
 }
 
 words! { Axes { All "all", Voxel "voxel", Triangle "triangle" } }
 
-/// Test of which voxels are occupied.
+/// Test of a voxel for occupancy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marking {
-    /// Only the fragments in it, in the pass that counts or stores them. A voxel that a triangle reaches into
-    /// only between the centres of cells counts as empty. Needs [`Axes::All`].
+    /// A voxel is occupied only by fragments in it, which the pass that counts or stores fragments marks. A
+    /// voxel that a triangle reaches into only between the centres of cells counts as empty. Needs
+    /// [`Axes::All`].
     Fragments,
-    /// The triangles that reach into it, in a pass before: no voxel with a part of one counts as empty.
+    /// A voxel is occupied by the triangles that reach into it, which a separate pass marks before fragments
+    /// are stored. No voxel with a part of a triangle counts as empty.
     Triangles,
 }
 
 words! { Marking { Fragments "fragments", Triangles "triangles" } }
 
-/// Things that a ray hits in an occupied voxel.
+/// Object that a ray hits in an occupied voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Leaves {
-    /// Its fragments, which the views keep.
+    /// Fragments of the voxel, which the views keep.
     Fragments,
-    /// The voxel itself, where the ray enters it; its triangle with the lowest id stands for it. There are no
-    /// views and no fragments. Needs [`Axes::Triangle`] and [`Payload::Index`].
+    /// The voxel itself, at the point where the ray enters it; the triangle with the lowest id in the voxel
+    /// stands for it. There are no views and no fragments. Needs [`Axes::Triangle`] and [`Payload::Index`].
     Voxels,
 }
 
@@ -46,9 +48,10 @@ words! { Leaves { Fragments "fragments", Voxels "voxels" } }
 /// Method of stepping a ray from voxel to voxel. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Traversal {
-    /// One voxel after the other.
+    /// Steps from one voxel to the next.
     Dda,
-    /// One voxel after the other, over the empty nodes of a sparse octree, which is built from the voxels.
+    /// Steps from one voxel to the next, and over the empty nodes of a sparse octree that is built from the
+    /// voxels.
     Octree,
 }
 
@@ -57,20 +60,21 @@ words! { Traversal { Dda "dda", Octree "octree" } }
 /// Method of stepping a ray within a voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
-    /// [`Config::samples`] steps of equal length.
+    /// Takes [`Config::samples`] steps of equal length.
     Samples,
-    /// Every cell the ray crosses.
+    /// Steps through every cell that the ray crosses.
     Exact,
 }
 
 words! { March { Samples "samples", Exact "exact" } }
 
-/// When a fragment counts as hit.
+/// Condition under which a ray hits a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accept {
-    /// Between two points of the ray with an even and an odd number of fragments before them in their cells.
+    /// The hit lies between two points of the ray, one with an even and one with an odd number of fragments
+    /// before it in its cell.
     Parity,
-    /// The ray intersects the plane of its triangle within the cell. Needs [`March::Exact`].
+    /// The ray intersects the plane of the fragment's triangle within the cell. Needs [`March::Exact`].
     Plane,
 }
 
@@ -79,10 +83,11 @@ words! { Accept { Parity "parity", Plane "plane" } }
 /// Fragments that decide whether a point is inside. Needs [`Accept::Parity`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inside {
-    /// All that lie before it in its cell: of closed objects an even number ends before the voxel.
+    /// All fragments that lie before the point in its cell. Closed objects that end before the voxel
+    /// contribute an even number.
     Column,
-    /// Those of them at the depths of the voxel, which need not be of closed objects: elsewhere nothing
-    /// flips.
+    /// Fragments before the point at the depths of its voxel only. Objects need not be closed, since
+    /// fragments of other voxels change no parity.
     Voxel,
 }
 
@@ -91,12 +96,12 @@ words! { Inside { Column "column", Voxel "voxel" } }
 /// Cells that keep a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// Those whose centre the rasterizer covers, with its sub-pixel grid.
+    /// Cells whose centre the rasterizer covers, with its sub-pixel grid.
     Hardware,
-    /// Those whose centre it covers by a watertight test; the rasterizer only proposes.
+    /// Cells whose centre the triangle covers by a watertight test; the rasterizer only proposes cells.
     Exact,
-    /// All that it reaches into. Hits are those of the triangles, and none is lost. Needs [`Axes::Triangle`]
-    /// and [`Accept::Plane`].
+    /// All cells that the triangle reaches into. Hits are those of the triangles, and none is lost. Needs
+    /// [`Axes::Triangle`] and [`Accept::Plane`].
     Conservative,
 }
 
@@ -105,11 +110,11 @@ words! { Coverage { Hardware "hardware", Exact "exact", Conservative "conservati
 /// Storage of the lists of cells. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
-    /// Contiguous fragments: counted, then stored. Once sorted, such lists can be bisected.
+    /// Contiguous fragments, counted before they are stored. Sorted lists of this kind can be bisected.
     Contiguous,
-    /// Each fragment linked to the one before it in its list; stored at once.
+    /// Linked fragments, each with a link to the one before it in its list, stored in one pass.
     Linked,
-    /// Linked pages of [`Config::page`] fragments; stored at once.
+    /// Linked pages of [`Config::page`] fragments, stored in one pass.
     Paged,
 }
 
@@ -128,40 +133,43 @@ impl Storage {
 /// Data that a fragment carries in addition to its depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
-    /// Its triangle: 4 bytes. Surfaces come from the posed triangle.
+    /// Triangle id, 4 bytes. Surfaces come from the posed triangle.
     Index,
-    /// Hu's: colour and opacity, normal, terms of the material; 12 bytes, read from a scene. Hits do not name
-    /// their triangle and cannot be excluded. Needs [`Accept::Parity`], as the next.
+    /// Payload of Hu et al.: colour and opacity, normal, and terms of the material; 12 bytes, read from a
+    /// scene. Hits do not name their triangle, and rays cannot exclude it. Needs [`Accept::Parity`], as does
+    /// [`Payload::Mirror`].
     Material,
-    /// Selective's: colour and reflectivity, normal, triangle; 12 bytes, read from a scene.
+    /// Payload of the selective variant: colour and reflectivity, normal, and triangle; 12 bytes, read from a
+    /// scene.
     Mirror,
 }
 
-/// All options.
+/// Options of voxels with axis A-buffers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// Cells along a side of each view, 1 to 8192.
     pub resolution: u32,
-    /// Voxels along a side, 1 to 1024. Where absent, the square root of three times the resolution; with
-    /// [`Leaves::Voxels`] the resolution, and no more than [`VOXEL_LEAVES_GRID`].
+    /// Number of voxels along a side, 1 to 1024. If absent, the square root of three times the resolution;
+    /// with [`Leaves::Voxels`] the resolution, but no more than [`VOXEL_LEAVES_GRID`].
     pub grid: Option<u32>,
-    /// Things that rays hit.
+    /// Object that a ray hits in an occupied voxel.
     pub leaves: Leaves,
-    /// Stepping of rays from voxel to voxel. Changes no hit.
+    /// Method of stepping a ray from voxel to voxel. Changes no hit.
     pub traversal: Traversal,
-    /// Views that keep a fragment.
+    /// Rule for the view that keeps a fragment.
     pub axes: Axes,
-    /// Test of which voxels are occupied; fragments where absent and all views keep all, else triangles.
+    /// Test of a voxel for occupancy. If absent, [`Marking::Fragments`] with [`Axes::All`], else
+    /// [`Marking::Triangles`].
     pub voxels: Option<Marking>,
-    /// Stepping of rays within a voxel.
+    /// Method of stepping a ray within a voxel.
     pub march: March,
-    /// Steps per voxel, 1 to 64; only for [`March::Samples`].
+    /// Steps per voxel, 1 to 64; used only by [`March::Samples`].
     pub samples: u32,
-    /// When a fragment counts.
+    /// Condition under which a ray hits a fragment.
     pub accept: Accept,
-    /// Fragments that decide whether a point is inside; only for [`Accept::Parity`].
+    /// Fragments that decide whether a point is inside; used only by [`Accept::Parity`].
     pub inside: Inside,
-    /// Hits at the ends of rays; only for [`Accept::Parity`] and [`Leaves::Voxels`].
+    /// Rule for hits at the ends of rays; used only by [`Accept::Parity`] and [`Leaves::Voxels`].
     pub ends: Ends,
     /// Cells that keep a triangle.
     pub coverage: Coverage,
@@ -169,40 +177,44 @@ pub struct Config {
     pub builder: Builder,
     /// Data that a fragment carries.
     pub payload: Payload,
-    /// For diagnostics: keep the triangle of each fragment behind [`Payload::Material`]. Hits then name it,
-    /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
+    /// Switch for diagnostics: keeps the triangle of each fragment behind [`Payload::Material`]. Hits then
+    /// name the triangle, and nothing else follows: rays do not exclude it, and surfaces stay those of the
+    /// payload. Changes no t.
     pub ids: bool,
-    /// Storage of lists.
+    /// Storage of lists. Changes no hit.
     pub storage: Storage,
-    /// Fragments per page, 1 to 8; only for [`Storage::Paged`]. Changes no hit.
+    /// Fragments per page, 1 to 8; used only by [`Storage::Paged`]. Changes no hit.
     pub page: u32,
-    /// Sort lists, so that a search can begin and end within; not for [`Storage::Paged`]. Changes no hit.
+    /// Switch for sorted lists, in which a search can begin and end within the list; not for
+    /// [`Storage::Paged`]. Changes no hit.
     pub sort: bool,
-    /// Addressing of pools. Changes no hit.
+    /// Addressing of pools: descriptors or device addresses. Changes no hit.
     pub addressing: Addressing,
-    /// Fragments, or pages of them, to allocate for the first build; a guess from the resolution where
-    /// absent.
+    /// Number of fragments, or of pages of fragments, to allocate for the first build. If absent, the
+    /// resolution gives a guess.
     pub fragments: Option<u64>,
-    /// Counters that rays record of their work. Changes no hit.
+    /// Counters of work that rays record. Changes no hit.
     pub counters: Counters,
-    /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
+    /// Work units that a ray may spend in one dispatch. If absent, the default that all structures share.
+    /// Changes no hit.
     pub work_budget: Option<u32>,
 }
 
-/// Most voxels along a side that follow from the resolution where voxels are hit themselves: 72 MiB of them.
+/// Maximum number of voxels along a side that follows from the resolution with [`Leaves::Voxels`]: 72 MiB of
+/// voxels.
 pub const VOXEL_LEAVES_GRID: u32 = 256;
 
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The repaired structure: each triangle in the view it faces most, in all cells that it reaches into.
-    /// Hits are those of brute force.
+    /// Returns the options of the repaired structure: each triangle is in the view it faces most, in all
+    /// cells that it reaches into. Hits are those of brute force.
     pub fn robust(resolution: u32) -> Self {
         Self { coverage: Coverage::Conservative, ..Self::at_centres(resolution) }
     }
 
-    /// Fragments alone: each triangle in the view it faces most, in cells whose centres it covers; every
-    /// cell, planes.
+    /// Returns the options of fragments at centres: each triangle is in the view it faces most, in the cells
+    /// whose centres it covers. Rays visit every cell and intersect planes.
     pub fn at_centres(resolution: u32) -> Self {
         Self {
             resolution,
@@ -230,8 +242,8 @@ impl Config {
         }
     }
 
-    /// Hu et al.: everything in all views, linked in one pass and sorted, surface attributes in each
-    /// fragment, three steps per voxel, and parities.
+    /// Returns the options of Hu et al.: all views keep all fragments, linked in one pass and sorted, with
+    /// surface attributes in each fragment, three steps per voxel, and acceptance by parity.
     pub fn published_hu(resolution: u32) -> Self {
         Self {
             axes: Axes::All,
@@ -244,8 +256,8 @@ impl Config {
         }
     }
 
-    /// Frid Kastrati and Goswami: voxels first, then each fragment in the view of its voxel, in pages of
-    /// four.
+    /// Returns the options of Frid Kastrati and Goswami: voxels come first, then each fragment in the view of
+    /// its voxel, in pages of four.
     pub fn published_selective(resolution: u32) -> Self {
         Self {
             axes: Axes::Voxel,
@@ -255,7 +267,7 @@ impl Config {
         }
     }
 
-    /// Voxels along a side.
+    /// Returns the number of voxels along a side.
     pub fn grid(&self) -> u32 {
         let balanced = match self.leaves {
             Leaves::Fragments => (3.0 * f64::from(self.resolution)).sqrt().round() as u32,
@@ -264,36 +276,38 @@ impl Config {
         self.grid.unwrap_or(balanced).clamp(1, numbers::VOXEL_GRID_LIMIT)
     }
 
-    /// True if cells may keep all that reaches into them ([`Coverage::Conservative`]).
+    /// Returns true if the other options allow cells to keep all triangles that reach into them
+    /// ([`Coverage::Conservative`]).
     pub fn may_test_triangles(&self) -> bool {
         self.axes == Axes::Triangle && self.accept == Accept::Plane && self.leaves == Leaves::Fragments
     }
 
-    /// Test of which voxels are occupied.
+    /// Returns the test of voxels for occupancy: the chosen one, or the one that follows from
+    /// [`Config::axes`].
     pub fn marking(&self) -> Marking {
         let one_pass = self.axes == Axes::All;
         self.voxels.unwrap_or(if one_pass { Marking::Fragments } else { Marking::Triangles })
     }
 
-    /// True if lists are sorted: not those in pages.
+    /// Returns true if lists are sorted. Lists in pages never are.
     pub fn sorts(&self) -> bool {
         self.sort && self.storage != Storage::Paged && self.leaves == Leaves::Fragments
     }
 
-    /// True if a list is searched by bisection; else a search may have to read all of it.
+    /// Returns true if a search bisects a list. Otherwise a search may have to read all of the list.
     pub(crate) fn bisects(&self) -> bool {
         self.sort && self.storage == Storage::Contiguous
     }
 
-    /// True if a hit may lie before or behind the surface, so that [`Config::ends`] matter.
+    /// Returns true if a hit may lie before or behind the surface, so that [`Config::ends`] matters.
     fn has_ends(&self) -> bool {
         self.accept == Accept::Parity || self.leaves == Leaves::Voxels
     }
 
-    /// Checks ranges and combinations.
+    /// Checks the ranges of all options and their combinations.
     ///
     /// # Errors
-    /// The first option out of range, or the combination that is not possible.
+    /// The first option that is out of range, or the first combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
         check_range("resolution", self.resolution, 1..=8192, "1 to 8192 cells along a side")?;
         check_range(
@@ -359,8 +373,8 @@ impl Config {
         Ok(())
     }
 
-    /// Words of a fragment: its depth, its payload, and the triangle that is kept for diagnostics; without
-    /// links.
+    /// Returns the words of a fragment: its depth, its payload, and the triangle that is kept for
+    /// diagnostics, without links.
     pub fn fragment_words(&self) -> u64 {
         let payload = match self.payload {
             Payload::Index => 1,
@@ -369,7 +383,7 @@ impl Config {
         1 + payload + u64::from(self.ids)
     }
 
-    /// Specialisation constants: id and bits.
+    /// Returns the specialisation constants, as pairs of id and bits.
     pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
         let axes = match self.axes {
             Axes::All => numbers::VOXEL_AXES_ALL,
@@ -429,7 +443,7 @@ impl Config {
         ]
     }
 
-    /// Options as name and value, for reports.
+    /// Returns the options as pairs of name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
         let payload = if self.payload == Payload::Index { "index" } else { "attributes" };
         if self.leaves == Leaves::Voxels {
@@ -468,7 +482,7 @@ impl Config {
         options
     }
 
-    /// Paths as name and value, for reports.
+    /// Returns the chosen code paths as pairs of name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         vec![
             ("builder", self.builder.name().to_owned()),
@@ -483,7 +497,8 @@ impl Config {
 mod tests {
     use super::*;
 
-    /// The paper's rule of thumb: 64 voxels for 1280 cells, about as many for 1024.
+    /// Checks the number of voxels against the paper's rule of thumb: 64 voxels for 1280 cells, about as many
+    /// for 1024.
     #[test]
     fn the_grid_follows_the_resolution() {
         for (resolution, grid) in [(1280, 62), (1024, 55), (512, 39), (1, 2), (8192, 157)] {

@@ -1,4 +1,4 @@
-//! Sizes of the pools, and the cube they divide: plain arithmetic, no device.
+//! Sizes of the pools, and the cube that they divide, by plain arithmetic without a device.
 
 use rasray_ads::kit::{Scan, Scratch};
 use rasray_ads::{AdsError, Sizes};
@@ -6,32 +6,32 @@ use rasray_shaders_glsl::constants::voxel::VOXEL_NODE_LIMIT;
 
 use crate::{Axes, Builder, Config, Leaves, Payload, Pool, Storage, Traversal};
 
-/// Lists of all three views: one per cell.
+/// Returns the number of lists of all three views: one per cell.
 pub fn list_count(resolution: u32) -> u64 {
     3 * u64::from(resolution) * u64::from(resolution)
 }
 
-/// The demand of a build: how much of each pool it needs.
+/// Demand of a build: the number of elements that it needs in each pool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Fragments, or pages of them.
+    /// Number of fragments, or of pages of fragments.
     pub entries: u64,
-    /// Lists that one dispatch does not sort; only where lists are sorted.
+    /// Number of lists that are too long for one dispatch to sort; zero if lists are not sorted.
     pub long_lists: u64,
-    /// Triangles with many cells or columns of voxels, for the binning builder.
+    /// Number of triangles with many cells or columns of voxels, which the binning builder queues.
     pub large: u64,
-    /// Nodes of the octree.
+    /// Number of nodes of the octree.
     pub nodes: u64,
 }
 
-/// Sizes of the pools of a configuration for a demand.
+/// Returns the sizes of the pools of a configuration for a demand.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit indices can address.
 pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
     let voxels = u64::from(config.grid()).pow(3);
-    // Voxels that are hit themselves have a word each in place of lists, and no fragments.
+    // With voxels as the leaves, a word per voxel takes the place of lists, and there are no fragments.
     let (lists, entries) = match config.leaves {
         Leaves::Fragments => (list_count(config.resolution), demand.entries),
         Leaves::Voxels => (voxels, 0),
@@ -57,7 +57,8 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     if config.storage == Storage::Paged { sizes.of_pages("voxel", Pool::Fragments) } else { Ok(sizes) }
 }
 
-/// Words of a fragment, with its link where it has one; or of a page of them, with that to the next page.
+/// Returns the words of a fragment, with its link if it is linked, or of a page of fragments with its link to
+/// the next page.
 pub(crate) fn entry_words(config: &Config) -> u64 {
     let words = config.fragment_words();
     match config.storage {
@@ -67,68 +68,71 @@ pub(crate) fn entry_words(config: &Config) -> u64 {
     }
 }
 
-/// Contents of the scratch pool: the sums of the scan where lists are counted, and the words that binning and
-/// sorting use.
+/// Returns the contents of the scratch pool: the sums of the scan if lists are counted, and the words that
+/// binning and sorting use.
 pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
     let counted = config.storage == Storage::Contiguous && config.leaves == Leaves::Fragments;
     let sums = if counted { Scan::sums(list_count(config.resolution)) } else { 0 };
     Scratch { pool: Pool::Scratch, sums, builder: config.builder, sorts: config.sorts() }
 }
 
-/// Iterations of the loops over the cells of a view, or over the columns of voxels and the few of each that a
-/// triangle reaches into in the view it faces most.
+/// Returns the number of iterations of the longest loop over a triangle: over the cells of a view, or over
+/// the columns of voxels and, in each column, the few voxels that the triangle reaches into in the view it
+/// faces most.
 pub(crate) fn widest_view(config: &Config) -> u64 {
     let cells = |side: u32| (u64::from(side) + 2).pow(2);
     let columns = 8 * cells(config.grid());
     if config.leaves == Leaves::Voxels { columns } else { cells(config.resolution).max(columns) }
 }
 
-/// Levels of the octree: 2^levels voxels along a side, blocks of 2x2x2 voxels and at least the root above
-/// them.
+/// Returns the number of levels of the octree: 2^levels voxels along a side, in blocks of 2x2x2 voxels with
+/// at least the root above them.
 pub(crate) fn levels(config: &Config) -> u32 {
     config.grid().next_power_of_two().trailing_zeros().max(2)
 }
 
-/// Nodes above the blocks if none were empty.
+/// Returns the number of nodes above the blocks if no node were empty.
 pub(crate) fn upper_nodes(config: &Config) -> u64 {
     ((1 << (3 * (levels(config) - 1))) - 1) / 7
 }
 
-/// The first guess where nothing has been counted: one per cell of one view, and a node per voxel of a few
-/// slices.
+/// Returns the sizes for the first build, before anything has been counted: one entry per cell of one view,
+/// and a node per voxel of a few slices.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let entries = config.fragments.unwrap_or_else(|| list_count(config.resolution) / 3);
     let nodes = 4 * u64::from(config.grid()).pow(2);
     plan(config, Demand { entries, long_lists: 0, large: 1024, nodes })
 }
 
-/// Bytes for counted voxels, cells, entries and long lists.
+/// Bytes of voxels with axis A-buffers, for counted voxels, cells, entries and long lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Per eight voxels a word of 4; and 12 per voxel where normals are averaged.
+    /// Bytes of voxels: a word of 4 per eight voxels, and 12 per voxel if normals are averaged.
     pub voxels: u64,
-    /// Per cell of three views: 4. Where voxels are the leaves, per voxel: 4.
+    /// Bytes of lists: 4 per cell of three views. If voxels are the leaves, 4 per voxel.
     pub lists: u64,
-    /// Per fragment: 8, or 16 with attributes; and 4 where it is linked. Per page: 4, and that of its
-    /// fragments.
+    /// Bytes of fragments: 8 each, or 16 with attributes, and 4 more if they are linked. A page takes 4, and
+    /// the bytes of its fragments.
     pub fragments: u64,
-    /// With ids: 4 per fragment, or slot of a page.
+    /// Bytes of triangles that are kept for diagnostics ([`Config::ids`]): 4 per fragment, or per slot of a
+    /// page.
     pub ids: u64,
-    /// Per node of the octree: 4; and what its build counts.
+    /// Bytes of the octree: 4 per node, and the counts of its build.
     pub octree: u64,
-    /// Header; with contiguous lists a sum of 4 per 1024 lists for the scan, and 8 per long list; or where
-    /// that is more 4 per triangle with many cells where they are binned.
+    /// Bytes of all else: the header; with contiguous lists a sum of 4 per 1024 lists for the scan; and the
+    /// larger of 8 per long list and, with the binning builder, 4 per triangle with many cells.
     pub rest: u64,
 }
 
 impl FormulaBytes {
-    /// Sum of all parts.
+    /// Returns the sum of all parts.
     pub fn total(&self) -> u64 {
         self.voxels + self.lists + self.fragments + self.ids + self.octree + self.rest
     }
 }
 
-/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
+/// Computes the bytes by the formula of the systems' pages in `docs/systems`. It shares no code with
+/// [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let grid = u64::from(config.grid());
     let cells = u64::from(config.resolution) * u64::from(config.resolution) * 3;
@@ -254,7 +258,7 @@ mod tests {
         assert!(plan(&sparse, Demand { nodes, ..Demand::default() }).is_ok());
         let many = Demand { nodes: nodes + 1, ..Demand::default() };
         assert!(plan(&sparse, many).expect_err("it is refused").to_string().contains("nodes"));
-        // A word of a list can address fewer pages than 32 bits could.
+        // The word of a list has room for fewer pages than 32 bits could address.
         let paged = Config { storage: Storage::Paged, page: 1, ..Config::at_centres(64) };
         let many = Demand { entries: u64::from(PAGE_LIMIT) + 1, ..Demand::default() };
         assert!(plan(&paged, many).expect_err("it is refused").to_string().contains("fragments"));

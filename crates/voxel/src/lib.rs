@@ -1,8 +1,8 @@
-//! A voxel grid over three axis A-buffers: a structure of fragments, after Hu et al. and the selective
-//! variant. Hosts make one from their triangles and trace it as any [`rasray_ads::Structure`].
+//! Voxel grids over three axis A-buffers, after Hu et al. and the selective variant: a structure of
+//! fragments. Hosts make one from their triangles and trace it as any [`rasray_ads::Structure`].
 //!
 //! The rasterizer stores the fragments of three orthographic views of the scene's cube, and marks the voxels
-//! that they lie in. Rays step through the voxels, and search the views in those that are marked.
+//! that contain fragments. Rays step through the voxels, and search the views in the marked ones.
 //!
 //! - [`Voxels`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to
 //!   resize.

@@ -1,4 +1,4 @@
-//! Voxels with axis A-buffers as a structure.
+//! Implementation of voxels with axis A-buffers as a structure.
 
 use std::mem::offset_of;
 
@@ -16,13 +16,13 @@ use crate::{
     Accept, Config, Contents, Coverage, Header, Leaves, March, Pool, Storage, Traversal, well_formed,
 };
 
-/// Lists of maximum length that a ray gets rounds for.
+/// Number of lists of maximum length for which a ray gets rounds.
 const LONG_LISTS_PER_RAY: u32 = 64;
 
 /// A voxel grid over three axis A-buffers, made from a [`Config`].
 pub type Voxels = Pooled<Build>;
 
-/// The header that the next build starts from.
+/// Returns the header that the next build starts from.
 fn first_header(parts: &Parts<Config>) -> Header {
     let Parts { config, pools, .. } = parts;
     Header {
@@ -132,9 +132,10 @@ impl Design for Build {
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         let config = &parts.config;
-        // The cells of three views and the voxels along a ray, and lists: with bisection one that holds every
-        // triangle, else LONG_LISTS_PER_RAY of maximum length. A parity without bisection reads a list at
-        // each of its points: the entry of the voxel, its steps, the halvings, and the nearest fragment.
+        // Work of a ray: the cells of three views, the voxels, and lists. With bisection the lists count as
+        // one that holds every triangle, else as LONG_LISTS_PER_RAY lists of maximum length. Parity without
+        // bisection reads a list at each of its points: the entry of the voxel, its steps, the halvings, and
+        // the nearest fragment.
         let budget = u64::from(parts.work_budget);
         let looked_up = match config.traversal {
             Traversal::Dda => 1,
@@ -150,7 +151,7 @@ impl Design for Build {
         let reads = if parity { points + u64::from(VOXEL_REFINEMENTS) + 1 } else { 1 };
         let triangles = parts.geometry.triangle_count();
         if config.leaves == Leaves::Voxels {
-            // One triangle per voxel.
+            // A voxel that is a leaf has one triangle.
             return 16 + (2 * steps).div_ceil(budget) as u32;
         }
         let longest = match config.bisects() {
@@ -193,7 +194,7 @@ mod tests {
         let extent = GeometryExtent::new(1_000, BOUNDS);
         for config in [Config::robust(64), Config::published_hu(64)] {
             let sizes = Build::first_plan(&config, &extent).expect("options are in range");
-            // Their capacity, in the terms of a demand, is one for these pools.
+            // The capacity of these pools, expressed as a demand, has to plan these pools again.
             let capacity = Build::capacity(&config, &sizes, &extent);
             assert_eq!(Build::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
         }

@@ -1,145 +1,145 @@
-//! Checks the contents of built voxels and axis A-buffers.
+//! Checks of the contents of built voxels and axis A-buffers.
 
 use rasray_ads::ListCounts;
 
 use crate::layout::{entry_words, levels};
 use crate::{Config, Header, Leaves, Payload, Storage, Traversal, list_count};
 
-/// Pools that rays read, as downloaded, in words.
+/// Downloaded contents of the pools that rays read, in words.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// The configuration they were built with.
+    /// Configuration of the build.
     pub config: Config,
-    /// The header.
+    /// Header after the build.
     pub header: Header,
-    /// Four bits per voxel: the axes it is searched along, and whether something lies in it.
+    /// Four bits per voxel: three for the axes along which it is searched, one for occupancy.
     pub voxels: Vec<u32>,
-    /// Where voxels are the leaves, the complement of each voxel's triangle. Else of each cell: where its
-    /// fragments end; or a link to the newest, the place + 1; or the word that leads to the newest page. 0
-    /// where a linked list is empty.
+    /// Word of each list. If voxels are the leaves, the complement of each voxel's triangle. Otherwise, for
+    /// each cell, the end of its fragments, the link to its newest fragment (the place + 1), or the word that
+    /// leads to its newest page. 0 for an empty linked list.
     pub lists: Vec<u32>,
-    /// Depth and triangle of each fragment, or depth, triangle or terms of the material, colour and normal;
-    /// where it is linked its link behind these. Of a page the word that leads to the next one, and
-    /// fragments.
+    /// Fragments: depth and triangle, or depth, triangle or terms of the material, colour and normal. A
+    /// linked fragment has its link behind these words. A page has the word that leads to the next page,
+    /// followed by fragments.
     pub fragments: Vec<u32>,
-    /// The octree, each level in the order of octants: for a node the octants that hold something, and the
-    /// place of the first; in the last level the bits of eight voxels.
+    /// Nodes of the octree, each level in the order of octants. A node has the octants that hold something,
+    /// and the place of the first of them; a node of the last level has the bits of eight voxels.
     pub nodes: Vec<u32>,
 }
 
-/// A fragment.
+/// Fragment as a cell keeps it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fragment {
-    /// Depth at the cell's centre, metres from the lower side of the cube.
+    /// Depth at the cell's centre, in metres from the lower side of the cube.
     pub z: f32,
-    /// Global triangle id; 0 where fragments do not say.
+    /// Global triangle id; 0 if fragments have none.
     pub primitive: u32,
 }
 
-/// Fault of a list or a voxel.
+/// Fault in a list or a voxel.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A list reaches beyond the pool, or ends before it begins.
+    /// List that reaches beyond the pool, or ends before it begins.
     #[error("list {list} leads to {place}, which is outside of the pool or before its beginning")]
     Dangling {
-        /// The list: view, row and column as one number.
+        /// Number of the list: view, row and column as one number.
         list: usize,
-        /// Its end, or its target: a fragment or a page.
+        /// End of the list, or its target: a fragment or a page.
         place: u32,
     },
-    /// A word that leads to a page has no used slot, or more than a page has.
+    /// Word that leads to a page with no used slot, or with more than a page has.
     #[error("list {list}: the word of page {page} has {used} used slots")]
     Page {
-        /// The list.
+        /// Number of the list.
         list: usize,
         /// Number of the page.
         page: u32,
-        /// Used slots according to the word.
+        /// Number of used slots according to the word.
         used: u32,
     },
-    /// A list is a cycle.
+    /// List that is a cycle.
     #[error("list {list} is longer than all that is stored")]
     Circle {
-        /// The list.
+        /// Number of the list.
         list: usize,
     },
-    /// A fragment is in more than one list.
+    /// Fragment that is in more than one list.
     #[error("list {list}: the fragment at {place} is in two lists")]
     Shared {
-        /// The second list.
+        /// Number of the second list.
         list: usize,
         /// Place of the fragment.
         place: u32,
     },
-    /// A fragment is in no list.
+    /// Fragment that is in no list.
     #[error("{stored} fragments were counted and {listed} are in lists")]
     Count {
-        /// Fragments counted.
+        /// Number of fragments that the build counted.
         stored: usize,
-        /// Fragments found in lists.
+        /// Number of fragments found in lists.
         listed: usize,
     },
-    /// A fragment has an invalid triangle index.
+    /// Fragment with an invalid triangle index.
     #[error("list {list}: there is no triangle {primitive}")]
     Primitive {
-        /// The list.
+        /// Number of the list.
         list: usize,
-        /// Index stored.
+        /// Triangle index, as stored.
         primitive: u32,
     },
-    /// A sorted list is not in order, or contains a triangle twice.
+    /// Sorted list that is not in order, or contains a triangle twice.
     #[error("list {list}: fragment {fragment:?} is out of order")]
     Order {
-        /// The list.
+        /// Number of the list.
         list: usize,
-        /// The fragment.
+        /// Fragment out of order.
         fragment: Fragment,
     },
-    /// A depth lies outside of the cube or is NaN.
+    /// Depth that lies outside of the cube or is NaN.
     #[error("list {list}: the depth {z} is outside of the cube")]
     Depth {
-        /// The list.
+        /// Number of the list.
         list: usize,
         /// The depth, as text: it may be NaN.
         z: String,
     },
-    /// The octree says something else of a voxel than the voxel.
+    /// Voxel whose bits in the octree differ from its own.
     #[error("voxel {voxel} has the bits {bits:04b}, and {found:04b} in the octree")]
     Octree {
-        /// The voxel.
+        /// Index of the voxel.
         voxel: usize,
-        /// Its bits.
+        /// Bits of the voxel.
         bits: u32,
-        /// Its bits in the octree.
+        /// Bits of the voxel in the octree.
         found: u32,
     },
-    /// An occupied voxel that is hit itself has an invalid triangle index, or an empty one has a triangle.
+    /// Occupied leaf voxel with an invalid triangle index, or empty one with a triangle.
     #[error("voxel {voxel} is occupied without a triangle or empty with one: {primitive}")]
     Triangle {
-        /// The voxel.
+        /// Index of the voxel.
         voxel: usize,
-        /// Its triangle.
+        /// Triangle of the voxel.
         primitive: u32,
     },
-    /// An empty voxel is searched, or an occupied one is not.
+    /// Empty voxel that is searched, or occupied one that is not.
     #[error("voxel {voxel} has the bits {bits:04b}")]
     Voxel {
-        /// The voxel.
+        /// Index of the voxel.
         voxel: usize,
-        /// Its bits.
+        /// Bits of the voxel.
         bits: u32,
     },
 }
 
 impl Contents {
-    /// Places of fragments that a build may have filled; of pages all slots.
+    /// Returns the number of places of fragments that a build may have filled; of a page all slots count.
     fn stored(&self) -> u32 {
         let entries = self.header.demand.min(self.header.capacity);
         if self.config.storage == Storage::Paged { entries * self.config.page } else { entries }
     }
 
-    /// The first word of a fragment.
+    /// Returns the index of the first word of a fragment.
     fn first_word(&self, place: u32) -> usize {
         let entry = entry_words(&self.config) as usize;
         if self.config.storage == Storage::Paged {
@@ -149,7 +149,7 @@ impl Contents {
         place as usize * entry
     }
 
-    /// Places of the fragments of a list, in the order in which they are read.
+    /// Returns the places of the fragments of a list, in the order in which rays read them.
     ///
     /// # Errors
     /// The list leaves the pool or is a cycle.
@@ -200,18 +200,18 @@ impl Contents {
             if places.len() >= stored as usize {
                 return Err(Fault::Circle { list });
             }
-            // A page is filled from its end.
+            // The build fills a page from its end.
             places.extend(slots * (page + 1) - used..slots * (page + 1));
             word = self.fragments[page as usize * entry_words(&self.config) as usize];
         }
         Ok(places)
     }
 
-    /// Counts the fragments in the cells of each view, then those in the voxels. A voxel is occupied where
-    /// rays search it; its layers are the fragments of all views at whose depths it lies.
+    /// Counts the fragments in the cells of each view, then those in the voxels. A voxel is occupied if rays
+    /// search it. Its layers are the fragments of all views whose depths lie in it.
     ///
     /// # Errors
-    /// As [`Contents::list`].
+    /// Those of [`Contents::list`].
     pub fn list_counts(&self) -> Result<Vec<ListCounts>, Fault> {
         let bytes = 4 * self.config.fragment_words();
         let (grid, cells) = (self.config.grid() as usize, self.config.resolution.pow(2) as usize);
@@ -232,7 +232,7 @@ impl Contents {
         let is_searched = |voxel: &usize| self.bits(*voxel) != 0;
         let mut voxels = ListCounts::new(ListCounts::VOXELS, bytes);
         for (voxel, layers) in layers.into_iter().enumerate() {
-            // A voxel that is hit itself holds a triangle.
+            // A leaf voxel holds one triangle.
             let layers = if views.is_empty() { usize::from(is_searched(&voxel)) } else { layers };
             voxels.add_cell(layers, layers, layers);
         }
@@ -241,7 +241,7 @@ impl Contents {
         Ok(counts)
     }
 
-    /// Slots that a list of so many fragments takes.
+    /// Returns the number of slots that a list with these fragments takes.
     fn slots_of(&self, places: &[u32]) -> usize {
         match self.config.storage {
             Storage::Paged => {
@@ -253,24 +253,24 @@ impl Contents {
         }
     }
 
-    /// The voxel in which a fragment of a view's cell lies, at a depth in metres.
+    /// Returns the voxel that contains a fragment of a view's cell, at a depth in metres.
     fn voxel_at(&self, axis: usize, cell: u32, z: f32) -> usize {
         let (resolution, grid) = (self.config.resolution, self.config.grid());
         let centre = |cell: u32| (cell as f32 + 0.5) * self.header.cell;
         let [x, y, z] = [centre(cell % resolution), centre(cell / resolution), z]
             .map(|metres| ((metres / self.header.voxel).max(0.0) as u32).min(grid - 1) as usize);
         let grid = grid as usize;
-        // From the axes of the view to those of the world.
+        // Converts the axes of the view to those of the world.
         let [x, y, z] = [[z, x, y], [y, z, x], [x, y, z]][axis];
         (z * grid + y) * grid + x
     }
 
-    /// The bits of a voxel of the grid.
+    /// Returns the bits of a voxel of the grid.
     fn bits(&self, voxel: usize) -> u32 {
         self.voxels[voxel / 8] >> (4 * (voxel % 8)) & 15
     }
 
-    /// The bits of a voxel as the octree has them; absent where a node leads out of the pool.
+    /// Returns the bits of a voxel in the octree, or `None` if a node leads out of the pool.
     fn bits_in_octree(&self, voxel: [u32; 3]) -> Option<u32> {
         let octant = |level: u32| voxel.iter().rev().fold(0, |octant, x| octant << 1 | x >> level & 1);
         let mut place = 0;
@@ -291,7 +291,7 @@ impl Contents {
         Fragment { z: f32::from_bits(self.fragments[word]), primitive }
     }
 
-    /// The fragments of a list, in the order in which they are read.
+    /// Returns the fragments of a list, in the order in which rays read them.
     ///
     /// # Errors
     /// The list leaves the pool or is a cycle.
@@ -300,9 +300,9 @@ impl Contents {
     }
 }
 
-/// Checks of a complete build that every counted fragment is in one list, has a depth within the cube and,
-/// where it has a triangle index, that of one of `triangles`, that lists are sorted where they should be,
-/// that voxels are searched if and only if they hold something, and that the octree says the same of each.
+/// Checks a complete build: that every counted fragment is in one list, has a depth within the cube and, if
+/// it has a triangle index, that of one of `triangles`; that lists are sorted where they should be; that
+/// voxels are searched if and only if they hold something; and that the octree agrees with every voxel.
 ///
 /// # Errors
 /// The first fault found.
