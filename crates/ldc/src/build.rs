@@ -1,4 +1,4 @@
-//! The build: pipelines, and the passes in the order they are recorded.
+//! Build of the layered depth cube: its pipelines, and its passes in the order they are recorded.
 
 use std::mem::offset_of;
 
@@ -10,7 +10,7 @@ use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 use crate::layout::{cell_count, layer_capacity, scratch};
 use crate::{Accept, Config, Depth, Header, Making, Payload, Pool};
 
-/// Pipelines of the build: the design of [`LayeredDepthCube`](crate::LayeredDepthCube).
+/// Pipelines of the build, which are the design of [`LayeredDepthCube`](crate::LayeredDepthCube).
 #[derive(Debug)]
 pub struct Build {
     large: Option<LargePass>,
@@ -21,14 +21,15 @@ pub struct Build {
     status: ComputePipeline,
 }
 
-/// Passes that make the layers.
+/// Pipelines of the passes that make the layers.
 #[derive(Debug)]
 enum Layers {
     Single {
         store: Visit,
         sort: ListSort,
     },
-    /// The last draw, which advances lists from their first place to their end.
+    /// Peeling, one layer after the other (`peel`), and a last draw that advances lists from their first
+    /// place to their end (`grow`).
     Peel {
         peel: RasterPipeline,
         grow: RasterPipeline,
@@ -73,13 +74,14 @@ impl Build {
         })
     }
 
-    /// Records all passes.
+    /// Records all passes of a build.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
         let cells = cell_count(config.resolution);
         let side = config.resolution + 2;
         let shaders = Access::COMPUTE | Access::FRAGMENT;
 
-        // Words that two depths share are filled one depth after the other; peeled layers are counted.
+        // Two depths of 16 bits share a word and are stored one after the other, so their words start at
+        // zero. Peeling counts its layers in the scratch pool.
         let cleared: &[Pool] = match (config.making, config.depth) {
             (Making::Single, Depth::Bits16) => &[Pool::Lists, Pool::Blocks, Pool::Heads, Pool::Depths],
             (Making::Single, Depth::Bits32) => &[Pool::Lists, Pool::Blocks, Pool::Heads],
@@ -101,7 +103,8 @@ impl Build {
         if let Some(conservative) = &self.conservative {
             conservative.record(recorder, target, &views);
         }
-        // Long lists are stored where the large-triangle queue was, so all triangles are visited before.
+        // Long lists are stored where the large-triangle queue was, so sorting follows all passes over
+        // triangles.
         if let Layers::Single { sort, .. } = &self.layers {
             let long = scratch(config).long_capacity(target.pools.sizes());
             sort.record(recorder, target, cells, false, long, shaders);
@@ -114,7 +117,7 @@ impl Build {
     }
 }
 
-/// Two draws per layer, and one that advances lists to their ends.
+/// Records two draws per layer, and one that advances lists to their ends.
 fn record_peeling(
     recorder: &mut Recorder<'_>,
     peel: &RasterPipeline,

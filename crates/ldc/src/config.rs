@@ -1,4 +1,4 @@
-//! Options of the layered depth cube and the two presets.
+//! Options of the layered depth cube, and its two presets.
 
 use rasray_ads::kit::{check_range, check_work_budget};
 use rasray_ads::words;
@@ -6,32 +6,33 @@ use rasray_ads::{Addressing, AdsError, Builder, Counters, Ends};
 use rasray_shaders_glsl::constant_ids::ldc as ids;
 use rasray_shaders_glsl::constants::ldc as numbers;
 
-/// When a fragment counts as hit.
+/// Condition under which a ray hits a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accept {
-    /// Its depth is within [`Config::tolerance`] of the depths that the ray has in its cell.
+    /// The fragment's depth is within [`Config::tolerance`] of the depths that the ray has in its cell.
     Tolerance,
-    /// Its depth is within a tolerance that follows the slope of its triangle: half of its rise over the
-    /// cell.
+    /// The fragment's depth is within a tolerance that follows the slope of its triangle: half of the
+    /// triangle's rise over the cell.
     Slope,
-    /// The ray intersects the plane of its triangle within the cell.
+    /// The ray intersects the plane of the fragment's triangle within the cell.
     Plane,
-    /// The ray intersects its triangle, wherever that is. With [`Coverage::Conservative`], which it needs,
-    /// the list of every cell holds all triangles that reach into it, and hits are those of brute force.
+    /// The ray intersects the fragment's triangle, at any point. Needs [`Coverage::Conservative`]: the list
+    /// of every cell then holds all triangles that reach into the cell, and hits are those of brute force.
     Triangle,
 }
 
 words! { Accept { Tolerance "tolerance", Slope "slope", Plane "plane", Triangle "triangle" } }
 
-/// In which cells a triangle gets a fragment.
+/// Cells in which a triangle gets a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// Those whose centre the rasterizer covers, with its sub-pixel grid.
+    /// Cells whose centre the rasterizer covers, with its sub-pixel grid.
     Hardware,
-    /// Those whose centre it covers by a watertight test; the rasterizer only proposes.
+    /// Cells whose centre the triangle covers by a watertight test; the rasterizer only proposes cells.
     Exact,
-    /// Those of `Exact`, and it is kept in other cells that it reaches into, where no fragment represents it:
-    /// there hits on the triangle itself count. With [`Accept::Triangle`] all cells that it reaches into.
+    /// Cells of [`Coverage::Exact`]. Conservative lists keep the triangle in other cells that it reaches
+    /// into, where no fragment represents it, and hits on the triangle itself count there. With
+    /// [`Accept::Triangle`] the triangle has a fragment in all cells that it reaches into.
     Conservative,
 }
 
@@ -40,103 +41,108 @@ words! { Coverage { Hardware "hardware", Exact "exact", Conservative "conservati
 /// Format of the depth of a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// A half, as a share of the cube's side: 2 bytes.
+    /// Half-precision float, as a share of the cube's side: 2 bytes.
     Bits16,
-    /// A float in metres: 4 bytes.
+    /// Single-precision float, in metres: 4 bytes.
     Bits32,
 }
 
 words! { Depth { Bits16 "16", Bits32 "32" } }
 
-/// Summary of the depths in a block. Changes no hit.
+/// Summary of the depths in a block of cells. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Occupancy {
-    /// The smallest and the largest: 8 bytes.
+    /// Smallest and largest depth: 8 bytes.
     Bounds,
-    /// Those, and which of 64 slices of the cube's depth hold something: 16 bytes.
+    /// Smallest and largest depth, and a mask of the slices that hold something, of 64 over the cube's depth:
+    /// 16 bytes.
     Slices,
 }
 
 words! { Occupancy { Bounds "bounds", Slices "slices" } }
 
-/// Way of making layers. Changes no hit.
+/// Method of making layers. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Making {
-    /// All in one pass, then sorted.
+    /// All layers in one pass, which are sorted afterwards.
     Single,
-    /// One after the other by peeling, the paper's way, two draws each.
+    /// One layer after the other by peeling, as in the paper, with two draws per layer.
     Peel,
 }
 
 words! { Making { Single "single", Peel "peel" } }
 
-/// Data of a fragment in addition to its depth.
+/// Data that a fragment carries in addition to its depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
-    /// Its triangle: 4 bytes. Surfaces come from the posed triangle.
+    /// Triangle id, 4 bytes. Surfaces come from the posed triangle.
     Index,
-    /// Colour and opacity 8:8:8:8 and normal 16:16: 8 bytes, read from a scene. Surfaces come from these, and
-    /// what else a surface has takes its default. Needs [`Accept::Tolerance`]: the others read the triangle.
+    /// Colour and opacity 8:8:8:8 and normal 16:16, 8 bytes, read from a scene. Surfaces take these values,
+    /// and defaults for all else. Needs [`Accept::Tolerance`], since the other conditions read the triangle.
     Attributes,
 }
 
 words! { Payload { Index "index", Attributes "attributes" } }
 
-/// All options.
+/// Options of a layered depth cube.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// Cells along a side of each view, 1 to 8192.
     pub resolution: u32,
     /// Columns and rows of cells in a block, powers of two up to 64. Changes no hit.
     pub block: [u32; 2],
-    /// Levels of blocks, 1 or 2; those of the second hold 8 x 8 of the first. Changes no hit.
+    /// Levels of blocks, 1 or 2; a block of the second level holds 8 x 8 blocks of the first. Changes no hit.
     pub levels: u32,
-    /// Summary of the depths in a block. Changes no hit.
+    /// Summary of the depths in a block of cells. Changes no hit.
     pub occupancy: Occupancy,
-    /// Way of making layers. Changes no hit.
+    /// Method of making layers. Changes no hit.
     pub making: Making,
-    /// Maximum number of peeled layers, 1 to 1024; only for [`Making::Peel`]. Deeper cells are an error.
+    /// Maximum number of peeled layers, 1 to 1024; used only by [`Making::Peel`]. A cell with more fragments
+    /// is an error.
     pub layers: u32,
-    /// When a fragment counts.
+    /// Condition under which a ray hits a fragment.
     pub accept: Accept,
-    /// Share of the cube's side, 0 to 1; only for [`Accept::Tolerance`].
+    /// Tolerance of depths, as a share of the cube's side, 0 to 1; used only by [`Accept::Tolerance`].
     pub tolerance: f32,
-    /// Says whether rays hit what they leave and end on; only for [`Accept::Tolerance`] and
-    /// [`Accept::Slope`].
+    /// Rule for hits at the ends of rays: whether rays hit the surfaces they leave and end on. Used only by
+    /// [`Accept::Tolerance`] and [`Accept::Slope`].
     pub ends: Ends,
     /// Cells in which a triangle gets a fragment.
     pub coverage: Coverage,
-    /// Way of binning triangles into cells; [`Making::Peel`] draws. Changes no hit.
+    /// Builder that bins triangles into cells. [`Making::Peel`] draws its layers with any builder. Changes no
+    /// hit.
     pub builder: Builder,
-    /// Times that a pass of the build draws the scene: 1, and the vertex stage chooses the view of each
-    /// triangle, or 3, once for each view, which keeps its own triangles. 3 only with [`Builder::Raster`].
-    /// Changes no hit.
+    /// Number of times that a pass of the build draws the scene, 1 or 3. With 1 the vertex stage chooses the
+    /// view of each triangle. With 3 each view has a draw and keeps its own triangles; needs
+    /// [`Builder::Raster`]. Changes no hit.
     pub passes: u32,
     /// Format of depths.
     pub depth: Depth,
-    /// Data of a fragment. Hits that do not name their triangle have `PRIMITIVE_UNKNOWN` and cannot be
-    /// excluded.
+    /// Data that a fragment carries. Hits that do not name their triangle have `PRIMITIVE_UNKNOWN`, and rays
+    /// cannot exclude them.
     pub payload: Payload,
-    /// For diagnostics: keep the triangle of each fragment behind [`Payload::Attributes`]. Hits then name it,
-    /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
+    /// Switch for diagnostics: keeps the triangle of each fragment behind [`Payload::Attributes`]. Hits then
+    /// name the triangle, and nothing else follows: rays do not exclude it, and surfaces stay those of the
+    /// payload. Changes no t.
     pub ids: bool,
-    /// Skip blocks and parts of lists that the ray's depths cannot overlap. Changes no hit.
+    /// Switch for skipping blocks and parts of lists that the ray's depths cannot overlap. Changes no hit.
     pub skip: bool,
     /// Addressing of pools: descriptors or device addresses. Changes no hit.
     pub addressing: Addressing,
-    /// Fragments to allocate for the first build; a guess from the resolution where absent.
+    /// Number of fragments to allocate for the first build. If absent, the resolution gives a guess.
     pub fragments: Option<u64>,
     /// Detail in which rays record their work. Changes no hit.
     pub counters: Counters,
-    /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
+    /// Work units that a ray may spend in one dispatch. If absent, the default that all structures share.
+    /// Changes no hit.
     pub work_budget: Option<u32>,
 }
 
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The repaired structure: triangles in every cell that they reach into, so that hits are those of brute
-    /// force.
+    /// Returns the options of the repaired structure: triangles are in every cell that they reach into, so
+    /// that hits are those of brute force.
     pub fn robust(resolution: u32) -> Self {
         Self {
             resolution,
@@ -162,8 +168,9 @@ impl Config {
         }
     }
 
-    /// The paper's approximations: a tolerance of a thousandth, 16-bit depths, colour and normal in each
-    /// fragment, the rasterizer's own coverage, one level of blocks with their smallest and largest depth.
+    /// Returns the paper's approximations: a tolerance of a thousandth, 16-bit depths, colour and normal in
+    /// each fragment, the rasterizer's own coverage, and one level of blocks with their smallest and largest
+    /// depth.
     pub fn published(resolution: u32) -> Self {
         Self {
             levels: 1,
@@ -176,10 +183,10 @@ impl Config {
         }
     }
 
-    /// Checks ranges and combinations.
+    /// Checks the ranges of all options and their combinations.
     ///
     /// # Errors
-    /// The first option out of range, or the combination that is not possible.
+    /// The first option that is out of range, or the first combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
         let refused = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
         check_range("resolution", self.resolution, 1..=8192, "1 to 8192 cells along a side")?;
@@ -223,18 +230,18 @@ impl Config {
         check_work_budget(self.work_budget, true)
     }
 
-    /// True if what rays hit may lie before or behind the surface, so that [`Config::ends`] matter.
+    /// Returns true if a hit may lie before or behind the surface, so that [`Config::ends`] matters.
     fn has_ends(&self) -> bool {
         matches!(self.accept, Accept::Tolerance | Accept::Slope)
     }
 
-    /// True if triangles are kept beside the lists of fragments: where rays meet triangles those lists hold
-    /// all.
+    /// Returns true if triangles are kept in conservative lists beside the lists of fragments. With
+    /// [`Accept::Triangle`] the lists of fragments hold all triangles.
     pub(crate) fn has_conservative_lists(&self) -> bool {
         self.coverage == Coverage::Conservative && self.accept != Accept::Triangle
     }
 
-    /// Bytes of a fragment's payload, and of the triangle that is kept for diagnostics.
+    /// Returns the bytes of a fragment's payload, plus the triangle that is kept for diagnostics.
     pub(crate) fn payload_bytes(&self) -> u64 {
         let payload = match self.payload {
             Payload::Index => 4,
@@ -243,7 +250,7 @@ impl Config {
         payload + if self.ids { 4 } else { 0 }
     }
 
-    /// Specialisation constants: id and bits.
+    /// Returns the specialisation constants, as pairs of id and bits.
     pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
         let accept = match self.accept {
             Accept::Tolerance => numbers::LDC_ACCEPT_TOLERANCE,
@@ -286,13 +293,13 @@ impl Config {
         ]
     }
 
-    /// The cells of a block: one number where it has as many columns as rows.
+    /// Returns the size of a block in cells, as one number if it has as many columns as rows.
     fn block_name(&self) -> String {
         let [columns, rows] = self.block;
         if columns == rows { columns.to_string() } else { format!("{columns}x{rows}") }
     }
 
-    /// Options as name and value, for reports.
+    /// Returns the options as pairs of name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
         let mut options = vec![
             ("storage", "sb".to_owned()),
@@ -322,7 +329,7 @@ impl Config {
         options
     }
 
-    /// Paths as name and value, for reports.
+    /// Returns the chosen code paths as pairs of name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         vec![
             ("builder", self.builder.name().to_owned()),
@@ -334,7 +341,7 @@ impl Config {
 }
 
 impl Depth {
-    /// Bits of a depth.
+    /// Returns the number of bits of a depth.
     pub fn bits(self) -> u32 {
         match self {
             Self::Bits16 => 16,

@@ -1,4 +1,4 @@
-//! Sizes of the pools: plain arithmetic, no device.
+//! Sizes of the pools, by plain arithmetic without a device.
 
 use rasray_ads::kit::{Scan, Scratch};
 use rasray_ads::{AdsError, Sizes};
@@ -7,12 +7,13 @@ use rasray_shaders_glsl::constants::ldc::LDC_LEVEL_BLOCKS;
 
 use crate::{Builder, Config, Depth, Making, Occupancy, Payload, Pool};
 
-/// Cells of all three views.
+/// Returns the number of cells of all three views.
 pub fn cell_count(resolution: u32) -> u64 {
     3 * u64::from(resolution) * u64::from(resolution)
 }
 
-/// Blocks of all three views and both levels; the last of a row may reach beyond the view.
+/// Returns the number of blocks of all three views and all levels. The last block of a row may reach beyond
+/// the view.
 pub fn block_count(config: &Config) -> u64 {
     let blocks = config.block.map(|side| config.resolution.div_ceil(side));
     let upper = blocks.map(|side| side.div_ceil(LDC_LEVEL_BLOCKS));
@@ -20,23 +21,23 @@ pub fn block_count(config: &Config) -> u64 {
     in_views(blocks) + if config.levels == 2 { in_views(upper) } else { 0 }
 }
 
-/// The demand of a build: how much of each pool it needs.
+/// Demand of a build: the number of elements that it needs in each pool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Places of fragments. With 16-bit depths every list begins at an even place, so a list of odd length
-    /// takes one place more than it has fragments.
+    /// Number of places of fragments. With 16-bit depths every list begins at an even place, so a list of odd
+    /// length takes one place more than it has fragments.
     pub fragments: u64,
-    /// Triangles that conservative lists keep.
+    /// Number of triangles that conservative lists keep.
     pub conservative: u64,
-    /// Lists that one dispatch does not sort.
+    /// Number of lists that are too long for one dispatch to sort.
     pub long_lists: u64,
-    /// Fragments of the deepest cell, which is how many layers are peeled.
+    /// Number of fragments in the deepest cell, which is the number of layers that peeling needs.
     pub layers: u64,
-    /// Triangles with many cells of their view, for the binning builder.
+    /// Number of triangles with many cells of their view, which the binning builder queues.
     pub large: u64,
 }
 
-/// Sizes of the pools of a layered depth cube of this configuration for a demand.
+/// Returns the sizes of the pools of a layered depth cube of this configuration for a demand.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit indices can address.
@@ -65,26 +66,27 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     Sizes::of("ldc", sizes)
 }
 
-/// Parts of the pool of scratch: the sums of the scan, and the words that binning and sorting use.
+/// Returns the contents of the scratch pool: the sums of the scan, and the words that binning and sorting
+/// use.
 pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
     let sums = Scan::sums(cell_count(config.resolution));
     let sorts = config.making == Making::Single;
     Scratch { pool: Pool::Scratch, sums, builder: config.builder, sorts }
 }
 
-/// Words of that pool: where layers are peeled there is one for each behind the sums.
+/// Returns the words of the scratch pool. Peeling adds one word per layer behind the sums.
 pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
     let layers = if config.making == Making::Peel { demand.layers } else { 0 };
     scratch(config).words(demand.large, demand.long_lists) + layers
 }
 
-/// Layers that are peeled into such pools.
+/// Returns the number of layers that can be peeled into pools of these sizes.
 pub(crate) fn layer_capacity(config: &Config, sizes: &Sizes) -> u64 {
     if config.making == Making::Peel { scratch(config).words_behind_sums(sizes) } else { 0 }
 }
 
-/// The first guess where nothing has been counted: two fragments per cell, and a triangle outside of the
-/// centre of every fourth; and eight layers.
+/// Returns the sizes for the first build, before anything has been counted: two fragments per cell, one
+/// triangle of a conservative list per four cells, and up to eight layers.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let cells = cell_count(config.resolution);
     let fragments = config.fragments.unwrap_or(2 * cells);
@@ -92,32 +94,37 @@ pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     plan(config, Demand { fragments, conservative: cells / 4, long_lists: 0, layers, large: 1024 })
 }
 
-/// Bytes for counted cells, offsets of fragments, triangles outside of centres and long lists.
+/// Bytes of a layered depth cube, for counted cells, places of fragments, triangles outside of centres and
+/// long lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Per cell: the end of its list 4, and where there is one the head of its conservative list 4.
+    /// Bytes of cells: 4 for the end of the cell's list and, with conservative lists, 4 for the head of the
+    /// cell's conservative list.
     pub cells: u64,
-    /// Per block: smallest and largest depth 8, and slices 8 where it keeps them.
+    /// Bytes of blocks: 8 for the smallest and largest depth and, with [`Occupancy::Slices`], 8 for the
+    /// slices.
     pub blocks: u64,
-    /// Per place: triangle 4, or colour and normal 8; and depth 2 or 4.
+    /// Bytes of fragments: per place a triangle of 4, or colour and normal of 8; and a depth of 2 or 4.
     pub fragments: u64,
-    /// Per triangle outside of a centre: triangle, link and depths 12.
+    /// Bytes of conservative lists: 12 per triangle outside of a centre, for the triangle, the link and the
+    /// depths.
     pub conservative: u64,
-    /// With ids: 4 per fragment.
+    /// Bytes of triangles that are kept for diagnostics ([`Config::ids`]): 4 per fragment.
     pub ids: u64,
-    /// Header, a sum of 4 per 1024 cells for the scan, and 4 per layer peeled, or 8 per long list, or where
-    /// that is more 4 per triangle with many cells where they are binned.
+    /// Bytes of all else: the header; a sum of 4 per 1024 cells for the scan; with peeling 4 per layer,
+    /// otherwise the larger of 8 per long list and, with the binning builder, 4 per triangle with many cells.
     pub rest: u64,
 }
 
 impl FormulaBytes {
-    /// Sum of all parts.
+    /// Returns the sum of all parts.
     pub fn total(&self) -> u64 {
         self.cells + self.blocks + self.fragments + self.conservative + self.ids + self.rest
     }
 }
 
-/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
+/// Computes the bytes by the formula of `docs/systems/ldc.md`. It shares no code with [`plan`], so that the
+/// two check each other.
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let Demand { fragments, conservative, long_lists, layers, large } = demand;
     let side = u64::from(config.resolution);
@@ -126,7 +133,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let block_bytes = if config.occupancy == Occupancy::Slices { 16 } else { 8 };
     let cells = side * side * 3;
     let kept = config.has_conservative_lists();
-    // Depths of 16 bits fill whole words.
+    // Depths of 16 bits fill whole words, two each.
     let depths = if config.depth == Depth::Bits16 { 4 * fragments.div_ceil(2) } else { 4 * fragments };
     let payload = if config.payload == Payload::Attributes { 8 } else { 4 };
     FormulaBytes {

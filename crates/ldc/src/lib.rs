@@ -1,9 +1,9 @@
-//! Layered depth cubes: a structure of fragments in three orthographic views, after LDC. Hosts make one from
+//! Layered depth cubes, after LDC: a structure of fragments in three orthographic views. Hosts make one from
 //! their triangles and trace it as any [`rasray_ads::Structure`].
 //!
 //! The rasterizer stores every fragment of three views along the axes, each triangle in the view that it
-//! faces most. One pass makes all layers of a cell and stores them contiguously, sorted by depth, as peeling
-//! would yield them. Rays traverse the views one after the other.
+//! faces most. One pass makes all layers of a cell and stores them contiguously, sorted by depth, in the
+//! order in which peeling would find them. Rays traverse the views one after the other.
 //!
 //! - [`LayeredDepthCube`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when
 //!   to resize.

@@ -1,4 +1,4 @@
-//! The pools.
+//! Pools of the layered depth cube.
 
 use crate::{Config, Contents, Header};
 
@@ -9,15 +9,15 @@ rasray_ads::pools! {
         Lists "lists" lists_address => lists,
         /// Depths of fragments.
         Depths "depths" depths_address => depths,
-        /// Payload of fragments, in addition to their depth.
+        /// Payload of fragments: all that they carry in addition to their depth.
         Payload "payload" payload_address => payload,
-        /// Depths of blocks of cells.
+        /// Depth bounds of blocks of cells, and their slices.
         Blocks "blocks" blocks_address => blocks,
         /// Heads of the conservative lists.
         Heads "heads" heads_address => heads,
         /// Nodes of the conservative lists.
         Conservative "conservative" conservative_address => conservative,
-        /// Sums of the scan, long lists or counts of layers, and the large-triangle queue.
+        /// Sums of the scan; long lists or counts of layers; and the large-triangle queue.
         Scratch "scratch" scratch_address,
     }
     Config => Contents { header, config }

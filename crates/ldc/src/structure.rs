@@ -1,4 +1,4 @@
-//! The layered depth cube as a structure.
+//! Implementation of the layered depth cube as a structure.
 
 use std::mem::offset_of;
 
@@ -14,13 +14,14 @@ use crate::build::Build;
 use crate::layout::{Demand, first_plan, formula_bytes, layer_capacity, plan, scratch};
 use crate::{Accept, Config, Contents, Header, Pool, well_formed};
 
-/// Fragments of three orthographic views, each triangle in the one it faces most; made from a [`Config`].
+/// Structure with the fragments of three orthographic views, each triangle in the view it faces most; made
+/// from a [`Config`].
 pub type LayeredDepthCube = Pooled<Build>;
 
-/// Cells along a side of the cube of a part that has few triangles and is small.
+/// Minimum number of cells along a side of the cube of a small part with few triangles.
 const LEAST_RESOLUTION: f64 = 16.0;
 
-/// The header that the next build starts from.
+/// Returns the header that the next build starts from.
 fn first_header(parts: &Parts<Config>) -> Header {
     let Parts { config, pools, .. } = parts;
     Header {
@@ -70,8 +71,9 @@ impl Design for Build {
     const FOLLOWING: &'static [(u32, u32)] = &[(LDC_RIGID, 1)];
     const RIGID: Option<usize> = Some(offset_of!(Header, rigid_x));
 
-    /// Cells are about as fine as those of the whole, and at least as many along a side as lets each have a
-    /// few triangles. A tolerance is a share of the side, and goes with as many cells as it has elsewhere.
+    /// Lowers the resolution of a part: its cells are about as fine as those of the whole, and there are
+    /// enough of them along a side that each has a few triangles. A tolerance is a share of the side, so with
+    /// [`Accept::Tolerance`] a part keeps the resolution of the whole.
     fn follow(config: &mut Config, part: &GeometryExtent) -> bool {
         match config.accept {
             Accept::Plane => return false,
@@ -158,7 +160,7 @@ impl Design for Build {
     }
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
-        // One cell may hold everything: a small object in a large world.
+        // A single cell may hold every triangle, as with a small object in a large world.
         let deepest = match parts.config.accept {
             Accept::Triangle => header.demand.min(parts.geometry.triangle_count()),
             _ => header.conservative_demand.min(parts.elements(Pool::Conservative) as u32),
@@ -198,7 +200,7 @@ mod tests {
         let extent = GeometryExtent::new(1_000, BOUNDS);
         for config in [Config::robust(64), Config::published(64)] {
             let sizes = Build::first_plan(&config, &extent).expect("options are in range");
-            // Their capacity, in the terms of a demand, is one for these pools.
+            // The capacity of these pools, expressed as a demand, has to plan these pools again.
             let capacity = Build::capacity(&config, &sizes, &extent);
             assert_eq!(Build::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
         }

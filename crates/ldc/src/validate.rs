@@ -1,92 +1,92 @@
-//! Checks the contents of a built layered depth cube.
+//! Checks of the contents of a built layered depth cube.
 
 use rasray_ads::ListCounts;
 use rasray_shaders_glsl::constants::ldc::{LDC_LEVEL_BLOCKS, LDC_SLICES};
 
 use crate::{Accept, Config, Depth, Header, Occupancy, Payload, cell_count};
 
-/// All pools as downloaded, in words.
+/// Downloaded contents of all pools, in words.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// The configuration they were built with.
+    /// Configuration of the build.
     pub config: Config,
-    /// The header.
+    /// Header after the build.
     pub header: Header,
-    /// One past the last place of each cell's list.
+    /// End of each cell's list: one past its last place.
     pub lists: Vec<u32>,
     /// Depths of fragments.
     pub depths: Vec<u32>,
-    /// Triangles of fragments, or two words of each: colour and normal.
+    /// Payload of fragments: a triangle, or two words with colour and normal.
     pub payload: Vec<u32>,
-    /// Smallest (its complement) and largest depth of each block, and where it keeps them its slices; the
-    /// second level follows the first.
+    /// Smallest depth (its complement) and largest depth of each block, and the block's slices with
+    /// [`Occupancy::Slices`](crate::Occupancy::Slices). The second level follows the first.
     pub blocks: Vec<u32>,
-    /// First link of each cell's conservative list.
+    /// Head of each cell's conservative list: its first link.
     pub heads: Vec<u32>,
     /// Triangle and next link of each node of the conservative lists.
     pub conservative: Vec<u32>,
 }
 
-/// A fault in a list.
+/// Fault in a list.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A list leaves the pool, or ends before it begins.
+    /// List that leaves the pool, or ends before it begins.
     #[error("cell {cell}: the list from {begin} to {end} leaves the pool or runs backwards")]
     Range {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// First place.
+        /// First place of the list.
         begin: u32,
-        /// One past the last.
+        /// One past the last place of the list.
         end: u32,
     },
-    /// A sorted list is not in order, or contains a fragment twice.
+    /// Sorted list that is not in order, or contains a fragment twice.
     #[error("cell {cell}: the fragment at place {place} is out of order")]
     Order {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
         /// Place of the fragment.
         place: u32,
     },
-    /// A depth lies outside of its blocks', or is NaN.
+    /// Depth that is NaN or lies outside of the bounds of its blocks.
     #[error("cell {cell}: depth {z} at place {place} is outside of its blocks'")]
     Depth {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
         /// Place of the fragment.
         place: u32,
         /// The depth, as text: it may be NaN.
         z: String,
     },
-    /// A fragment or a node of a conservative list holds no valid triangle.
+    /// Fragment, or node of a conservative list, without a valid triangle.
     #[error("cell {cell}: there is no triangle {primitive}")]
     Primitive {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// The index that is stored.
+        /// Triangle index, as stored.
         primitive: u32,
     },
-    /// A link of a conservative list points to no node.
+    /// Link of a conservative list that points to no node.
     #[error("cell {cell}: link {link} points to no node")]
     Dangling {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// The link.
+        /// Link at fault.
         link: u32,
     },
-    /// Places or nodes are in no list, or in more than one.
+    /// Places or nodes that are in no list, or in more than one.
     #[error("{stored} places or nodes were counted and {listed} are in lists")]
     Count {
-        /// Counted by the build.
+        /// Number of places or nodes that the build counted.
         stored: usize,
-        /// Found in lists.
+        /// Number of places or nodes found in lists.
         listed: usize,
     },
 }
 
 impl Contents {
-    /// Places of a cell's list: the first, and one past the last.
+    /// Returns the places of a cell's list: the first, and one past the last.
     ///
     /// # Errors
     /// The list leaves the pool or runs backwards.
@@ -100,7 +100,7 @@ impl Contents {
         Ok(begin..end)
     }
 
-    /// The bits of a depth, which order as depths do.
+    /// Returns the bits of a depth. Bits have the order of their depths.
     pub fn depth_bits(&self, place: u32) -> u32 {
         match self.config.depth {
             Depth::Bits32 => self.depths[place as usize],
@@ -108,7 +108,7 @@ impl Contents {
         }
     }
 
-    /// A depth in metres.
+    /// Returns a depth in metres.
     pub fn depth(&self, place: u32) -> f32 {
         let bits = self.depth_bits(place);
         match self.config.depth {
@@ -117,7 +117,7 @@ impl Contents {
         }
     }
 
-    /// The triangles of a cell's conservative list.
+    /// Returns the triangles of a cell's conservative list.
     ///
     /// # Errors
     /// A link points to no node, or the list is a cycle.
@@ -136,7 +136,7 @@ impl Contents {
         Ok(found)
     }
 
-    /// Counts of the layers in the cells of each view; triangles of conservative lists are no layers.
+    /// Counts the layers in the cells of each view. Triangles of conservative lists do not count as layers.
     ///
     /// # Errors
     /// A list leaves the pool or runs backwards.
@@ -152,12 +152,12 @@ impl Contents {
         Ok(counts.into())
     }
 
-    /// True if the blocks of a cell, of all levels, say that something lies at a depth in metres.
+    /// Returns true if the blocks of a cell, on all levels, say that something lies at a depth in metres.
     fn blocks_hold(&self, cell: usize, z: f32) -> bool {
         let side = self.config.resolution as usize;
         let (view, x, y) = (cell / (side * side), cell % side, cell / side % side);
         let words = if self.config.occupancy == Occupancy::Slices { 4 } else { 2 };
-        // The device's arithmetic of a half's share may differ in the last place.
+        // The device may round a half's share of the side differently in the last place.
         let slack = if self.config.depth == Depth::Bits16 { 1.0e-6 * z } else { 0.0 };
         let (mut before, mut cells) = (0, self.config.block.map(|side| side as usize));
         for _ in 0..self.config.levels {
@@ -181,7 +181,7 @@ impl Contents {
     }
 }
 
-/// The value of a half that is not negative.
+/// Returns the value of a non-negative half.
 fn half(bits: u32) -> f32 {
     let (exponent, mantissa) = ((bits >> 10) & 31, (bits & 1023) as f32);
     match exponent {
@@ -191,9 +191,9 @@ fn half(bits: u32) -> f32 {
     }
 }
 
-/// Checks that lists are contiguous and hold what was counted, that they are sorted where they
-/// should be, that depths lie within those of their blocks, that triangle indices of fragments are
-/// valid, and that every node of the conservative lists is in exactly one list.
+/// Checks that lists are contiguous and hold all counted fragments, that they are sorted where they should
+/// be, that depths lie within the bounds of their blocks, that triangle indices of fragments are valid, and
+/// that every node of the conservative lists is in exactly one list.
 ///
 /// # Errors
 /// The first fault found.
@@ -211,7 +211,8 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
                 return Err(Fault::Primitive { cell, primitive });
             }
             let z = contents.depth(place);
-            // A triangle that may be hit at any depth has none, and its blocks' are those of its corners.
+            // A triangle that may be hit at any depth has no depth of its own; its blocks have the depths of
+            // its corners.
             let anywhere = contents.config.accept == Accept::Triangle && contents.depth_bits(place) == 0;
             if !anywhere && !contents.blocks_hold(cell, z) {
                 return Err(Fault::Depth { cell, place, z: z.to_string() });
