@@ -1,5 +1,5 @@
-//! Bricks in the frames of a host: its own buffers, two frames in flight, triangles that move, and a compute
-//! shader of its own that traces on the spot. Every frame is compared with brute force.
+//! Traces bricks within the frames of a host that has its own buffers, two frames in flight, triangles that
+//! move, and a compute shader that traces on the spot. Compares every frame with brute force.
 
 use std::path::Path;
 
@@ -14,45 +14,46 @@ mod host;
 
 use host::{FRAMES, Host, HostBuffer, Mesh, Result, staircase};
 
-/// Pixels along a side, as in `inline.comp`.
+/// Pixels along a side of the image, as in `inline.comp`.
 const SIDE: u32 = 32;
 
-/// Frames of the program.
+/// Number of frames that the program submits.
 const COUNT: usize = 12;
-/// Builds of the first frame after which its demand counts as not stable.
+/// Maximum number of builds of the first frame; a demand that is not met by then counts as not stable.
 const BUILDS: u32 = 9;
 
-/// Buffers and recording of one frame in flight.
+/// Buffers and recorded resources of one frame in flight.
 struct Slot {
     positions: HostBuffer,
     geometry: Geometry,
-    /// Hits that the shader of the host finds.
+    /// Hits that the host's shader finds.
     found: HostBuffer,
     pipeline: (vk::Pipeline, vk::PipelineLayout, vk::DescriptorSet),
     reference: BruteForce,
     rays: RayQueue,
     /// Hits that brute force finds.
     expected: HostBuffer,
-    /// Resources that the device may still be using.
+    /// Resources that the device may still use.
     recorded: Option<Recorded>,
 }
 
-/// Runs the program; an error where hits differ, a frame was not complete or the validation layer complains.
+/// Runs the program; returns an error where hits differ, a frame was not complete or the validation layer
+/// complains.
 pub fn main() -> Result<()> {
     let config = Config::new(Views::Axes);
     let enabled = Bricks::requirements_of(&config).required;
     let host = Host::new(&enabled)?;
-    // SAFETY: the device was made with these features, by the host, which goes last.
+    // SAFETY: the host made the device with these features, and the host is dropped last.
     let device = unsafe { Device::from_raw(host.raw_device(&enabled)) }?;
     let mut mesh = staircase(200);
-    // The bounds hold the mesh in all frames.
+    // The bounds have to contain the mesh in all frames.
     mesh.bounds[1][0] += 1.0;
     let shader = Module { entry: "inline.comp", defines: &[] };
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let spirv = compile(&[&own, Path::new(rasray_shaders_glsl::ROOT)], &shader)?;
     let first = host.geometry(&device, &mesh, host.buffer(&mesh.positions)?)?;
     let bricks = Box::new(Bricks::new(&device, config, &first, None)?);
-    // With half as much again as a frame needs, since the next ones may need a little more.
+    // Pools have half as much again as a frame needs, since later frames may need a little more.
     let mut bricks =
         FrameStructure::new(&device, bricks, FrameSettings { slots: FRAMES as u32, headroom: 50 })?;
     let mut slots = Vec::new();
@@ -60,15 +61,15 @@ pub fn main() -> Result<()> {
         slots.push(Slot::new(&host, &device, &mesh, &bricks, &spirv)?);
     }
     let complete = frames(&host, &device, &mesh, &mut bricks, &mut slots);
-    // Also after an error: slots may go only when the device is done with them.
+    // The host waits after an error too: slots may be dropped only when the device no longer uses them.
     host.wait_for_all()?;
     let complete = complete?;
     println!("{complete} of {COUNT} frames were complete");
     if complete == COUNT { Ok(()) } else { Err("a frame was not complete".into()) }
 }
 
-/// While the program loads, the first frame is repeated until its pools suffice. No other frame is waited
-/// for.
+/// Repeats the first frame until its pools suffice, while the program loads. The program waits for no other
+/// frame.
 fn load(host: &Host, device: &Device, bricks: &mut FrameStructure, slot: &mut Slot) -> Result<()> {
     let mut lacking = None;
     for _ in 0..BUILDS {
@@ -86,7 +87,7 @@ fn load(host: &Host, device: &Device, bricks: &mut FrameStructure, slot: &mut Sl
     .into())
 }
 
-/// The loop of the host: how many frames were complete.
+/// Runs the loop of the host, and returns the number of complete frames.
 fn frames(
     host: &Host,
     device: &Device,
@@ -110,7 +111,7 @@ fn frames(
     Ok(complete)
 }
 
-/// Interface by which a shader of the host traces through the bricks.
+/// Returns the interface through which a shader of the host traces the bricks.
 fn inline(bricks: &FrameStructure) -> Result<InlineTrace<'_>> {
     bricks.structure().inline_trace().ok_or_else(|| "bricks can be traced on the spot".into())
 }
@@ -139,7 +140,7 @@ impl Slot {
         Ok(Self { positions, geometry, found, pipeline, reference, rays, expected, recorded: None })
     }
 
-    /// Submits a frame, and keeps what it uses.
+    /// Submits a frame, and keeps the resources that it uses.
     fn submit(
         &mut self,
         host: &Host,
@@ -152,7 +153,7 @@ impl Slot {
         Ok(())
     }
 
-    /// Records a build, the shader of the host, and brute force.
+    /// Records a build, the host's shader, and brute force.
     fn record(
         &mut self,
         host: &Host,
@@ -161,8 +162,8 @@ impl Slot {
         number: usize,
         bricks: &mut FrameStructure,
     ) -> Result<Recorded> {
-        // SAFETY: the command buffer is being recorded by nobody else, and what this returns is kept until
-        // the host has waited for the frame.
+        // SAFETY: nobody else records into the command buffer, and the caller keeps the returned resources
+        // until the host has waited for the frame.
         let mut recorder = unsafe { Recorder::from_raw(device, commands) };
         bricks.set_geometry(device, &self.geometry)?;
         bricks.record(&mut recorder, number as u32, [0.5; 3].into())?;
@@ -170,7 +171,8 @@ impl Slot {
         let inline = inline(bricks)?;
         let set = inline.set.ok_or("bricks are reached through a set")?;
         let (sets, point) = ([own, self.geometry.set().raw(), set.raw()], vk::PipelineBindPoint::COMPUTE);
-        // SAFETY: the layout is that of these sets, and a build ends with a barrier towards compute shaders.
+        // SAFETY: the pipeline layout is that of these sets, and a build ends with a barrier towards compute
+        // shaders.
         unsafe {
             host.device.cmd_bind_pipeline(commands, point, pipeline);
             host.device.cmd_bind_descriptor_sets(commands, point, layout, 0, &sets, &[]);
@@ -186,8 +188,9 @@ impl Slot {
         Ok(recorder.finish()?)
     }
 
-    /// Outcome of the frame that was waited for; absent where none was submitted. Hits of a complete one are
-    /// those of brute force. Pools that were too small have grown.
+    /// Returns the outcome of the frame that the host has waited for, or `None` if no frame was submitted.
+    /// Compares the hits of a complete frame with those of brute force. Pools that were too small have grown
+    /// afterwards.
     fn finish(
         &mut self,
         host: &Host,

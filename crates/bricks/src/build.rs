@@ -1,4 +1,4 @@
-//! The build of bricks: pipelines, and the passes in the order they are recorded.
+//! Build of the bricks: its pipelines, and its passes in the order they are recorded.
 
 use std::mem::offset_of;
 
@@ -10,27 +10,28 @@ use rasray_shaders_glsl::constants::bricks::BRICKS_GROUP_SIZE;
 use crate::layout::bricks_of;
 use crate::{Config, Header, Pool, Views};
 
-/// Bytes of the workgroups of an indirect dispatch.
+/// Bytes of the group counts of an indirect dispatch.
 const GROUP_BYTES: u64 = 12;
 
-/// A pass over a level of bricks, once per level.
+/// Pass that runs once per level, over the bricks of that level.
 #[derive(Debug)]
 struct OfLevel {
     label: String,
     pipeline: ComputePipeline,
-    /// Place in the header of the workgroups of the first level.
+    /// Offset in the header of the group counts of the first level.
     groups: usize,
 }
 
 /// Pipelines of the build.
 #[derive(Debug)]
 pub(crate) struct Build {
-    /// The near region and the slices of a cube's faces, from depths; views along axes have neither.
+    /// Passes of [`Views::Cube`](crate::Views::Cube) that find the near region, and the slices of faces from
+    /// depths. Views along axes have neither.
     depths: Option<[(String, ComputePipeline); 2]>,
     records: Visit,
-    /// Passes over each level.
+    /// Passes that run for each level.
     level: [OfLevel; 2],
-    /// Passes that divide cells of a level; nothing where none is divided.
+    /// Passes that divide cells of a level; `None` if no cell is divided.
     divide: Option<[OfLevel; 2]>,
     scan: Scan,
     store: ComputePipeline,
@@ -71,7 +72,7 @@ impl Build {
         })
     }
 
-    /// Records all passes; `cells` are those of a view.
+    /// Records all passes of a build; `cells` are the columns, rows and slices of a view.
     pub(crate) fn record(
         &self,
         recorder: &mut Recorder<'_>,
@@ -88,7 +89,7 @@ impl Build {
             target.compute_pass(recorder, label, pipeline, groups, 0, readers);
         };
         let compute = Access::COMPUTE;
-        // Workgroups are counted by the passes before.
+        // The passes before count the workgroups of indirect passes.
         let counted = compute | Access::INDIRECT_READ;
 
         let readers = counted | Access::FRAGMENT | Access::VERTEX_READ;
@@ -110,7 +111,7 @@ impl Build {
         self.scan.record(recorder, target, "bricks/build_8_scan", lists, 0, compute);
         pass(recorder, "bricks/build_9_store", &self.store, records, compute);
         for (axis, (label, reach)) in self.reaches.iter().flatten().enumerate() {
-            // Along slices, then columns, then rows.
+            // The order is along slices, then columns, then rows.
             let bricks_of_line = [along[2], along[0], along[1]][axis];
             pass(recorder, label, reach, bricks / bricks_of_line, compute);
         }

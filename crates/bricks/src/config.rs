@@ -7,45 +7,47 @@ use rasray_shaders_glsl::constants::bricks as numbers;
 
 use crate::grid::{BRICK_SIDE, SIDE_LIMIT, Views, cells_along, columns_for};
 
-/// Maximum divisions of a cell.
+/// Maximum number of times that a cell can be divided.
 const DEPTH_LIMIT: u32 = numbers::BRICKS_DEPTH_MOST;
-/// Maximum slices.
+/// Maximum number of depth slices.
 const SLICE_LIMIT: u32 = numbers::BRICKS_SLICE_LIMIT;
 
-/// All options. None of them changes a hit.
+/// Options of bricks. None of them changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Projections that cells are made in.
+    /// Projections in which cells are made.
     pub views: Views,
-    /// Columns along a side of a face, or cells along the longest side of the geometry's bounds; 1 to 1024,
-    /// rounded up to a multiple of 4. Absent: by the number of triangles and, along the axes, by the bounds.
+    /// Number of columns along a side of a face, or of cells along the longest side of the geometry's bounds;
+    /// 1 to 1024, rounded up to a multiple of 4. If absent, the number follows from the number of triangles
+    /// and, along the axes, from the bounds.
     pub grid: Option<u32>,
-    /// [`Views::Axes`] only: how often a cell that lists many small triangles is divided into 4x4x4 smaller
-    /// ones, at most; 0 to 3, which is the default.
+    /// Maximum number of times that a cell with many small triangles is divided into 4x4x4 smaller cells; 0
+    /// to 3. If absent, 3 for [`Views::Axes`], and 0 for [`Views::Cube`], which cannot divide cells.
     pub divisions: Option<u32>,
-    /// [`Views::Cube`] only: depth slices, the same for all columns, 1 to 1024, rounded up to a multiple of
-    /// 4; twice the columns along a side where absent.
+    /// Number of depth slices, equal for all columns, 1 to 1024, rounded up to a multiple of 4;
+    /// [`Views::Cube`] only. If absent, twice the columns along a side.
     pub slices: Option<u32>,
-    /// Keep a contiguous copy of the corners of triangles: 36 bytes per triangle instead of 24.
+    /// Switch for a contiguous copy of the corners of triangles: 36 bytes per triangle instead of 24.
     pub corners: bool,
-    /// Find how far around each empty brick everything is empty, so that a ray crosses it in one step.
+    /// Switch for distances: the build finds how far around each empty brick everything is empty, so that a
+    /// ray crosses this space in one step.
     pub skip: bool,
     /// Builder that bins triangles into cells.
     pub builder: Builder,
-    /// Addressing of pools.
+    /// Addressing of pools: descriptors or device addresses.
     pub addressing: Addressing,
-    /// Entries to allocate for the first build; 16 per triangle where absent.
+    /// Number of entries to allocate for the first build; if absent, 16 per triangle.
     pub entries: Option<u64>,
     /// Counters that rays record of their work.
     pub counters: Counters,
-    /// Work units a ray may spend in one dispatch; the shared default where absent.
+    /// Work units that a ray may spend in one dispatch. If absent, the default that all structures share.
     pub work_budget: Option<u32>,
 }
 
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// Bricks of these views, with everything that makes them fast.
+    /// Returns the options of bricks in these views, with everything that makes them fast.
     pub fn new(views: Views) -> Self {
         Self {
             views,
@@ -62,7 +64,7 @@ impl Config {
         }
     }
 
-    /// Columns, rows and slices of each view over a geometry, multiples of 4.
+    /// Returns the columns, rows and slices of each view over a geometry, multiples of 4.
     pub fn cells(&self, extent: &GeometryExtent) -> [u32; 3] {
         match self.views {
             Views::Cube => self.cells_of_faces(extent.triangle_count),
@@ -70,31 +72,33 @@ impl Config {
         }
     }
 
-    /// Those of the faces of a cube, which depend on the number of triangles alone.
+    /// Returns the columns, rows and slices of the faces of a cube, which depend only on the number of
+    /// triangles.
     fn cells_of_faces(&self, triangles: u32) -> [u32; 3] {
         let columns = self.grid.unwrap_or_else(|| columns_for(triangles)).next_multiple_of(BRICK_SIDE);
         let slices = self.slices.unwrap_or_else(|| (2 * columns).min(SLICE_LIMIT));
         [columns, columns, slices.next_multiple_of(BRICK_SIDE)]
     }
 
-    /// Maximum divisions of a cell.
+    /// Returns the maximum number of times that a cell is divided.
     pub(crate) fn most_divisions(&self) -> u32 {
         self.divisions.unwrap_or(if self.views == Views::Axes { DEPTH_LIMIT } else { 0 })
     }
 
-    /// True if cells are divided at all.
+    /// Returns true if any cell may be divided.
     pub(crate) fn divides(&self) -> bool {
         self.most_divisions() > 0
     }
 
-    /// Words of a brick: its own and two of the mask; where cells are divided two more for those, the first
-    /// of their bricks, and its position.
+    /// Returns the words of a brick: its own word and two of the mask. If cells are divided, also two words
+    /// for the mask of divided cells, one for the first brick of these cells, and two for the brick's
+    /// position among divided cells or for distances.
     pub fn brick_words(&self) -> u32 {
         if self.divides() { 8 } else { 3 }
     }
 
-    /// Maximum divisions of cells where views have this number of them: that of the options, or less where
-    /// positions would not fit into their words.
+    /// Returns the maximum number of times that cells are divided if views have `cells` cells: the number of
+    /// the options, or a smaller one if positions would not fit into their words.
     pub(crate) fn depth_for(&self, cells: [u32; 3]) -> u32 {
         let most = cells.into_iter().max().unwrap_or(0);
         (0..=self.most_divisions())
@@ -103,10 +107,10 @@ impl Config {
             .unwrap_or(0)
     }
 
-    /// Checks ranges.
+    /// Checks the ranges of all options and their combinations.
     ///
     /// # Errors
-    /// The first option out of range.
+    /// The first option that is out of range, or the first combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
         check_range("grid", self.grid.unwrap_or(1), 1..=SIDE_LIMIT, "1 to 1024 cells along a side")?;
         check_range("divisions", self.most_divisions(), 0..=DEPTH_LIMIT, "0 to 3")?;
@@ -123,7 +127,7 @@ impl Config {
         check_work_budget(self.work_budget, false)
     }
 
-    /// Specialisation constants: id and bits.
+    /// Returns the specialisation constants, as pairs of id and bits.
     pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
         let views = match self.views {
             Views::Cube => numbers::BRICKS_VIEWS_CUBE,
@@ -137,7 +141,8 @@ impl Config {
         ]
     }
 
-    /// Options as name and value, for reports; `cells` are those of a view.
+    /// Returns the options as pairs of name and value, for reports; `cells` are the columns, rows and slices
+    /// of a view.
     pub fn options(&self, cells: [u32; 3]) -> Vec<(&'static str, String)> {
         let switch = |on| if on { "on" } else { "off" }.to_owned();
         vec![
@@ -149,7 +154,7 @@ impl Config {
         ]
     }
 
-    /// Paths as name and value, for reports.
+    /// Returns the chosen code paths as pairs of name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         vec![("builder", self.builder.name().to_owned()), ("addressing", self.addressing.name().to_owned())]
     }

@@ -1,28 +1,28 @@
-//! The views of bricks, and their numbers of columns, rows and slices.
+//! Views of bricks, and their numbers of columns, rows and slices.
 
 use rasray_ads::words;
 use rasray_shaders_glsl::constants::bricks::BRICKS_SIDE_LIMIT;
 
-/// Cells along a side of a brick.
+/// Number of cells along a side of a brick.
 pub(crate) const BRICK_SIDE: u32 = 4;
 
-/// Maximum cells along a side of a view.
+/// Maximum number of cells along a side of a view.
 pub(crate) const SIDE_LIMIT: u32 = BRICKS_SIDE_LIMIT;
 
-/// Projections that cells are made in. Changes no hit.
+/// Projections in which cells are made. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Views {
-    /// Six faces of a cube around a centre: cells grow with the distance.
+    /// Six faces of a cube around a centre. Cells grow with the distance from the centre.
     Cube,
-    /// One box of cells of one size around the geometry, seen along an axis, which are the cells of views
-    /// along the other two axes as well. Only the distance at which rays may start depends on the eye.
+    /// Box around the geometry, divided into cells of one size and seen along an axis. Views along the other
+    /// two axes have the same cells. Only the distance at which rays may start depends on the eye.
     Axes,
 }
 
 words! { Views { Cube "cube", Axes "axes" } }
 
 impl Views {
-    /// Number of views.
+    /// Returns the number of views.
     pub(crate) fn count(self) -> u32 {
         match self {
             Self::Cube => 6,
@@ -31,22 +31,23 @@ impl Views {
     }
 }
 
-/// Maximum number of cells where the rule chooses it: 256 along a side of a cube.
+/// Maximum number of cells that the rule chooses: 256 along a side of a cube.
 const MOST_CELLS: f64 = 16_777_216.0;
 
-/// Minimum number of cells along the longest side where the rule chooses it.
+/// Minimum number of cells along the longest side that the rule chooses.
 const FEWEST_ALONG: f64 = 16.0;
 
-/// Columns along a side of a face for that many triangles: as many as make a column about as wide as a
-/// triangle is seen from the middle, a power of two from 32 to 256.
+/// Returns the number of columns along a side of a face for this many triangles, a power of two from 32 to
+/// 256. A column is then about as wide as a triangle seen from the middle.
 pub(crate) fn columns_for(triangles: u32) -> u32 {
     let wanted = f64::from(triangles).sqrt() / 4.0;
-    // The nearer of two powers of two, by ratio.
+    // Rounds to the nearer of two powers of two, by ratio.
     2.0_f64.powf(wanted.max(1.0).log2().round()).clamp(32.0, 256.0) as u32
 }
 
-/// Cells along each axis, multiples of 4, for bounds (lower, upper) in metres and that many triangles:
-/// `along` on the longest side, or as many as make a cell about as wide as a triangle is.
+/// Returns the number of cells along each axis, multiples of 4, for bounds (lower, upper) in metres and this
+/// many triangles: `along` on the longest side or, if absent, as many as make a cell about as wide as a
+/// triangle.
 pub(crate) fn cells_along([lower, upper]: [[f32; 3]; 2], triangles: u32, along: Option<u32>) -> [u32; 3] {
     let extent: [f64; 3] = std::array::from_fn(|axis| f64::from(upper[axis]) - f64::from(lower[axis]));
     let longest = extent.into_iter().fold(0.0_f64, f64::max);
@@ -62,7 +63,7 @@ pub(crate) fn cells_along([lower, upper]: [[f32; 3]; 2], triangles: u32, along: 
     if let Some(along) = along {
         return cells_of(longest / f64::from(along));
     }
-    // A third of the area of a box's sides: the area of a sheet, or of one side of a cube.
+    // A third of the area of a box's sides is the area of a sheet, or of one side of a cube.
     let area = (extent[0] * extent[1] + extent[1] * extent[2] + extent[2] * extent[0]) / 3.0;
     let wide = 2.0 * (area / f64::from(triangles.max(1))).sqrt();
     let mut side = wide.clamp(longest / f64::from(SIDE_LIMIT), longest / FEWEST_ALONG);
@@ -92,7 +93,7 @@ mod tests {
         assert_eq!(cells_along(ROOM, 12, Some(1)), [4, 4, 4]);
         assert_eq!(cells_along(ROOM, 12, Some(1024)), [1024, 512, 256]);
         let cube = [[-2.0; 3], [2.0; 3]];
-        // Half the square root of the triangles.
+        // The number is half the square root of the number of triangles.
         assert_eq!(cells_along(cube, 10_000, None), [52; 3]);
         assert_eq!(cells_along(cube, 12, None), [16; 3]);
     }

@@ -1,4 +1,4 @@
-//! Sizes of the pools: plain arithmetic, no device.
+//! Sizes of the pools, by plain arithmetic without a device.
 
 use rasray_ads::kit::Scan;
 use rasray_ads::{AdsError, GeometryExtent, Sizes};
@@ -7,49 +7,50 @@ use rasray_shaders_glsl::constants::bricks as numbers;
 use crate::grid::BRICK_SIDE;
 use crate::{Config, Pool, Views};
 
-/// Words of a record: a triangle in cells of a brick.
+/// Words of a record, which is a triangle in some cells of a brick.
 const RECORD_WORDS: u64 = 4;
 
-/// The demand of a build.
+/// Demand of a build: the number of elements that it needs in each pool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Entries of all lists.
+    /// Number of entries of all lists.
     pub entries: u64,
-    /// Triangles around the centre of a cube's faces.
+    /// Number of triangles in the near region, around the centre of a cube's faces.
     pub near: u64,
-    /// Triangles in columns of cells of a brick, and in the bricks of divided cells.
+    /// Number of records: triangles in columns of cells of a brick, and in the bricks of divided cells.
     pub records: u64,
-    /// Bricks of the views and of divided cells.
+    /// Number of bricks, of the views and of divided cells.
     pub bricks: u64,
-    /// Cells that list something, or are divided.
+    /// Number of cells that list something, or are divided.
     pub cells: u64,
-    /// Triangles of the geometry.
+    /// Number of triangles of the geometry.
     pub triangles: u64,
-    /// Columns, rows and slices of a view, [`Config::cells`] of the geometry.
+    /// Columns, rows and slices of a view, as [`Config::cells`] gives them for the geometry.
     pub grid: [u32; 3],
 }
 
-/// Bricks along each side of a view, and in all views; `cells` are those of a view.
+/// Returns the bricks along each side of a view, and those of all views; `cells` are the columns, rows and
+/// slices of a view.
 pub(crate) fn bricks_of(views: Views, cells: [u32; 3]) -> ([u64; 3], u64) {
     let along = cells.map(|cells| u64::from(cells / BRICK_SIDE));
     (along, u64::from(views.count()) * along.iter().product::<u64>())
 }
 
-/// Words per triangle: its corners, or the large-triangle queue, one word per view, which binning needs
-/// while it builds.
+/// Returns the words per triangle in the pool of triangles: its corners, or the large-triangle queue, one
+/// word per view, which binning needs during the build.
 fn triangle_words(config: &Config) -> u64 {
     if config.corners { 9 } else { numbers::BRICKS_LARGE_LIMIT.into() }
 }
 
-/// Sizes of the pools of bricks of this configuration that hold `demand`.
+/// Returns the sizes of the pools of bricks of this configuration that hold `demand`.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit indices can address.
 pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
-    // At least one brick, so that a build can count its demand.
+    // There is at least one brick, so that a build can count its demand.
     let (_, of_views) = bricks_of(config.views, demand.grid.map(|along| along.max(BRICK_SIDE)));
-    // The distances of the views' bricks replace the sums.
+    // The distances of the views' bricks replace the sums of the scan.
     let distances = if config.skip { of_views } else { 0 };
     let pool = |pool, elements, words: u64| (pool, elements, 4 * words);
     let pools = [
@@ -64,8 +65,8 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     Sizes::of("bricks", pools)
 }
 
-/// The first guess where nothing has been counted: eight columns per triangle, of two cells each, two entries
-/// per cell, and where cells are divided a brick for every eight triangles.
+/// Returns the demand of the first build, before anything has been counted: eight columns per triangle with
+/// two cells each, two entries per cell, and, if cells are divided, a brick for every eight triangles.
 pub(crate) fn first_demand(config: &Config, extent: &GeometryExtent) -> Demand {
     let (triangles, grid) = (u64::from(extent.triangle_count), config.cells(extent));
     let entries = config.entries.unwrap_or(16 * triangles);
@@ -76,35 +77,37 @@ pub(crate) fn first_demand(config: &Config, extent: &GeometryExtent) -> Demand {
     Demand { entries, near, records, bricks, cells, triangles, grid }
 }
 
-/// Sizes of the pools of the first guess.
+/// Returns the sizes of the pools for the first build.
 pub(crate) fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Sizes, AdsError> {
     config.validate()?;
     plan(config, &first_demand(config, extent))
 }
 
-/// Bytes for counted bricks, cells and entries.
+/// Bytes of bricks, for counted bricks, cells and entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// 12 per brick and 4 per cell that lists something; where cells are divided 32 and 8, divided cells
-    /// included.
+    /// Bytes of cells: 12 per brick and 4 per cell that lists something; if cells are divided, 32 per brick
+    /// and 8 per cell, including divided cells.
     pub cells: u64,
-    /// 4 per entry.
+    /// Bytes of entries: 4 each.
     pub entries: u64,
-    /// 4 per brick of the views where distances of empty ones are found; 4 per 1024 lists if that is more.
+    /// Bytes of the scan and of distances: the larger of 4 per 1024 lists and, with [`Config::skip`], 4 per
+    /// brick of the views.
     pub scan: u64,
-    /// Header, 4 per triangle of the near-region list, 16 per record, and per triangle 36 for its
-    /// corners or 24 while it is stored.
+    /// Bytes of all else: the header, 4 per triangle of the near-region list, 16 per record, and per triangle
+    /// 36 for a copy of its corners, or 24 for the large-triangle queue.
     pub rest: u64,
 }
 
 impl FormulaBytes {
-    /// Sum of all parts.
+    /// Returns the sum of all parts.
     pub fn total(&self) -> u64 {
         self.cells + self.entries + self.scan + self.rest
     }
 }
 
-/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
+/// Computes the bytes by the formula of `docs/systems/bricks.md`. It shares no code with [`plan`], so that
+/// the two check each other.
 pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
     let of_view = demand.grid.map(|along| u64::from(along).max(4)).iter().product::<u64>() / 64;
     let of_views = if config.views == Views::Cube { 6 * of_view } else { of_view };
@@ -127,7 +130,7 @@ mod tests {
 
     #[test]
     fn plan_equals_formula() {
-        // No brick has more than 64 cells.
+        // A brick has at most 64 cells.
         let demand = Demand {
             entries: 12_345,
             near: 7,

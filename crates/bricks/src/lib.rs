@@ -6,12 +6,12 @@
 //!
 //! - [`Bricks`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to
 //!   resize.
-//! - [`Config`] holds its options; [`Views`] chooses the projections that cells are made in.
+//! - [`Config`] holds its options; [`Views`] chooses the projections in which cells are made.
 //! - [`plan`] and [`formula_bytes`] compute its memory without a device.
 //! - [`Contents`] and [`well_formed`] check its lists on the host, for tests.
 //!
-//! This structure is in no paper. `docs/systems/bricks.md` has its debts to DIRT and to Hu et al., passes,
-//! bytes, options and limits.
+//! No paper describes this structure. `docs/systems/bricks.md` has its debts to DIRT and to Hu et al.,
+//! passes, bytes, options and limits.
 
 mod build;
 mod config;

@@ -1,4 +1,4 @@
-//! Bricks as a structure.
+//! Implementation of bricks as a structure.
 
 use std::mem::offset_of;
 
@@ -16,23 +16,23 @@ use crate::grid::BRICK_SIDE;
 use crate::layout::{Demand, bricks_of, first_demand, first_plan, formula_bytes, plan};
 use crate::{Config, Contents, Header, Pool, Views, well_formed};
 
-/// Lists of triangles in bricks of cells; made from a [`Config`].
+/// Structure with lists of triangles in bricks of cells, made from a [`Config`].
 pub type Bricks = Pooled<Passes>;
 
-/// Pipelines of the build: the design of [`Bricks`].
+/// Pipelines of the build, which are the design of [`Bricks`].
 #[derive(Debug)]
 pub struct Passes(Build);
 
-/// Columns, rows and slices of each view, one brick where the capacity does not suffice for those that the
-/// geometry needs; and whether it does.
+/// Returns the columns, rows and slices of each view, and true if the capacity suffices for the bricks that
+/// the geometry needs. If the capacity does not suffice, each view has one brick.
 fn cells(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> ([u32; 3], bool) {
     let wanted = config.cells(extent);
     let fits = bricks_of(config.views, wanted).1 <= sizes.elements_of(Pool::Bricks);
     (if fits { wanted } else { [BRICK_SIDE; 3] }, fits)
 }
 
-/// Workgroups of an indirect dispatch per level: that number of the first, none of the others before the
-/// device counts.
+/// Returns the group counts of an indirect dispatch per level: `first` for the first level, and none for the
+/// others before the device counts them.
 fn groups_of_levels(first: u32) -> [u32; 12] {
     std::array::from_fn(|word| match word {
         0 => first,
@@ -40,7 +40,7 @@ fn groups_of_levels(first: u32) -> [u32; 12] {
     })
 }
 
-/// The header that the next build starts from.
+/// Returns the header that the next build starts from.
 fn first_header(config: &Config, sizes: &Sizes, extent: &GeometryExtent, eye: [f32; 3]) -> Header {
     let (cells, fits) = cells(config, sizes, extent);
     let of_views = bricks_of(config.views, cells).1 as u32;
@@ -60,7 +60,7 @@ fn first_header(config: &Config, sizes: &Sizes, extent: &GeometryExtent, eye: [f
         eye,
         record_capacity: capacity(Pool::Records),
         cell_capacity: capacity(Pool::Lists),
-        // None where bricks do not fit, so that the build is not complete.
+        // A capacity of zero, if bricks do not fit, makes the build incomplete.
         triangle_capacity: if fits { capacity(Pool::Triangles) } else { 0 },
         groups: [0, 0, 1],
         ..Header::default()
@@ -102,7 +102,8 @@ impl Design for Passes {
         Dependencies { eye: true, camera: false }
     }
 
-    /// Cells along the axes have a margin for the eye only where that is far away.
+    /// Returns true if the eye has moved so that the bricks are stale. Cells along the axes depend on the eye
+    /// only through a margin for an eye far away.
     fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
         let is_same = parts.config.views == Views::Axes && box_is_same(&parts.extent(), built, wanted);
         !is_same && Self::depends_on(&parts.config).are_stale(built, wanted)
@@ -147,7 +148,7 @@ impl Design for Passes {
     }
 
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {
-        // Only stored records mark cells. Unless all are stored, the bound is one cell per entry.
+        // Only stored records mark cells. Unless all records are stored, the bound is one cell per entry.
         let all = header.record_demand <= header.record_capacity;
         let extent = parts.extent();
         let counted = Demand {
@@ -164,8 +165,8 @@ impl Design for Passes {
         if fits || !parts.config.divides() {
             return counted;
         }
-        // Cells of a level are only counted where those of the level before fit: at least the first guess, so
-        // that few builds do.
+        // The build counts the cells of a level only if those of the level before fit. The demand is at least
+        // the first guess, so that few builds are needed.
         let guess = first_demand(&parts.config, &extent);
         Demand {
             records: counted.records.max(guess.records),
@@ -217,7 +218,7 @@ mod tests {
         let extent = GeometryExtent::new(1_000, BOUNDS);
         for config in [Config::new(Views::Cube), Config::new(Views::Axes)] {
             let sizes = Passes::first_plan(&config, &extent).expect("options are in range");
-            // Their capacity, in the terms of a demand, is one for these pools.
+            // The capacity of these pools, expressed as a demand, has to plan these pools again.
             let capacity = Passes::capacity(&config, &sizes, &extent);
             assert_eq!(Passes::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
             let of = |triangles| {

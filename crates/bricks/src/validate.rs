@@ -1,21 +1,21 @@
-//! Checks the contents of built bricks.
+//! Checks of the contents of built bricks.
 
 use rasray_shaders_glsl::constants::bricks::BRICKS_EMPTY;
 
 use crate::grid::BRICK_SIDE;
 use crate::{Config, Header};
 
-/// All pools as downloaded, in words.
+/// Downloaded contents of all pools, in words.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// The configuration they were built with.
+    /// Configuration of the build.
     pub config: Config,
-    /// The header.
+    /// Header after the build.
     pub header: Header,
-    /// Bricks, [`Config::brick_words`] each.
+    /// Words of bricks, [`Config::brick_words`] each.
     pub bricks: Vec<u32>,
-    /// End of the list of each cell that lists something, or is divided; and once more as many words where
-    /// cells are divided.
+    /// End of the list of each cell that lists something or is divided. If cells are divided, as many words
+    /// again follow.
     pub lists: Vec<u32>,
     /// Entries of all lists.
     pub entries: Vec<u32>,
@@ -23,96 +23,96 @@ pub struct Contents {
     pub near: Vec<u32>,
 }
 
-/// Fault of a brick or a list.
+/// Fault in a brick or a list.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A list reaches beyond the pool.
+    /// List that reaches beyond the pool.
     #[error("list {list}: {end} is not a valid end")]
     Dangling {
-        /// List, numbered by the cells that have one.
+        /// Number of the list, among the cells that have one.
         list: usize,
-        /// The end of the list.
+        /// End of the list.
         end: u32,
     },
-    /// An entry is in no list, or in more than one.
+    /// Entry that is in no list, or in more than one.
     #[error("{stored} entries were counted and {listed} are in lists")]
     Count {
-        /// Entries counted.
+        /// Number of entries that the build counted.
         stored: usize,
-        /// Entries found in lists.
+        /// Number of entries found in lists.
         listed: usize,
     },
-    /// An entry has an invalid triangle index.
+    /// Entry with an invalid triangle index.
     #[error("list {list}: there is no triangle {primitive}")]
     Primitive {
-        /// List.
+        /// Number of the list.
         list: usize,
-        /// Index stored.
+        /// Triangle index, as stored.
         primitive: u32,
     },
-    /// A triangle is in a list twice.
+    /// Triangle that is in a list twice.
     #[error("list {list}: triangle {primitive} is in the list twice")]
     Twice {
-        /// List.
+        /// Number of the list.
         list: usize,
-        /// The triangle.
+        /// Index of the triangle.
         primitive: u32,
     },
-    /// The numbers of a brick's lists are those of another's too or beyond the last, or it is called empty
-    /// and is not.
+    /// Brick whose lists have numbers of another brick's lists or beyond the last, or whose word says that it
+    /// is empty although it is not.
     #[error("brick {brick}: its word {word:#x} does not fit its {cells} cells that list something")]
     Word {
-        /// Brick.
+        /// Index of the brick.
         brick: usize,
-        /// Its word.
+        /// Word of the brick.
         word: u32,
-        /// Cells that list something or are divided.
+        /// Number of cells that list something or are divided.
         cells: u32,
     },
-    /// A divided cell has no brick, or that of another cell, or a list as well.
+    /// Divided cell that has no brick, the brick of another cell, or a list as well.
     #[error("brick {brick}: its cell {cell} is divided into brick {child}, which is not that cell's")]
     Division {
-        /// Brick.
+        /// Index of the brick.
         brick: usize,
-        /// The divided cell, as the bit of the mask.
+        /// Divided cell, as the bit of the mask.
         cell: u32,
-        /// Its brick.
+        /// Index of the divided cell's brick.
         child: usize,
     },
-    /// A cell beyond the first, along an axis that is not divided.
+    /// Cell beyond the first, along an axis that is not divided.
     #[error("brick {brick}: there is no cell {cell} along the axes that level {level} divides")]
     Beyond {
-        /// Brick.
+        /// Index of the brick.
         brick: usize,
-        /// The cell, as the bit of the mask.
+        /// Cell at fault, as the bit of the mask.
         cell: u32,
         /// Level of the brick.
         level: u32,
     },
-    /// A brick that lists something is skipped.
+    /// Brick that lists something, but that a distance skips.
     #[error("brick {brick}: towards octant {octant} its distance skips a brick that lists something")]
     Distance {
-        /// The empty brick.
+        /// Index of the empty brick with the distance.
         brick: usize,
-        /// The octant.
+        /// Octant of the distance.
         octant: u32,
     },
 }
 
 impl Contents {
-    /// Cells that have a list.
+    /// Returns the number of cells that have a list.
     pub fn list_count(&self) -> usize {
         self.header.cell_demand.min(self.header.cell_capacity) as usize
     }
 
-    /// Entries that were stored.
+    /// Returns the number of entries that were stored.
     fn stored(&self) -> usize {
         self.header.demand.min(self.header.capacity) as usize
     }
 
-    /// The triangles of a list, in the order they are stored in. Lists are numbered by the cells that have
-    /// one.
+    /// Returns the triangles of a list, in the order in which they are stored. Lists are numbered by the
+    /// cells that have one.
     ///
     /// # Errors
     /// The list leaves the pool.
@@ -126,49 +126,49 @@ impl Contents {
     }
 }
 
-/// A cell that lists something.
+/// Cell that lists something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cell {
-    /// Number of times cells of the views were divided.
+    /// Number of times that a cell of the views was divided to make this one.
     pub level: u32,
-    /// Face of a cube; 0 along the axes.
+    /// Index of the cube's face; 0 along the axes.
     pub view: u32,
-    /// Column, row and slice, among cells of that level.
+    /// Column, row and slice, among the cells of the cell's level.
     pub place: [u32; 3],
-    /// Number of its list.
+    /// Number of the cell's list.
     pub list: usize,
 }
 
-/// Place of a brick.
+/// Place of a brick in the views.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     brick: usize,
     level: u32,
     view: u32,
-    /// Among bricks of the level.
+    /// Column, row and slice, among the bricks of the level.
     at: [u32; 3],
 }
 
 impl Contents {
-    /// Words of a brick.
+    /// Returns the words of a brick.
     fn words(&self, brick: usize) -> &[u32] {
         let words = self.config.brick_words() as usize;
         &self.bricks[words * brick..words * (brick + 1)]
     }
 
-    /// Bits of the cells of a brick that list something, and of those that are divided.
+    /// Returns two masks of a brick: the cells that list something, and the cells that are divided.
     fn masks(&self, brick: usize) -> [u64; 2] {
         let words = self.words(brick);
         let mask = |at: usize| u64::from(words[at]) | u64::from(words[at + 1]) << 32;
         [mask(1), if self.config.divides() { mask(3) } else { 0 }]
     }
 
-    /// Columns, rows and slices of the views, in bricks.
+    /// Returns the columns, rows and slices of the views, in bricks.
     fn bricks_along(&self) -> [u32; 3] {
         [self.header.columns, self.header.rows, self.header.slices].map(|cells| cells / 4)
     }
 
-    /// Bricks of the views.
+    /// Returns the places of the bricks of the views.
     fn of_views(&self) -> impl Iterator<Item = Place> + use<> {
         let [columns, rows, deep] = self.bricks_along();
         (0..self.config.views.count() * columns * rows * deep).map(move |brick| Place {
@@ -179,10 +179,10 @@ impl Contents {
         })
     }
 
-    /// All bricks, each before those of its divided cells.
+    /// Returns the places of all bricks, each before those of its divided cells.
     ///
     /// # Errors
-    /// The brick of a divided cell is another cell's.
+    /// The brick of a divided cell belongs to another cell.
     fn all_bricks(&self) -> Result<Vec<Place>, Fault> {
         let mut places: Vec<Place> = self.of_views().collect();
         let (first, stored) =
@@ -215,21 +215,22 @@ impl Contents {
         Ok(places)
     }
 
-    /// Cells of a brick of a level along each axis: 4, or the one that was not divided.
+    /// Returns the number of cells of a brick along each axis, on a level: 4, or 1 along an axis that was not
+    /// divided.
     fn side(&self, level: u32) -> [u32; 3] {
         self.header.depths.map(|depth| if level <= depth { BRICK_SIDE } else { 1 })
     }
 
-    /// The cell of a bit of a brick, among cells of the brick's level.
+    /// Returns the place of a bit of a brick, among the cells of the brick's level.
     fn cell_at(&self, brick: Place, bit: u32) -> [u32; 3] {
         let (side, within) = (self.side(brick.level), within_brick(bit));
         std::array::from_fn(|axis| side[axis] * brick.at[axis] + within[axis])
     }
 
-    /// All cells that list something.
+    /// Returns all cells that list something.
     ///
     /// # Errors
-    /// The brick of a divided cell is another cell's.
+    /// The brick of a divided cell belongs to another cell.
     pub fn cells(&self) -> Result<Vec<Cell>, Fault> {
         let mut cells = Vec::new();
         for place in self.all_bricks()? {
@@ -246,18 +247,19 @@ impl Contents {
     }
 }
 
-/// Numbers of the bits that are set.
+/// Returns the numbers of the bits that are set.
 fn bits_of(mask: u64) -> impl Iterator<Item = u32> {
     (0..u64::BITS).filter(move |bit| mask >> bit & 1 != 0)
 }
 
-/// Column, row and slice of a bit within a brick.
+/// Returns the column, row and slice of a bit within a brick.
 fn within_brick(bit: u32) -> [u32; 3] {
     [bit % 4, bit / 4 % 4, bit / 16]
 }
 
-/// Checks that words of bricks number the cells that list something, each once, and that divided cells have
-/// none.
+/// Checks that the words of bricks number the cells that list something or are divided, each once, that empty
+/// bricks are marked as empty, that no cell lies beyond those of its level, and that the lists of divided
+/// cells are empty.
 fn words_are_well_formed(contents: &Contents) -> Result<(), Fault> {
     let mut taken = vec![false; contents.list_count()];
     for Place { brick, level, .. } in contents.all_bricks()? {
@@ -289,7 +291,7 @@ fn words_are_well_formed(contents: &Contents) -> Result<(), Fault> {
     }
 }
 
-/// Checks that no empty brick's distance skips one that is not.
+/// Checks that no empty brick's distance skips a brick that is not empty.
 fn distances_are_well_formed(contents: &Contents) -> Result<(), Fault> {
     let [columns, rows, deep] = contents.bricks_along().map(i64::from);
     let empty = |brick: usize| contents.masks(brick) == [0; 2];
@@ -319,7 +321,7 @@ fn distances_are_well_formed(contents: &Contents) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Checks words of bricks, that every counted entry is in exactly one list and has the index of one of
+/// Checks the words of bricks, that every counted entry is in exactly one list and has the index of one of
 /// `triangles` triangles, and that no list contains a triangle twice.
 ///
 /// # Errors

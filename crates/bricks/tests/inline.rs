@@ -1,4 +1,5 @@
-//! The example runs, every complete frame has the hits of brute force, and the validation layer is silent.
+//! Test that the example runs, that every complete frame has the hits of brute force, and that the validation
+//! layer is silent.
 
 #[path = "../examples/inline.rs"]
 mod inline;
