@@ -1,4 +1,4 @@
-//! The build on the device: pipelines, and the passes in the order they are recorded.
+//! Build on the device: its pipelines, and its passes in the order they are recorded.
 
 use rasray_ads::AdsError;
 use rasray_ads::kit::{BuildPipelines, BuildTarget, Scan};
@@ -37,16 +37,16 @@ struct DevicePipelines {
     treelets: Option<TreeletPipelines>,
     /// Passes of later builds, which keep the tree of the first.
     refit: Option<RefitPipelines>,
-    /// Passes that make nodes of four of those of two.
+    /// Passes that make nodes of four children from nodes of two.
     fours: Option<FourPipelines>,
 }
 
-/// Pipelines that make the nodes of two over the records.
+/// Pipelines that make the nodes of two children over the records.
 #[derive(Debug)]
 enum TreePipelines {
-    /// Each node by itself, from the codes.
+    /// Each node is made by itself, from the Morton codes.
     OfCodes { unions: ComputePipeline, topology: ComputePipeline },
-    /// By merging clusters.
+    /// Nodes are made by merging clusters.
     OfClusters { clusters: ComputePipeline, chunks: Chunks },
 }
 
@@ -83,7 +83,8 @@ impl Build {
         Ok(Self { of_builder, records, status: pipelines.compute("build_17_status")? })
     }
 
-    /// Records what the host needs to know of the triangles. The host has written the header.
+    /// Records the pass that writes the boxes of triangles for a build on the host. The host has written the
+    /// header.
     pub(crate) fn record_boxes(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let OfBuilder::Sah { boxes } = &self.of_builder else { return };
         record_header(recorder, target);
@@ -93,8 +94,8 @@ impl Build {
         recorder.end_pass();
     }
 
-    /// Records all passes; where the tree is kept, those that find its boxes anew. The host has written the
-    /// header.
+    /// Records all passes of a build or, if the tree is kept, those that find its boxes anew. The host has
+    /// written the header.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, keeps_tree: bool) {
         record_header(recorder, target);
         let triangles = target.geometry.triangle_count();
@@ -135,7 +136,7 @@ impl DevicePipelines {
         })
     }
 
-    /// Codes, and the order of the triangles by them.
+    /// Records the passes that find Morton codes and sort the triangles by them.
     fn record_order(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
         let chunks = triangles.div_ceil(BVH_SORT_CHUNK);
@@ -145,7 +146,7 @@ impl DevicePipelines {
             target.compute_pass(recorder, label, pipeline, groups, digit, Access::COMPUTE);
         };
         pass(recorder, target, "bvh/build_2_codes", &self.codes, 0, triangles);
-        // Four digits take the keys from the first buffer to the second and back twice.
+        // Each of four digits takes the keys from one buffer to the other, so they end in the first buffer.
         for digit in 0..BVH_DIGITS {
             chunk_pass(recorder, "bvh/build_3_counts", &self.counts, digit);
             self.scan.record(recorder, target, "bvh/build_4_scan", counts, digit, Access::COMPUTE);
@@ -153,7 +154,7 @@ impl DevicePipelines {
         }
     }
 
-    /// Nodes over the records, or where the tree is kept only their boxes.
+    /// Records the passes that make nodes over the records or, if the tree is kept, only their boxes.
     fn record_tree(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, keeps_tree: bool) {
         match (&self.treelets, &self.refit) {
             (Some(treelets), Some(refit)) if keeps_tree => refit.record(recorder, target, treelets),
@@ -219,8 +220,8 @@ impl TreeletPipelines {
         })
     }
 
-    /// In each round classes of subtrees by size one after the other: those of a class depend on those of
-    /// smaller ones.
+    /// Records all rounds. In each round the classes of subtrees, by size, follow one after the other, since
+    /// subtrees of a class depend on those of smaller classes.
     fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
         let counts = BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES;
@@ -231,7 +232,8 @@ impl TreeletPipelines {
         }
     }
 
-    /// A round over the classes from `first` on: a dispatch of the labelled pass for each.
+    /// Records a round over the classes from `first` on, with one dispatch of the labelled pass for each
+    /// class.
     fn record_round(
         &self,
         recorder: &mut Recorder<'_>,
@@ -241,7 +243,7 @@ impl TreeletPipelines {
         step: impl Fn(u32) -> u32,
     ) {
         let triangles = target.geometry.triangle_count();
-        // A class has half as many chains as the one before, at most.
+        // A class has at most half as many chains as the one before.
         let chains = |class: u32| (triangles / BVH_TREELET).checked_shr(class).unwrap_or(0);
         if chains(first) == 0 {
             return;
@@ -261,7 +263,7 @@ impl RefitPipelines {
         })
     }
 
-    /// Boxes of the nodes of two, from the leaves up.
+    /// Records the passes that find the boxes of the nodes of two children, from the leaves up.
     fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, treelets: &TreeletPipelines) {
         let items = target.geometry.triangle_count().max(BVH_TREELET_CLASSES);
         pass(recorder, target, "bvh/build_9_refit", &self.small, 0, items);
@@ -279,7 +281,8 @@ impl FourPipelines {
         })
     }
 
-    /// Choice of the nodes of two that become nodes of four, their numbers, and those nodes.
+    /// Records the passes that choose the nodes of two children that become nodes of four, number them, and
+    /// make the nodes of four.
     fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, scan: &Scan) {
         let nodes = target.geometry.triangle_count().saturating_sub(1);
         pass(recorder, target, "bvh/build_13_openings", &self.openings, 0, nodes);
@@ -292,7 +295,7 @@ impl FourPipelines {
 }
 
 impl Chunks {
-    /// Workgroups for as many chunks.
+    /// Returns the number of workgroups for this many chunks.
     fn groups(self, chunks: u32) -> u64 {
         match self {
             Self::Serial => groups(chunks),
@@ -305,7 +308,7 @@ fn groups(items: u32) -> u64 {
     items.div_ceil(BVH_GROUP_SIZE).into()
 }
 
-/// A pass with an invocation per item, visible to the next one.
+/// Records a pass with an invocation per item, whose writes the next pass can see.
 fn pass(
     recorder: &mut Recorder<'_>,
     target: BuildTarget<'_>,

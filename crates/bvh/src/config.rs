@@ -10,36 +10,37 @@ use crate::{Node, NodeOfFour};
 /// Builder of the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builder {
-    /// The host, by the surface area heuristic: slow to build, fast to trace.
+    /// Build on the host, by the surface area heuristic: slow to build, fast to trace.
     Sah,
-    /// The device, by Morton codes: fast to build, slower to trace.
+    /// Build on the device, by Morton codes: fast to build, slower to trace.
     Lbvh,
-    /// The device: clusters of triangles merge with near ones, by surface area: slower to build than
+    /// Build on the device that merges near clusters of triangles by surface area: slower to build than
     /// [`Builder::Lbvh`], faster to trace.
     Ploc,
-    /// The device: the tree by Morton codes, and then treelets of it are restructured by surface area: slower
-    /// to build, faster to trace.
+    /// Build on the device that makes the tree of [`Builder::Lbvh`] and then restructures treelets of it by
+    /// surface area: slower to build, faster to trace.
     Trbvh,
-    /// The device: the first tree as [`Builder::Trbvh`] makes it, after that only its boxes. Fastest to
-    /// build, and slower to trace the farther the triangles have moved since the first build.
+    /// Build on the device that makes the first tree as [`Builder::Trbvh`], and afterwards finds only its
+    /// boxes anew. Fastest to build, and slower to trace the farther the triangles have moved since the first
+    /// build.
     Refit,
 }
 
 words! { Builder { Sah "sah", Lbvh "lbvh", Ploc "ploc", Trbvh "trbvh", Refit "refit" } }
 
-/// Children of a node.
+/// Maximum number of children of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Children {
-    /// Two.
+    /// Two children.
     Two,
-    /// Four, tested together: fewer nodes to read, and the fastest to trace.
+    /// Four children, which a ray tests together: fewer nodes to read, and the fastest to trace.
     Four,
 }
 
 words! { Children { Two "2", Four "4" } }
 
 impl Children {
-    /// Their number: 2 or 4.
+    /// Returns the number of children: 2 or 4.
     pub fn number(self) -> u32 {
         match self {
             Self::Two => 2,
@@ -47,7 +48,7 @@ impl Children {
         }
     }
 
-    /// Bytes of a node.
+    /// Returns the bytes of a node.
     pub(crate) fn node_bytes(self) -> usize {
         match self {
             Self::Two => size_of::<Node>(),
@@ -56,44 +57,44 @@ impl Children {
     }
 }
 
-/// Way in which the device works on chunks, of keys that it sorts and of clusters that it merges. The tree is
-/// the same.
+/// Way in which the device works on chunks: of keys that it sorts, and of clusters that it merges. The tree
+/// does not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Chunks {
-    /// An invocation takes a chunk alone: the least work.
+    /// One invocation takes a chunk, which is the least work.
     Serial,
-    /// A workgroup takes a chunk, in shared memory: fills a device.
+    /// One workgroup takes a chunk, in shared memory, which fills a device.
     Shared,
 }
 
-/// All options. None of them changes a hit.
+/// Options of a BVH. None of them changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
     /// Builder of the tree.
     pub builder: Builder,
-    /// Children per node; by default two by [`Builder::Lbvh`] and [`Builder::Refit`], whose builds are to be
-    /// quick, and four by the others.
+    /// Maximum number of children per node. If absent, two with [`Builder::Lbvh`] and [`Builder::Refit`],
+    /// whose builds should be quick, and four with the other builders.
     pub children: Option<Children>,
-    /// Maximum number of triangles per leaf, 1 to 16; by default 4 by [`Builder::Sah`] and, with four
-    /// children per node, by [`Builder::Ploc`], whose heuristic may use fewer, and 1 by the others, whose
-    /// leaves hold one.
+    /// Maximum number of triangles per leaf, 1 to 16. If absent, 4 with [`Builder::Sah`] and, with four
+    /// children per node, with [`Builder::Ploc`], whose heuristic may use fewer; 1 with the other builders,
+    /// whose leaves hold one triangle.
     pub leaf: Option<u32>,
-    /// Way in which the device works on chunks; where absent [`Chunks::Serial`] on software devices and
+    /// Way in which the device works on chunks. If absent, [`Chunks::Serial`] on software devices and
     /// [`Chunks::Shared`] on others.
     pub chunks: Option<Chunks>,
-    /// Addressing of pools.
+    /// Addressing of pools: descriptors or device addresses.
     pub addressing: Addressing,
     /// Counters that rays record of their work: nodes read and triangles tested.
     pub counters: Counters,
-    /// Work units (nodes read and triangles tested) a ray may spend in one dispatch, 1 or more; the shared
-    /// default where absent.
+    /// Work units (nodes read and triangles tested) that a ray may spend in one dispatch, 1 or more. If
+    /// absent, the default that all structures share.
     pub work_budget: Option<u32>,
 }
 
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The defaults with a builder.
+    /// Returns the default options with a builder.
     pub fn new(builder: Builder) -> Self {
         Self {
             builder,
@@ -106,7 +107,7 @@ impl Config {
         }
     }
 
-    /// Children of a node of the trees that are made.
+    /// Returns the number of children per node: the chosen one, or the builder's default.
     pub fn made_children(&self) -> Children {
         self.children.unwrap_or(match self.builder {
             Builder::Sah | Builder::Ploc | Builder::Trbvh => Children::Four,
@@ -114,12 +115,12 @@ impl Config {
         })
     }
 
-    /// Maximum number of triangles per leaf of the trees that are made.
+    /// Returns the maximum number of triangles per leaf: the chosen one, or the builder's default.
     pub fn made_leaf(&self) -> u32 {
         self.leaf.unwrap_or(if self.chooses_leaves() { 4 } else { 1 })
     }
 
-    /// True where triangles may share a leaf.
+    /// Returns true if triangles may share a leaf.
     fn chooses_leaves(&self) -> bool {
         match self.builder {
             Builder::Sah => true,
@@ -128,10 +129,10 @@ impl Config {
         }
     }
 
-    /// Checks ranges, and that the builder makes such trees.
+    /// Checks the ranges of all options, and that the builder makes trees of this kind.
     ///
     /// # Errors
-    /// The first option out of range.
+    /// The first option that is out of range, or that the builder cannot follow.
     pub fn validate(&self) -> Result<(), AdsError> {
         let leaf = self.made_leaf();
         if self.chooses_leaves() {
@@ -147,7 +148,7 @@ impl Config {
         check_work_budget(self.work_budget, false)
     }
 
-    /// Options as name and value, for reports.
+    /// Returns the options as pairs of name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
         vec![
             ("builder", self.builder.name().to_owned()),
@@ -156,7 +157,7 @@ impl Config {
         ]
     }
 
-    /// Paths as name and value, for reports.
+    /// Returns the chosen code paths as pairs of name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         let builder = match self.builder {
             Builder::Sah => "host",

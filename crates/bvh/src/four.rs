@@ -1,8 +1,8 @@
-//! Trees of four children per node, made of trees of two.
+//! Conversion of trees with two children per node to trees with four.
 //!
-//! The nodes of the tree of two that stay are those that lower the surface area heuristic's cost the most,
-//! found from the leaves up: Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs through
-//! compressed wide BVHs", HPG 2017, section 3.1. Leaves and boxes stay as they are.
+//! The conversion keeps the nodes of the tree of two that lower the surface area heuristic's cost the most.
+//! It finds them from the leaves up: Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs
+//! through compressed wide BVHs", HPG 2017, section 3.1. Leaves and boxes stay as they are.
 
 use rasray_shaders_glsl::constants::bvh::{BVH_FOUR, BVH_LEAF, BVH_NONE};
 
@@ -10,11 +10,11 @@ use crate::NodeOfFour;
 use crate::host::{Box3, Tree, triangles_of};
 use crate::validate::area;
 
-/// Children of a node.
+/// Maximum number of children of a node.
 const FOUR: usize = BVH_FOUR as usize;
 
-/// Least costs of a subtree as exactly 1, 2, 3 and 4 children of a node, infinity where it has fewer leaves,
-/// and how many of them its first half then takes.
+/// Least costs of a subtree as exactly 1, 2, 3 and 4 children of a node (infinity if the subtree has fewer
+/// leaves), and the number of these children that its first half takes in each case.
 #[derive(Clone, Copy, Debug)]
 struct Choice {
     costs: [f64; FOUR],
@@ -22,15 +22,16 @@ struct Choice {
 }
 
 impl Choice {
-    /// A leaf is one child and costs its triangles, by area.
+    /// Returns the choice of a leaf, which is one child and costs its triangles, by area.
     fn leaf(reference: u32, bounds: Box3) -> Self {
         let mut costs = [f64::INFINITY; FOUR];
         costs[0] = area(bounds) * f64::from(triangles_of(reference));
         Self { costs, first: [0; FOUR] }
     }
 
-    /// An inner node is divided between several children, or is one: a node of its own, with as many children
-    /// as it can have. So a node with fewer than four has leaves only, which bounds their number.
+    /// Returns the choice of an inner node. The node is either divided between several children, or is one
+    /// child: a node of its own, with as many children as it can have. A node with fewer than four children
+    /// therefore has leaves only, which bounds the number of nodes.
     fn inner(bounds: Box3, halves: [Self; 2]) -> Self {
         let mut choice = Self { costs: [f64::INFINITY; FOUR], first: [0; FOUR] };
         for children in 2..=FOUR {
@@ -45,14 +46,14 @@ impl Choice {
         choice
     }
 
-    /// As how many children it can be.
+    /// Returns the maximum number of children that the subtree can be.
     fn most(&self) -> usize {
         (2..=FOUR).rev().find(|children| self.costs[children - 1] < f64::INFINITY).unwrap_or(1)
     }
 }
 
-/// Widens a tree to up to four children per node, in the same order of leaves; empty where the root is a
-/// leaf. The root's number is 0 in both.
+/// Widens a tree to up to four children per node, with the leaves in the same order. Returns no nodes if the
+/// root is a leaf. The root's number is 0 in both trees.
 pub(crate) fn with_four_children(tree: &Tree) -> Vec<NodeOfFour> {
     if tree.root == BVH_NONE || tree.root & BVH_LEAF != 0 {
         return Vec::new();
@@ -94,7 +95,8 @@ pub(crate) fn with_four_children(tree: &Tree) -> Vec<NodeOfFour> {
     nodes
 }
 
-/// Collects what a node of the tree of two is as so many children: references into that tree.
+/// Collects the children that a node of the tree of two becomes, as references into that tree with their
+/// boxes.
 fn gather(tree: &Tree, choices: &[Choice], source: usize, children: usize, into: &mut Vec<(u32, Box3)>) {
     let of_first = usize::from(choices[source].first[children - 1]);
     for ((reference, bounds), wanted) in
@@ -115,7 +117,7 @@ mod tests {
     use crate::host::build;
     use crate::layout::most_nodes;
 
-    /// Boxes along a line, at distances that grow.
+    /// Returns boxes along a line, at distances that grow.
     fn line(count: usize) -> Vec<Box3> {
         (0..count).map(|i| [[(i * i) as f32, 0.0, 0.0], [(i * i + 1) as f32, 1.0, 1.0]]).collect()
     }
@@ -124,7 +126,7 @@ mod tests {
     fn nodes_are_full_or_have_leaves_only() {
         for count in [2, 3, 4, 5, 8, 9, 64, 1000] {
             for leaf in [1, 4] {
-                // A line, and all in one place, whose areas are zero.
+                // Boxes along a line, and boxes in one place, whose areas are zero.
                 for boxes in [line(count), vec![[[0.5; 3]; 2]; count]] {
                     let tree = build(&boxes, leaf);
                     let nodes = with_four_children(&tree);

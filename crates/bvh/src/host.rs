@@ -1,10 +1,11 @@
-//! The host's build: a tree that lowers the surface area heuristic's cost, in the order of its leaves.
+//! Build on the host: a tree that lowers the surface area heuristic's cost, with triangles in the order of
+//! its leaves.
 //!
 //! The tree's shape comes from `obvhs`: triangles are clustered by the surface area of their union (Meister
 //! and Bittner, "Parallel locally-ordered clustering for bounding volume hierarchy construction", 2018),
-//! subtrees are reinserted where they lower the cost (the same, "Parallel reinsertion for bounding volume
-//! hierarchy optimization", 2018), and subtrees that cost more than their triangles become leaves. Only the
-//! shape is taken over: boxes are made here, exactly, from those of the triangles.
+//! subtrees are reinserted where they lower the cost (by the same authors, "Parallel reinsertion for bounding
+//! volume hierarchy optimization", 2018), and subtrees that cost more than their triangles become leaves.
+//! This module takes over the shape only, and computes exact boxes from those of the triangles.
 
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -17,26 +18,26 @@ use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_LEAF_SHIFT, BVH_NONE};
 
 use crate::Node;
 
-/// Lower and upper corner, metres relative to the frame origin.
+/// Box as its lower and upper corner, in metres relative to the frame origin.
 pub(crate) type Box3 = [[f32; 3]; 2];
 
-/// Share of the nodes that are tried elsewhere in the tree.
+/// Share of the nodes that the optimization tries at other places of the tree.
 const REINSERTED: f32 = 0.2;
-/// Cost of reading a node over that of testing a triangle.
+/// Cost of reading a node, relative to the cost of testing a triangle.
 const NODE_COST: f32 = 1.0;
 
-/// A tree as the pools hold it.
+/// Tree as the pools hold it.
 #[derive(Debug)]
 pub(crate) struct Tree {
-    /// Child reference of the whole tree.
+    /// Child reference of the root.
     pub(crate) root: u32,
-    /// Inner nodes; each after its parent.
+    /// Inner nodes, each after its parent.
     pub(crate) nodes: Vec<Node>,
-    /// Primitive of each record.
+    /// Primitive index of each record.
     pub(crate) order: Vec<u32>,
 }
 
-/// The union of two boxes.
+/// Returns the union of two boxes.
 pub(crate) fn union(a: Box3, b: Box3) -> Box3 {
     [
         std::array::from_fn(|axis| a[0][axis].min(b[0][axis])),
@@ -49,8 +50,8 @@ pub(crate) fn build(boxes: &[Box3], leaf: u32) -> Tree {
     if boxes.is_empty() {
         return Tree { root: BVH_NONE, nodes: Vec::new(), order: Vec::new() };
     }
-    // No ray hits a triangle with a corner that is not finite; where it is infinite, the check of the build
-    // counts it.
+    // No ray hits a triangle with a corner that is not finite. The check of the build counts triangles with
+    // infinite corners.
     let is_finite = |bounds: &Box3| bounds.as_flattened().iter().all(|x| x.is_finite());
     let boxes: Vec<Box3> =
         boxes.iter().map(|bounds| if is_finite(bounds) { *bounds } else { [[0.0; 3]; 2] }).collect();
@@ -71,8 +72,8 @@ pub(crate) fn build(boxes: &[Box3], leaf: u32) -> Tree {
     flatten(&shape, boxes, &groups, leaf as usize)
 }
 
-/// The boxes that differ, in order of appearance, and the triangles of each. Clustering takes time in the
-/// square of the number of boxes that are the same, since all their unions cost the same.
+/// Returns the distinct boxes, in order of appearance, and the triangles of each. Clustering takes time in
+/// the square of the number of equal boxes, since all their unions cost the same.
 fn grouped(boxes: &[Box3]) -> (Vec<Box3>, Vec<Vec<u32>>) {
     let mut places: HashMap<[[u32; 3]; 2], usize> = HashMap::with_capacity(boxes.len());
     let (mut distinct, mut groups) = (Vec::new(), Vec::<Vec<u32>>::new());
@@ -87,7 +88,8 @@ fn grouped(boxes: &[Box3]) -> (Vec<Box3>, Vec<Vec<u32>>) {
     (distinct, groups)
 }
 
-/// The boxes in units of the whole, so that no area overflows however large or small the scene is.
+/// Returns the boxes in units of the box around all of them, so that no area overflows however large or small
+/// the scene is.
 fn normalized(boxes: &[Box3]) -> Vec<Aabb> {
     let whole = boxes.iter().copied().fold(boxes[0], union);
     let extent =
@@ -99,16 +101,16 @@ fn normalized(boxes: &[Box3]) -> Vec<Aabb> {
     boxes.iter().map(|b| Aabb::new(corner(b[0]).into(), corner(b[1]).into())).collect()
 }
 
-/// A child of a node.
+/// Child of a node.
 enum Part {
-    /// A node of the shape.
+    /// Index of a node of the shape.
     Node(usize),
     /// Triangles with equal boxes, which the shape does not separate.
     Triangles(Vec<u32>),
 }
 
-/// Lays the shape out depth first and gives every child its exact box. More than `leaf` triangles in one
-/// place are halved until they fit.
+/// Converts the shape to a tree, depth first, and gives every child its exact box. If there are more than
+/// `leaf` triangles with equal boxes, they are halved until they fit into leaves.
 fn flatten(shape: &Bvh2, boxes: &[Box3], groups: &[Vec<u32>], leaf: usize) -> Tree {
     let mut tree = Tree { root: BVH_NONE, nodes: Vec::new(), order: Vec::with_capacity(boxes.len()) };
     let mut pending = vec![(Part::Node(0), BVH_NONE)];
@@ -151,7 +153,7 @@ fn flatten(shape: &Bvh2, boxes: &[Box3], groups: &[Vec<u32>], leaf: usize) -> Tr
     tree
 }
 
-/// Number of triangles that a leaf's reference says.
+/// Returns the number of triangles in a leaf's reference.
 pub(crate) fn triangles_of(leaf: u32) -> u32 {
     ((leaf & !BVH_LEAF) >> BVH_LEAF_SHIFT) + 1
 }
@@ -168,7 +170,8 @@ fn set_child(tree: &mut Tree, link: u32, reference: u32, bounds: Box3) {
 mod tests {
     use super::*;
 
-    /// Triangles and levels of the tree, each triangle once.
+    /// Returns the number of triangles and of levels of the tree, after a check that it has each triangle
+    /// once.
     fn shape(tree: &Tree) -> (usize, usize) {
         let mut triangles = tree.order.clone();
         triangles.sort_unstable();
@@ -188,7 +191,7 @@ mod tests {
             let levels = count.div_ceil(leaf as usize).next_power_of_two().ilog2() as usize;
             assert_eq!(shape(&tree), (count, levels), "{count} triangles, {leaf} per leaf");
         }
-        // Among others that are apart.
+        // Other boxes, which are apart from each other.
         let mut boxes: Vec<Box3> = (0..100).map(|i| [[i as f32; 3], [i as f32 + 0.5; 3]]).collect();
         boxes.extend([point; 100]);
         let (triangles, levels) = shape(&build(&boxes, 2));

@@ -1,4 +1,4 @@
-//! Sizes of the pools: plain arithmetic, no device.
+//! Sizes of the pools, by plain arithmetic without a device.
 
 use rasray_ads::kit::Scan;
 use rasray_ads::{AdsError, Sizes};
@@ -12,19 +12,19 @@ use crate::{Builder, Children, Config, Pool, Record};
 /// Name of the structure in errors.
 pub(crate) const NAME: &str = "bvh";
 
-/// Words that a triangle takes in the scratch pool of a build on the host before the order of the leaves: its
-/// box.
+/// Words of a triangle's box in the scratch pool of a build on the host. The boxes come before the order of
+/// the leaves.
 pub(crate) const BOX_WORDS: u64 = 6;
 
-// Numbers of chains stand where the counts of a chunk's digits stood; sizes and chains of all classes, fewer
-// than two words per triangle, where the keys did (four). The list of nodes of four stands where all counts
-// did.
+// Parts of the scratch pool are used again. The numbers of chains take the place of the counts of a chunk's
+// digits. The sizes and chains of all classes, fewer than two words per triangle, take the place of the keys,
+// which had four. The list of nodes of four takes the place of all counts.
 const _: () = assert!(BVH_TREELET_ROUNDS * BVH_TREELET_CLASSES <= BVH_DIGIT_VALUES && BVH_TREELET > 1);
 const _: () = assert!(BVH_SORT_CHUNK <= BVH_DIGIT_VALUES);
-// Each invocation has as many clusters; merging makes fewer of them.
+// Each invocation has an equal number of clusters, and merging has to make fewer of them.
 const _: () = assert!(BVH_CLUSTERS.is_multiple_of(BVH_GROUP_SIZE) && BVH_CLUSTERS_KEPT < BVH_CLUSTERS);
 
-/// Words of the scratch pool.
+/// Returns the words of the scratch pool.
 fn scratch_words(builder: Builder, triangles: u64) -> u64 {
     match builder {
         Builder::Sah => (BOX_WORDS + 1) * triangles,
@@ -40,7 +40,8 @@ fn scratch_words(builder: Builder, triangles: u64) -> u64 {
     }
 }
 
-/// Boxes in each level of unions above the triangles, up to the one that is a single box.
+/// Returns the number of boxes in each level of unions above the triangles, up to the level with a single
+/// box.
 pub(crate) fn union_levels(triangles: u64) -> impl Iterator<Item = u64> {
     let above = |count: &u64| (*count > 1).then(|| count.div_ceil(BVH_UNION.into()));
     std::iter::successors(Some(triangles), above).skip(1)
@@ -50,7 +51,8 @@ fn unions(triangles: u64) -> u64 {
     union_levels(triangles).sum()
 }
 
-/// Clusters that each level of merging begins with, the records first.
+/// Returns the number of clusters with which each level of merging begins. The first level begins with the
+/// records.
 pub(crate) fn cluster_levels(triangles: u64) -> impl Iterator<Item = u64> {
     let (merged, kept) = (u64::from(BVH_CLUSTERS), u64::from(BVH_CLUSTERS_KEPT));
     let above =
@@ -58,10 +60,10 @@ pub(crate) fn cluster_levels(triangles: u64) -> impl Iterator<Item = u64> {
     std::iter::successors(Some(triangles), above)
 }
 
-/// Inner nodes of a tree over so many triangles at most. With two children per node there is one fewer than
-/// there are leaves. A node of four that has fewer children has leaves only: with w nodes of four children
-/// and v others, of two leaves at least, 4 w + 2 v children and w + v - 1 of them nodes leave at most (2 n -
-/// 1) / 3 nodes.
+/// Returns the maximum number of inner nodes of a tree over `triangles` triangles. With two children per node
+/// there is one fewer than there are leaves. A node of four that has fewer children has leaves only: with w
+/// nodes of four children and v others, of two leaves at least, 4 w + 2 v children and w + v - 1 of them
+/// nodes leave at most (2 n - 1) / 3 nodes.
 pub(crate) fn most_nodes(children: Children, triangles: u64) -> u64 {
     match children {
         Children::Two => triangles.saturating_sub(1),
@@ -69,14 +71,14 @@ pub(crate) fn most_nodes(children: Children, triangles: u64) -> u64 {
     }
 }
 
-/// Elements of the pool of nodes behind those of the tree: nodes of two children, of which the device makes
-/// nodes of four.
+/// Returns the elements behind the tree in the pool of nodes, which hold the nodes of two children from which
+/// the device makes nodes of four.
 pub(crate) fn pair_elements(config: &Config, triangles: u64) -> u64 {
     let bytes = Children::Two.node_bytes() as u64 * pairs(config, triangles);
     bytes.div_ceil(Children::Four.node_bytes() as u64)
 }
 
-/// Nodes of two children, of which the device makes nodes of four.
+/// Returns the number of nodes of two children from which the device makes nodes of four.
 fn pairs(config: &Config, triangles: u64) -> u64 {
     match (config.made_children(), config.builder) {
         (Children::Two, _) | (_, Builder::Sah) => 0,
@@ -86,7 +88,7 @@ fn pairs(config: &Config, triangles: u64) -> u64 {
     }
 }
 
-/// Sizes of the pools of a tree over `triangles` triangles.
+/// Returns the sizes of the pools of a tree over `triangles` triangles.
 ///
 /// # Errors
 /// An option is out of range, or there are more triangles than a leaf's 27 bits can address.
@@ -107,27 +109,28 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
     )
 }
 
-/// Bytes of the page's formula for counted nodes and triangles.
+/// Bytes of a tree by the formula of `docs/systems/bvh.md`, for counted nodes and triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
     /// Bytes that traces read: header 96, 64 per node of two children or 128 per node of four, 40 per
     /// triangle.
     pub traced: u64,
-    /// Bytes that only the build uses: 28 per triangle by [`Builder::Sah`]; by the others 16 per triangle,
-    /// 1024 for every 256 of them, 4 for every 1024 of them, and 24 per union of four boxes, unions of unions
-    /// included, each rounded up, or by [`Builder::Ploc`] in their place 28 per triangle, and for nodes of
-    /// four 128 per two triangles after the first.
+    /// Bytes that only the build uses. With [`Builder::Sah`] 28 per triangle. With the others 16 per
+    /// triangle, 1024 for every 256 triangles, 4 for every 1024 triangles, and 24 per union of four boxes
+    /// (including unions of unions), each rounded up, or with [`Builder::Ploc`] in place of the unions 28 per
+    /// triangle; and for nodes of four 128 per two triangles after the first.
     pub scratch: u64,
 }
 
 impl FormulaBytes {
-    /// Sum of both parts.
+    /// Returns the sum of both parts.
     pub fn total(&self) -> u64 {
         self.traced + self.scratch
     }
 }
 
-/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
+/// Computes the bytes by the formula of `docs/systems/bvh.md`. It shares no code with [`plan`], so that the
+/// two check each other.
 pub fn formula_bytes(config: &Config, nodes: u64, triangles: u64) -> FormulaBytes {
     let node = match config.made_children() {
         Children::Four => 128,
@@ -186,7 +189,7 @@ mod tests {
         assert!(refused(Config { work_budget: Some(0), ..config }).contains("work budget"));
         for builder in [Builder::Lbvh, Builder::Ploc, Builder::Trbvh, Builder::Refit] {
             let config = Config::new(builder);
-            // Options that such a tree has may be given.
+            // The options that such a tree has may also be given.
             assert!(plan(&Config { children: Some(Children::Two), leaf: Some(1), ..config }, 1).is_ok());
             let two = Config { children: Some(Children::Two), ..config };
             let leaf = refused(Config { leaf: Some(4), ..two });

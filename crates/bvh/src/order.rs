@@ -1,15 +1,15 @@
-//! Order of the triangles on the device, as far as the host knows it.
+//! Numbering of the orders in which the device sorts triangles.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Orders are numbered from 1. A build that orders the triangles carries the number of the order in its
-/// header; once the host has read that such a build was complete, builds recorded later may keep that order.
-/// What is merely recorded does not count: it may never be submitted, or be incomplete.
+/// Numbers of orders, from 1. A build that orders the triangles carries the number of the order in its
+/// header. Once the host has read that such a build was complete, builds recorded later may keep that order.
+/// A build that is merely recorded does not count: it may never be submitted, or be incomplete.
 #[derive(Debug)]
 pub(crate) struct Order {
-    /// The number that builds carry now: triangles or pools of another number are gone.
+    /// Number that builds carry now. Triangles or pools that had another number no longer exist.
     current: AtomicU32,
-    /// The last number of which a complete build was seen.
+    /// Last number with which the host saw a complete build.
     seen: AtomicU32,
 }
 
@@ -20,22 +20,22 @@ impl Default for Order {
 }
 
 impl Order {
-    /// The number for the header of a build.
+    /// Returns the number for the header of a build.
     pub(crate) fn number(&self) -> u32 {
         self.current.load(Ordering::Relaxed)
     }
 
-    /// True if the next build may keep the order.
+    /// Returns true if the next build may keep the order.
     pub(crate) fn is_kept(&self) -> bool {
         self.seen.load(Ordering::Relaxed) == self.number()
     }
 
-    /// A complete build with this number has ended.
+    /// Notes that a complete build with this number has ended.
     pub(crate) fn see(&self, number: u32) {
         self.seen.store(number, Ordering::Relaxed);
     }
 
-    /// Triangles or pools are others now.
+    /// Starts a new order, since triangles or pools have changed.
     pub(crate) fn forget(&self) {
         self.current.fetch_add(1, Ordering::Relaxed);
     }
@@ -54,7 +54,7 @@ mod tests {
         assert!(order.is_kept());
         order.forget();
         assert!(!order.is_kept());
-        // A frame in flight that was recorded before ends after.
+        // A frame in flight that was recorded before the change ends after it.
         order.see(first);
         assert!(!order.is_kept());
         order.see(order.number());

@@ -1,4 +1,4 @@
-//! The pools.
+//! Pools of the BVH.
 
 use crate::Header;
 
@@ -7,7 +7,7 @@ rasray_ads::pools! {
     pub enum Pool: Header {
         /// Inner nodes.
         Nodes "nodes" nodes_address,
-        /// Corners of triangles, in the order of leaves.
+        /// Records: corners of triangles, in the order of leaves.
         Records "records" records_address,
         /// Words that only the build uses.
         Scratch "scratch" scratch_address,

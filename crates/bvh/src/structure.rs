@@ -1,4 +1,4 @@
-//! The BVH as a structure.
+//! Implementation of the BVH as a structure.
 
 use std::mem::offset_of;
 
@@ -18,40 +18,40 @@ use crate::layout::{BOX_WORDS, NAME, formula_bytes, pair_elements, plan};
 use crate::order::Order;
 use crate::{Builder, Children, Config, Contents, Header, Node, NodeOfFour, Pool, Record, well_formed};
 
-/// Rounds that a trace records at first. Each costs two dispatches, also where no ray is left, and only a ray
-/// that hits hundreds of thousands of boxes needs more.
+/// Number of rounds that a trace records at first. Each costs two dispatches, even if no ray is left, and
+/// only a ray that hits hundreds of thousands of boxes needs more.
 const FIRST_ROUNDS: u32 = 64;
 
 /// A bounding volume hierarchy with two or four children per node, made from a [`Config`].
 pub type Bvh = Pooled<Passes>;
 
-/// Pipelines of the build: the design of [`Bvh`].
+/// Pipelines and state of the build, which are the design of [`Bvh`].
 #[derive(Debug)]
 pub struct Passes {
     build: Build,
-    /// Tree that the host made for the next build.
+    /// Tree that the host has made for the next build.
     prepared: Option<Prepared>,
-    /// The order of the triangles that later builds may keep.
+    /// Order of the triangles that later builds may keep.
     order: Order,
-    /// True if the next build recorded keeps the tree over it.
+    /// True if the build recorded next keeps the tree over this order.
     keeps_tree: bool,
 }
 
-/// Elements that a tree takes.
+/// Demand of a build: the number of elements that it needs in each pool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Inner nodes of the tree, and as many more as take the room of the nodes of two that nodes of four are
-    /// made of.
+    /// Number of inner nodes of the tree and, for nodes of four, of elements that take the room of the nodes
+    /// of two from which they are made.
     pub nodes: u64,
-    /// Triangles in leaves.
+    /// Number of triangles in leaves.
     pub records: u64,
-    /// Words that the build works in.
+    /// Words of the scratch pool, which only the build uses.
     pub scratch: u64,
-    /// Triangles of the geometry.
+    /// Number of triangles of the geometry.
     pub triangles: u64,
 }
 
-/// Root and numbers of inner nodes and triangles of a tree in the pools.
+/// Root of a tree in the pools, and its numbers of inner nodes and of triangles.
 #[derive(Clone, Copy, Debug)]
 struct Prepared {
     root: u32,
@@ -59,13 +59,14 @@ struct Prepared {
     triangles: u32,
 }
 
-/// The tree that the device builds over at most this many triangles, as far as the host knows it: the device
-/// sets the final root and number of triangles, and that of nodes of four.
+/// Returns the tree that the device builds over at most `triangles` triangles, as far as the host knows it.
+/// The device sets the final root, number of triangles and number of nodes of four.
 fn on_device(triangles: u32) -> Prepared {
     Prepared { root: BVH_NONE, nodes: triangles.saturating_sub(1), triangles }
 }
 
-/// As [`on_device`], where the order is kept: the number of triangles is the one that it was made for.
+/// Returns the tree of [`on_device`] if the order is kept. The number of triangles is the one that the order
+/// was made for.
 fn refitted(triangles: u32) -> Prepared {
     let root = match triangles {
         0 => BVH_NONE,
@@ -75,14 +76,14 @@ fn refitted(triangles: u32) -> Prepared {
     Prepared { root, ..on_device(triangles) }
 }
 
-/// True if the capacity suffices for the tree. It has no partial form: unless all of it fits, nothing is
-/// built.
+/// Returns true if the capacity suffices for the whole tree. There is no partial tree: a build that does not
+/// fit builds nothing.
 fn has_capacity(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> bool {
     plan(config, extent.triangle_count.into())
         .is_ok_and(|wanted| wanted.pools.iter().all(|pool| sizes.elements(pool.name) >= pool.elements))
 }
 
-/// The header that the next build starts from.
+/// Returns the header that the next build starts from.
 fn first_header(
     config: &Config,
     sizes: &Sizes,
@@ -97,7 +98,7 @@ fn first_header(
         Children::Two => node_capacity,
         Children::Four => 2 * pair_elements,
     };
-    // Place of the primitive of each record: behind the boxes, or in the second word of each key.
+    // Place of the primitive index of each record: behind the boxes, or in the second word of each key.
     let (order_offset, order_stride) = match config.builder {
         Builder::Sah => (BOX_WORDS as u32 * triangles, 1),
         Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => (1, 2),
@@ -127,9 +128,9 @@ impl rasray_ads::kit::Demand for Demand {
     }
 }
 
-/// Rounds that a ray needs if it hits every box of the tree.
+/// Returns the number of rounds that a ray needs if it hits every box of the tree.
 fn most_rounds(parts: &Parts<Config>) -> u32 {
-    // Each triangle is tested once, each node entered once, and after pauses each child exited once.
+    // A ray tests each triangle once, enters each node once, and exits each child once after a pause.
     let units = 4 * u64::from(parts.geometry.triangle_count());
     let budget = u64::from(parts.work_budget);
     (units / budget + 2).min(u32::MAX.into()) as u32
@@ -172,8 +173,8 @@ impl Design for Passes {
     }
 
     fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
-        // A tree grows only after a resize to other sizes than those of its triangles, which say all that it
-        // needs.
+        // The triangles determine everything that a tree needs. Its pools grow only after a resize to sizes
+        // that are not those of its triangles.
         plan(config, demand.triangles)
     }
 
@@ -207,7 +208,7 @@ impl Design for Passes {
         let (extent, sizes) = (parts.extent(), parts.pools.sizes());
         let unknown = on_device(extent.triangle_count);
         if !has_capacity(&parts.config, sizes, &extent) {
-            // The status of the build reports that.
+            // The status of the build reports the lack of capacity.
             self.prepared = Some(unknown);
             return Ok(());
         }
@@ -250,18 +251,18 @@ impl Design for Passes {
     fn first_header(&mut self, parts: &Parts<Config>, _viewpoint: Viewpoint) -> Result<Header, AdsError> {
         let extent = parts.extent();
         let triangles = extent.triangle_count;
-        // A number of triangles that the device counts may be another one in each build.
+        // A number of triangles that the device counts may differ in each build.
         let is_fixed = parts.geometry.desc().count.is_none();
         self.keeps_tree = parts.config.builder == Builder::Refit && is_fixed && self.order.is_kept();
         let prepared = match parts.config.builder {
-            // The triangles may have moved since, so a tree serves one build.
+            // The triangles may move after a build, so a tree serves one build only.
             Builder::Sah => self.prepared.take().ok_or(AdsError::NotPrepared { structure: NAME })?,
             Builder::Refit if self.keeps_tree => refitted(triangles),
             Builder::Lbvh | Builder::Ploc | Builder::Trbvh | Builder::Refit => on_device(triangles),
         };
         let first = first_header(&parts.config, parts.pools.sizes(), &extent, prepared);
         let header = Header { order: self.order.number(), ..first };
-        // Records keep their primitives: what else the first build had in its scratch is sizes now.
+        // Records keep their primitive indices, since sizes now occupy the rest of the first build's scratch.
         Ok(if self.keeps_tree { Header { order_stride: 0, ..header } } else { header })
     }
 
@@ -273,7 +274,7 @@ impl Design for Passes {
         let extent = parts.extent();
         let triangles = u64::from(extent.triangle_count);
         let wanted = plan(&parts.config, triangles).unwrap_or_default();
-        // The nodes of a tree are counted; all other demand follows from the triangles.
+        // The build counts the nodes of a tree. All other demand follows from the number of triangles.
         let nodes = if has_capacity(&parts.config, parts.pools.sizes(), &extent) {
             u64::from(header.node_count) + pair_elements(&parts.config, triangles)
         } else {
@@ -304,7 +305,7 @@ impl Design for Passes {
         Some(most_rounds(parts))
     }
 
-    /// A tree may have fewer nodes than its triangles could need.
+    /// Returns the elements of a pool in use. A tree may have fewer nodes than its triangles could need.
     fn used(_parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
         match pool {
             Pool::Header => None,
@@ -340,7 +341,7 @@ mod tests {
         let extent = GeometryExtent::new(1_000, BOUNDS);
         for config in [Config::new(Builder::Sah), Config::new(Builder::Ploc), Config::new(Builder::Refit)] {
             let sizes = Passes::first_plan(&config, &extent).expect("options are in range");
-            // Their capacity, in the terms of a demand, is one for these pools.
+            // The capacity of these pools, expressed as a demand, has to plan these pools again.
             let capacity = Passes::capacity(&config, &sizes, &extent);
             assert_eq!(Passes::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
             let of = |triangles| {

@@ -1,4 +1,4 @@
-//! Checks the contents of a built tree.
+//! Checks of the contents of a built tree.
 
 use bytemuck::cast_slice;
 use rasray_ads::kit::{Parts, PoolBytes, PoolContents};
@@ -9,14 +9,14 @@ use crate::host::{Box3, triangles_of, union};
 use crate::layout::most_nodes;
 use crate::{Children, Config, Header, Node, NodeOfFour, Pool, Record};
 
-/// A tree as downloaded.
+/// Downloaded contents of a tree.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// The header.
+    /// Header after the build.
     pub header: Header,
-    /// Inner nodes of two children; empty in a tree of four.
+    /// Inner nodes of two children; empty in a tree with four children per node.
     pub nodes: Vec<Node>,
-    /// Inner nodes of four children; empty in a tree of two.
+    /// Inner nodes of four children; empty in a tree with two children per node.
     pub nodes_of_four: Vec<NodeOfFour>,
     /// Triangles in the order of the leaves.
     pub records: Vec<Record>,
@@ -49,17 +49,17 @@ impl PoolContents<Config, Pool> for Contents {
 }
 
 impl Contents {
-    /// Slots of children in a node: what a link is divided by.
+    /// Returns the number of children slots of a node. A link divided by this number gives the node.
     fn slots(&self) -> u32 {
         if self.nodes_of_four.is_empty() { 2 } else { BVH_FOUR }
     }
 
-    /// Inner nodes.
+    /// Returns the number of inner nodes.
     fn node_count(&self) -> usize {
         self.nodes.len().max(self.nodes_of_four.len())
     }
 
-    /// Link, reference and box of the children of a node that there is.
+    /// Returns the link, reference and box of each child that a node has.
     fn children(&self, node: u32) -> Vec<(u32, u32, Box3)> {
         match self.nodes_of_four.get(node as usize) {
             Some(four) => {
@@ -72,69 +72,69 @@ impl Contents {
         }
     }
 
-    /// The link that a node stores.
+    /// Returns the link to its parent that a node stores.
     fn parent(&self, node: u32) -> Option<u32> {
         let two = self.nodes.get(node as usize).map(|node| node.parent);
         two.or_else(|| self.nodes_of_four.get(node as usize).map(|node| node.parent))
     }
 }
 
-/// Shape of a sound tree.
+/// Shape of a tree without faults.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shape {
-    /// Leaves.
+    /// Number of leaves.
     pub leaves: usize,
-    /// Inner nodes on the longest path from the root to a leaf.
+    /// Number of inner nodes on the longest path from the root to a leaf.
     pub levels: usize,
-    /// Expected nodes and triangles that a ray through the root's box hits, by surface area; 0 where that
-    /// box has none.
+    /// Expected number of nodes and triangles that a ray through the root's box hits, by surface area; 0 if
+    /// that box has no area.
     pub cost: f64,
 }
 
-/// Fault of a tree.
+/// Fault in a tree.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A child is neither a node nor a range of records.
+    /// Child that is neither a node nor a range of records.
     #[error("node {node}: child {reference:#010x} points to neither a node nor records")]
     Dangling {
-        /// The node.
+        /// Index of the node.
         node: u32,
-        /// The reference.
+        /// Reference of the child.
         reference: u32,
     },
-    /// A node is reached by a link other than the one it stores, or a second time.
+    /// Node that is reached by a link other than the one it stores, or a second time.
     #[error("node {node} is reached by link {link} and stores link {parent}")]
     Parent {
-        /// The node.
+        /// Index of the node.
         node: u32,
-        /// The link by which it was reached.
+        /// Link by which the node was reached.
         link: u32,
-        /// The link it stores.
+        /// Link that the node stores.
         parent: u32,
     },
-    /// A box is not the union of what is below it.
+    /// Box that is not the union of the boxes below it.
     #[error("link {link}: the box is {stored}, its contents have {contents}")]
     Bounds {
-        /// The link of the child.
+        /// Link of the child.
         link: u32,
-        /// The box stored.
+        /// Box of the child, as stored.
         stored: String,
-        /// The union of what is below.
+        /// Union of the boxes below the child.
         contents: String,
     },
-    /// A record is in no leaf, or in several.
+    /// Record that is in no leaf, or in several.
     #[error("record {record} is in {times} leaves")]
     Leaves {
-        /// The record.
+        /// Index of the record.
         record: usize,
         /// Number of leaves that the record is in.
         times: usize,
     },
-    /// A triangle has no record, or several.
+    /// Triangle that has no record, or several.
     #[error("triangle {primitive} has {times} records")]
     Triangles {
-        /// The triangle.
+        /// Index of the triangle.
         primitive: usize,
         /// Number of records of the triangle.
         times: usize,
@@ -142,7 +142,8 @@ pub enum Fault {
 }
 
 /// Checks that every triangle has one record and every record one leaf, that nodes store the link by which
-/// they are reached, and that every box is the union of what is below it, subnormal coordinates being zeros.
+/// they are reached, and that every box is the union of the boxes below it. Subnormal coordinates count as
+/// zero.
 ///
 /// # Errors
 /// The first fault found.
@@ -212,7 +213,7 @@ pub fn well_formed(contents: &Contents) -> Result<Shape, Fault> {
 
 const EMPTY: Box3 = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
 
-/// Devices may take subnormal numbers for zeros.
+/// Replaces subnormal numbers by zero, since devices may do so.
 fn without_subnormals(bounds: Box3) -> Box3 {
     bounds.map(|corner| corner.map(|x| if x.is_subnormal() { 0.0 } else { x }))
 }
@@ -221,7 +222,7 @@ fn each_once(times: &[usize]) -> Result<(), (usize, usize)> {
     times.iter().position(|&times| times != 1).map_or(Ok(()), |index| Err((index, times[index])))
 }
 
-/// Half the area of a box, square metres.
+/// Returns half the area of a box, in square metres.
 pub(crate) fn area([lower, upper]: Box3) -> f64 {
     let side = |axis: usize| f64::from(upper[axis]) - f64::from(lower[axis]);
     side(0) * side(1) + side(1) * side(2) + side(2) * side(0)
