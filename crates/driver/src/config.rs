@@ -4,13 +4,13 @@ use rasray_ads::kit::{Common, Configured, check_work_budget};
 use rasray_ads::{Addressing, AdsError, Counters, words};
 use rasray_gpu::DriverTreeGoal;
 
-/// Goal of the tree: a hint that a driver may ignore.
+/// Goal for which the driver should optimize the tree: a hint that a driver may ignore.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Goal {
-    /// Traces.
+    /// Fast traces.
     #[default]
     Trace,
-    /// Builds.
+    /// Fast builds.
     Build,
 }
 
@@ -25,20 +25,21 @@ impl From<Goal> for DriverTreeGoal {
     }
 }
 
-/// All options. None of them changes a hit.
+/// Options of the driver's tree. None of them changes a hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Config {
-    /// Goal of the tree.
+    /// Goal for which the driver should optimize the tree.
     pub goal: Goal,
     /// Counters that rays record of their work.
     pub counters: Counters,
-    /// Work units that a ray from far outside may spend in one dispatch; the shared default where absent.
-    /// Other rays end in the first.
+    /// Work units that a ray from far outside may spend in one dispatch. If absent, the default that all
+    /// structures share. Other rays end in their first dispatch.
     pub work_budget: Option<u32>,
 }
 
 impl Configured for Config {
-    /// The header and the boxes are in descriptors: the tree itself has no other address than the driver's.
+    /// Returns the options that all structures have. The header and the boxes are always in descriptors, and
+    /// the tree itself has no address other than the driver's.
     fn common(&self) -> Common {
         let Self { counters, work_budget, .. } = *self;
         Common { addressing: Addressing::Descriptor, counters, work_budget }
@@ -46,20 +47,20 @@ impl Configured for Config {
 }
 
 impl Config {
-    /// The defaults.
+    /// Returns the default options.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Checks ranges.
+    /// Checks the ranges of all options.
     ///
     /// # Errors
-    /// The first option out of range.
+    /// The first option that is out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
         check_work_budget(self.work_budget, false)
     }
 
-    /// Options as name and value, for reports.
+    /// Returns the options as pairs of name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
         vec![("goal", self.goal.name().to_owned())]
     }

@@ -1,18 +1,19 @@
-//! Sizes of the pools: plain arithmetic, no device.
+//! Sizes of the pools, by plain arithmetic without a device.
 
 use rasray_ads::{AdsError, Sizes};
 use rasray_gpu::DRIVER_BOX_BYTES;
 
 use crate::{Config, Pool};
 
-/// The demand of a build.
+/// Demand of a build: the number of elements that it needs in the pool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Triangles of the geometry: a box each.
+    /// Number of triangles of the geometry, with one box each.
     pub triangles: u64,
 }
 
-/// Sizes of the pools for boxes of `demand`. Memory of the tree itself is for the driver to say.
+/// Returns the sizes of the pools for the boxes of `demand`. Only the driver knows the memory of the tree
+/// itself.
 ///
 /// # Errors
 /// An option is out of range, or there are more boxes than 32-bit indices can address.
@@ -21,8 +22,8 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     Sizes::of("driver", [(Pool::Boxes, demand.triangles, DRIVER_BOX_BYTES)])
 }
 
-/// The page's formula for header and boxes. It shares nothing with [`plan`], so that the two check each
-/// other.
+/// Computes the bytes of the header and the boxes by the formula of `docs/systems/driver-rt.md`. It shares no
+/// code with [`plan`], so that the two check each other.
 pub fn formula_bytes(demand: &Demand) -> u64 {
     88 + 24 * demand.triangles
 }

@@ -2,12 +2,12 @@
 //! structure that hardware for ray tracing accelerates. Hosts make one from their triangles and trace it as
 //! any [`rasray_ads::Structure`].
 //!
-//! The driver finds boxes around triangles, and the test that all structures share decides whether a triangle
-//! is hit. Hits are exact, and the same on every driver.
+//! The driver finds the boxes of triangles that a ray hits, and the test that all structures share decides
+//! whether the ray hits a triangle. Hits are exact, and equal on every driver.
 //!
 //! - [`Driver`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to
 //!   resize.
-//! - [`Config`] holds its options; [`Goal`] is the work that the tree is to be fast for.
+//! - [`Config`] holds its options; [`Goal`] chooses between fast traces and fast builds.
 //! - [`plan`] and [`formula_bytes`] compute its memory without a device.
 //!
 //! `docs/systems/driver-rt.md` has passes, bytes, options and limits.

@@ -1,4 +1,4 @@
-//! The driver's tree as a structure.
+//! Implementation of the driver's tree as a structure.
 
 use std::mem::offset_of;
 
@@ -16,15 +16,15 @@ use rasray_shaders_glsl::constants::driver::DRIVER_GROUP_SIZE;
 use crate::layout::{Demand, formula_bytes, plan};
 use crate::{Config, Contents, Header, Pool, well_formed};
 
-/// The driver's tree over boxes of triangles; made from a [`Config`].
+/// Structure with the driver's tree over boxes of triangles, made from a [`Config`].
 pub type Driver = Pooled<Passes>;
 
-/// Pipelines of the build, and the tree: the design of [`Driver`].
+/// Pipelines of the build and the tree, which are the design of [`Driver`].
 #[derive(Debug)]
 pub struct Passes {
     boxes: ComputePipeline,
     status: ComputePipeline,
-    /// Made when a build is prepared, over as many boxes as the pool then holds.
+    /// Tree over as many boxes as the pool holds; made when a build is prepared.
     tree: Option<DriverTree>,
 }
 
@@ -56,7 +56,8 @@ impl Design for Passes {
         Dependencies { eye: true, camera: false }
     }
 
-    /// Boxes have a margin for the eye only where that is far away.
+    /// Returns true if the eye has moved so that the boxes are stale. Boxes depend on the eye only through a
+    /// margin for an eye far away.
     fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
         !box_is_same(&parts.extent(), built, wanted)
             && Self::depends_on(&parts.config).are_stale(built, wanted)
@@ -126,7 +127,8 @@ impl Design for Passes {
             return recorder.refuse("the build of the driver's tree was not prepared");
         };
         target.record_header(recorder, "driver/build_0_header", &[] as &[Pool], Access::COMPUTE);
-        // Fewer than the pool holds where it once held others; the status tells where they do not fit.
+        // The tree may have fewer boxes than there are triangles; the status then reports that they do not
+        // fit.
         let boxes = parts.geometry.triangle_count().min(tree.boxes());
         let groups = u64::from(boxes).div_ceil(DRIVER_GROUP_SIZE.into());
         target.compute_pass(recorder, "driver/build_1_boxes", &self.boxes, groups, 0, Access::TREE_BUILD);
@@ -185,7 +187,7 @@ mod tests {
         let extent = GeometryExtent::new(1_000, BOUNDS);
         for config in [Config::new(), Config { goal: Goal::Build, ..Config::new() }] {
             let sizes = Passes::first_plan(&config, &extent).expect("options are in range");
-            // Their capacity, in the terms of a demand, is one for these pools.
+            // The capacity of these pools, expressed as a demand, has to plan these pools again.
             let capacity = Passes::capacity(&config, &sizes, &extent);
             assert_eq!(Passes::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
             let of = |triangles| {

@@ -1,45 +1,45 @@
-//! Checks the boxes of a built tree. What the driver made of them nobody else can read.
+//! Checks of the boxes of a built tree. Nobody but the driver can read the tree that it made of the boxes.
 
 use rasray_shaders_glsl::constants::driver::DRIVER_BOX_WORDS;
 
 use crate::Header;
 
-/// All pools as downloaded, in words.
+/// Downloaded contents of all pools, in words.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// The header.
+    /// Header after the build.
     pub header: Header,
     /// Lower and upper corner of each triangle's box.
     pub boxes: Vec<u32>,
 }
 
-/// Fault of a box.
+/// Fault in a box.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// The box of a triangle has no inside, or reaches beyond the units that the header promises.
+    /// Box of a triangle that has no inside, or reaches beyond the bounds that the header promises.
     #[error("the box of triangle {primitive} is {stored}")]
     Box {
-        /// The triangle.
+        /// Index of the triangle.
         primitive: usize,
-        /// Its corners.
+        /// Corners of the box.
         stored: String,
     },
-    /// There are fewer boxes than triangles.
+    /// Number of boxes that is smaller than that of triangles.
     #[error("{triangles} triangles have {boxes} boxes")]
     Count {
-        /// Triangles of the geometry.
+        /// Number of triangles of the geometry.
         triangles: usize,
-        /// Boxes in the pool.
+        /// Number of boxes in the pool.
         boxes: usize,
     },
 }
 
-/// Largest coordinate of a box: the bounds are within two units of their centre, and margins are a small
-/// share of that.
+/// Maximum coordinate of a box, in the units of the header: bounds are within two units of their centre, and
+/// margins are a small share of that.
 const FARTHEST: f32 = 2.1;
 
-/// Checks that each of `triangles` triangles has a box with an inside within the bounds.
+/// Checks that each of `triangles` triangles has a box that has an inside and lies within the bounds.
 ///
 /// # Errors
 /// The first fault found.

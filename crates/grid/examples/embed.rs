@@ -1,5 +1,5 @@
-//! A grid in a plain ash program with its own device, on a queue that only computes: built, traced, compared
-//! with brute force.
+//! Builds a grid in a plain ash program with its own device, on a queue that only computes, traces it, and
+//! compares its hits with those of brute force.
 
 use rasray_ads::BruteForce;
 use rasray_gpu::Device;
@@ -11,12 +11,12 @@ mod host;
 use host::hits::hits;
 use host::{Host, Result, staircase};
 
-/// Runs the program; an error where hits differ or the validation layer complains.
+/// Runs the program; returns an error where hits differ or the validation layer complains.
 pub fn main() -> Result<()> {
     let config = Config::new();
     let enabled = Grid::requirements_of(&config).required;
     let host = Host::new(&enabled)?;
-    // SAFETY: the device was made with these features, by the host, which goes last.
+    // SAFETY: the host made the device with these features, and the host is dropped last.
     let device = unsafe { Device::from_raw(host.raw_device(&enabled)) }?;
     let mesh = staircase(500);
     let geometry = host.geometry(&device, &mesh, host.buffer(&mesh.positions)?)?;

@@ -1,4 +1,4 @@
-//! The build of a grid: pipelines, and the passes in the order they are recorded.
+//! Build of the grid: its pipelines, and its passes in the order they are recorded.
 
 use std::mem::offset_of;
 
@@ -29,7 +29,7 @@ impl Build {
         })
     }
 
-    /// Records all passes.
+    /// Records all passes of a build.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, cells: u64, target: BuildTarget<'_>) {
         target.record_header(recorder, "grid/build_0_header", &[Pool::Lists], Access::COMPUTE);
         if let Some(large) = &self.large {

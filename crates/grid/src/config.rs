@@ -4,63 +4,65 @@ use rasray_ads::kit::{check_range, check_work_budget};
 use rasray_ads::{Addressing, AdsError, Counters, GeometryExtent};
 use rasray_shaders_glsl::constants::grid::GRID_SIDE_LIMIT;
 
-/// Cells per triangle where the rule chooses their number.
+/// Number of cells per triangle that the rule aims at.
 const DENSITY: f64 = 5.0;
 
-/// Minimum number of cells along the longest side where the rule chooses it.
+/// Minimum number of cells along the longest side that the rule chooses.
 const FEWEST_ALONG: f64 = 4.0;
 
-/// All options. None of them changes a hit.
+/// Options of a grid. None of them changes a hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Config {
-    /// Cells along the longest side of the geometry's bounds, 1 to 1024. Absent: five cells per triangle.
+    /// Number of cells along the longest side of the geometry's bounds, 1 to 1024. If absent, a rule chooses
+    /// about five cells per triangle.
     pub cells: Option<u32>,
-    /// Addressing of pools.
+    /// Addressing of pools: descriptors or device addresses.
     pub addressing: Addressing,
-    /// Capacity for entries before the first build; 8 per triangle where absent.
+    /// Number of entries to allocate for the first build; if absent, 8 per triangle.
     pub entries: Option<u64>,
     /// Counters that rays record of their work.
     pub counters: Counters,
-    /// Work units a ray may spend in one dispatch; the shared default where absent.
+    /// Work units that a ray may spend in one dispatch. If absent, the default that all structures share.
     pub work_budget: Option<u32>,
 }
 
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// Five cells per triangle.
+    /// Returns the default options: five cells per triangle.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Cells along each axis over a geometry.
+    /// Returns the number of cells along each axis over a geometry.
     pub fn cells_over(&self, extent: &GeometryExtent) -> [u32; 3] {
         cells_along(extent.bounds, extent.triangle_count, self.cells)
     }
 
-    /// Checks ranges.
+    /// Checks the ranges of all options.
     ///
     /// # Errors
-    /// The first option out of range.
+    /// The first option that is out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
         let expected = "1 to 1024 cells along the longest side";
         check_range("grid", self.cells.unwrap_or(1), 1..=GRID_SIDE_LIMIT, expected)?;
         check_work_budget(self.work_budget, false)
     }
 
-    /// Options as name and value, for reports.
+    /// Returns the options as pairs of name and value, for reports; `cells` are the cells along each axis.
     pub fn options(&self, cells: [u32; 3]) -> Vec<(&'static str, String)> {
         vec![("grid", cells.map(|n| n.to_string()).join("x"))]
     }
 
-    /// Paths as name and value, for reports.
+    /// Returns the chosen code paths as pairs of name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         vec![("addressing", self.addressing.name().to_owned())]
     }
 }
 
-/// Cells along each axis for bounds (lower, upper) in metres: cubes, except where a side is not a whole
-/// number of them, with `along` on the longest side, or [`DENSITY`] per triangle.
+/// Returns the number of cells along each axis for bounds (lower, upper) in metres: `along` on the longest
+/// side or, if absent, at most [`DENSITY`] per triangle. Cells are cubes, unless the length of a side is not
+/// a multiple of the cell's.
 fn cells_along([lower, upper]: [[f32; 3]; 2], triangles: u32, along: Option<u32>) -> [u32; 3] {
     let extent: [f64; 3] = std::array::from_fn(|axis| f64::from(upper[axis]) - f64::from(lower[axis]));
     let longest = extent.into_iter().fold(0.0_f64, f64::max);
@@ -72,7 +74,7 @@ fn cells_along([lower, upper]: [[f32; 3]; 2], triangles: u32, along: Option<u32>
     if let Some(along) = along {
         return cells_of(longest / f64::from(along));
     }
-    // By steps, not by the root of a volume: flat bounds have none.
+    // The search goes by steps, not by the root of a volume, since flat bounds have no volume.
     let most = DENSITY * f64::from(triangles);
     let mut side = longest / limit;
     while side < longest / FEWEST_ALONG && cells_of(side).map(f64::from).iter().product::<f64>() > most {

@@ -1,33 +1,33 @@
-//! Sizes of the pools: plain arithmetic, no device.
+//! Sizes of the pools, by plain arithmetic without a device.
 
 use rasray_ads::kit::Scan;
 use rasray_ads::{AdsError, GeometryExtent, Sizes};
 
 use crate::{Config, Pool};
 
-/// The demand of a build.
+/// Demand of a build: the number of elements that it needs in each pool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Entries of all lists: what a build counts.
+    /// Number of entries of all lists, as a build counts them.
     pub entries: u64,
-    /// Triangles of the geometry.
+    /// Number of triangles of the geometry.
     pub triangles: u64,
-    /// Cells along each axis, [`Config::cells_over`] of the geometry.
+    /// Number of cells along each axis, as [`Config::cells_over`] gives them for the geometry.
     pub cells: [u32; 3],
 }
 
-/// Cells of the whole grid.
+/// Returns the number of cells of the whole grid.
 pub(crate) fn cell_count(cells: [u32; 3]) -> u64 {
     cells.into_iter().map(u64::from).product()
 }
 
-/// Sizes of the pools of a grid of this configuration that holds `demand`.
+/// Returns the sizes of the pools of a grid of this configuration that holds `demand`.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit indices can address.
 pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
-    // At least one cell, so that a build can count its demand.
+    // There is at least one cell, so that a build can count its demand.
     let cells = cell_count(demand.cells).max(1);
     let pool = |pool, elements| (pool, elements, 4);
     let pools = [
@@ -38,7 +38,8 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     Sizes::of("grid", pools)
 }
 
-/// The first guess where nothing has been counted: eight cells per triangle.
+/// Returns the sizes for the first build, before anything has been counted: eight entries per triangle, if
+/// the options do not say.
 pub(crate) fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Sizes, AdsError> {
     config.validate()?;
     let triangles = u64::from(extent.triangle_count);
@@ -46,25 +47,26 @@ pub(crate) fn first_plan(config: &Config, extent: &GeometryExtent) -> Result<Siz
     plan(config, &Demand { entries, triangles, cells: config.cells_over(extent) })
 }
 
-/// Bytes for counted cells and entries.
+/// Bytes of a grid, for counted cells and entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// 4 per cell.
+    /// Bytes of cells: 4 each.
     pub cells: u64,
-    /// 4 per entry.
+    /// Bytes of entries: 4 each.
     pub entries: u64,
-    /// Header, 4 per 1024 cells, and 4 per triangle.
+    /// Bytes of all else: the header, 4 per 1024 cells for the scan, and 4 per triangle.
     pub rest: u64,
 }
 
 impl FormulaBytes {
-    /// Sum of all parts.
+    /// Returns the sum of all parts.
     pub fn total(&self) -> u64 {
         self.cells + self.entries + self.rest
     }
 }
 
-/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
+/// Computes the bytes by the formula of `docs/systems/grid.md`. It shares no code with [`plan`], so that the
+/// two check each other.
 pub fn formula_bytes(demand: &Demand) -> FormulaBytes {
     let [x, y, z] = demand.cells.map(u64::from);
     let cells = (x * y * z).max(1);

@@ -1,8 +1,8 @@
-//! A uniform grid: the baseline of structures made of cells. Hosts make one from their triangles and trace it
-//! as any [`rasray_ads::Structure`].
+//! A uniform grid: the baseline for structures made of cells. Hosts make one from their triangles and trace
+//! it as any [`rasray_ads::Structure`].
 //!
-//! Cells of one size cover the bounds of the geometry. Each lists the triangles that reach into it, and rays
-//! go from cell to cell (Amanatides and Woo 1987). Hits are those of the triangles.
+//! Cells of one size cover the bounds of the geometry. Each cell lists the triangles that reach into it, and
+//! rays go from cell to cell (Amanatides and Woo 1987). Hits are those of the triangles.
 //!
 //! - [`Grid`] is the structure; the contract of [`rasray_ads::Structure`] says who waits and when to resize.
 //! - [`Config`] holds its options.

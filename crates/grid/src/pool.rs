@@ -1,4 +1,4 @@
-//! The pools.
+//! Pools of the grid.
 
 use crate::{Config, Contents, Header};
 

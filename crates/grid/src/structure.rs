@@ -1,4 +1,4 @@
-//! A grid as a structure.
+//! Implementation of the grid as a structure.
 
 use std::mem::offset_of;
 
@@ -13,43 +13,45 @@ use crate::build::Build;
 use crate::layout::{Demand, cell_count, first_plan, formula_bytes, plan};
 use crate::{Config, Contents, Header, Pool, well_formed};
 
-/// Lists of triangles in cells of one size; made from a [`Config`].
+/// Structure with lists of triangles in cells of one size, made from a [`Config`].
 pub type Grid = Pooled<Passes>;
 
-/// Pipelines of the build: the design of [`Grid`].
+/// Pipelines of the build, which are the design of [`Grid`].
 #[derive(Debug)]
 pub struct Passes(Build);
 
-/// Cells along each axis, one where the capacity does not suffice for the geometry; and whether it suffices.
+/// Returns the number of cells along each axis, and true if the capacity suffices for the cells that the
+/// geometry needs. If the capacity does not suffice, there is one cell.
 fn cells(config: &Config, sizes: &Sizes, extent: &GeometryExtent) -> ([u32; 3], bool) {
     let wanted = config.cells_over(extent);
     let fits = cell_count(wanted) <= sizes.elements_of(Pool::Lists);
     (if fits { wanted } else { [1; 3] }, fits)
 }
 
-/// Maximum number of iterations of the loops over the cells of a triangle, in all its invocations: a plane
-/// has three times the cells of the largest side of the grid, with its margins twice as many, and some of its
-/// columns have none.
+/// Returns the maximum number of iterations of the loops over the cells of a triangle, in all its
+/// invocations. A plane has three times the cells of the largest side of the grid. With the margins of a
+/// triangle it has twice as many, and some of its columns have none.
 fn turns(cells: [u32; 3]) -> u64 {
     let [x, y, z] = cells.map(u64::from);
     8 * (x * y).max(y * z).max(z * x)
 }
 
-/// The header that the next build starts from.
+/// Returns the header that the next build starts from.
 fn first_header(config: &Config, sizes: &Sizes, extent: &GeometryExtent, eye: [f32; 3]) -> Header {
     let (cells, fits) = cells(config, sizes, extent);
     Header {
         capacity: sizes.elements_of(Pool::Entries) as u32,
         cells,
         eye,
-        // None where cells do not fit, so that the build is not complete.
+        // A capacity of zero, if cells do not fit, makes the build incomplete.
         triangle_capacity: if fits { queue_capacity(sizes, cells) } else { 0 },
         groups: [0, 0, bin_groups(turns(cells))],
         ..Header::default()
     }
 }
 
-/// Triangles that fit into the large-triangle queue, behind the sums of the scan over these cells.
+/// Returns the number of triangles that fit into the large-triangle queue, behind the sums of the scan over
+/// `cells`.
 fn queue_capacity(sizes: &Sizes, cells: [u32; 3]) -> u32 {
     sizes.elements_of(Pool::Scratch).saturating_sub(Scan::sums(cell_count(cells))) as u32
 }
@@ -82,7 +84,8 @@ impl Design for Passes {
         Dependencies { eye: true, camera: false }
     }
 
-    /// Cells along the axes have a margin for the eye only where that is far away.
+    /// Returns true if the eye has moved so that the grid is stale. Cells depend on the eye only through a
+    /// margin for an eye far away.
     fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
         !box_is_same(&parts.extent(), built, wanted)
             && Self::depends_on(&parts.config).are_stale(built, wanted)
@@ -173,7 +176,7 @@ mod tests {
         let extent = GeometryExtent::new(1_000, BOUNDS);
         for config in [Config::new(), Config { cells: Some(16), ..Config::new() }] {
             let sizes = Passes::first_plan(&config, &extent).expect("options are in range");
-            // Their capacity, in the terms of a demand, is one for these pools.
+            // The capacity of these pools, expressed as a demand, has to plan these pools again.
             let capacity = Passes::capacity(&config, &sizes, &extent);
             assert_eq!(Passes::plan(&config, &capacity).expect("options are in range"), sizes, "{config:?}");
             let of = |triangles| {

@@ -1,14 +1,14 @@
-//! Checks the contents of a built grid.
+//! Checks of the contents of a built grid.
 
 use rasray_ads::ListCounts;
 
 use crate::Header;
 use crate::layout::cell_count;
 
-/// All pools as downloaded, in words.
+/// Downloaded contents of all pools, in words.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// The header.
+    /// Header after the build.
     pub header: Header,
     /// End of the list of each cell.
     pub lists: Vec<u32>,
@@ -16,56 +16,56 @@ pub struct Contents {
     pub entries: Vec<u32>,
 }
 
-/// Fault of a list.
+/// Fault in a list.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A list reaches beyond the pool, or ends before it begins.
+    /// List that reaches beyond the pool, or ends before it begins.
     #[error("cell {cell}: {end} is not a valid end of its list")]
     Dangling {
-        /// Cell, in the order of lists.
+        /// Index of the cell, in the order of lists.
         cell: usize,
-        /// The end of its list.
+        /// End of the cell's list.
         end: u32,
     },
-    /// An entry is in no list.
+    /// Entry that is in no list.
     #[error("{stored} entries were counted and {listed} are in lists")]
     Count {
-        /// Entries counted.
+        /// Number of entries that the build counted.
         stored: usize,
-        /// Entries found in lists.
+        /// Number of entries found in lists.
         listed: usize,
     },
-    /// An entry has an invalid triangle index.
+    /// Entry with an invalid triangle index.
     #[error("cell {cell}: there is no triangle {primitive}")]
     Primitive {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// Index stored.
+        /// Triangle index, as stored.
         primitive: u32,
     },
-    /// A triangle is in a list twice.
+    /// Triangle that is in a list twice.
     #[error("cell {cell}: triangle {primitive} is in the list twice")]
     Twice {
-        /// Cell.
+        /// Index of the cell.
         cell: usize,
-        /// The triangle.
+        /// Index of the triangle.
         primitive: u32,
     },
 }
 
 impl Contents {
-    /// Cells of the grid.
+    /// Returns the number of cells of the grid.
     pub fn cell_count(&self) -> usize {
         (cell_count(self.header.cells) as usize).min(self.lists.len())
     }
 
-    /// Entries that were stored.
+    /// Returns the number of entries that were stored.
     fn stored(&self) -> usize {
         self.header.demand.min(self.header.capacity) as usize
     }
 
-    /// The triangles of a cell, in the order they are stored in.
+    /// Returns the triangles of a cell, in the order in which they are stored.
     ///
     /// # Errors
     /// The list leaves the pool.

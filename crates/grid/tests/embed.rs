@@ -1,4 +1,5 @@
-//! The example runs, its hits are those of brute force, and the validation layer is silent.
+//! Test that the example runs, that its hits are those of brute force, and that the validation layer is
+//! silent.
 
 #[path = "../examples/embed.rs"]
 mod embed;
