@@ -1,5 +1,5 @@
-//! Shadow maps in a plain ash program with its own device: a lamp and a sun above a staircase, whose shadow
-//! rays are answered by maps and compared with those of brute force.
+//! Builds shadow maps in a plain ash program with its own device: a lamp and a sun shine on a staircase. Maps
+//! answer the shadow rays, and the program compares the answers with those of brute force.
 
 use rasray_ads::{BruteForce, Domain, Hit, Occluder, Ray, RayQueue, Structure, Trace};
 use rasray_gpu::{Device, Recorder};
@@ -14,7 +14,7 @@ use host::{Host, Result, staircase};
 const LAMP: [f32; 3] = [0.5, 1.4, -0.6];
 const SUN: [f32; 3] = [0.3, -0.9, 0.4];
 
-/// From points before the stairs: to the lamp, to the sun, and every third to no light.
+/// Returns rays from points before the stairs: to the lamp, to the sun, and every third to no light.
 fn rays() -> Vec<Ray> {
     let ray = |k: u32| {
         let origin = [(k % 31) as f32 / 31.0, (k % 37) as f32 / 37.0, (k % 41) as f32 / 41.0 + 0.011];
@@ -28,11 +28,11 @@ fn rays() -> Vec<Ray> {
     (0..3000).map(ray).collect()
 }
 
-/// Runs the program; an error where answers differ or the validation layer complains.
+/// Runs the program; returns an error where answers differ or the validation layer complains.
 pub fn main() -> Result<()> {
     let enabled = ShadowMaps::requirements().required;
     let host = Host::new(&enabled)?;
-    // SAFETY: the device was made with these features, by the host, which goes last.
+    // SAFETY: the host made the device with these features, and the host is dropped last.
     let device = unsafe { Device::from_raw(host.raw_device(&enabled)) }?;
     let mesh = staircase(8);
     let geometry = host.geometry(&device, &mesh, host.buffer(&mesh.positions)?)?;
@@ -50,8 +50,7 @@ pub fn main() -> Result<()> {
         let queue = RayQueue::new(&device, "rays", rays.len() as u32, false)?;
         device.upload_slice(queue.rays(), 0, &rays)?;
         let recorded = host.submit(0, |commands| {
-            // SAFETY: the command buffer is being recorded by nobody else, and `recorded` outlives the wait
-            // below.
+            // SAFETY: nobody else records into the command buffer, and `recorded` outlives the wait below.
             let mut recorder = unsafe { Recorder::from_raw(&device, commands) };
             let all = Domain::First(rays.len() as u32);
             queue.record_reset(&mut recorder);

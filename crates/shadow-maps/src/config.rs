@@ -1,40 +1,44 @@
-//! Options.
+//! Options of shadow maps.
 
 use rasray_ads::AdsError;
 
 /// Options of shadow maps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Texels along a side of a view, from [`Config::LEAST_TEXELS`] to [`Config::MOST_TEXELS`].
+    /// Number of texels along a side of a view, from [`Config::LEAST_TEXELS`] to [`Config::MOST_TEXELS`].
     pub resolution: u32,
-    /// Each texel lies this much deeper than the triangle at its centre, in multiples of what the triangle's
-    /// plane gains within half a texel: from 0 to 16. With 1, no flat surface shades itself.
+    /// Bias of depths, from 0 to 16, in multiples of the depth that the triangle's plane gains within half a
+    /// texel. Each texel lies this much deeper than the triangle at its centre. With 1, no flat surface
+    /// shades itself.
     pub bias: f32,
-    /// Points on each emitting triangle that have a cube of maps each, from 0 to [`Config::MOST_POINTS`]. 0:
-    /// shadow rays that lead to emitting triangles are traced.
+    /// Number of points on each emitting triangle, each with a cube of maps, from 0 to
+    /// [`Config::MOST_POINTS`]. With 0, a structure traces the shadow rays that lead to emitting triangles.
     pub points: u32,
 }
 
 impl Config {
-    /// Fewest texels along a side.
+    /// Minimum number of texels along a side.
     pub const LEAST_TEXELS: u32 = 16;
 
-    /// Most texels along a side.
+    /// Maximum number of texels along a side.
     pub const MOST_TEXELS: u32 = 16_384;
 
-    /// Texels along a side unless told.
+    /// Default number of texels along a side.
     pub const DEFAULT_TEXELS: u32 = 1024;
 
-    /// Most points on each emitting triangle.
+    /// Maximum number of points on each emitting triangle.
     pub const MOST_POINTS: u32 = 1024;
 
-    /// That many texels along a side, and a bias of 1; no points on emitting triangles.
+    /// Returns options with `resolution` texels along a side, a bias of 1, and no points on emitting
+    /// triangles.
     pub fn new(resolution: u32) -> Self {
         Self { resolution, bias: 1.0, points: 0 }
     }
 
+    /// Checks the ranges of all options.
+    ///
     /// # Errors
-    /// An option out of range.
+    /// An option is out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
         let wrong = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
         if !(Self::LEAST_TEXELS..=Self::MOST_TEXELS).contains(&self.resolution) {

@@ -1,4 +1,4 @@
-//! Views and sizes: plain arithmetic, no device.
+//! Views and sizes of shadow maps, by plain arithmetic without a device.
 
 use rasray_ads::AdsError;
 use rasray_shaders_glsl::constants::scene::{LIGHT_DIRECTIONAL, LIGHT_SPOT};
@@ -7,9 +7,10 @@ use rasray_shaders_glsl::records::{Light, ShadowMapsHeader, ShadowMapsLight, Sha
 
 use crate::Config;
 
-/// Views of a light: one of a light far away or of a cone of at most 120 degrees, else the six of a cube.
+/// Returns the number of views of a light: one for a light far away or a cone of at most 120 degrees,
+/// otherwise the six of a cube.
 pub fn views_of(light: &Light) -> u32 {
-    // As `shadow_maps/build_0_views.comp` has it.
+    // The condition is that of `shadow_maps/build_0_views.comp`.
     let is_narrow = || -light.cone_offset >= SHADOW_MAPS_WIDEST_COSINE * light.cone_scale;
     match light.kind {
         LIGHT_DIRECTIONAL => 1,
@@ -18,7 +19,7 @@ pub fn views_of(light: &Light) -> u32 {
     }
 }
 
-/// The views of each light without extent, one after the other, and how many there are.
+/// Returns the views of each light without extent, one light after the other, and the number of all views.
 pub(crate) fn views_of_all(lights: &[Light]) -> (Vec<ShadowMapsLight>, u64) {
     let mut count = 0;
     let views = lights.iter().map(|light| {
@@ -30,15 +31,15 @@ pub(crate) fn views_of_all(lights: &[Light]) -> (Vec<ShadowMapsLight>, u64) {
     (views.collect(), count)
 }
 
-/// Views of the points on emitting triangles, which follow those of the lights.
+/// Returns the number of views of the points on emitting triangles. These views follow those of the lights.
 pub(crate) fn views_of_emitters(config: &Config, emitters: u32) -> u64 {
     u64::from(SHADOW_MAPS_CUBE_VIEWS) * u64::from(config.points) * u64::from(emitters)
 }
 
-/// Texels of that many views.
+/// Returns the number of texels of `views` views.
 ///
 /// # Errors
-/// More than 32 bits number.
+/// The number does not fit into 32 bits.
 pub(crate) fn texel_count(config: &Config, views: u64) -> Result<u64, AdsError> {
     let elements = u64::from(config.resolution).pow(2) * views;
     if elements > u64::from(u32::MAX) {
@@ -47,8 +48,8 @@ pub(crate) fn texel_count(config: &Config, views: u64) -> Result<u64, AdsError> 
     Ok(elements)
 }
 
-/// Bytes of the buffers for that many lights and views, in their order: which views lights have, views,
-/// texels. At least one element each.
+/// Returns the bytes of the buffers for this many lights, views and texels, in the order of the buffers:
+/// table of the lights' views, views, texels. Each buffer has at least one element.
 pub(crate) fn sizes(lights: usize, views: u64, texels: u64) -> [u64; 3] {
     [
         size_of::<ShadowMapsHeader>() as u64 + lights.max(1) as u64 * size_of::<ShadowMapsLight>() as u64,
@@ -57,8 +58,9 @@ pub(crate) fn sizes(lights: usize, views: u64, texels: u64) -> [u64; 3] {
     ]
 }
 
-/// The page's formula for lights without extent that have these views, and emitting triangles: one of either
-/// at least. It shares nothing with what is allocated, so that the two check each other.
+/// Computes the bytes by the formula of `docs/shadow-maps.md`, for lights without extent that have these
+/// numbers of views and for emitting triangles; at least one of either. The formula shares no code with the
+/// allocation, so that the two check each other.
 pub fn bytes(config: &Config, views: &[u32], emitters: u32) -> u64 {
     let of_lights: u64 = views.iter().copied().map(u64::from).sum();
     let of_emitters = 6 * u64::from(config.points) * u64::from(emitters);

@@ -1,4 +1,4 @@
-//! The maps on the device.
+//! Shadow maps on the device.
 
 use bytemuck::{bytes_of, cast_slice};
 use rasray_ads::kit::Modules;
@@ -22,41 +22,41 @@ use crate::layout::{sizes, texel_count, views_of_all, views_of_emitters};
 const MODULES: Modules =
     Modules { structure: "shadow-maps", prefix: "shadow_maps", addressing: Addressing::Descriptor };
 
-/// Threads of a workgroup of `shadow_maps/build_0_views`.
+/// Number of threads in a workgroup of `shadow_maps/build_0_views`.
 const LIGHTS_PER_GROUP: u32 = 64;
 
-/// Lights that shadow rays lead to.
+/// Lights to which shadow rays lead.
 #[derive(Clone, Copy, Debug)]
 pub struct Lights<'a> {
-    /// [`Light`] records of lights without extent on the device, from its start. Each build reads where they
-    /// are then.
+    /// [`Light`] records of lights without extent, on the device, from the start of the buffer. Each build
+    /// reads the positions that the records have then.
     pub records: &'a Buffer,
-    /// These records as the host knows them: which kinds there are, and how wide cones are. Where they are is
-    /// not looked at.
+    /// [`Light`] records as the host knows them, which give the kinds of lights and the widths of cones.
+    /// Their positions are not read.
     pub known: &'a [Light],
-    /// Triangles that emit, where there are any.
+    /// Triangles that emit; `None` if there are none.
     pub emitters: Option<Emitters<'a>>,
 }
 
-/// Triangles that emit. With [`Config::points`] each of them has maps.
+/// Triangles that emit. Each of them has [`Config::points`] points with maps.
 #[derive(Clone, Copy, Debug)]
 pub struct Emitters<'a> {
-    /// [`EmissiveTriangle`](crate::EmissiveTriangle) records on the device, from its start, of which the
-    /// triangle is read.
+    /// [`EmissiveTriangle`](crate::EmissiveTriangle) records on the device, from the start of the buffer.
+    /// Only the triangle of a record is read.
     pub records: &'a Buffer,
-    /// Number of triangles.
+    /// Number of triangles that emit.
     pub count: u32,
 }
 
-/// Shadow maps of all lights: a cube around each that shines everywhere, one view along each narrower cone,
-/// one parallel view over all triangles for each light far away; and where [`Config::points`] asks for it a
-/// cube around each of so many points on every emitting triangle, of which a ray takes the one nearest to its
-/// end.
+/// Shadow maps of all lights. A light that shines everywhere has a cube of views around it, a narrower cone
+/// has one view along it, and a light far away has one parallel view over all triangles. With
+/// [`Config::points`], each of so many points on every emitting triangle has a cube of views, and a ray takes
+/// the point nearest to its end.
 ///
-/// A build draws the triangles into every view. Rays that lead to a light
-/// ([`Ray::light`](rasray_ads::Ray::light)) are answered by one comparison; a structure is asked for all
-/// others: for rays without such a light, from outside of a view, and rays that pass back faces. Until a
-/// build of the triangles that there are was recorded, it is asked for all.
+/// A build draws the triangles into every view. One comparison answers a ray that leads to a light
+/// ([`Ray::light`](rasray_ads::Ray::light)). A structure traces all other rays: rays without such a light,
+/// rays from outside of a view, and rays that pass back faces. Until a build of the current triangles is
+/// recorded, a structure traces every ray.
 ///
 /// There is one set of maps, which frames in flight on one queue use one after the other.
 #[derive(Debug)]
@@ -73,11 +73,11 @@ pub struct ShadowMaps {
     of_lights: OfLights,
 }
 
-/// Sizes and buffers that are made anew for other lights.
+/// Sizes and buffers that a change of lights makes anew.
 #[derive(Debug)]
 struct OfLights {
     lights: u32,
-    /// Points on all emitting triangles.
+    /// Number of points on all emitting triangles.
     points: u32,
     view_count: u32,
     table: Buffer,
@@ -85,7 +85,8 @@ struct OfLights {
 }
 
 impl ShadowMaps {
-    /// Requirements of a device: the floor, stores of fragment shaders, and those of its modules.
+    /// Returns the requirements on a device: the floor, stores of fragment shaders, and the requirements of
+    /// the shader modules.
     pub fn requirements() -> Requirements {
         let mut requirements = Requirements::floor();
         requirements.required.push(Feature::FragmentStoresAndAtomics);
@@ -93,12 +94,12 @@ impl ShadowMaps {
         requirements
     }
 
-    /// Makes pipelines and maps; nothing is built. `scene` has the alpha masks; without it geometry is
-    /// opaque.
+    /// Makes pipelines and empty maps, and builds nothing. `scene` has the alpha masks; without a scene
+    /// geometry is opaque.
     ///
     /// # Errors
-    /// An option out of range, or maps larger than the device draws or binds; out of memory, or the device
-    /// lacks a feature or refuses a pipeline.
+    /// An option is out of range, the maps are larger than the device draws or binds, memory runs out, or the
+    /// device lacks a feature or refuses a pipeline.
     pub fn new(
         device: &Device,
         config: Config,
@@ -160,12 +161,12 @@ impl ShadowMaps {
         })
     }
 
-    /// Takes other lights from the next recording on; the maps grow where there are more. Nothing is built
-    /// then. What was recorded before keeps the lights that it was recorded with. Nothing changes after an
+    /// Replaces the lights from the next recording on, and builds nothing. The maps grow if there are more
+    /// lights. Earlier recordings keep the lights that they were recorded with. Nothing changes after an
     /// error.
     ///
     /// # Errors
-    /// Maps larger than the device binds, or out of memory.
+    /// The maps are larger than the device binds, or memory runs out.
     pub fn set_lights(&mut self, device: &Device, lights: Lights<'_>) -> Result<(), AdsError> {
         let kept = Some((&self.views, &self.texels));
         (self.views, self.texels, self.of_lights) =
@@ -173,18 +174,18 @@ impl ShadowMaps {
         Ok(())
     }
 
-    /// Takes other triangles from the next recording on. Until they are drawn, a structure is asked for every
+    /// Replaces the triangles from the next recording on. Until a build draws them, a structure traces every
     /// ray.
     pub fn set_geometry(&mut self, geometry: &Geometry) {
         self.geometry = geometry.clone();
     }
 
-    /// Takes the scene that other triangles belong to, whose alpha masks the next build reads. Nothing
+    /// Replaces the scene, to which other triangles belong. The next build reads its alpha masks. Nothing
     /// changes after an error.
     ///
     /// # Errors
-    /// [`AdsError::OtherScene`] where it has alpha masks and the one before had none, or other specialisation
-    /// constants.
+    /// [`AdsError::OtherScene`] if the scene has alpha masks and the one before had none, or if it has other
+    /// specialisation constants.
     pub fn set_scene(&mut self, scene: &SceneBinding) -> Result<(), AdsError> {
         if let Some(what) = self.scene.as_ref().and_then(|before| before.difference(scene)) {
             return Err(AdsError::OtherScene { structure: MODULES.structure, what });
@@ -195,23 +196,24 @@ impl ShadowMaps {
         Ok(())
     }
 
-    /// Options.
+    /// Returns the options.
     pub fn config(&self) -> &Config {
         &self.config
     }
 
-    /// Views of all lights and points: where there are none, every ray is traced.
+    /// Returns the number of views of all lights and points. If it is 0, a structure traces every ray.
     pub fn view_count(&self) -> u32 {
         self.of_lights.view_count
     }
 
-    /// Bytes of all maps with their tables.
+    /// Returns the bytes of all maps with their tables.
     pub fn bytes(&self) -> u64 {
         self.of_lights.table.size() + self.views.size() + self.texels.size()
     }
 
-    /// Depths of the texels of all views, metres from the light, of a light far away from the front of the
-    /// view, row by row; NaN where there is no triangle. Submits and waits: for tests and tools.
+    /// Downloads the depths of the texels of all views, row by row, in metres: from the light or, for a light
+    /// far away, from the front of the view; NaN where there is no triangle. Submits and waits: for tests and
+    /// tools.
     ///
     /// # Errors
     /// The device failed.
@@ -220,9 +222,9 @@ impl ShadowMaps {
         Ok(device.download_as::<f32>(&self.texels, 0, count as usize)?)
     }
 
-    /// Records that all maps are drawn, of lights and triangles as they are where this comes in the
-    /// recording: after what moves them, and after a structure's build, which gathers and checks triangles.
-    /// Visible to what follows.
+    /// Records the passes that draw all maps. They see the lights and triangles at this place of the
+    /// recording, so it follows the commands that move these, and a structure's build, which gathers and
+    /// checks triangles. The maps are visible to later commands.
     pub fn record_build(&self, recorder: &mut Recorder<'_>) {
         let OfLights { lights, points, view_count, .. } = self.of_lights;
         if view_count == 0 {
@@ -284,8 +286,8 @@ impl Occluder for ShadowMaps {
     }
 }
 
-/// Views, texels and tables for these lights; `kept` are views and texels to be used again where they
-/// suffice.
+/// Makes views, texels and tables for these lights. `kept` are earlier buffers of views and texels, which are
+/// used again if they suffice.
 fn made_for(
     device: &Device,
     config: &Config,
@@ -305,7 +307,7 @@ fn made_for(
         usage: BufferUsage::STORAGE,
         location: MemoryLocation::Upload,
     })?;
-    // Status 0 until a build.
+    // The status is 0 until a build.
     let header = ShadowMapsHeader {
         status: 0,
         resolution: config.resolution,
@@ -329,7 +331,8 @@ fn made_for(
     };
     let views = grown(kept.map(|(views, _)| views), "shadow map views", view_bytes)?;
     let texels = grown(kept.map(|(_, texels)| texels), "shadow map texels", texel_bytes)?;
-    // Lights stand in where nothing emits, and nothing is read of them there.
+    // If no triangle emits, the buffer of lights is bound in place of that of emitters, and nothing is read
+    // of it there.
     let emitting = emitters.map_or(records, |emitters| emitters.records);
     let set =
         device.create_binding_set(layout, "shadow maps", &[&table, &views, &texels, records, emitting])?;

@@ -1,4 +1,4 @@
-//! Share of shadow rays on which maps and traces differ: it falls as the resolution grows.
+//! Tests of the share of shadow rays on which maps and traces differ: it falls as the resolution grows.
 
 use std::path::{Path, PathBuf};
 
@@ -10,8 +10,8 @@ use rasray_shadow_maps::{Config, bytes, views_of};
 
 use crate::lit::{Lit, cluttered_room, device, expect_silence, lights, scene_of};
 
-/// Shares of rays that are answered differently, for each light at each resolution that the device has room
-/// for.
+/// Returns the shares of rays with different answers, for each light, at each resolution that the device has
+/// room for.
 fn disagreement(device: &Device, scene: &Scene, resolutions: &[u32], rays: usize) -> Vec<Vec<f64>> {
     let of_light = |light: usize| {
         let alone = Scene { lights: vec![scene.lights[light]], ..scene.clone() };
@@ -35,7 +35,7 @@ fn disagreement(device: &Device, scene: &Scene, resolutions: &[u32], rays: usize
     (0..scene.lights.len()).map(of_light).collect()
 }
 
-/// The exponent e of shares that go as resolution^-e, by least squares.
+/// Returns the exponent e if shares are proportional to resolution^-e, by least squares.
 pub fn exponent(resolutions: &[u32], shares: &[f64]) -> f64 {
     let x: Vec<f64> = resolutions.iter().map(|&n| f64::from(n).ln()).collect();
     let y: Vec<f64> = shares.iter().map(|share| share.ln()).collect();
@@ -49,7 +49,7 @@ pub fn is_full() -> bool {
     std::env::var_os("RASRAY_FULL").is_some_and(|full| full == "1")
 }
 
-/// That many points in the full tier, and a third of them in the quick one.
+/// Returns `full` points in the full tier, and a third of them in the quick tier.
 pub fn points(full: usize) -> usize {
     if is_full() { full } else { full / 3 }
 }
@@ -64,7 +64,7 @@ fn print_and_check(name: &str, lights: &[&str], resolutions: &[u32], shares: &[V
     }
 }
 
-/// The lights of a room, for whatever bounds a scene has.
+/// Returns the lights of a room, scaled to the bounds of a scene.
 fn lights_around(lower: DVec3, upper: DVec3) -> Vec<Light> {
     let (centre, size) = ((lower + upper) / 2.0, (upper - lower).max_element());
     let [above, aside] =
@@ -94,8 +94,8 @@ fn bounds(scene: &Scene) -> [DVec3; 2] {
     [corners().fold(DVec3::INFINITY, DVec3::min), corners().fold(DVec3::NEG_INFINITY, DVec3::max)]
 }
 
-/// Cornell's room, lit from within where all is inside of the view of a light: its lamp stays a wall of the
-/// ceiling.
+/// Returns Cornell's room with lights inside of it, so that all of the room is in their views. Its lamp
+/// remains as a part of the ceiling.
 fn lit_cornell() -> Scene {
     let mut scene = builtin::cornell();
     scene.lights = vec![
@@ -135,7 +135,7 @@ fn errors_fall_as_resolution_grows_in_clutter() {
     expect_silence(&device);
 }
 
-/// An animated scene of `RASRAY_SCENES` at a time of its clip, on a floor.
+/// Measures an animated scene of `RASRAY_SCENES`, at a time of its clip, on a floor.
 #[test]
 fn errors_fall_as_resolution_grows_for_a_moving_truck() {
     let Some(folder) = std::env::var_os("RASRAY_SCENES").map(PathBuf::from) else {
@@ -151,7 +151,8 @@ fn errors_fall_as_resolution_grows_for_a_moving_truck() {
     let (device, _turn) = device();
     let resolutions: &[u32] = if is_full() { &[256, 512, 1024, 2048, 4096] } else { &[128, 256, 512] };
     let shares = disagreement(&device, &scene, resolutions, points(40_000));
-    // Its decals and panels lie closer together than what a coarse map tells apart: errors fall in steps.
+    // The truck's decals and panels lie closer together than a coarse map can tell apart, so errors fall in
+    // steps.
     print_and_check("CesiumMilkTruck", &KINDS, resolutions, &shares, 0.5);
     expect_silence(&device);
 }

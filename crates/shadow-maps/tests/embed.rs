@@ -1,5 +1,5 @@
-//! The example runs, its answers are those of brute force where a map has them, and the validation layer is
-//! silent.
+//! Test that the example runs, that its answers are those of brute force where a map has them, and that the
+//! validation layer is silent.
 
 #[path = "../examples/embed.rs"]
 mod embed;

@@ -1,6 +1,6 @@
-//! The law of shadow maps: a ray's answer is what a naive map in double precision says, which looks at every
-//! triangle along the line from the light through the centre of the ray's texel. Where rounding decides, it
-//! may be either.
+//! Tests of the law of shadow maps: a ray has the answer of a naive map in double precision, which looks at
+//! every triangle along the line from the light through the centre of the ray's texel. If rounding decides,
+//! either answer is right.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +13,7 @@ use rasray_shadow_maps::{Config, views_of};
 
 use crate::lit::{Lit, cluttered_room, device, expect_silence, lights, scene_of};
 
-/// A view as the page describes it: axes over its half sides.
+/// View as the page describes it: axes divided by its half sides.
 struct View {
     origin: DVec3,
     axes: [DVec3; 3],
@@ -31,7 +31,7 @@ fn axes_across(forward: DVec3) -> [DVec3; 2] {
 }
 
 impl View {
-    /// The view of a light that a point is in.
+    /// Returns the view of a light that contains a point.
     fn of(light: &rasray_shadow_maps::Light, triangles: &[[DVec3; 3]], p: DVec3) -> Self {
         let (origin, direction) = (vector(light.position), vector(light.direction));
         if light.kind == LIGHT_DIRECTIONAL {
@@ -74,11 +74,11 @@ impl View {
 pub enum Naive {
     Occluded,
     Open,
-    /// Within rounding of either.
+    /// Answer that is within rounding of both others.
     Unsure,
 }
 
-/// Origin and direction, in a view, of the line from the light through a place on its map.
+/// Returns the origin and the direction, in a view, of the line from the light through a place on its map.
 fn line(view: &View, [x, y]: [f64; 2]) -> (DVec3, DVec3) {
     match view.parallel {
         true => (DVec3::new(x, y, 0.0), DVec3::Z),
@@ -86,8 +86,8 @@ fn line(view: &View, [x, y]: [f64; 2]) -> (DVec3, DVec3) {
     }
 }
 
-/// Depth of a triangle (in a view) at a texel's centre with the bias; `None` where it does not cover the
-/// centre. An error where rounding decides whether it does.
+/// Returns the depth of a triangle (in a view) at a texel's centre with the bias, or `None` if the triangle
+/// does not cover the centre. Returns an error if rounding decides the coverage.
 fn stored(view: &View, [a, b, c]: [DVec3; 3], centre: [f64; 2], half_texel: f64) -> Result<Option<f64>, ()> {
     let (origin, direction) = line(view, centre);
     let edges = [(b, c), (c, a), (a, b)].map(|(from, to)| {
@@ -116,7 +116,7 @@ fn stored(view: &View, [a, b, c]: [DVec3; 3], centre: [f64; 2], half_texel: f64)
     Ok(Some(z + extent))
 }
 
-/// Answer of the map of a light to a ray. The triangle `excluded` is not on it.
+/// Returns the answer of the map of a light to a ray. The triangle `excluded` is not on the map.
 pub fn naive(
     light: &rasray_shadow_maps::Light,
     excluded: Option<u32>,
@@ -150,7 +150,7 @@ pub fn naive(
     }
     let plane = normal.dot(a - origin) / facing;
     let receiver = if plane > 0.0 || view.parallel { plane.min(at.z) } else { at.z };
-    // The device stores more, by what bounds rounding.
+    // The device adds a bound of its rounding to depths.
     match receiver - nearest {
         beyond if beyond > 2.0e-4 => Naive::Occluded,
         beyond if beyond < 1.0e-6 => Naive::Open,
@@ -191,8 +191,8 @@ fn answers_are_those_of_a_naive_map() {
     expect_silence(&device);
 }
 
-/// No point of a flat surface is in its own shadow, however steep: by the bias, and where the triangle of a
-/// point is known without it, too.
+/// Checks that no point of a flat surface is in its own shadow, however steep the surface is. The bias
+/// suffices for this, and so does the known triangle of the point without a bias.
 #[test]
 fn a_surface_does_not_shade_itself() {
     let (device, _turn) = device();
@@ -226,8 +226,8 @@ fn a_surface_does_not_shade_itself() {
     expect_silence(&device);
 }
 
-/// Neither does a convex one of triangles smaller than texels, from outside and from within, whatever its
-/// curvature.
+/// Checks that a convex surface of triangles smaller than texels shades at most 0.2 % of its own lit points,
+/// from outside and from within, whatever its curvature.
 #[test]
 fn a_curved_surface_does_not_shade_itself() {
     let (device, _turn) = device();

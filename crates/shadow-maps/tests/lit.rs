@@ -10,7 +10,7 @@ use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_scene::{Camera, Instance, Light, Material, Mesh, Projection, Scene};
 use rasray_shadow_maps::{Config, Emitters, Lights, ShadowMaps};
 
-/// A device with validation on. Tests take turns, so that a message belongs to one of them.
+/// Returns a device with validation. Tests take turns, so that a message belongs to one of them.
 pub fn device() -> (Device, MutexGuard<'static, ()>) {
     static TURN: Mutex<()> = Mutex::new(());
     static DEVICE: OnceLock<Device> = OnceLock::new();
@@ -26,12 +26,12 @@ pub fn device() -> (Device, MutexGuard<'static, ()>) {
     (device.clone(), turn)
 }
 
-/// An error where the validation layer said anything.
+/// Panics if the validation layer has reported a message.
 pub fn expect_silence(device: &Device) {
     assert_eq!(device.validation_messages(), Vec::<String>::new());
 }
 
-/// Numbers in [0, 1) that are the same in every run.
+/// Generator of numbers in [0, 1) that are equal in every run.
 pub struct Random(u64);
 
 impl Random {
@@ -44,13 +44,13 @@ impl Random {
         (self.0 >> 40) as f64 / (1u64 << 24) as f64
     }
 
-    /// In the cube between -1 and 1.
+    /// Returns a random point in the cube between -1 and 1.
     pub fn point(&mut self) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|_| 2.0 * self.next() - 1.0))
     }
 }
 
-/// Triangles as one mesh of one material.
+/// Returns a scene with these triangles as one mesh of one material.
 pub fn scene_of(triangles: &[[DVec3; 3]], lights: Vec<Light>) -> Scene {
     let mesh = Mesh {
         name: "triangles".to_owned(),
@@ -68,7 +68,7 @@ pub fn scene_of(triangles: &[[DVec3; 3]], lights: Vec<Light>) -> Scene {
     }
 }
 
-/// The inside of a room from -1 to 1, and that many triangles of every size in it.
+/// Returns the inside of a room from -1 to 1, with `count` triangles of every size in it.
 pub fn cluttered_room(count: usize) -> Vec<[DVec3; 3]> {
     let mut triangles = Vec::new();
     for axis in 0..3 {
@@ -93,7 +93,7 @@ pub fn cluttered_room(count: usize) -> Vec<[DVec3; 3]> {
     triangles
 }
 
-/// One of each kind, and a spot so wide that it has a cube.
+/// Returns one light of each kind, and a spot so wide that it has a cube of views.
 pub fn lights() -> Vec<Light> {
     let spot = |position, direction: DVec3, outer_cone| Light::Spot {
         position,
@@ -108,19 +108,19 @@ pub fn lights() -> Vec<Light> {
         spot(DVec3::new(-0.83, 0.91, 0.67), DVec3::new(1.0, -1.3, -0.8), 0.6),
         Light::Directional { direction: DVec3::new(0.4, -0.8, 0.3).normalize(), irradiance: [1.0; 3] },
         spot(DVec3::new(0.2, -0.6, 0.85), DVec3::new(-0.3, 0.6, -1.0), 1.4),
-        // A centimetre from a wall.
+        // This light is a centimetre from a wall.
         Light::Point { position: DVec3::new(-0.99, 0.1, 0.05), intensity: [1.0; 3], range: f32::INFINITY },
     ]
 }
 
-/// The lights of a scene, with the triangles that emit.
+/// Returns the lights of a scene, with the triangles that emit.
 pub fn lights_of(scene: &GpuScene) -> Lights<'_> {
     let posed = scene.posed_buffers();
     let emitters = Emitters { records: &posed.emissive, count: scene.emitter_count() };
     Lights { records: &posed.lights, known: scene.lights(), emitters: Some(emitters) }
 }
 
-/// A scene with its lights on a device.
+/// Scene with its lights on a device.
 pub struct Lit {
     pub device: Device,
     pub scene: GpuScene,
@@ -151,7 +151,7 @@ impl Lit {
         Self { device: device.clone(), scene, structure, maps, positions, indices }
     }
 
-    /// Replaces the maps.
+    /// Replaces the maps by maps with these options.
     pub fn with(self, config: Config) -> Self {
         let lights = lights_of(&self.scene);
         let (geometry, binding) = (self.scene.geometry(), self.scene.binding());
@@ -163,7 +163,7 @@ impl Lit {
         self.device.submit(|recorder| self.maps.record_build(recorder)).expect("the build runs");
     }
 
-    /// True for each ray that is occluded: by maps, or traced.
+    /// Returns true for each ray that is occluded, by the maps or by a trace.
     pub fn occluded(&self, rays: &[Ray], by_maps: bool) -> Vec<bool> {
         let hits = self.hits(rays, by_maps, Domain::First(rays.len() as u32));
         hits.iter().map(Hit::is_hit).collect()
@@ -187,14 +187,14 @@ impl Lit {
         submitted.expect("the rays are answered");
     }
 
-    /// Corners of the triangles as the device has them.
+    /// Returns the corners of the triangles as the device has them.
     pub fn triangles(&self) -> Vec<[DVec3; 3]> {
         let corner = |index: &u32| glam::Vec3::from(self.positions[*index as usize]).as_dvec3();
         self.indices.as_chunks::<3>().0.iter().map(|triangle| triangle.each_ref().map(corner)).collect()
     }
 
-    /// From points spread evenly over all surfaces to a light without extent: as integrators ask. Those that
-    /// the light does not shine on are left out.
+    /// Returns rays from points spread evenly over all surfaces to a light without extent, as integrators
+    /// ask. Leaves out points that the light does not shine on.
     pub fn shadow_rays(&self, light: u32, count: usize) -> Vec<Ray> {
         let record = self.scene.lights()[light as usize];
         self.rays_to(light, count, |_, p| {
@@ -204,8 +204,8 @@ impl Lit {
         })
     }
 
-    /// From points spread evenly over all surfaces to places spread at random over the emitting triangle of
-    /// this number and these corners.
+    /// Returns rays from points spread evenly over all surfaces to random places on the emitting triangle
+    /// with this number and these corners.
     pub fn rays_to_emitter(&self, emitter: u32, corners: [DVec3; 3], count: usize) -> Vec<Ray> {
         self.rays_to(self.scene.lights().len() as u32 + emitter, count, |random, p| {
             let (root, along) = (random.next().sqrt(), random.next());
@@ -215,8 +215,8 @@ impl Lit {
         })
     }
 
-    /// From points on all surfaces, on the side of a light: `target` says in which direction that is, and
-    /// where rays end.
+    /// Returns rays from points on all surfaces, on the side of a light. `target` gives the direction of the
+    /// light, and the end of the ray.
     fn rays_to(
         &self,
         light: u32,
@@ -253,7 +253,7 @@ impl Lit {
     }
 }
 
-/// From a point towards a light; nothing where it does not shine.
+/// Returns the vector from a point towards a light, or `None` if the light does not shine there.
 fn towards(light: &rasray_shadow_maps::Light, from: DVec3) -> Option<DVec3> {
     use rasray_shaders_glsl::constants::scene::{LIGHT_DIRECTIONAL, LIGHT_SPOT};
     let direction = glam::Vec3::from(light.direction).as_dvec3();

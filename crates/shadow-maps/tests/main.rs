@@ -1,5 +1,5 @@
-//! Every test of this package as one program, which is built and linked once: a module for each concern,
-//! whose first lines say what it holds. `tools/run-tests` runs each module in a process of its own.
+//! All tests of this package in one program, which is built and linked once. Each concern has a module, whose
+//! first lines say what it tests. `tools/run-tests` runs each module in a process of its own.
 
 mod disagreement;
 #[path = "embed.rs"]

@@ -1,4 +1,4 @@
-//! Emitting triangles: a shadow ray is answered by the map of the point that is nearest to its end.
+//! Tests of emitting triangles: the map of the point that is nearest to a shadow ray's end answers the ray.
 
 use glam::DVec3;
 use rasray_ads::{Domain, Hit, Ray};
@@ -14,8 +14,8 @@ fn config(resolution: u32, points: u32) -> Config {
     Config { points, ..Config::new(resolution) }
 }
 
-/// A room with things in it and a lamp of two triangles below its ceiling, of a mesh of its own, so that they
-/// come last.
+/// Returns a room with things in it and a lamp of two triangles below its ceiling. The lamp is a mesh of its
+/// own, so that its triangles come last.
 fn room_with_a_lamp() -> Scene {
     let mut scene = scene_of(&cluttered_room(60), lights()[..2].to_vec());
     let corner = |x: f32, z: f32| [x, 0.9, z];
@@ -31,7 +31,7 @@ fn room_with_a_lamp() -> Scene {
     scene
 }
 
-/// Places of the points on a triangle, as the page says.
+/// Returns the places of the points on a triangle, as the page describes them.
 fn places([a, b, c]: [DVec3; 3], count: u32) -> Vec<DVec3> {
     let stride = 1.0 / f64::from(count);
     let place = |k: u32| {
@@ -42,7 +42,7 @@ fn places([a, b, c]: [DVec3; 3], count: u32) -> Vec<DVec3> {
     (0..count).map(place).collect()
 }
 
-/// The triangles that emit: the last two.
+/// Returns the triangles that emit: the last two.
 fn lamp(lit: &Lit) -> [(u32, [DVec3; 3]); 2] {
     let triangles = lit.triangles();
     let first = triangles.len() - 2;
@@ -100,8 +100,8 @@ fn answers_are_those_of_a_naive_map_of_the_nearest_point() {
     expect_silence(&device);
 }
 
-/// Without points, and of triangles that there are not, rays are traced; lights without extent keep their
-/// maps.
+/// Checks that rays to emitters without points, and to emitters that do not exist, are traced, and that
+/// lights without extent keep their maps.
 #[test]
 fn rays_to_emitters_without_points_are_traced() {
     let (device, _turn) = device();
@@ -132,8 +132,7 @@ fn rays_to_emitters_without_points_are_traced() {
     expect_silence(&device);
 }
 
-/// The share of rays that are answered differently from a trace falls as there are more points, and more
-/// texels.
+/// Checks that the share of rays with an answer different from a trace falls as points and texels grow.
 #[test]
 fn errors_fall_as_points_and_texels_grow() {
     let (device, _turn) = device();
@@ -171,7 +170,7 @@ fn errors_fall_as_points_and_texels_grow() {
                 percent.join(" ")
             );
             assert!(shares.windows(2).all(|pair| pair[1] < pair[0]), "{name}: {shares:?}");
-            // With few points it is these that decide, and all resolutions have room for 16.
+            // With few points the points decide the share, and all resolutions have room for 16.
             last.push((shares[2], e));
         }
         let [coarse, fine] = [last[0], last[last.len() - 1]];
@@ -180,7 +179,7 @@ fn errors_fall_as_points_and_texels_grow() {
     expect_silence(&device);
 }
 
-/// Corners of the triangles that emit.
+/// Returns the corners of the triangles that emit.
 fn emitters(lit: &Lit) -> Vec<[DVec3; 3]> {
     let posed = lit.scene.posed_buffers();
     let count = lit.scene.emitter_count() as usize;

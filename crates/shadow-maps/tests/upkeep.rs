@@ -1,5 +1,5 @@
-//! Rays that maps answer, and those that they leave to a structure; masks; lights and triangles that are
-//! others; sizes that do not fit.
+//! Tests of rays that maps answer, and of rays that they leave to a structure; of masks; of changed lights
+//! and triangles; and of sizes that do not fit.
 
 use glam::DVec3;
 use rasray_ads::{AdsError, Domain, Hit, PRIMITIVE_UNKNOWN, RAY_CULL_BACK_FACES, Ray, RayQueue};
@@ -8,7 +8,7 @@ use rasray_shadow_maps::{Config, Lights, ShadowMaps, bytes, views_of};
 
 use crate::lit::{Lit, cluttered_room, device, expect_silence, lights, lights_of, scene_of};
 
-/// Slots that maps answer: these have no triangle.
+/// Returns true if a map has answered the slot: its hit has no triangle.
 fn is_of_maps(hit: &Hit) -> bool {
     !hit.is_hit() || hit.primitive == PRIMITIVE_UNKNOWN
 }
@@ -24,7 +24,8 @@ fn rays_to_no_light_are_traced_and_all_others_answered_once() {
     lit.build();
     let mut rays: Vec<Ray> = (0..5).flat_map(|light| lit.shadow_rays(light, 300)).collect();
     let traced = lit.hits(&rays, false, Domain::First(rays.len() as u32));
-    // Every fifth each: without a light, of a light that there is not, past backs, inactive.
+    // One ray in ten of each kind: without a light, of a light that does not exist, past back faces,
+    // inactive.
     for (k, ray) in rays.iter_mut().enumerate() {
         match k % 10 {
             0 => ray.flags = 0,
@@ -49,7 +50,8 @@ fn rays_to_no_light_are_traced_and_all_others_answered_once() {
     expect_silence(&device);
 }
 
-/// Passes after it work on the slots that were selected before it, and no other slot is touched.
+/// Checks that later passes work on the slots that were selected before the maps, and that no other slot
+/// changes.
 #[test]
 fn the_selection_of_a_queue_stays() {
     let (device, _turn) = device();
@@ -62,7 +64,7 @@ fn the_selection_of_a_queue_stays() {
     device.upload_slice(queue.rays(), 0, &rays).expect("it fits");
     let untouched = Hit { t: 7.0, primitive: 77, a: 0.25, b: 0.5 };
     device.upload_slice(queue.hits(), 0, &[untouched; 300]).expect("it fits");
-    // As a shader that selects every third slot.
+    // The selection is that of a shader that selects every third slot.
     let chosen: Vec<u32> = (0..100).map(|k| 3 * k).collect();
     let mut header =
         device.download_as::<rasray_ads::QueueHeader>(queue.header(), 0, 1).expect("readable")[0];
@@ -98,7 +100,7 @@ fn what_is_not_built_or_was_built_for_other_triangles_is_traced() {
     assert_eq!(lit.hits(&rays, true, all), traced, "nothing is built");
     lit.build();
     assert!(lit.hits(&rays, true, all).iter().all(is_of_maps));
-    // Other triangles: until they are drawn, nothing of the ones before is said of them.
+    // Until other triangles are drawn, the maps give no answers from the triangles before.
     let other = Lit::new(&device, &scene_of(&cluttered_room(200), lights()), Config::new(128));
     lit.structure = other.structure;
     lit.maps.set_geometry(other.scene.geometry());
@@ -119,7 +121,7 @@ fn lights_that_move_and_more_lights_are_seen_by_the_next_build() {
     let mut lit = Lit::new(&device, &scene_of(&cluttered_room(60), all[..1].to_vec()), Config::new(256));
     lit.build();
     let (before, bytes_before) = (lit.maps.download_depths(&device).expect("readable"), lit.maps.bytes());
-    // The device moves a light, and the host is not asked.
+    // The device moves a light without the host.
     let moved =
         Light::Point { position: DVec3::new(-0.5, 0.6, 0.4), intensity: [1.0; 3], range: f32::INFINITY };
     let other = Lit::new(&device, &scene_of(&cluttered_room(60), vec![moved]), Config::new(256));
@@ -131,7 +133,7 @@ fn lights_that_move_and_more_lights_are_seen_by_the_next_build() {
     let bits = |depths: &[f32]| depths.iter().map(|depth| depth.to_bits()).collect::<Vec<_>>();
     assert_ne!(bits(&after), bits(&before));
     assert_eq!(bits(&after), bits(&other.maps.download_depths(&device).expect("readable")));
-    // More lights: the maps grow; fewer: they stay as large.
+    // With more lights the maps grow; with fewer they keep their size.
     let more = Lit::new(&device, &scene_of(&cluttered_room(60), all), Config::new(256));
     lit.maps.set_lights(&device, lights_of(&more.scene)).expect("they fit");
     let views: Vec<_> = more.scene.lights().iter().map(views_of).collect();
@@ -170,7 +172,7 @@ fn without_lights_or_triangles_every_ray_is_traced() {
     expect_silence(&device);
 }
 
-/// A fence whose left half is cut away lets light through there, in maps as in traces.
+/// Checks that a fence whose left half is cut away lets light through there, in maps as in traces.
 #[test]
 fn masked_leaves_let_light_through_where_they_are_cut() {
     let (device, _turn) = device();
