@@ -1,11 +1,11 @@
-//! Bricks: the structure that is in no paper.
+//! Bricks: a structure that no paper describes.
 
 use rasray_bricks::{Addressing, Bricks, Builder, Config, Views};
 
 use crate::option_value::{OptionValue, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
 
-/// The registry's row.
+/// Row of this system in [`SYSTEMS`](crate::SYSTEMS).
 pub(crate) const SYSTEM: System = System {
     name: "bricks",
     doc: "Cells with lists of triangles, in bricks that skip empty space: hits are those of the triangles",
@@ -23,7 +23,7 @@ pub(crate) const SYSTEM: System = System {
     },
 };
 
-/// Options, each with what it sets.
+/// Setters of the options, by name.
 const OPTIONS: &[Setter<Config>] = &[
     ("views", |config, given| given.choice(Views::WORDS).map(|value| config.views = value)),
     ("grid", |config, given| given.whole().map(|value| config.grid = Some(value))),
@@ -36,7 +36,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("capacity", |config, given| given.whole().map(|value| config.entries = Some(value.into()))),
 ];
 
-/// The configuration that a spec stands for.
+/// Returns the configuration for a spec.
 fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config = Config::new(Views::Axes);
     config.counters = spec.counters();

@@ -1,10 +1,10 @@
-//! Every triangle for every ray: the reference for hits, always present.
+//! Brute force: a test of every triangle for every ray. It is the reference for hits, and always present.
 
 use rasray_ads::{BruteForce, StructureKind};
 
 use crate::{Preset, System};
 
-/// The registry's row.
+/// Row of this system in [`SYSTEMS`](crate::SYSTEMS).
 pub(crate) const SYSTEM: System = System {
     name: "brute-force",
     doc: "Every triangle tested against every ray: the reference for hits, slow on purpose",

@@ -5,7 +5,7 @@ use rasray_bvh::{Addressing, Builder, Bvh, Children, Config};
 use crate::option_value::{OptionValue, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
 
-/// The registry's row.
+/// Row of this system in [`SYSTEMS`](crate::SYSTEMS).
 pub(crate) const SYSTEM: System = System {
     name: "bvh",
     doc: "A bounding volume hierarchy: the baseline",
@@ -21,7 +21,7 @@ pub(crate) const SYSTEM: System = System {
     create: |spec, device, geometry, scene| Ok(Box::new(Bvh::new(device, config(spec)?, geometry, scene)?)),
 };
 
-/// Options, each with what it sets.
+/// Setters of the options, by name.
 const OPTIONS: &[Setter<Config>] = &[
     ("builder", |config, given| given.choice(Builder::WORDS).map(|value| config.builder = value)),
     ("children", |config, given| given.choice(Children::WORDS).map(|value| config.children = Some(value))),
@@ -29,7 +29,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
 ];
 
-/// The configuration that a spec stands for.
+/// Returns the configuration for a spec.
 fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config = Config::new(Builder::Sah);
     config.counters = spec.counters();

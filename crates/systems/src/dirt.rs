@@ -8,7 +8,7 @@ use rasray_primitive::{
 use crate::option_value::{OptionValue, Setter, names};
 use crate::{PaperFrame, Preset, Spec, System, SystemsError};
 
-/// The registry's row.
+/// Row of this system in [`SYSTEMS`](crate::SYSTEMS).
 pub(crate) const SYSTEM: System = System {
     name: "dirt",
     doc: "Lists of triangles per tile of a cube's faces: hits are those of the triangles",
@@ -26,7 +26,7 @@ pub(crate) const SYSTEM: System = System {
     },
 };
 
-/// Options, each with what it sets.
+/// Setters of the options, by name.
 const OPTIONS: &[Setter<Config>] = &[
     ("resolution", |config, given| given.whole().map(|value| config.resolution = value)),
     ("tile", |config, given| given.whole().map(|value| config.tile = value)),
@@ -52,10 +52,10 @@ const OPTIONS: &[Setter<Config>] = &[
 /// Default number of pixels along a side of a face.
 const RESOLUTION: u32 = 256;
 
-/// Those of the paper's second table.
+/// Number of pixels along a side of a face in the paper's second table.
 const PUBLISHED_RESOLUTION: u32 = 512;
 
-/// The configuration that a spec stands for.
+/// Returns the configuration for a spec.
 pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config = match spec.preset() {
         Preset::Robust => Config::robust(RESOLUTION),
@@ -64,7 +64,7 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
     OptionValue::apply_all(spec, OPTIONS, &mut config)?;
-    // Other coverages are drawn.
+    // The rasterizer makes all coverages but the conservative one.
     if spec.options().get("builder").is_none() && config.coverage != Coverage::Conservative {
         config.builder = Builder::Raster;
     }

@@ -1,11 +1,11 @@
-//! The driver's own tree: what hardware for ray tracing has to be compared with.
+//! The driver's own tree: the structure that hardware for ray tracing accelerates, for comparison.
 
 use rasray_driver::{Config, Driver, Goal};
 
 use crate::option_value::{OptionValue, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
 
-/// The registry's row.
+/// Row of this system in [`SYSTEMS`](crate::SYSTEMS).
 pub(crate) const SYSTEM: System = System {
     name: "driver-rt",
     doc: "The driver's own tree over boxes, by ray queries: devices with VK_KHR_ray_query alone",
@@ -23,11 +23,11 @@ pub(crate) const SYSTEM: System = System {
     },
 };
 
-/// Options, each with what it sets.
+/// Setters of the options, by name.
 const OPTIONS: &[Setter<Config>] =
     &[("goal", |config, given| given.choice(Goal::WORDS).map(|value| config.goal = value))];
 
-/// The configuration that a spec stands for.
+/// Returns the configuration for a spec.
 fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config =
         Config { counters: spec.counters(), work_budget: spec.work_budget(), ..Config::default() };

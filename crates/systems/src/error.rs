@@ -3,43 +3,43 @@
 use rasray_ads::AdsError;
 use rasray_options::ValueError;
 
-/// Why a system cannot be made.
+/// Reason why a system cannot be made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SystemsError {
-    /// No system of that name.
+    /// There is no system with this name.
     #[error("there is no system `{name}`; the systems are {known}")]
     UnknownSystem {
-        /// The requested name or value.
+        /// Name that was requested.
         name: String,
         /// Names of all systems.
         known: String,
     },
-    /// The system lacks that preset.
+    /// The system has no preset with this name.
     #[error("system {system} has no preset `{preset}`")]
     UnknownPreset {
-        /// The system.
+        /// Name of the system.
         system: &'static str,
-        /// The requested name or value.
+        /// Name that was requested.
         preset: String,
     },
-    /// The system lacks that option.
+    /// The system has no option with this name.
     #[error("system {system} has no option `{option}`")]
     UnknownOption {
-        /// The system.
+        /// Name of the system.
         system: &'static str,
-        /// The requested name or value.
+        /// Name that was requested.
         option: String,
     },
-    /// The option has no such value.
+    /// The option does not take this value.
     #[error("{system}: {source}")]
     Value {
-        /// The system.
+        /// Name of the system.
         system: &'static str,
-        /// The option and what it takes.
+        /// Error with the option, the value and the values that the option takes.
         source: ValueError,
     },
-    /// The structure refused.
+    /// The structure has refused its configuration, the device or the geometry.
     #[error(transparent)]
     Ads(#[from] AdsError),
 }

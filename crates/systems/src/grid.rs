@@ -1,11 +1,11 @@
-//! The uniform grid, the baseline of structures made of cells.
+//! The uniform grid: the baseline for structures made of cells.
 
 use rasray_grid::{Addressing, Config, Grid};
 
 use crate::option_value::{OptionValue, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
 
-/// The registry's row.
+/// Row of this system in [`SYSTEMS`](crate::SYSTEMS).
 pub(crate) const SYSTEM: System = System {
     name: "grid",
     doc: "A plain uniform grid with a list of triangles per cell, the baseline of structures made of cells",
@@ -21,14 +21,14 @@ pub(crate) const SYSTEM: System = System {
     create: |spec, device, geometry, scene| Ok(Box::new(Grid::new(device, config(spec)?, geometry, scene)?)),
 };
 
-/// Options, each with what it sets.
+/// Setters of the options, by name.
 const OPTIONS: &[Setter<Config>] = &[
     ("grid", |config, given| given.whole().map(|value| config.cells = Some(value))),
     ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
     ("capacity", |config, given| given.whole().map(|value| config.entries = Some(value.into()))),
 ];
 
-/// The configuration that a spec stands for.
+/// Returns the configuration for a spec.
 fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config =
         Config { counters: spec.counters(), work_budget: spec.work_budget(), ..Config::default() };

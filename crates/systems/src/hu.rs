@@ -4,10 +4,10 @@ use rasray_voxel::{Config, Payload, Voxels};
 
 use crate::{PaperFrame, Preset, Spec, System, SystemsError, voxel};
 
-/// Cells along a side of a view in the paper.
+/// Number of cells along a side of a view in the paper.
 const PUBLISHED_RESOLUTION: u32 = 1280;
 
-/// The registry's row.
+/// Row of this system in [`SYSTEMS`](crate::SYSTEMS).
 pub(crate) const SYSTEM: System = System {
     name: "hu",
     doc: "Voxels over A-buffers along the three axes",
@@ -25,7 +25,7 @@ pub(crate) const SYSTEM: System = System {
     },
 };
 
-/// The configuration that a spec stands for.
+/// Returns the configuration for a spec.
 pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let preset = match spec.preset() {
         Preset::Robust => Config::robust(voxel::RESOLUTION),

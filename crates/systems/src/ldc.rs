@@ -7,7 +7,7 @@ use rasray_ldc::{
 use crate::option_value::{OptionValue, Setter, names};
 use crate::{PaperFrame, Preset, Spec, System, SystemsError};
 
-/// The registry's row.
+/// Row of this system in [`SYSTEMS`](crate::SYSTEMS).
 pub(crate) const SYSTEM: System = System {
     name: "ldc",
     doc: "Layers of fragments along three axes, each triangle along the one it faces most",
@@ -28,7 +28,7 @@ pub(crate) const SYSTEM: System = System {
     },
 };
 
-/// Options, each with what it sets.
+/// Setters of the options, by name.
 const OPTIONS: &[Setter<Config>] = &[
     ("resolution", |config, given| given.whole().map(|value| config.resolution = value)),
     ("block", |config, given| given.cells().map(|value| config.block = value)),
@@ -43,7 +43,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("geometry-passes", |config, given| {
         given.choice(&[("1", 1), ("3", 3)]).map(|value| config.passes = value)
     }),
-    // These take one word each so far, which is checked and selects nothing.
+    // These two options have a single word, so they are checked and select nothing.
     ("storage", |_, given| given.choice(&[("sb", ())])),
     ("views", |_, given| given.choice(&[("axes", ())])),
     ("ids", |config, given| given.switch().map(|value| config.ids = value)),
@@ -58,10 +58,10 @@ const OPTIONS: &[Setter<Config>] = &[
 /// Default number of cells along a side of a view.
 const RESOLUTION: u32 = 512;
 
-/// The larger of the two sizes of the paper's table.
+/// Number of cells along a side of a view: the larger of the two sizes in the paper's table.
 const PUBLISHED_RESOLUTION: u32 = 1024;
 
-/// The configuration that a spec stands for.
+/// Returns the configuration for a spec.
 pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config = match spec.preset() {
         Preset::Robust => Config::robust(RESOLUTION),
@@ -70,7 +70,7 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
     OptionValue::apply_all(spec, OPTIONS, &mut config)?;
-    // A coverage that triangles do not go with asks for planes.
+    // Rays can test triangles only with conservative coverage; with others the default is their planes.
     let is_default = spec.options().get("accept").is_none();
     if is_default && config.accept == Accept::Triangle && config.coverage != Coverage::Conservative {
         config.accept = Accept::Plane;

@@ -1,8 +1,8 @@
-//! The systems of rasray as data: a structure with its presets and options. The command, tests and benches
-//! loop over [`SYSTEMS`]; only tests that look into a structure name its crate.
+//! The systems of rasray as data: each is a structure with its presets and options. The command, tests and
+//! benches loop over [`SYSTEMS`]; only tests of the contents of a structure name its crate.
 //!
 //! - [`System`] is a row of [`SYSTEMS`]: name, help, presets, options.
-//! - [`Spec`] is a system with a preset and values of options; it makes the structure.
+//! - [`Spec`] is a system with a preset and values of options, from which the structure is made.
 //! - [`OPTIONS`] has every option of structures, with its range, its help and whether it may change a hit
 //!   ([`Hits`]).
 

@@ -8,7 +8,7 @@ use rasray_abuffer::{
 use crate::option_value::{OptionValue, Setter, names};
 use crate::{PaperFrame, Preset, Spec, System, SystemsError};
 
-/// The registry's row.
+/// Row of this system in [`SYSTEMS`](crate::SYSTEMS).
 pub(crate) const SYSTEM: System = System {
     name: "mmrt",
     doc: "A-buffers on the faces of a cube and on the camera's view",
@@ -31,7 +31,7 @@ pub(crate) const SYSTEM: System = System {
     },
 };
 
-/// Options, each with what it sets.
+/// Setters of the options, by name.
 const OPTIONS: &[Setter<Config>] = &[
     ("resolution", |config, given| given.whole().map(|value| config.resolution = value)),
     ("buckets", |config, given| given.whole().map(|value| config.buckets = value)),
@@ -60,10 +60,10 @@ const OPTIONS: &[Setter<Config>] = &[
     ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
 ];
 
-/// Default number of cells along a side.
+/// Default number of cells along a side of a face.
 const RESOLUTION: u32 = 512;
 
-/// The configuration that a spec stands for.
+/// Returns the configuration for a spec.
 pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config = match spec.preset() {
         Preset::Robust => Config::robust(RESOLUTION),
@@ -74,8 +74,8 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     OptionValue::apply_all(spec, OPTIONS, &mut config)?;
     let given = |option| spec.options().get(option).is_some();
     if spec.preset() == Preset::Robust {
-        // Options that conservative coverage does not go with ask for another, as buckets do for lists that
-        // have them, and boxes, which give these their bounds.
+        // Some options need other defaults than the preset's: options that exclude conservative coverage need
+        // exact coverage, and buckets, or boxes that bound buckets, need a storage with buckets.
         if !given("coverage") && !config.may_test_triangles() {
             config.coverage = Coverage::Exact;
         }

@@ -1,18 +1,18 @@
-//! Values given for options, and the setters that take them.
+//! Values that were given for options, and the setters that take them.
 
 use rasray_options::{Value, ValueError};
 
 use crate::{Spec, SystemsError};
 
-/// An option by its name, and what a value of it sets in a configuration.
+/// Name of an option, and the function that sets a value of it in a configuration.
 pub(crate) type Setter<C> = (&'static str, fn(&mut C, &OptionValue) -> Result<(), SystemsError>);
 
-/// Names of options.
+/// Returns the names of the options of these setters.
 pub(crate) fn names<C>(setters: &[Setter<C>]) -> Vec<&'static str> {
     setters.iter().map(|(name, _)| *name).collect()
 }
 
-/// An option of a spec with its value, which its row takes.
+/// Option of a spec with its value, which the row of the option has accepted.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OptionValue {
     system: &'static str,
@@ -22,7 +22,7 @@ pub(crate) struct OptionValue {
 }
 
 impl OptionValue {
-    /// Sets what the options of a spec stand for.
+    /// Sets all options of a spec in a configuration.
     pub(crate) fn apply_all<C>(
         spec: &Spec,
         setters: &[Setter<C>],
@@ -36,27 +36,28 @@ impl OptionValue {
         })
     }
 
-    /// A whole number.
+    /// Returns the value as a whole number.
     pub(crate) fn whole(&self) -> Result<u32, SystemsError> {
         self.value.whole().ok_or_else(|| self.refused("must be a whole number".to_owned()))
     }
 
-    /// Columns and rows.
+    /// Returns the value as columns and rows.
     pub(crate) fn cells(&self) -> Result<[u32; 2], SystemsError> {
         self.value.cells().ok_or_else(|| self.refused("must be columns x rows".to_owned()))
     }
 
-    /// A number.
+    /// Returns the value as a number.
     pub(crate) fn number(&self) -> Result<f32, SystemsError> {
         self.value.number().ok_or_else(|| self.refused("must be a number".to_owned()))
     }
 
-    /// `on` or `off`.
+    /// Returns true for `on` and false for `off`.
     pub(crate) fn switch(&self) -> Result<bool, SystemsError> {
         self.choice(&[("on", true), ("off", false)])
     }
 
-    /// One of several words: those of the row that the system knows.
+    /// Returns the meaning of the value, which has to be one of `words`: the words of the option's row that
+    /// the system knows.
     pub(crate) fn choice<T: Copy>(&self, words: &[(&str, T)]) -> Result<T, SystemsError> {
         let known = words.iter().find(|(word, _)| self.value.word() == Some(word));
         known.map(|(_, meaning)| *meaning).ok_or_else(|| {
@@ -65,7 +66,7 @@ impl OptionValue {
         })
     }
 
-    /// A value that the system does not take.
+    /// Returns the error for a value that the system does not take.
     fn refused(&self, expected: String) -> SystemsError {
         let Self { system, name, value } = *self;
         SystemsError::Value {

@@ -1,18 +1,18 @@
-//! Every option that a system may have, as data: what it is for, what it takes, and whether it may change a
-//! hit. The command line, its help, the page of options and the tests of invariance are made from these rows;
-//! each system says in its own file which of them it has and what they set.
+//! All options that a system may have, as data: purpose, values, and whether an option may change a hit. The
+//! command line, its help, the page of options and the tests of invariance are made from these rows. The file
+//! of a system says which options the system has, and how it sets them.
 
 use rasray_options::{Least, OptionRow, Unit, Values};
 
 use crate::structure_option::{Group, Hits, StructureOption, of, row, switch, trying, words};
 
-/// Most cells along a side of a view.
+/// Maximum number of cells along a side of a view.
 pub const VIEW_LIMIT: u32 = 8192;
 
 use Group::{Diagnostic, Limit, Method, Size, Speed};
 use Hits::{MayChange, Same, SameForTriangles, SameWithoutLoss};
 
-/// Every option, in the order of help.
+/// All options, in the order of help.
 pub const OPTIONS: &[StructureOption] = &[
     row(
         "resolution",
@@ -83,7 +83,7 @@ pub const OPTIONS: &[StructureOption] = &[
     ),
     row("levels", Size, Same, Values::Whole(1, 2), &["1", "2"], "Levels of blocks of cells"),
     trying(
-        // A camera's view needs a camera, which the scenes of these tests lack.
+        // A camera's view needs a camera, which the scenes of the invariance tests lack.
         &["cube", "axes"],
         words(
             "views",
@@ -149,7 +149,7 @@ pub const OPTIONS: &[StructureOption] = &[
         "With `storage` paged: fragments per page; of mmrt a power of two",
     ),
     trying(
-        // Attributes and normals are those of a scene, which plain triangles lack.
+        // Attributes and normals come from a scene, which plain triangles lack.
         &["index", "plane"],
         words(
             "payload",
@@ -479,7 +479,7 @@ pub const OPTIONS: &[StructureOption] = &[
     row(
         "capacity",
         Limit,
-        // A capacity, not what is stored: one that is too small grows.
+        // The option changes a capacity, not the stored data: a capacity that is too small grows.
         Same,
         Values::Whole(0, u32::MAX),
         &["0", "1", "1000"],
@@ -488,13 +488,13 @@ pub const OPTIONS: &[StructureOption] = &[
     switch(
         "ids",
         Diagnostic,
-        // The primitive that a hit reports, and nothing else of it.
+        // The option changes only the primitive that a hit reports.
         MayChange,
         "Keep triangles next to payloads without them, so that hits report them",
     ),
 ];
 
-/// The option of that name.
+/// Returns the option with this name.
 pub fn option(name: &str) -> Option<&'static StructureOption> {
     OPTIONS.iter().find(|option| option.row.name == name)
 }

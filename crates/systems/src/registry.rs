@@ -1,11 +1,11 @@
-//! The registry: every system, found by name.
+//! Registry of all systems, which are found by name.
 
 use crate::{
     Preset, Spec, System, SystemsError, bricks, brute_force, bvh, dirt, driver_rt, grid, hu, ldc, mmrt,
     selective,
 };
 
-/// Every system.
+/// All systems.
 pub static SYSTEMS: &[System] = &[
     bricks::SYSTEM,
     mmrt::SYSTEM,
@@ -20,17 +20,17 @@ pub static SYSTEMS: &[System] = &[
 ];
 
 impl System {
-    /// The system of that name.
+    /// Returns the system with this name.
     pub fn named(name: &str) -> Option<&'static Self> {
         SYSTEMS.iter().find(|row| row.name == name)
     }
 }
 
 impl Spec {
-    /// Looks up a system and a preset by name and checks options and their values.
+    /// Makes a spec from the names of a system and a preset, and checks options and their values.
     ///
     /// # Errors
-    /// Whatever the registry does not have, by name.
+    /// The system, the preset, an option or a value does not exist; the error names it.
     pub fn new(
         system: &str,
         preset: &str,

@@ -5,10 +5,10 @@ use rasray_voxel::{Config, Payload, Voxels};
 
 use crate::{PaperFrame, Preset, Spec, System, SystemsError, voxel};
 
-/// Cells along a side of a view in the paper.
+/// Number of cells along a side of a view in the paper.
 const PUBLISHED_RESOLUTION: u32 = 1024;
 
-/// The registry's row.
+/// Row of this system in [`SYSTEMS`](crate::SYSTEMS).
 pub(crate) const SYSTEM: System = System {
     name: "selective",
     doc: "Voxels over A-buffers along the three axes: voxels are found first, and each fragment is in one A-buffer",
@@ -29,10 +29,11 @@ pub(crate) const SYSTEM: System = System {
     },
 };
 
-/// The configuration that a spec stands for.
+/// Returns the configuration for a spec.
 pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let preset = match spec.preset() {
-        // Lists are sorted, which pages are not: rays read what is at their own depths alone.
+        // The robust preset has sorted lists, which pages are not: rays read only the fragments at their own
+        // depths.
         Preset::Robust => Config::robust(voxel::RESOLUTION),
         Preset::Published => voxel::of_the_paper(spec, Config::published_selective(PUBLISHED_RESOLUTION)),
     };

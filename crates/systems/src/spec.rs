@@ -1,4 +1,4 @@
-//! A row of the registry, and a system with everything that was chosen for it.
+//! Row of the registry, and a system with everything that was chosen for it.
 
 use rasray_ads::{Counters, Geometry, RecordLayout, SceneBinding, Structure, StructureKind};
 use rasray_gpu::{Device, Feature, Requirements};
@@ -8,25 +8,25 @@ use crate::SystemsError;
 use crate::options::{OPTIONS, option};
 use crate::structure_option::{Group, StructureOption};
 
-/// Version of a system: says how closely it follows its paper.
+/// Version of a system, by how closely it follows its paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Preset {
-    /// The paper's structure with its errors repaired.
+    /// Structure of the paper with its errors repaired.
     Robust,
-    /// The paper's approximations included.
+    /// Structure of the paper with its approximations.
     Published,
 }
 
 impl Preset {
-    /// Every preset.
+    /// All presets.
     pub const ALL: [Self; 2] = [Self::Robust, Self::Published];
 
-    /// The preset of that name.
+    /// Returns the preset with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|preset| preset.name() == name)
     }
 
-    /// Description for help.
+    /// Returns the description for help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Robust => "The paper's structure with its errors repaired",
@@ -34,7 +34,7 @@ impl Preset {
         }
     }
 
-    /// The word of the command line.
+    /// Returns the name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Robust => "robust",
@@ -43,30 +43,30 @@ impl Preset {
     }
 }
 
-/// The frame of a paper's pictures, and options of the structure that follow from a frame, in words of the
-/// command line.
+/// Frame with which a paper's pictures are made, and options of the structure that follow from the frame, in
+/// words of the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PaperFrame {
-    /// The integrator.
+    /// Name of the integrator.
     pub integrator: &'static str,
-    /// Its options where they differ from its defaults.
+    /// Options of the integrator that differ from its defaults, as name and value.
     pub options: &'static [(&'static str, &'static str)],
     /// Source of first hits.
     pub primary: &'static str,
     /// Occluder of shadow rays.
     pub occluder: &'static str,
-    /// The published preset's `payload` for renders that ask for occlusion alone; absent where the paper has
-    /// none of its own for it.
+    /// Value of the published preset's `payload` for renders that ask for occlusion alone; `None` if the
+    /// paper has no payload for them.
     pub occlusion_payload: Option<&'static str>,
-    /// The published preset's `views` where a perspective camera looks at the scene, whose view then has one
-    /// cell per pixel (`camera-resolution`), and those of every preset that first hits are taken from; absent
-    /// where the paper draws none.
+    /// Value of `views` with a perspective camera, whose view then has one cell per pixel
+    /// (`camera-resolution`): for the published preset, and for any preset from which first hits are taken.
+    /// `None` if the paper draws no view of the camera.
     pub camera_views: Option<&'static str>,
 }
 
 impl PaperFrame {
-    /// Pictures of an integrator with these options: first hits are drawn, shadow rays go through the
-    /// structure, and none of its options follows from the frame.
+    /// Returns the frame of an integrator with these options: first hits are drawn, shadow rays go through
+    /// the structure, and no option of the structure follows from the frame.
     pub(crate) const fn of(
         integrator: &'static str,
         options: &'static [(&'static str, &'static str)],
@@ -76,35 +76,36 @@ impl PaperFrame {
     }
 }
 
-/// A row of the registry. Everything that is known of a system by name is here.
+/// Row of the registry: everything that is known of a system by name.
 #[derive(Clone, Copy, Debug)]
 pub struct System {
     /// Name on the command line.
     pub name: &'static str,
-    /// Presets it has.
+    /// Presets of the system.
     pub presets: &'static [Preset],
     /// Description for help.
     pub doc: &'static str,
-    /// The frame that pictures of its published preset are made with, where no integrator is asked for;
-    /// absent where no paper shows it.
+    /// Frame for pictures of the published preset, if no integrator is asked for; `None` if no paper has
+    /// pictures of the system.
     pub frame: Option<PaperFrame>,
-    /// Options with which its published preset needs no scene: by default fragments carry what a scene's
-    /// materials say.
+    /// Options with which the published preset needs no scene. By default its fragments carry data of a
+    /// scene's materials.
     pub without_scene: &'static [(&'static str, &'static str)],
-    /// The name of the structure that it traces.
+    /// Name of the structure that the system traces.
     pub structure: &'static str,
     /// Records that the structure shares with its shaders, the header first.
     pub records: &'static [RecordLayout],
     /// Options over the robust preset with which a pool is larger than the 128 MiB that a binding of small
-    /// devices holds, whatever the triangles; none where pools grow with these alone.
+    /// devices holds, for any number of triangles. Empty if pools grow with the triangles alone.
     pub large_pools: &'static [(&'static str, &'static str)],
-    /// Names of the options it has.
+    /// Function that returns the names of the system's options.
     pub(crate) options: fn() -> Vec<&'static str>,
-    /// Required and optional features of a device for a spec; also where a spec's values are checked.
+    /// Function that returns the required and optional features of a device for a spec. It also checks the
+    /// values of the spec.
     pub(crate) requirements: fn(&Spec) -> Result<Requirements, SystemsError>,
-    /// Kind of the hits of a spec.
+    /// Function that returns the kind of the hits of a spec.
     pub(crate) kind: fn(&Spec) -> Result<StructureKind, SystemsError>,
-    /// Makes the structure of a spec.
+    /// Function that makes the structure of a spec.
     pub(crate) create: Create,
 }
 
@@ -117,22 +118,22 @@ impl PartialEq for System {
 impl Eq for System {}
 
 impl System {
-    /// Options it has, in the order of help.
+    /// Returns the system's options, in the order of help.
     pub fn options(&self) -> Vec<&'static StructureOption> {
         let names = (self.options)();
         OPTIONS.iter().filter(|option| names.contains(&option.row.name)).collect()
     }
 
-    /// The row of an option.
+    /// Returns the row of an option.
     ///
     /// # Errors
-    /// It has no such option.
+    /// The system has no such option.
     pub fn option(&self, name: &str) -> Result<&'static OptionRow, SystemsError> {
         let known = option(name).filter(|option| self.has(option.row.name)).map(|option| &option.row);
         known.ok_or_else(|| SystemsError::UnknownOption { system: self.name, option: name.to_owned() })
     }
 
-    /// Reads options by name.
+    /// Reads options by name, and returns their values.
     ///
     /// # Errors
     /// An option or a value that the system does not have.
@@ -149,22 +150,23 @@ impl System {
         options.into_iter().map(read).collect()
     }
 
-    /// True if it has an option.
+    /// Returns true if the system has an option.
     pub fn has(&self, option: &str) -> bool {
         (self.options)().contains(&option)
     }
 
-    /// The option that says how many cells there are along a side; absent where there are none.
+    /// Returns the name of the option for the number of cells along a side, or `None` if the structure has no
+    /// cells.
     pub fn size_option(&self) -> Option<&'static str> {
         self.options().into_iter().find(|option| option.group == Group::Size).map(|option| option.row.name)
     }
 }
 
-/// Makes the structure of a spec for triangles, and for a scene where surfaces or alpha are wanted.
+/// Function that makes the structure of a spec for triangles, with a scene if surfaces or alpha are wanted.
 pub(crate) type Create =
     fn(&Spec, &Device, &Geometry, Option<&SceneBinding>) -> Result<Box<dyn Structure>, SystemsError>;
 
-/// A system, a preset and the options given over it.
+/// System with a preset and the options given over the preset.
 #[derive(Clone, Debug)]
 pub struct Spec {
     system: &'static System,
@@ -175,7 +177,7 @@ pub struct Spec {
 }
 
 impl Spec {
-    /// A system with its options, each of which it must have.
+    /// Returns a spec of a system with options, each of which the system must have.
     ///
     /// # Errors
     /// A preset, an option or a value that the system does not have.
@@ -195,15 +197,15 @@ impl Spec {
         Ok(spec)
     }
 
-    /// Makes rays record their work in this detail.
+    /// Sets the detail in which rays record their work.
     #[must_use]
     pub fn with_counters(self, counters: impl Into<Counters>) -> Self {
         Self { counters: counters.into(), ..self }
     }
 
-    /// Makes rays spend this many units of work in a dispatch, from 2 on, and then wait for the next. Changes
-    /// no hit; rays that need more dispatches than they are given are counted as unfinished. Brute force
-    /// keeps the shared default.
+    /// Sets the units of work, 2 or more, that a ray may spend in a dispatch before it waits for the next.
+    /// Changes no hit; rays that need more dispatches than they are given count as unfinished. Brute force
+    /// keeps the default that all structures share.
     #[must_use]
     pub fn with_work_budget(self, units: u32) -> Self {
         Self { work_budget: Some(units), ..self }
@@ -217,7 +219,8 @@ impl Spec {
         self.with_options([(option.to_owned(), value.to_owned())])
     }
 
-    /// Adds more options over the preset, checked all at once: some are valid only with others.
+    /// Adds more options over the preset, and checks all at once, since some options are valid only with
+    /// others.
     ///
     /// # Errors
     /// The system has no such option or value.
@@ -230,37 +233,38 @@ impl Spec {
         Ok(Self { counters: self.counters, work_budget: self.work_budget, ..spec })
     }
 
-    /// The registry's row.
+    /// Returns the row of the system.
     pub fn system(&self) -> &'static System {
         self.system
     }
 
-    /// The name of the structure it traces.
+    /// Returns the name of the structure that the system traces.
     pub fn structure(&self) -> &'static str {
         self.system.structure
     }
 
-    /// The preset.
+    /// Returns the preset.
     pub fn preset(&self) -> Preset {
         self.preset
     }
 
-    /// Options over the preset.
+    /// Returns the options over the preset.
     pub fn options(&self) -> &OptionValues {
         &self.options
     }
 
-    /// Detail in which rays record their work.
+    /// Returns the detail in which rays record their work.
     pub fn counters(&self) -> Counters {
         self.counters
     }
 
-    /// Units of work that a ray may spend per dispatch; the shared default where absent.
+    /// Returns the units of work that a ray may spend per dispatch, or `None` for the default that all
+    /// structures share.
     pub fn work_budget(&self) -> Option<u32> {
         self.work_budget
     }
 
-    /// Required and optional features of a device.
+    /// Returns the required and optional features of a device.
     ///
     /// # Errors
     /// An option has an impossible value.
@@ -268,8 +272,8 @@ impl Spec {
         (self.system.requirements)(self)
     }
 
-    /// The given option, as name and value, without which its structure does not require this feature of a
-    /// device; absent where no single one is why.
+    /// Returns the given option, as name and value, without which the structure would not require this
+    /// feature of a device, or `None` if no single option is the reason.
     pub fn option_that_requires(&self, feature: Feature) -> Option<(&'static str, Value)> {
         self.options.iter().find(|(option, _)| {
             let others = self.options.iter().filter(|(other, _)| other != option).collect();
@@ -278,7 +282,7 @@ impl Spec {
         })
     }
 
-    /// Kind of the hits of its structure, without a device.
+    /// Returns the kind of the structure's hits, without a device.
     ///
     /// # Errors
     /// An option has an impossible value.
@@ -340,7 +344,7 @@ mod tests {
         for system in SYSTEMS {
             let size = ["resolution", "grid"].into_iter().find(|option| system.has(option));
             assert_eq!(system.size_option(), size, "{}", system.name);
-            // Systems with cells have pools that grow with them.
+            // Systems with cells have pools that grow with the number of cells.
             assert_eq!(size.is_some(), !system.large_pools.is_empty(), "{}", system.name);
         }
         let size = |name| System::named(name).and_then(System::size_option);
@@ -349,7 +353,7 @@ mod tests {
 
     #[test]
     fn published_has_the_papers_sizes() {
-        // Cells along a side of a view, and voxels along a side where the structure has them.
+        // Number of cells along a side of a view, and of voxels along a side if the structure has voxels.
         let sizes = |spec: &Spec| match spec.system().name {
             "mmrt" => mmrt::config(spec).map(|config| (config.resolution, None)),
             "dirt" => dirt::config(spec).map(|config| (config.resolution, None)),
@@ -358,7 +362,7 @@ mod tests {
             "ldc" => ldc::config(spec).map(|config| (config.resolution, None)),
             other => panic!("{other}: a published preset whose sizes are not in this table"),
         };
-        // Voxels follow a resolution that is not the paper's.
+        // The number of voxels follows a resolution that is not the paper's.
         let papers = [
             ("mmrt", (512, None), None),
             ("dirt", (512, None), None),
@@ -401,7 +405,7 @@ mod tests {
             let extension = named(preset, Feature::ConservativeRasterization);
             assert_eq!(extension.as_deref(), Some("coverage conservative-extension"));
         }
-        // One preset computes unless a coverage is drawn, the other draws any.
+        // The robust preset draws only with some coverages, the published preset with all.
         let drawing = named("robust", Feature::FragmentStoresAndAtomics);
         assert_eq!(drawing.as_deref(), Some("coverage conservative-extension"));
         assert_eq!(named("published", Feature::FragmentStoresAndAtomics), None);

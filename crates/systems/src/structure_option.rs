@@ -1,12 +1,12 @@
-//! Facts of an option in addition to its row: its group, and whether it may change a hit.
+//! Properties of an option in addition to its row: its group, and whether it may change a hit.
 
 use rasray_ads::StructureKind;
 use rasray_options::{OptionRow, Values, Word};
 
-/// Purposes of options, in the order in which help shows them.
+/// Groups of options by purpose, in the order in which help shows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Group {
-    /// The resolution of a structure.
+    /// Resolution of a structure.
     Size,
     /// Stored data, and conditions of a hit: mostly choices between a paper's method and another.
     Method,
@@ -14,15 +14,15 @@ pub enum Group {
     Speed,
     /// Limits of memory and work.
     Limit,
-    /// Diagnostics.
+    /// Diagnostics only.
     Diagnostic,
 }
 
 impl Group {
-    /// Every group.
+    /// All groups.
     pub const ALL: [Self; 5] = [Self::Size, Self::Method, Self::Speed, Self::Limit, Self::Diagnostic];
 
-    /// A heading.
+    /// Returns the heading of the group.
     pub fn title(self) -> &'static str {
         match self {
             Self::Size => "sizes",
@@ -34,22 +34,22 @@ impl Group {
     }
 }
 
-/// Cases in which an option may change a hit, by kind of hits. Elsewhere hits are bit-identical whatever its
-/// value.
+/// Cases in which an option may change a hit, by kind of hits. In all other cases hits are bit-identical for
+/// all values of the option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hits {
     /// Never.
     Same,
-    /// Only where rules of a paper lose hits of triangles.
+    /// Only in structures in which rules of a paper lose hits of triangles.
     SameWithoutLoss,
-    /// Only there, and where fragments are stored.
+    /// Only in structures that lose hits of triangles, and in structures that store fragments.
     SameForTriangles,
-    /// Always: it decides whether something is a hit, or what it represents.
+    /// Always: the option decides whether something is a hit, or what a hit represents.
     MayChange,
 }
 
 impl Hits {
-    /// True if hits of that kind may change.
+    /// Returns true if hits of this kind may change.
     pub fn may_change(self, kind: StructureKind) -> bool {
         match (self, kind) {
             (Self::Same, _) => false,
@@ -59,7 +59,7 @@ impl Hits {
         }
     }
 
-    /// In a few words, which the page of options explains.
+    /// Returns the cases in a few words, which the page of options explains.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Same => "never",
@@ -70,23 +70,23 @@ impl Hits {
     }
 }
 
-/// An option of structures.
+/// Option of structures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StructureOption {
-    /// Its name, what it takes, and what it says.
+    /// Row with the option's name, values and help.
     pub row: OptionRow,
-    /// Purpose.
+    /// Group by purpose.
     pub group: Group,
-    /// Cases in which it may change a hit.
+    /// Cases in which the option may change a hit.
     pub hits: Hits,
 }
 
-/// An option from its row.
+/// Returns an option from its row.
 pub(crate) const fn of(row: OptionRow, group: Group, hits: Hits) -> StructureOption {
     StructureOption { row, group, hits }
 }
 
-/// One with the values that tests try.
+/// Returns an option with values that tests try.
 pub(crate) const fn row(
     name: &'static str,
     group: Group,
@@ -98,7 +98,7 @@ pub(crate) const fn row(
     of(OptionRow::new(name, values, doc).trying(tried), group, hits)
 }
 
-/// One of words.
+/// Returns an option that takes one of several words.
 pub(crate) const fn words(
     name: &'static str,
     group: Group,
@@ -109,7 +109,7 @@ pub(crate) const fn words(
     of(OptionRow::words(name, words, doc), group, hits)
 }
 
-/// One that is on or off.
+/// Returns an option that is on or off.
 pub(crate) const fn switch(
     name: &'static str,
     group: Group,

@@ -8,7 +8,7 @@ use rasray_voxel::{
 use crate::option_value::{OptionValue, Setter};
 use crate::{Spec, SystemsError};
 
-/// Options, each with what it sets.
+/// Setters of the options, by name.
 const OPTIONS: &[Setter<Config>] = &[
     ("resolution", |config, given| given.whole().map(|value| config.resolution = value)),
     ("grid", |config, given| given.whole().map(|value| config.grid = Some(value))),
@@ -26,7 +26,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("ends", |config, given| given.choice(Ends::WORDS).map(|value| config.ends = value)),
     ("inside", |config, given| given.choice(Inside::WORDS).map(|value| config.inside = value)),
     ("ids", |config, given| given.switch().map(|value| config.ids = value)),
-    // Attributes are those of the system's paper, which the configuration is made with.
+    // Attributes are those of the system's paper, which `config` sets afterwards.
     ("payload", |config, given| {
         given
             .choice(&[("index", Payload::Index), ("attributes", Payload::Material)])
@@ -37,7 +37,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("addressing", |config, given| given.choice(Addressing::WORDS).map(|value| config.addressing = value)),
 ];
 
-/// Their names.
+/// Returns the names of the options.
 pub(crate) fn names() -> Vec<&'static str> {
     crate::option_value::names(OPTIONS)
 }
@@ -45,22 +45,23 @@ pub(crate) fn names() -> Vec<&'static str> {
 /// Default number of cells along a side of a view of the repaired structure.
 pub(crate) const RESOLUTION: u32 = 512;
 
-/// Voxels along a side of both papers. With another resolution than theirs the first one's rule follows it.
+/// Number of voxels along a side in both papers. With a resolution other than the paper's, the number follows
+/// the rule of Hu et al.
 pub(crate) const PUBLISHED_GRID: u32 = 64;
 
-/// A preset with its paper's voxels, where the resolution is the paper's as well.
+/// Returns a preset with the number of voxels of its paper, if the resolution is the paper's.
 pub(crate) fn of_the_paper(spec: &Spec, preset: Config) -> Config {
     let given = spec.options().get("resolution");
     Config { grid: given.is_none().then_some(PUBLISHED_GRID), ..preset }
 }
 
-/// The configuration that a spec stands for over a preset. `attributes` is the payload of the system's paper.
+/// Returns the configuration for a spec over a preset. `attributes` is the payload of the system's paper.
 pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result<Config, SystemsError> {
     let mut config = preset;
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
     OptionValue::apply_all(spec, OPTIONS, &mut config)?;
-    // Options that conservative coverage does not go with ask for another.
+    // Options that exclude conservative coverage need exact coverage as the default.
     let is_default = spec.options().get("coverage").is_none();
     if is_default && config.coverage == Coverage::Conservative && !config.may_test_triangles() {
         config.coverage = Coverage::Exact;

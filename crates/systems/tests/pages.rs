@@ -1,6 +1,6 @@
-//! Pages follow the registry: `docs/options.md` is what the rows of options say, the page of each system
-//! names every option that it has, that of published frames has a line for each, and the table of features in
-//! `docs/embedding.md` is what structures require.
+//! Tests that pages agree with the registry: `docs/options.md` has the rows of options, the page of each
+//! system names every option that the system has, the page of published frames has a line for each frame, and
+//! the table of features in `docs/embedding.md` has the requirements of structures.
 //!
 //! `RASRAY_WRITE_PAGES=1` writes the page of options and the table instead of comparing them.
 
@@ -66,7 +66,7 @@ fn the_page_of_options_is_that_of_the_rows() {
 #[test]
 fn the_page_of_a_system_names_its_options() {
     for system in SYSTEMS.iter().filter(|system| !system.options().is_empty()) {
-        // Systems of one structure have its options, on the page of one of them.
+        // Systems with one structure have one set of options, which the page of one of them names.
         let same = SYSTEMS.iter().filter(|other| other.structure == system.structure);
         let page: String = same
             .map(|system| docs().join("systems").join(format!("{}.md", system.name)))
@@ -96,13 +96,14 @@ fn the_page_of_published_frames_has_a_line_for_each() {
     }
 }
 
-/// Requirements of a structure with these options; absent where it does not have them.
+/// Returns the requirements of a structure with these options, or `None` if the system does not have them.
 fn requirements(system: &str, options: &[(&str, &str)]) -> Option<Requirements> {
     let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
     Spec::new(system, "robust", given).ok()?.requirements().ok()
 }
 
-/// The table of features: each structure with each of its builders, the one of its preset first.
+/// Returns the table of features: a line for each structure with each of its builders, the preset's builder
+/// first.
 fn features() -> String {
     let mut table = String::from(
         "| structure | built by | features | queue | storage buffers of a stage |\n|---|---|---|---|---|\n",
@@ -160,7 +161,7 @@ fn the_table_of_features_is_what_structures_require() {
         written == table,
         "the table of docs/embedding.md is not this: write it with RASRAY_WRITE_PAGES=1\n{table}"
     );
-    // Device addresses are required with `addressing` address alone, as the page says.
+    // Only the `addressing` value `address` requires device addresses, as the page says.
     let addressed = SYSTEMS.iter().filter(|system| system.has("addressing"));
     for system in addressed {
         let with = |addressing| requirements(system.name, &[("addressing", addressing)]).expect("an option");
@@ -170,7 +171,7 @@ fn the_table_of_features_is_what_structures_require() {
     }
 }
 
-/// Names that the page leaves to shaders of a host.
+/// Checks that no shader has a name that begins with `host`, which the page leaves to shaders of a host.
 #[test]
 fn no_glsl_has_a_name_of_a_host() {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
