@@ -1,10 +1,11 @@
-//! An experiment as the page of a paper shows it: every setting once, as high on the page as it holds, every
-//! run once, and of the results those that the page is about. All others are in `report.md` and `table.csv`.
+//! Experiments in the short form of a paper's page. The page has every setting once, as high on the page as
+//! it is valid, every run once, and only the results that the page is about. `report.md` and `table.csv` have
+//! all other results.
 
 use rasray_report::{Column, Experiment, Row};
 use std::collections::BTreeSet;
 
-/// Results that a page shows where the plan names none, by the names of [`Row::results`].
+/// Names ([`Row::results`]) of the results that a page shows if the plan names none.
 const SHOWN: [&str; 8] = [
     "build_ms",
     "trace_ms",
@@ -16,13 +17,14 @@ const SHOWN: [&str; 8] = [
     "image.relmse",
 ];
 
-/// Those that a table of images leaves out below one of rays, which has them.
+/// Results that a table of images leaves out if it is below a table of rays, which has them.
 const OF_STRUCTURE: [&str; 2] = ["build_ms", "memory.structure_bytes"];
 
-/// Settings by which others are told, each by the first that decides it.
+/// Settings that may decide others. A setting is told with the first of these that decides it.
 const DECIDING: [&str; 4] = ["integrator", "system", "scene", "preset"];
 
-/// Settings that need no column: what all rows have in common, and what follows from another setting.
+/// Settings that need no column, since all rows have them in common, or since they follow from another
+/// setting.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SharedSettings {
     names: BTreeSet<String>,
@@ -30,7 +32,8 @@ pub(crate) struct SharedSettings {
 }
 
 impl SharedSettings {
-    /// Settings that need no column for these rows, where `before` has been said of them and of others.
+    /// Returns the settings that need no column for these rows. The page has already told the settings of
+    /// `before`, of these and of other rows.
     pub(crate) fn of(rows: &[&Row], before: &Self) -> Self {
         let all = Experiment { name: String::new(), rows: rows.iter().copied().cloned().collect() };
         let (settings, varied) = (all.settings(), all.varied());
@@ -47,7 +50,8 @@ impl SharedSettings {
             if said.names.contains(decides) {
                 continue;
             }
-            // Scene, system and integrator name a row, whatever they follow from.
+            // A scene, system or integrator names a row, so it keeps its column even if another setting
+            // decides it.
             let follows = |name: &&str| {
                 let names_rows = DECIDING.contains(name) && *name != "preset";
                 let is_told = *name == decides || said.names.contains(*name);
@@ -60,37 +64,37 @@ impl SharedSettings {
         said
     }
 
-    /// Settings that either says.
+    /// Returns these settings together with the other ones; the words stay.
     pub(crate) fn and(mut self, other: &Self) -> Self {
         self.names.extend(other.names.iter().cloned());
         self
     }
 
-    /// Settings that both say.
+    /// Returns the settings that are in both, without words.
     pub(crate) fn shared(&self, other: &Self) -> Self {
         Self { names: self.names.intersection(&other.names).cloned().collect(), words: Vec::new() }
     }
 
-    /// New settings, in words.
+    /// Returns the settings that are new on the page, in words.
     pub(crate) fn words(&self) -> &[String] {
         &self.words
     }
 
-    /// The settings that rows differ in and that have not been said.
+    /// Returns the settings in which rows differ and that the page has not told.
     pub(crate) fn untold<'a>(&self, made: &'a Experiment) -> Vec<&'a str> {
         made.varied().into_iter().filter(|name| !self.names.contains(*name)).collect()
     }
 }
 
-/// True if the value of one setting says that of the other.
+/// Returns true if the value of the setting `decides` determines that of the setting `name`.
 fn is_decided(rows: &[&Row], decides: &str, name: &str) -> bool {
     let pairs: BTreeSet<_> = rows.iter().map(|row| (row.setting(decides), row.setting(name))).collect();
     let keys: BTreeSet<_> = pairs.iter().map(|(key, _)| key).collect();
     keys.len() == pairs.len() && pairs.iter().all(|(key, value)| !key.is_empty() || value.is_empty())
 }
 
-/// Settings that follow from the values of the one that decides, in words and in the order of rows; once for
-/// values from which the same follows.
+/// Returns the settings that follow from the values of `decides`, in words and in the order of rows. Values
+/// from which equal settings follow share one text.
 fn words_of(rows: &[&Row], decides: &str, decided: &[&str]) -> Vec<String> {
     let mut told: Vec<(Vec<&str>, String)> = Vec::new();
     for row in rows {
@@ -108,8 +112,8 @@ fn words_of(rows: &[&Row], decides: &str, decided: &[&str]) -> Vec<String> {
     told.map(|(values, words)| format!("{}: {words}", values.join(", "))).collect()
 }
 
-/// The rows of an experiment, each run once: settings that the run does not depend on have all of their
-/// values.
+/// Returns the rows of an experiment with each run once. A setting that the run does not depend on has all of
+/// its values.
 pub(crate) fn merged(made: &Experiment) -> Experiment {
     let mut rows: Vec<Row> = Vec::new();
     for row in &made.rows {
@@ -129,8 +133,8 @@ pub(crate) fn merged(made: &Experiment) -> Experiment {
     Experiment { name: made.name.clone(), rows }
 }
 
-/// The results of an experiment that the page shows: those that the plan `names`, or else those of every
-/// page; `below_rays` where a table of rays of the same structures stands above.
+/// Returns the columns of results that the page shows: those that the plan `names`, otherwise the usual ones.
+/// `below_rays` is true if a table of rays of these structures stands above, whose results are left out.
 pub(crate) fn shown(made: &Experiment, names: &[String], below_rays: bool) -> Vec<Column> {
     let is_shown = |column: &Column| {
         let is_named = names.iter().any(|name| name == column.name);
@@ -140,8 +144,8 @@ pub(crate) fn shown(made: &Experiment, names: &[String], below_rays: bool) -> Ve
     made.columns().into_iter().filter(is_shown).collect()
 }
 
-/// Takes those columns out in which all rows of a scene are alike, of scenes with several rows each, and says
-/// them in words.
+/// Removes the columns in which all rows of each scene are alike, if every scene has several rows, and
+/// returns their values in words.
 pub(crate) fn take_alike(made: &Experiment, columns: &mut Vec<Column>) -> Vec<String> {
     let mut scenes: Vec<&str> = Vec::new();
     for row in &made.rows {

@@ -1,46 +1,47 @@
-//! Numbers that a paper published, beside those that came of its plan.
+//! Numbers that a paper published, beside those that its plan has measured.
 
 use crate::plan::{PlanError, line, word_of};
 use rasray_report::{Experiment, Row, number};
 use std::collections::BTreeMap;
 use toml::Value;
 
-/// A number of a paper, and which results are held against it.
+/// Published number of a paper, and the results with which it is compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
-    /// Statement of the paper, one line.
+    /// Statement of the paper, in one line.
     pub says: String,
-    /// Its number, in the unit of the result; of a ratio without unit.
+    /// Published number, in the unit of the result; a ratio has no unit.
     pub published: f64,
     /// Name of the result, as in [`Row::results`].
     pub measure: String,
-    /// Settings of the rows that are looked at.
+    /// Settings that select the rows.
     of: BTreeMap<String, String>,
-    /// In what the rows that they are divided by differ from them; absent: they are taken as they are.
+    /// Settings in which the divisor of a ratio differs from the row that it divides. `None` if the claim is
+    /// about values, not ratios.
     over: Option<BTreeMap<String, String>>,
-    /// Why ours differs, and what else is to be known; may be empty.
+    /// Reason why our number differs, and other remarks; may be empty.
     pub note: String,
 }
 
-/// Ours beside the paper's.
+/// Our numbers beside the paper's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Values, or ratios, of all rows that were looked at, from the least.
+    /// Values, or ratios, of all selected rows, in ascending order.
     pub ours: Vec<f64>,
-    /// Their middle: of ratios the geometric mean, of values the median.
+    /// Middle of these numbers: the geometric mean of ratios, the median of values.
     pub middle: f64,
-    /// The middle over what was published.
+    /// Middle divided by the published number.
     pub relation: f64,
-    /// For a ratio: whether it lies on the side of 1 where the paper's does. Absent for values, which depend
-    /// on the machine.
+    /// True if our ratio lies on the same side of 1 as the paper's. `None` for values, which depend on the
+    /// machine.
     pub same_side: Option<bool>,
 }
 
 impl Claim {
-    /// Reads a claim of a plan.
+    /// Reads a claim from a plan.
     ///
     /// # Errors
-    /// Keys that are missing, unknown or of another kind.
+    /// A key is missing or unknown, or has a value of another kind.
     pub(crate) fn read(value: Value) -> Result<Self, PlanError> {
         let help = "a claim has says, published, measure, of, and may have over and note";
         let wrong = |message: String| PlanError::new(message, help);
@@ -79,7 +80,7 @@ impl Claim {
         Ok(Self { says, published, measure, of, over, note })
     }
 
-    /// Finding of the rows of an experiment; `None` where none of them bears on it.
+    /// Compares the claim with the rows of an experiment. Returns `None` if no row bears on the claim.
     pub fn find(&self, experiment: &Experiment) -> Option<Finding> {
         let varied = experiment.varied();
         let has = |row: &Row, wanted: &BTreeMap<String, String>| {
@@ -90,7 +91,7 @@ impl Claim {
         let mut ours: Vec<f64> = match &self.over {
             None => rows().filter_map(value).collect(),
             Some(over) => {
-                // A twin is like the row but for what makes it one.
+                // A twin of a row is alike in all settings that vary, except those that define the twin.
                 let decides = |name: &&&str| !over.contains_key(**name);
                 let is_twin = |row: &Row, other: &Row| {
                     varied.iter().filter(decides).all(|name| is_alike(row, other, name))
@@ -121,7 +122,7 @@ impl Claim {
 }
 
 impl Finding {
-    /// The middle, and the least and the most where there are several.
+    /// Returns the middle, with the smallest and largest number if there are several.
     pub fn words(&self) -> String {
         match &self.ours[..] {
             [least, .., most] => {
@@ -132,8 +133,8 @@ impl Finding {
     }
 }
 
-/// True if two rows have a setting in common; an option that one of two systems or integrators does not take
-/// does not tell them apart.
+/// Returns true if two rows are alike in a setting. An option that only one of two systems or integrators
+/// takes does not make rows different.
 fn is_alike(row: &Row, other: &Row, name: &str) -> bool {
     let is_option = |row: &Row| {
         let asked = row.report.cell.as_ref().map(|cell| &cell.depends_on);

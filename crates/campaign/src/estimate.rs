@@ -1,30 +1,30 @@
-//! Estimates of the time of cells, by cells that were made.
+//! Estimates of the time of cells, from cells that were made.
 
 use rasray_report::{Cell, Report};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::time::Duration;
 
-/// Time that cells will take.
+/// Estimate of the work and the time of cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
-    /// Rays that are traced, all repetitions together.
+    /// Number of rays that are traced, with all repetitions.
     pub rays: u64,
-    /// Samples of images.
+    /// Number of samples of images.
     pub samples: u64,
-    /// Time of the cells that can be estimated.
+    /// Time of those cells that can be estimated.
     pub time: Duration,
-    /// Cells of systems of which nothing was made yet.
+    /// Number of cells that cannot be estimated, since no cell of their system and kind was made.
     pub unknown: usize,
 }
 
-/// Estimates cells with this much of work by those that were made: of the same system and kind, at the same
-/// time for each ray or sample. The time of the oracle and of reference images is not in it.
+/// Estimates cells from the cells that were made: cells of one system and kind (rays or images) take equal
+/// time per ray or sample. The estimate does not include the time of the oracle and of reference images.
 pub fn estimate<'a>(
     cells: impl IntoIterator<Item = &'a Cell>,
     made: impl IntoIterator<Item = &'a Report>,
 ) -> Estimate {
-    // Milliseconds and work by system and kind.
+    // Milliseconds and work, by system and kind.
     let mut known: BTreeMap<(&str, bool), (f64, f64)> = BTreeMap::new();
     for (cell, run) in
         made.into_iter().filter_map(|line| Some((&line.cell.as_ref()?.depends_on, line.runs.first()?)))
@@ -55,7 +55,7 @@ pub fn estimate<'a>(
     estimate
 }
 
-/// Rays, or samples of an image, all repetitions together.
+/// Returns the number of rays with all repetitions, or the number of samples of an image.
 fn work(cell: &Cell) -> f64 {
     let rays = cell.rays.as_ref().map_or(0.0, |rays| f64::from(rays.count));
     let pixels = cell.view.as_ref().map_or(0.0, |view| f64::from(view.size[0]) * f64::from(view.size[1]));
@@ -97,7 +97,7 @@ mod tests {
         let report = Report::new(Origin::default(), Device::default(), SceneRecord::default(), vec![run]);
         let record = CellRecord { depends_on: cell("mmrt", 1000), ..CellRecord::default() };
         let made = Report { cell: Some(record), ..report };
-        // 4 x 250 ms for 4000 rays.
+        // 4000 rays take 4 x 250 ms.
         let one = estimate(&[cell("mmrt", 10_000)], [&made]);
         assert_eq!((one.rays, one.time, one.unknown), (40_000, Duration::from_secs(10), 0));
         let view = CellView { size: [10, 5], ..CellView::default() };

@@ -1,12 +1,13 @@
-//! Plans of many comparisons of systems, and the tables of their results, as data. The commands `rasray
-//! ablate` and `rasray replicate` read plans with it and write its pages.
+//! Plans of many comparisons of systems, and tables of their results, as data. The commands `rasray ablate`
+//! and `rasray replicate` use this crate to read plans and to write pages.
 //!
-//! - [`Plan`] is a plan of a `.toml` file: lists of options, of which every combination is compared.
+//! - [`Plan`] is a plan from a `.toml` file: lists of values for options, of which every combination is
+//!   compared.
 //! - [`PAPERS`] has a plan for each table and figure of the papers ([`Paper`], [`Item`]), with the published
 //!   numbers.
-//! - [`Claim`] holds a result against a published number; [`paper_page`], [`csv_table`] and [`Sheet`] are the
+//! - [`Claim`] compares a result with a published number; [`paper_page`], [`csv_table`] and [`Sheet`] are the
 //!   tables.
-//! - [`estimate()`] predicts how long a plan takes from runs that were made.
+//! - [`estimate()`] predicts the time of a plan from runs that were made.
 //!
 //! The crate needs no Vulkan and no command line: the comparisons of a plan are words as `rasray compare`
 //! takes them.

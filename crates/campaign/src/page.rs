@@ -1,4 +1,4 @@
-//! The page of a paper: what was published beside ours, and what was measured, in short.
+//! Page of a paper: published numbers beside ours, and a short form of the measurements.
 
 use crate::brief::{SharedSettings, merged, shown, take_alike};
 use crate::claim::{Claim, Finding};
@@ -9,9 +9,9 @@ use rasray_report::{Campaign, Experiment, Row, in_line, number, rows_markdown};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// The page of a paper: of each item that was made, what differs from the paper, the paper's numbers beside
-/// ours, and its runs; and the sheets of pictures that it shows. Experiments of `campaign` are those of
-/// [`Plan::joined`] with [`word`].
+/// Returns the page of a paper, and the sheets of pictures that it shows. For each item that was made, the
+/// page has the differences from the paper, the paper's numbers beside ours, and the runs. Experiments of
+/// `campaign` are those of [`Plan::joined`] with [`word`].
 pub fn paper_page(paper: &Paper, items: &[(&Item, Plan)], campaign: &Campaign) -> (String, Vec<Sheet>) {
     let made = |item: &Item, experiment: &ExperimentPlan| {
         let name = format!("{}: {}", word(paper, item), experiment.name);
@@ -83,18 +83,19 @@ fn head(
     text
 }
 
-/// Contents of a page so far.
+/// Page as far as it is written.
 struct Page<'a> {
     paper: &'a Paper,
-    /// Settings that all rays share, and those that all images share.
+    /// Settings that all rays share, and settings that all images share.
     of_kinds: [SharedSettings; 2],
-    /// The place of each table, and the keys of its runs.
+    /// Place of each table on the page, and the keys of its runs.
     tables: Vec<(String, BTreeSet<String>)>,
     sheets: Vec<Sheet>,
 }
 
 impl Page<'_> {
-    /// An experiment of an item, by its number among the item's; `place` says where it stands.
+    /// Returns the section of an experiment, given its item and its number among the item's experiments;
+    /// `place` is its place on the page.
     fn section(
         &mut self,
         (item, number): (&Item, usize),
@@ -103,12 +104,12 @@ impl Page<'_> {
         made: &Experiment,
     ) -> String {
         let mut parts: Vec<_> = made.parts().iter().map(merged).collect();
-        // The reference, with the seed that shows what noise alone does, stands before what is held against
-        // it.
+        // The reference comes before the rows that are compared with it. It has another seed, which shows the
+        // effect of noise alone.
         for part in &mut parts {
             part.rows.sort_by_key(|row| row.setting("system") != "reference");
         }
-        // Settings that rays and images have in common are said once.
+        // Settings that rays and images share are told once.
         let before = match &parts[..] {
             [one] => self.of_kind(one).clone(),
             _ => self.of_kinds[0].shared(&self.of_kinds[1]),
@@ -156,14 +157,14 @@ impl Page<'_> {
         if part.rows.iter().all(is_of_rays) { of_rays } else { of_images }
     }
 
-    /// Place of the table that has all runs of this one.
+    /// Returns the place of an earlier table that has all runs of this experiment.
     fn above(&self, part: &Experiment) -> Option<&str> {
         let has_all = |keys: &BTreeSet<String>| part.rows.iter().all(|row| keys.contains(&row.key));
         self.tables.iter().find(|(_, keys)| has_all(keys)).map(|(place, _)| place.as_str())
     }
 }
 
-/// The numbers of the paper beside ours.
+/// Returns the table of the paper's numbers beside ours, with notes.
 fn held_against(claims: &[Claim], made: &Experiment) -> String {
     if claims.is_empty() {
         return String::new();
@@ -187,7 +188,7 @@ fn held_against(claims: &[Claim], made: &Experiment) -> String {
     text
 }
 
-/// Says in words whether a claim holds; nothing of numbers that depend on the machine.
+/// Returns the verdict on a claim, in words; empty for numbers that depend on the machine.
 fn verdict(found: &Finding) -> &'static str {
     match found.same_side {
         None => "",
@@ -219,7 +220,7 @@ mod tests {
         }
     }
 
-    /// The page of two items of a paper, with these experiments.
+    /// Returns the page of two items of a paper, with these rows for their experiments.
     fn page(plans: [&str; 2], rows: [Vec<Row>; 2]) -> (String, Vec<Sheet>) {
         let paper = Paper::named("selective").expect("a paper");
         let items = ["table2", "table3"].map(|name| paper.item(name).expect("an item"));

@@ -1,22 +1,22 @@
-//! Tables and figures of the papers, and a plan for each.
+//! Tables and figures of the papers, each with a plan.
 
 use crate::plan::{Plan, PlanError};
 
-/// A paper whose tables and figures are made again.
+/// Paper whose tables and figures are replicated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Paper {
-    /// The name of its system.
+    /// Name of the paper's system.
     pub name: &'static str,
-    /// Authors, title, year.
+    /// Authors, title and year.
     pub cited: &'static str,
-    /// In the order of the paper.
+    /// Tables and figures, in the order of the paper.
     pub items: &'static [Item],
 }
 
-/// A table or a figure.
+/// Table or figure of a paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Item {
-    /// Such as `table1` or `fig7`.
+    /// Name of the item, such as `table1` or `fig7`.
     pub name: &'static str,
     text: &'static str,
 }
@@ -30,7 +30,7 @@ macro_rules! items {
     };
 }
 
-/// All of them.
+/// All papers that are replicated.
 pub const PAPERS: [Paper; 5] = [
     Paper {
         name: "mmrt",
@@ -60,28 +60,28 @@ pub const PAPERS: [Paper; 5] = [
 ];
 
 impl Paper {
-    /// The paper of a system.
+    /// Returns the paper of a system.
     pub fn named(name: &str) -> Option<&'static Self> {
         PAPERS.iter().find(|paper| paper.name == name)
     }
 
-    /// An item by its name.
+    /// Returns the item with this name.
     pub fn item(&self, name: &str) -> Option<&'static Item> {
         self.items.iter().find(|item| item.name == name)
     }
 }
 
 impl Item {
-    /// Its plan.
+    /// Returns the item's plan; `small` chooses its small sizes.
     ///
     /// # Errors
-    /// None for the plans of this program, which a test reads.
+    /// There are none for the plans of this program, all of which a test reads.
     pub fn plan(&self, small: bool) -> Result<Plan, PlanError> {
         Plan::read(self.text, small)
     }
 }
 
-/// Prefix of the names of an item's experiments.
+/// Returns the prefix of the names of an item's experiments.
 pub fn word(paper: &Paper, item: &Item) -> String {
     format!("{} {}", paper.name, item.name)
 }

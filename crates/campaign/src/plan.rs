@@ -1,11 +1,11 @@
-//! A plan in TOML: experiments, each a list of comparisons.
+//! Plans in TOML: experiments, each a list of comparisons.
 
 use crate::claim::Claim;
 use rasray_report::COLUMNS;
 use std::collections::BTreeMap;
 use toml::{Table, Value};
 
-/// A plan that cannot be read, in words.
+/// Error for a plan that cannot be read, in words.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct PlanError {
@@ -18,60 +18,61 @@ impl PlanError {
         Self { message: message.into(), help: help.into() }
     }
 
-    /// Advice for the author of the plan, in one sentence.
+    /// Returns advice for the author of the plan, in one sentence.
     pub fn help(&self) -> &str {
         &self.help
     }
 }
 
-/// Experiments under a title.
+/// Plan: experiments under a title.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// One line; of a plan that has none, `Campaign`.
+    /// Title in one line; `Campaign` if the plan has none.
     pub title: String,
     /// Remarks, such as how its scenes differ from those of a paper; may be empty.
     pub about: String,
-    /// Results, and their reasons; may be empty.
+    /// Results of the plan and the reasons for them; may be empty.
     pub discussion: String,
-    /// In the order of the file.
+    /// Experiments, in the order of the file.
     pub experiments: Vec<ExperimentPlan>,
 }
 
-/// Comparisons that are shown together.
+/// Experiment: comparisons that are shown together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExperimentPlan {
-    /// One line, unique in the plan.
+    /// Name in one line, unique in the plan.
     pub name: String,
-    /// Every combination of the lists of options.
+    /// Comparisons: every combination of the lists of options.
     pub comparisons: Vec<ComparisonPlan>,
-    /// Cells left out of them.
+    /// Cells that are left out of the comparisons.
     pub exclusions: Vec<Exclusion>,
-    /// Numbers published of them.
+    /// Published numbers with which the results are compared.
     pub claims: Vec<Claim>,
-    /// Names of the results that the page of a paper shows; empty for those of every page.
+    /// Names of the results that the page of a paper shows; if empty, the page shows the usual ones.
     pub columns: Vec<String>,
 }
 
-/// One comparison: systems side by side on a scene.
+/// Comparison of systems on a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ComparisonPlan {
-    /// Settings that the plan says of all its cells, by the names of options; not what takes turns in it.
+    /// Settings that all cells of the comparison have in common, by the names of options. Options with values
+    /// that take turns are not among them.
     pub settings: BTreeMap<String, String>,
-    /// The words of `rasray compare`, the scene first.
+    /// Words of `rasray compare`, the scene first.
     pub words: Vec<String>,
 }
 
-/// Cells that are left out: those that have one of the values of each setting.
+/// Cells that are left out: those that have, for each setting, one of its values.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Exclusion(BTreeMap<String, Vec<String>>);
 
 impl Exclusion {
-    /// True if a cell with these settings is left out.
+    /// Returns true if a cell with these settings is left out.
     pub fn holds(&self, settings: &BTreeMap<String, String>) -> bool {
         self.0.iter().all(|(name, values)| settings.get(name).is_some_and(|value| values.contains(value)))
     }
 
-    /// Names of the settings that it looks at.
+    /// Returns the names of the settings that the exclusion looks at.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.0.keys().map(String::as_str)
     }
@@ -84,13 +85,13 @@ impl std::fmt::Display for Exclusion {
     }
 }
 
-/// Keys of an experiment that are no options.
+/// Keys of an experiment that are not options.
 const OWN: [&str; 6] = ["name", "exclude", "small", "claim", "columns", "with"];
 
-/// Options that take several values at once: what they name takes turns in one comparison.
+/// Options that take several values at once, which take turns in one comparison.
 const TOGETHER: [&str; 3] = ["systems", "presets", "ray-set"];
 
-/// Options of a comparison that a plan has no use for, and where to say what they say.
+/// Options of a comparison that a plan cannot have, with advice.
 const REFUSED: [(&str, &str); 17] = [
     ("report", FOLDER),
     ("html", FOLDER),
@@ -116,11 +117,11 @@ const COMPARE: &str = "leave it out: it is of single comparisons, `rasray compar
 const COMMAND: &str = "leave it out, and say it on the command line";
 
 impl Plan {
-    /// Reads a plan; `small` takes what the plan says of small sizes.
+    /// Reads a plan. If `small` is true, the plan's settings for small sizes apply.
     ///
     /// # Errors
-    /// Text that is no TOML, keys in the wrong place, values that are neither text, number, `true` nor
-    /// `false`, an experiment without a name or a scene, and two of one name.
+    /// The text is no TOML, a key is in the wrong place, a value is neither text, number, `true` nor `false`,
+    /// an experiment has no name or no scene, or two experiments have one name.
     pub fn read(text: &str, small: bool) -> Result<Self, PlanError> {
         let file: Table = text.parse().map_err(|error: toml::de::Error| {
             PlanError::new(error.to_string().trim_end(), "write it as docs/campaigns.md shows")
@@ -171,7 +172,8 @@ impl Plan {
         Ok(Self { title, about, discussion, experiments: read })
     }
 
-    /// One plan of several, in their order; names of experiments get the word before them, and a colon.
+    /// Joins several plans to one, in their order. Each name of an experiment gets its plan's word and a
+    /// colon before it.
     pub fn joined(title: &str, plans: impl IntoIterator<Item = (String, Self)>) -> Self {
         let named = |(word, plan): (String, Self)| {
             plan.experiments.into_iter().map(move |experiment| ExperimentPlan {
@@ -183,7 +185,7 @@ impl Plan {
         Self { title: title.to_owned(), about: String::new(), discussion: String::new(), experiments }
     }
 
-    /// Comparisons in their order, each with the place of its experiment.
+    /// Returns the comparisons in their order, each with the index of its experiment.
     pub fn comparisons(&self) -> impl Iterator<Item = (usize, &ComparisonPlan)> {
         self.experiments
             .iter()
@@ -251,12 +253,12 @@ fn is_own(key: &str) -> bool {
     OWN.contains(&key)
 }
 
-/// Text in one line.
+/// Returns the text in one line, with single spaces.
 pub(crate) fn line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// A list of tables; empty where the key is absent.
+/// Returns a list of tables, empty if the key is absent.
 fn tables(key: &str, value: Option<Value>) -> Result<Vec<Table>, PlanError> {
     let shape = || {
         let help = format!("write {key} = [{{ ... }}, {{ ... }}]");
@@ -285,19 +287,19 @@ fn exclusions(value: Option<Value>) -> Result<Vec<Exclusion>, PlanError> {
     tables("exclude", value)?.into_iter().map(exclusion).collect()
 }
 
-/// A value of an option or a setting as a word; absent where it is none.
+/// Returns the value of an option or a setting as a word, or `None` for a list, a table or the like.
 pub(crate) fn word_of(value: &Value) -> Option<String> {
     match value {
         Value::String(text) => Some(text.clone()),
         Value::Integer(number) => Some(number.to_string()),
-        // Without an exponent, and without a fraction where there is none.
+        // A number is written without an exponent, and without a fraction if it is whole.
         Value::Float(number) if number.is_finite() => Some(number.to_string()),
         Value::Boolean(is) => Some(is.to_string()),
         _ => None,
     }
 }
 
-/// The values of a key as words; one value stands for a list of it.
+/// Returns the values of a key as words. A single value counts as a list of one.
 fn words_of(key: &str, value: &Value) -> Result<Vec<String>, PlanError> {
     let word = |value: &Value| {
         word_of(value).ok_or_else(|| {
@@ -314,8 +316,8 @@ fn words_of(key: &str, value: &Value) -> Result<Vec<String>, PlanError> {
     }
 }
 
-/// Every combination of the values of keys that do not go together in one comparison; the last key changes
-/// fastest.
+/// Returns every combination of the values of keys, except those whose values take turns in one comparison.
+/// The last key changes fastest.
 fn combinations(keys: &Table) -> Result<Vec<ComparisonPlan>, PlanError> {
     for (key, help) in REFUSED {
         if keys.contains_key(key) {
@@ -328,7 +330,7 @@ fn combinations(keys: &Table) -> Result<Vec<ComparisonPlan>, PlanError> {
     let mut all = vec![Vec::new()];
     for (key, value) in keys {
         let words = words_of(key, value)?;
-        // Values of an option that addresses a system take turns as well.
+        // Values of an option that is addressed to one system take turns as well.
         let choices =
             if TOGETHER.contains(&key.as_str()) || key.contains('.') { vec![words.join(",")] } else { words };
         all = all
@@ -345,7 +347,7 @@ fn combinations(keys: &Table) -> Result<Vec<ComparisonPlan>, PlanError> {
     Ok(all.into_iter().map(comparison).collect())
 }
 
-/// True if the values of a key take turns in one comparison.
+/// Returns true if the values of a key take turns in one comparison.
 fn takes_turns(key: &str) -> bool {
     TOGETHER.contains(&key) || key.contains('.')
 }
@@ -419,7 +421,7 @@ mod tests {
     fn small_sizes_take_the_place_of_full_ones() {
         let plan = Plan::read(PLAN, true).expect("valid");
         let words: Vec<_> = plan.comparisons().map(|(_, one)| one.words.join(" ")).collect();
-        // Options of an experiment itself go before those that all have.
+        // Options of an experiment itself take precedence over those that all experiments have.
         assert_eq!(words.len(), 3);
         assert!(words[0].contains("--repetitions=1") && words[2].contains("--repetitions=7"), "{words:?}");
         assert!(words.iter().all(|words| words.starts_with("cornell ")), "{words:?}");

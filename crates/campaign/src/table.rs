@@ -1,10 +1,11 @@
-//! All rows of a campaign as one table for other programs.
+//! Table of all rows of a campaign, for other programs.
 
 use rasray_report::{Campaign, in_order};
 use std::collections::BTreeSet;
 
-/// A row per cell and experiment, as CSV (RFC 4180) with a line of heads: `experiment`, `key`, the settings,
-/// `run` (system, preset and variant as reports name them), the results. What a row does not have is empty.
+/// Returns a table with a row per cell and experiment, as CSV (RFC 4180) with a line of heads: `experiment`,
+/// `key`, the settings, `run` (system, preset and variant as reports name them), the results. Cells are empty
+/// for settings and results that a row does not have.
 pub fn csv_table(campaign: &Campaign) -> Vec<u8> {
     let rows =
         || campaign.experiments.iter().flat_map(|one| one.rows.iter().map(move |row| (&one.name, row)));

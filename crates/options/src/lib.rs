@@ -1,8 +1,8 @@
 //! Options as data. Systems and integrators list their options as rows; the command line, its help, the
 //! pages, the sweeps and the viewer's controls are made from these rows.
 //!
-//! - [`OptionRow`] is an option: its name, the [`Values`] that it takes, its help. It is the only place that
-//!   states a range, and the only one that turns text into a [`Value`].
+//! - [`OptionRow`] is an option: its name, the [`Values`] that it takes, its help. Only the row states the
+//!   option's range, and only the row converts text to a [`Value`].
 //! - [`OptionValues`] are the values that were given for some options.
 //! - [`text`] reads numbers, for options and other arguments.
 

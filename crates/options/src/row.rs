@@ -1,30 +1,31 @@
-//! An option as a row.
+//! Row of an option.
 
 use crate::{Value, Values, Word};
 
-/// An option.
+/// Option as data: name, values, help, default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OptionRow {
-    /// Name, on the command line and in reports.
+    /// Name of the option, on the command line and in reports.
     pub name: &'static str,
-    /// Values that it takes.
+    /// Values that the option takes.
     pub values: Values,
     /// Purpose, one line of help without a full stop, with names of other options in backticks. Help adds the
     /// range and the default.
     pub doc: &'static str,
-    /// The value where none is given; absent where that depends on more than the option.
+    /// Value of the option if none is given; `None` if that depends on more than the option.
     pub default: Option<Value>,
-    /// Another name that stands for the value `off`; then the option's own name without a value is `on`.
+    /// Another name for the value `off`, such as a flag of its own. If present, the option's own name without
+    /// a value means `on`.
     pub off_name: Option<&'static str>,
-    /// Values that tests try; all words where none are listed.
+    /// Values that tests try. If empty, tests try all words of the option.
     pub tried: &'static [&'static str],
 }
 
-/// A value that an option does not take.
+/// Error for a value that an option does not take.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{option} {value} is not possible: {expected}")]
 pub struct ValueError {
-    /// The option.
+    /// Name of the option.
     pub option: &'static str,
     /// Value that was given.
     pub value: String,
@@ -33,17 +34,17 @@ pub struct ValueError {
 }
 
 impl OptionRow {
-    /// An option without a default.
+    /// Returns an option without a default.
     pub const fn new(name: &'static str, values: Values, doc: &'static str) -> Self {
         Self { name, values, doc, default: None, off_name: None, tried: &[] }
     }
 
-    /// One that takes a word.
+    /// Returns an option that takes one of several words.
     pub const fn words(name: &'static str, words: &'static [Word], doc: &'static str) -> Self {
         Self::new(name, Values::Words(words), doc)
     }
 
-    /// One that is on or off.
+    /// Returns an option that is on or off.
     pub const fn switch(name: &'static str, doc: &'static str) -> Self {
         Self::new(name, Values::SWITCH, doc)
     }
@@ -60,7 +61,7 @@ impl OptionRow {
         Self { tried, ..self }
     }
 
-    /// Values that tests try.
+    /// Returns the values that tests try.
     pub fn tried(&self) -> Vec<&'static str> {
         match self.values {
             Values::Words(words) if self.tried.is_empty() => words.iter().map(|(word, _)| *word).collect(),
@@ -68,29 +69,29 @@ impl OptionRow {
         }
     }
 
-    /// Reads a value.
+    /// Reads a value from text.
     ///
     /// # Errors
-    /// The option does not take it.
+    /// The option does not take the value.
     pub fn parse(&self, text: &str) -> Result<Value, ValueError> {
         self.values.parse(text).map_err(|error| self.refused(text, error.to_string()))
     }
 
-    /// The value, where the option takes it.
+    /// Returns the value, if the option takes it.
     ///
     /// # Errors
-    /// It does not.
+    /// The option does not take the value.
     pub fn check(&self, value: Value) -> Result<Value, ValueError> {
         let taken = self.values.takes(value).then_some(value);
         taken.ok_or_else(|| self.refused(value, self.values.expected()))
     }
 
-    /// The error for a value, and what is expected in place of it.
+    /// Returns the error for a value, with the values that are expected instead, in words.
     pub fn refused(&self, value: impl ToString, expected: String) -> ValueError {
         ValueError { option: self.name, value: value.to_string(), expected }
     }
 
-    /// Purpose, with the range and the default.
+    /// Returns the help: the purpose, with the range and the default.
     pub fn help(&self) -> String {
         let range = self.values.range().map(|range| format!(" [{range}]"));
         let default = self.default.map(|value| format!(" [default: {value}]"));

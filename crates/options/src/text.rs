@@ -1,20 +1,20 @@
-//! Numbers in text, with or without spaces around them.
+//! Reading of numbers from text, with or without spaces around them.
 
 use std::str::FromStr;
 
-/// Reads a number.
+/// Reads a number; returns `None` if the text is no number.
 pub fn number<T: FromStr>(text: &str) -> Option<T> {
     text.trim().parse().ok()
 }
 
-/// Reads as many numbers as are asked for, with one of these characters between each two: `1,-2.5,0`,
-/// `640x360`. No number can hold such a character, so that -1 is none where `-` is one.
+/// Reads `COUNT` numbers with one of the characters `between` each two, as in `1,-2.5,0` or `640x360`. A
+/// number cannot contain such a character: if `-` is one, then -1 is no number.
 pub fn numbers<T: FromStr, const COUNT: usize>(text: &str, between: &[char]) -> Option<[T; COUNT]> {
     let numbers: Option<Vec<T>> = text.split(between).map(number).collect();
     numbers?.try_into().ok()
 }
 
-/// Reads columns and rows, `640x360`.
+/// Reads columns and rows, as in `640x360`.
 pub fn sides(text: &str) -> Option<[u32; 2]> {
     numbers(text, &['x', 'X'])
 }

@@ -3,43 +3,43 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The value of an option. Its text is what is typed.
+/// Value of an option. It is displayed as a user types it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
-    /// A word.
+    /// Word, one of those that the option takes.
     Word(&'static str),
-    /// A whole number.
+    /// Whole number.
     Whole(u32),
-    /// A number.
+    /// Number that need not be whole.
     Number(f32),
-    /// Columns and rows.
+    /// Numbers of columns and rows.
     Cells([u32; 2]),
-    /// A point, metres.
+    /// Point, in metres.
     Point([f32; 3]),
 }
 
 impl Value {
-    /// The word, where it is one.
+    /// Returns the word, or `None` for a value of another kind.
     pub fn word(self) -> Option<&'static str> {
         if let Self::Word(word) = self { Some(word) } else { None }
     }
 
-    /// The whole number, where it is one.
+    /// Returns the whole number, or `None` for a value of another kind.
     pub fn whole(self) -> Option<u32> {
         if let Self::Whole(whole) = self { Some(whole) } else { None }
     }
 
-    /// The number, where it is one that need not be whole.
+    /// Returns the number that need not be whole, or `None` for a value of another kind.
     pub fn number(self) -> Option<f32> {
         if let Self::Number(number) = self { Some(number) } else { None }
     }
 
-    /// Columns and rows, where it is these.
+    /// Returns the columns and rows, or `None` for a value of another kind.
     pub fn cells(self) -> Option<[u32; 2]> {
         if let Self::Cells(cells) = self { Some(cells) } else { None }
     }
 
-    /// The point, where it is one.
+    /// Returns the point, or `None` for a value of another kind.
     pub fn point(self) -> Option<[f32; 3]> {
         if let Self::Point(point) = self { Some(point) } else { None }
     }
@@ -75,54 +75,54 @@ impl From<f32> for Value {
     }
 }
 
-/// Values given for options, by name; options left out follow the default.
+/// Values that were given for options, by name. Options that are left out follow their default.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OptionValues(BTreeMap<&'static str, Value>);
 
 impl OptionValues {
-    /// Everything that was given, in the order of names.
+    /// Returns all given options and values, in the order of names.
     pub fn iter(&self) -> impl Iterator<Item = (&'static str, Value)> {
         self.0.iter().map(|(name, value)| (*name, *value))
     }
 
-    /// Number of options given.
+    /// Returns the number of options given.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// True if no option was given.
+    /// Returns true if no option was given.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Value given for an option.
+    /// Returns the value given for an option.
     pub fn get(&self, option: &str) -> Option<Value> {
         self.0.get(option).copied()
     }
 
-    /// Value given for an option, as it is typed.
+    /// Returns the value given for an option, as a user types it.
     pub fn text(&self, option: &str) -> Option<String> {
         self.get(option).map(|value| value.to_string())
     }
 
-    /// Gives a value.
+    /// Sets the value of an option.
     pub fn set(&mut self, option: &'static str, value: impl Into<Value>) {
         self.0.insert(option, value.into());
     }
 
-    /// Takes back what was given for an option.
+    /// Removes the value of an option, which then follows its default.
     pub fn unset(&mut self, option: &str) {
         self.0.remove(option);
     }
 
-    /// Adds one more value.
+    /// Returns these values with one more.
     #[must_use]
     pub fn with(mut self, option: &'static str, value: impl Into<Value>) -> Self {
         self.set(option, value);
         self
     }
 
-    /// Values given for options whose names `keep` accepts.
+    /// Returns the values of the options whose names `keep` accepts.
     #[must_use]
     pub fn filtered(&self, keep: impl Fn(&str) -> bool) -> Self {
         Self(self.0.iter().filter(|(name, _)| keep(name)).map(|(name, value)| (*name, *value)).collect())

@@ -1,24 +1,24 @@
-//! Values that an option takes, and the parsing of text.
+//! Values that an option takes, and conversion of text to them.
 
 use crate::Value;
 use crate::text::{number, numbers, sides};
 
-/// A word that an option takes, and what it means.
+/// Word that an option takes, and its meaning.
 pub type Word = (&'static str, &'static str);
 
-/// Quantity that a number counts.
+/// Unit of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// Metres.
     Metres,
-    /// A share of a whole, at most 1.
+    /// Share of a whole, at most 1.
     Share,
 }
 
-/// Least number that is taken.
+/// Lower end of the numbers that an option takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Least {
-    /// At 0.
+    /// From 0 on.
     Zero,
     /// Above 0.
     AboveZero,
@@ -27,19 +27,19 @@ pub enum Least {
 /// Values that an option takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Values {
-    /// One of these words.
+    /// One of these words, each with its meaning.
     Words(&'static [Word]),
-    /// A whole number from the first to the second.
+    /// Whole number from the first to the second, both included.
     Whole(u32, u32),
-    /// A finite number.
+    /// Finite number of a unit, from its lower end on.
     Number(Unit, Least),
-    /// Columns and rows, such as `720x480`, or one number for both: from 1 to this many each.
+    /// Columns and rows, such as `720x480`, or one number for both; each from 1 to this number.
     Cells(u32),
-    /// A point, such as `0,1.5,-2`: three finite numbers, metres.
+    /// Point, such as `0,1.5,-2`: three finite numbers, in metres.
     Point,
 }
 
-/// Text that is none of the values that are taken.
+/// Error for text that is none of the values that are taken.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{}", .0.expected())]
 pub struct NotTaken(
@@ -48,13 +48,13 @@ pub struct NotTaken(
 );
 
 impl Values {
-    /// `on` and `off`.
+    /// Values of a switch: `on` and `off`.
     pub const SWITCH: Self = Self::Words(&[("on", "Yes"), ("off", "No")]);
 
-    /// Reads a value.
+    /// Reads a value from text.
     ///
     /// # Errors
-    /// Says what is taken.
+    /// The text is none of these values; the error says which values are taken.
     pub fn parse(self, text: &str) -> Result<Value, NotTaken> {
         let value = match self {
             Self::Words(words) => {
@@ -68,7 +68,7 @@ impl Values {
         value.filter(|value| self.takes(*value)).ok_or(NotTaken(self))
     }
 
-    /// True if a value is one of these.
+    /// Returns true if `value` is one of these values.
     pub fn takes(self, value: Value) -> bool {
         match (self, value) {
             (Self::Words(words), Value::Word(given)) => words.iter().any(|(word, _)| *word == given),
@@ -83,12 +83,12 @@ impl Values {
         }
     }
 
-    /// True if the words are `on` and `off`.
+    /// Returns true if the values are those of a switch, `on` and `off`.
     pub fn is_switch(self) -> bool {
         self == Self::SWITCH
     }
 
-    /// The condition on a value, as words to follow its name.
+    /// Returns the condition on a value, in words that follow the option's name.
     pub fn expected(self) -> String {
         match self {
             Self::Words(words) => {
@@ -107,7 +107,7 @@ impl Values {
         }
     }
 
-    /// Values that are taken, as a cell of a table in Markdown.
+    /// Returns the values that are taken, as a cell of a table in Markdown.
     pub fn in_markdown(self) -> String {
         match self {
             Self::Words(words) => {
@@ -125,7 +125,8 @@ impl Values {
         }
     }
 
-    /// Lower and upper end of the numbers that are taken, for help; absent where there is no upper end.
+    /// Returns the lower and upper end of whole numbers, or of columns and rows, for help. `None` for all
+    /// other values, and for whole numbers without an upper end.
     pub fn range(self) -> Option<String> {
         match self {
             Self::Whole(lowest, highest) if highest < u32::MAX => Some(format!("{lowest} to {highest}")),
