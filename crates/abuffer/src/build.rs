@@ -40,7 +40,7 @@ impl Boxes {
     }
 }
 
-/// Pipelines of the build: the design of an [`ABuffer`](crate::ABuffer).
+/// Pipelines of the build, which are the design of an [`ABuffer`](crate::ABuffer).
 #[derive(Debug)]
 pub struct Build {
     near: ComputePipeline,
@@ -58,6 +58,8 @@ pub struct Build {
 }
 
 impl Build {
+    /// Makes the pipelines that a configuration needs.
+    ///
     /// # Errors
     /// The configuration needs the scene's shaders and there is no scene, or the device refuses a pipeline.
     pub(crate) fn new(

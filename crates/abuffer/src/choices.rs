@@ -99,7 +99,7 @@ impl Payload {
     }
 }
 
-/// Test of which cells a triangle covers.
+/// Test that decides which cells a triangle covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
     /// Coverage of the rasterizer, with its sub-pixel grid.

@@ -52,7 +52,7 @@ pub struct Config {
     /// Hits then name the triangle, and nothing else follows: rays do not exclude it, and surfaces stay those
     /// of the payload. Changes no t.
     pub ids: bool,
-    /// Test of which cells a triangle covers.
+    /// Test that decides which cells a triangle covers.
     pub coverage: Coverage,
     /// Source of the depth bounds of cells. [`Bounds::Boxes`] needs lists by depth bucket and
     /// [`Builder::Raster`], and cannot be combined with [`Coverage::Hardware`]. Changes no hit.

@@ -39,9 +39,9 @@ pub enum Fault {
         bucket: usize,
         /// Link that points to the node.
         link: u32,
-        /// Backward link stored.
+        /// Backward link, as stored.
         prev: u32,
-        /// Backward link expected.
+        /// Backward link, as expected.
         expected: u32,
     },
     /// Contiguous list that does not begin where the one before it ends.

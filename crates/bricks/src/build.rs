@@ -25,8 +25,8 @@ struct OfLevel {
 /// Pipelines of the build.
 #[derive(Debug)]
 pub(crate) struct Build {
-    /// Passes of [`Views::Cube`](crate::Views::Cube) that find the near region, and the slices of faces from
-    /// depths. Views along axes have neither.
+    /// Passes of [`Views::Cube`] that find the near region, and the slices of faces from depths. Views along
+    /// axes have neither.
     depths: Option<[(String, ComputePipeline); 2]>,
     records: Visit,
     /// Passes that run for each level.

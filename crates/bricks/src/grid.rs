@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn cells_are_as_long_as_wide() {
         assert_eq!(cells_along(ROOM, 12, Some(64)), [64, 32, 16]);
-        // Rounded up to a multiple of 4.
+        // Numbers of cells are rounded up to a multiple of 4.
         assert_eq!(cells_along(ROOM, 12, Some(61)), [64, 32, 16]);
         assert_eq!(cells_along(ROOM, 12, Some(1)), [4, 4, 4]);
         assert_eq!(cells_along(ROOM, 12, Some(1024)), [1024, 512, 256]);

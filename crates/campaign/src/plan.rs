@@ -29,7 +29,7 @@ impl PlanError {
 pub struct Plan {
     /// Title in one line; `Campaign` if the plan has none.
     pub title: String,
-    /// Remarks, such as how its scenes differ from those of a paper; may be empty.
+    /// Remarks, such as how the plan's scenes differ from those of a paper; may be empty.
     pub about: String,
     /// Results of the plan and the reasons for them; may be empty.
     pub discussion: String,

@@ -37,6 +37,8 @@ enum Layers {
 }
 
 impl Build {
+    /// Makes the pipelines that a configuration needs.
+    ///
     /// # Errors
     /// The configuration needs the scene's shaders and there is no scene, or the device refuses a pipeline.
     pub(crate) fn new(

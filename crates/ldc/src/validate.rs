@@ -19,7 +19,7 @@ pub struct Contents {
     /// Payload of fragments: a triangle, or two words with colour and normal.
     pub payload: Vec<u32>,
     /// Smallest depth (its complement) and largest depth of each block, and the block's slices with
-    /// [`Occupancy::Slices`](crate::Occupancy::Slices). The second level follows the first.
+    /// [`Occupancy::Slices`]. The second level follows the first.
     pub blocks: Vec<u32>,
     /// Head of each cell's conservative list: its first link.
     pub heads: Vec<u32>,

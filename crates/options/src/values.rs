@@ -9,7 +9,7 @@ pub type Word = (&'static str, &'static str);
 /// Unit of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// Metres.
+    /// Length, in metres.
     Metres,
     /// Share of a whole, at most 1.
     Share,
@@ -18,9 +18,9 @@ pub enum Unit {
 /// Lower end of the numbers that an option takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Least {
-    /// From 0 on.
+    /// Numbers from 0 on.
     Zero,
-    /// Above 0.
+    /// Numbers above 0, without 0 itself.
     AboveZero,
 }
 

@@ -90,7 +90,7 @@ pub struct Config {
     pub stop: Stop,
     /// Depths of a triangle in a tile, which choose its buckets.
     pub depths: Depths,
-    /// Rule by which a ray goes on from a tile.
+    /// Rule by which a ray steps from one tile to the next.
     pub march: March,
     /// Switch for skipping tiles and buckets that the ray's depths cannot reach. Changes no hit where
     /// [`Config::is_exact`].

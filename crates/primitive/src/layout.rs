@@ -51,7 +51,7 @@ pub(crate) fn large_words(config: &Config) -> u64 {
 pub(crate) fn bin_groups(config: &Config) -> u32 {
     let block = BIN_BLOCK as u64;
     let blocks = u64::from(config.tiles() + 2).div_ceil(block).pow(2);
-    // Each block, its rows and columns, and the buckets of each column.
+    // Iterations over each block, its rows and columns, and the buckets of each column.
     let turns = blocks * (1 + block + block * block * u64::from(1 + config.buckets));
     rasray_ads::kit::bin_groups(turns)
 }
@@ -171,8 +171,8 @@ mod tests {
     /// depth bounds.
     #[test]
     fn published_lists_have_the_papers_bytes() {
-        // Terms of the paper's table 3: depths 8 and a third of that for their pyramid, a head of 4 per
-        // bucket, a node of 8.
+        // Terms of the paper's table 3: 8 bytes for depths and a third of that for their pyramid, 4 for the
+        // head of each bucket, and 8 for a node.
         let published = Config { tile: 1, buckets: 4, ..Config::published(512) };
         let demand = Demand { entries: 3_100_000, ..Demand::default() };
         let (formula, cells) = (formula_bytes(&published, &demand), cell_count(&published));

@@ -62,7 +62,7 @@ pub enum Depths {
 
 words! { Depths { Clipped "clipped", Corners "corners" } }
 
-/// Rule by which a ray goes on from a tile.
+/// Rule by which a ray steps from one tile to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
     /// Rays step over the boundary at which they leave the tile.

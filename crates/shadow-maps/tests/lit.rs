@@ -1,5 +1,5 @@
-//! Scenes on a device whose shadow rays are answered by maps and by traces, and rays between surfaces and
-//! lights.
+//! Scenes on a device for the other tests. Maps or traces answer their shadow rays, and functions make rays
+//! between surfaces and lights.
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 

@@ -290,7 +290,7 @@ impl Spec {
         (self.system.kind)(self)
     }
 
-    /// Makes the structure.
+    /// Makes the structure of this spec.
     ///
     /// # Errors
     /// An option has an impossible value, or the device refuses.

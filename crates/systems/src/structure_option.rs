@@ -8,7 +8,7 @@ use rasray_options::{OptionRow, Values, Word};
 pub enum Group {
     /// Resolution of a structure.
     Size,
-    /// Stored data, and conditions of a hit: mostly choices between a paper's method and another.
+    /// Choices of stored data and of conditions for a hit, mostly between a paper's method and another.
     Method,
     /// Options that change only time and memory.
     Speed,
@@ -38,7 +38,7 @@ impl Group {
 /// all values of the option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hits {
-    /// Never.
+    /// Never: hits are bit-identical for all values.
     Same,
     /// Only in structures in which rules of a paper lose hits of triangles.
     SameWithoutLoss,
@@ -119,7 +119,7 @@ pub(crate) const fn switch(
     of(OptionRow::switch(name, doc), group, hits)
 }
 
-/// Replaces the values that tests try.
+/// Returns an option with other values for tests to try.
 pub(crate) const fn trying(tried: &'static [&'static str], option: StructureOption) -> StructureOption {
     StructureOption { row: option.row.trying(tried), ..option }
 }
