@@ -1,4 +1,4 @@
-// A shader of the host's own: a ray for every pixel of a square, traced through bricks on the spot.
+// Compute shader of the host: traces a ray through the bricks for every pixel of a square, on the spot.
 // Reads: geometry, bricks. Writes: the hit of every pixel. Set 0 is the host's; geometry and structure come after it.
 #version 460
 #include "contract/extensions.glsl"
@@ -11,7 +11,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0, scalar) buffer HitBuffer { Hit hits[]; };
 
-// Pixels along a side.
+// Pixels along a side of the square.
 const uint SIDE = 32u;
 
 void main() {
@@ -27,7 +27,7 @@ void main() {
     for (uint round = 0u; round < 16u && result == TRACE_PAUSED; round++) {
         result = bricks_trace_closest(BricksRef(uvec2(0u)), ray, state, hit);
     }
-    // Neither while bricks are not ready, nor where the ray is still paused: the host then shows an earlier picture.
+    // While bricks are not ready or the ray is still paused, no hit is written; the host then shows an earlier picture.
     if (result == TRACE_HIT || result == TRACE_MISS) {
         hits[pixel.y * SIDE + pixel.x] = hit;
     }
