@@ -94,7 +94,7 @@ fn bounds(scene: &Scene) -> [DVec3; 2] {
     [corners().fold(DVec3::INFINITY, DVec3::min), corners().fold(DVec3::NEG_INFINITY, DVec3::max)]
 }
 
-/// Returns Cornell's room with lights inside of it, so that all of the room is in their views. Its lamp
+/// Returns Cornell's room, lit from within, where everything is inside of the view of a light. Its lamp
 /// remains as a part of the ceiling.
 fn lit_cornell() -> Scene {
     let mut scene = builtin::cornell();
