@@ -29,7 +29,7 @@ pub struct Contents {
     /// Sums of the scan of contiguous lists, and the lists that are too long for one dispatch to sort, each
     /// with how far it is sorted.
     pub scratch: Vec<u32>,
-    /// Triangle and next link of each node of the conservative lists.
+    /// Triangle, next link and depths of each node of the conservative lists.
     pub conservative: Vec<u32>,
 }
 

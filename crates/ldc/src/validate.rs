@@ -23,7 +23,7 @@ pub struct Contents {
     pub blocks: Vec<u32>,
     /// Head of each cell's conservative list: its first link.
     pub heads: Vec<u32>,
-    /// Triangle and next link of each node of the conservative lists.
+    /// Triangle, next link and depths of each node of the conservative lists.
     pub conservative: Vec<u32>,
 }
 
