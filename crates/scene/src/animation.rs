@@ -1,16 +1,18 @@
 //! Everything needed to pose a scene at a time other than rest: nodes, clips, skins, morph targets.
 //!
-//! [`crate::Scene::meshes`] hold the pose at rest, [`crate::Scene::at`] makes another. What is here is as the
-//! file has it, checked: indices are in range, arrays have the lengths that the fields promise, times ascend.
+//! [`crate::Scene::meshes`] hold the pose at rest, [`crate::Scene::at`] makes another. The types of this
+//! module hold the data as the file has them, checked: indices are in range, arrays have the lengths that the
+//! fields promise, times ascend.
 
 use glam::{DAffine3, DQuat, DVec3};
 
-/// Nodes and what moves or deforms along them. Empty if nothing in the scene can move.
+/// Nodes of a scene and the clips, skins and morph targets that move or deform them. Empty if nothing in the
+/// scene can move.
 #[derive(Clone, Debug, Default)]
 pub struct Rig {
     /// All nodes of the file; a parent may come after its children.
     pub nodes: Vec<RigNode>,
-    /// The node of each instance, in the order of [`crate::Scene::instances`].
+    /// Node of each instance, in the order of [`crate::Scene::instances`].
     pub placements: Vec<Placement>,
     /// Clips in the order of [`crate::Animation::clips`].
     pub clips: Vec<Clip>,
@@ -18,9 +20,9 @@ pub struct Rig {
     pub skins: Vec<Skin>,
     /// Meshes that skins or morph targets deform.
     pub deformed: Vec<DeformedMesh>,
-    /// The node of each camera, in the order of [`crate::Scene::cameras`].
+    /// Node of each camera, in the order of [`crate::Scene::cameras`].
     pub cameras: Vec<usize>,
-    /// The node of each light, in the order of [`crate::Scene::lights`].
+    /// Node of each light, in the order of [`crate::Scene::lights`].
     pub lights: Vec<usize>,
 }
 
@@ -35,16 +37,16 @@ pub struct RigNode {
     pub transform: NodeTransform,
 }
 
-/// The transform of a node relative to its parent.
+/// Transform of a node relative to its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NodeTransform {
     /// Scale, then rotation, then translation; each can be animated.
     Parts {
-        /// Metres.
+        /// Translation, metres.
         translation: DVec3,
-        /// Unit.
+        /// Rotation, a unit quaternion.
         rotation: DQuat,
-        /// Factors, zero and negative ones allowed.
+        /// Scale factors along the axes; zero and negative ones are allowed.
         scale: DVec3,
     },
     /// Any affine map; cannot be animated.
@@ -52,7 +54,7 @@ pub enum NodeTransform {
 }
 
 impl NodeTransform {
-    /// The map from the node's space to its parent's.
+    /// Returns the map from the node's space to its parent's.
     pub fn to_affine(self) -> DAffine3 {
         match self {
             Self::Parts { translation, rotation, scale } => {
@@ -68,18 +70,18 @@ impl NodeTransform {
 pub struct Placement {
     /// Index into [`Rig::nodes`].
     pub node: usize,
-    /// The instance's own transform, relative to the node. Identity unless the node has many copies.
+    /// Transform of the instance itself, relative to the node. Identity unless the node has many copies.
     pub node_from_mesh: DAffine3,
 }
 
 /// A named animation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clip {
-    /// Name from the file, or a made-up one.
+    /// Name from the file, or a generated one.
     pub name: String,
     /// Time of the last key, seconds.
     pub duration: f32,
-    /// One animated property of one node each.
+    /// Channels, each of one animated property of one node.
     pub channels: Vec<Channel>,
 }
 
@@ -90,22 +92,23 @@ pub struct Channel {
     pub node: usize,
     /// Interpolation between keys.
     pub interpolation: Interpolation,
-    /// Seconds, finite, ascending, at least one.
+    /// Times of the keys, seconds: at least one, finite, ascending.
     pub times: Vec<f32>,
-    /// One element a key; with [`Interpolation::CubicSpline`] three: in-tangent, value, out-tangent.
+    /// Values at the keys, one element per key; with [`Interpolation::CubicSpline`] three per key:
+    /// in-tangent, value, out-tangent.
     pub values: ChannelValues,
 }
 
 /// Property that a channel animates, with its keys.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ChannelValues {
-    /// Metres.
+    /// Translations, metres.
     Translation(Vec<[f32; 3]>),
-    /// Quaternions x, y, z, w, as in the file.
+    /// Rotations, quaternions x, y, z, w, as in the file.
     Rotation(Vec<[f32; 4]>),
-    /// Factors.
+    /// Scale factors.
     Scale(Vec<[f32; 3]>),
-    /// Weights of the morph targets, `targets` of them an element.
+    /// Weights of the morph targets; an element has `targets` of them.
     Weights {
         /// Weights, element by element.
         values: Vec<f32>,
@@ -136,19 +139,19 @@ pub struct Skin {
     pub joint_from_mesh: Vec<DAffine3>,
 }
 
-/// The shape of a mesh before anything deforms it. Arrays have the length of the mesh's positions
+/// Shape of a mesh before joints and morph targets deform it. Arrays have the length of the mesh's positions
 /// and hold finite numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DeformedMesh {
     /// Index into [`crate::Scene::meshes`].
     pub mesh: usize,
-    /// Metres, mesh space.
+    /// Positions of the vertices, metres, mesh space.
     pub positions: Vec<[f32; 3]>,
     /// Shading normals, not normalised.
     pub normals: Option<Vec<[f32; 3]>>,
     /// Tangents, not normalised.
     pub tangents: Option<Vec<[f32; 4]>>,
-    /// Displacements that are added, weighted, before skinning.
+    /// Morph targets: displacements that are added, weighted, before skinning.
     pub targets: Vec<MorphTarget>,
     /// Weight of each target at rest; as many as targets.
     pub weights: Vec<f32>,
@@ -156,14 +159,14 @@ pub struct DeformedMesh {
     pub skin: Option<SkinBinding>,
 }
 
-/// Displacements of every vertex.
+/// Morph target: displacements of every vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MorphTarget {
-    /// Metres, mesh space.
+    /// Displacements of positions, metres, mesh space.
     pub positions: Option<Vec<[f32; 3]>>,
-    /// Added to normals.
+    /// Displacements of normals.
     pub normals: Option<Vec<[f32; 3]>>,
-    /// Added to the direction of tangents.
+    /// Displacements of the directions of tangents.
     pub tangents: Option<Vec<[f32; 3]>>,
 }
 
@@ -174,14 +177,14 @@ pub struct SkinBinding {
     pub skin: usize,
     /// Joints per vertex: a multiple of 4.
     pub per_vertex: usize,
-    /// Those of one vertex after the other, indices into [`Skin::joints`].
+    /// Joints of each vertex, one vertex after the other: indices into [`Skin::joints`].
     pub joints: Vec<u32>,
-    /// Their shares: not negative, the sum of a vertex is 1.
+    /// Weights of the joints in `joints`: not negative, with the sum 1 at each vertex.
     pub weights: Vec<f32>,
 }
 
 impl SkinBinding {
-    /// Joints of a vertex with their shares.
+    /// Iterates over the joints of a vertex with their weights.
     pub fn of_vertex(&self, vertex: usize) -> impl Iterator<Item = (u32, f32)> {
         let range = vertex * self.per_vertex..(vertex + 1) * self.per_vertex;
         self.joints[range.clone()].iter().copied().zip(self.weights[range].iter().copied())

@@ -1,8 +1,9 @@
-/// Rays that pass the backs of single-sided surfaces ([`Material::culls_back`](crate::Material::culls_back)).
+/// Choice of the rays that pass through the backs of single-sided surfaces
+/// ([`Material::culls_back`](crate::Material::culls_back)).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BackFaces {
-    /// Those of the camera, on through what blends: rooms can be looked into, and are lit as if their walls
-    /// were there.
+    /// Camera rays alone, also where they go on behind blended surfaces: a camera can look into rooms, which
+    /// are lit as if their walls were there.
     #[default]
     Camera,
     /// Every ray.
@@ -12,10 +13,10 @@ pub enum BackFaces {
 }
 
 impl BackFaces {
-    /// All of them.
+    /// All choices.
     pub const ALL: [Self; 3] = [Self::Camera, Self::All, Self::None];
 
-    /// Its name on the command line.
+    /// Name of the choice on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Camera => "camera",
@@ -24,7 +25,7 @@ impl BackFaces {
         }
     }
 
-    /// Meaning, in one line of help.
+    /// Meaning of the choice, in one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Camera => {
@@ -35,12 +36,12 @@ impl BackFaces {
         }
     }
 
-    /// True if camera rays pass.
+    /// True if camera rays pass through backs.
     pub fn lets_camera_rays(self) -> bool {
         self != Self::None
     }
 
-    /// True if scattered and shadow rays pass.
+    /// True if scattered rays and shadow rays pass through backs.
     pub fn lets_other_rays(self) -> bool {
         self == Self::All
     }

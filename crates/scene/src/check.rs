@@ -1,4 +1,4 @@
-//! Checks and repairs of every mesh before anything else sees it, whatever format it came from.
+//! Checks and repairs of every mesh before other code sees it, whatever format it came from.
 
 mod attributes;
 mod place;
@@ -38,13 +38,14 @@ pub fn clean_mesh(path: &Path, mesh: &mut Mesh, warnings: &mut Vec<Warning>) -> 
     Ok(())
 }
 
-/// See [`clean_mesh`].
+/// Cleans a mesh as [`clean_mesh`] does and notes remarks instead of warnings.
 pub fn clean(path: &Path, mesh: &mut Mesh, remarks: &mut Remarks) -> Result<(), SceneError> {
     clean_deformed(path, mesh, None, remarks)
 }
 
-/// [`clean`] of a mesh at rest, with its positions `before` something deforms it: triangles are remarked on
-/// that have no area then, since what they are for a while is no fault of the file.
+/// Cleans a mesh in its pose at rest as [`clean`] does; `before` are its positions before joints and morph
+/// targets deform it. Only triangles without area in `before` are remarked on: a deformation that flattens
+/// others for a while is no fault of the file.
 pub fn clean_deformed(
     path: &Path,
     mesh: &mut Mesh,
@@ -64,7 +65,7 @@ pub(crate) fn is_flattened(mesh: &Mesh) -> bool {
     triangles.all(|corners| is_whole(corners) && triangles::is_degenerate(&mesh.positions, corners))
 }
 
-/// [`clean`] of normals, tangents, texture coordinates and colours alone.
+/// Does the part of [`clean`] that concerns normals, tangents, texture coordinates and colours.
 pub(crate) fn clean_attributes(mesh: &mut Mesh, remarks: &mut Remarks) {
     attributes::clean(mesh, remarks);
 }
@@ -73,7 +74,7 @@ pub(crate) fn clean_attributes(mesh: &mut Mesh, remarks: &mut Remarks) {
 mod tests {
     use super::*;
 
-    /// Two triangles over four corners of the unit square.
+    /// Makes two triangles over four corners of the unit square.
     fn square() -> Mesh {
         Mesh {
             name: "square".to_owned(),

@@ -1,4 +1,4 @@
-//! Camera, light and material of scenes that bring none of their own; and bounds of scenes.
+//! Default camera, light and material of scenes that have none of their own; and bounds of scenes.
 
 use glam::DVec3;
 
@@ -22,21 +22,21 @@ pub(crate) use seen::seen_instances;
 
 /// Full vertical angle of the default camera that stands outside, radians.
 const FOV_Y: f64 = 0.8;
-/// Extent of the picture, over that of the scene's bounds.
+/// Ratio of the picture's extent to the extent of the scene's bounds.
 const MARGIN: f64 = 1.05;
 
-/// A camera for a scene that has none, upright with +y; the same for the same scene.
+/// Makes a camera for a scene that has none, upright with +y; the same scene always gets the same camera.
 ///
-/// It stands outside and sees the whole scene from the front, somewhat to the right and above, in a picture
-/// that is at least as wide as high; around the origin if the scene has no triangles. Two kinds of scene are
-/// seen in another way:
+/// The camera stands outside and sees the whole scene from the front, somewhat to the right and above, in a
+/// picture that is at least as wide as high; it looks at the origin if the scene has no triangles. Two kinds
+/// of scene are seen in another way:
 ///
-/// - A room with one open side is looked into from before that side. A scene is a room if most of what is
-///   seen from its middle turns its front (counter-clockwise) side there and nothing is close; a solid turns
-///   its back to its own inside.
-/// - In a room that closes it in on all sides, but perhaps above, the camera stands: clear of the walls,
+/// - A room with one open side is looked into from before that side. A scene is a room if most of the
+///   surfaces seen from its middle turn their front (counter-clockwise) side there and nothing is close; a
+///   solid turns its back to its own inside.
+/// - In a room that is closed on all sides, but perhaps above, the camera stands inside: clear of the walls,
 ///   looking along the longest free way, almost level, with a vertical angle of 60 to 70 degrees. Less than
-///   about two fifths of the surface may lie outside; so a hollow thing with walls of its own, such as a
+///   about two fifths of the surface may lie outside; so a hollow object with walls of its own, such as a
 ///   helmet, is no room, and neither is a house as large outside as inside.
 ///
 /// Scenes of more than 2^23 triangles are not examined.
@@ -50,8 +50,8 @@ fn camera_outside(scene: &Scene) -> Camera {
     let direction = DVec3::new(0.45, 0.35, 1.0).normalize();
     let toward = camera_looking_at("default", centre + direction, centre, FOV_Y as f32);
     let axes = toward.world_from_camera.matrix3;
-    // From where a corner of the bounds is still in the picture. What is as thin as the view's axis keeps its
-    // distance.
+    // The distance from which a corner of the bounds is still in the picture. Bounds that are as thin as the
+    // view's axis keep their distance.
     let needed = |corner: DVec3| {
         let aside = axes.x_axis.dot(corner).abs().max(axes.y_axis.dot(corner).abs()).max(0.1 * half.length());
         axes.z_axis.dot(corner) + MARGIN * aside / (FOV_Y * 0.5).tan()
@@ -64,7 +64,7 @@ fn camera_outside(scene: &Scene) -> Camera {
     camera_looking_at("default", centre + direction * distance, centre, FOV_Y as f32)
 }
 
-/// The material of triangles whose file names none: light grey, rough, no metal.
+/// Makes the material of triangles whose file names none: light grey, rough, no metal.
 pub fn plain_material(name: &str) -> Material {
     Material { name: name.to_owned(), base_color: [0.8, 0.8, 0.8, 1.0], metallic: 0.0, ..Material::default() }
 }

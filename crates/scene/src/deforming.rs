@@ -1,4 +1,4 @@
-//! Scenes that change with time: what moves them, and what changes their meshes without a rig.
+//! Scenes that change with time: kinds of motion, and deformers of meshes without a rig.
 
 use std::fmt::Debug;
 use std::path::Path;
@@ -7,36 +7,36 @@ use crate::SceneError;
 use crate::mesh::Mesh;
 use crate::warning::Warning;
 
-/// Changes meshes with time where no rig does: a simulation, or a file for each frame.
+/// Source of meshes that change with time without a rig: a simulation, or a file for each frame.
 ///
 /// The number of meshes, instances and materials never changes, nor do transforms of instances.
 pub trait Deformer: Debug + Send + Sync {
-    /// Says whether triangles may change.
+    /// Says whether the triangles may change.
     fn topology(&self) -> Topology;
 
-    /// Seconds from which on nothing changes any more.
+    /// Returns the time from which on nothing changes any more, seconds.
     fn duration(&self) -> f64;
 
-    /// The meshes that it changes, indices into [`Scene::meshes`](crate::Scene::meshes).
+    /// Returns the meshes that the deformer changes, as indices into [`Scene::meshes`](crate::Scene::meshes).
     fn meshes(&self) -> &[usize];
 
-    /// These meshes at a time, seconds; before 0 as at 0, after the end as at the end. Times in ascending
-    /// order may be far cheaper than others. The same time gives the same bits.
+    /// Returns these meshes at a time, seconds; before 0 as at 0, after the end as at the end. Times in
+    /// ascending order may be far cheaper than others. The same time gives the same bits.
     ///
     /// # Errors
-    /// A file that cannot be read, or that does not go with the others.
+    /// An error for a file that cannot be read, or that does not match the others.
     fn at(&self, seconds: f64) -> Result<Deformation, SceneError>;
 
-    /// The file that is shown at a time; `None` where there are no files.
+    /// Returns the file that is shown at a time; `None` where there are no files.
     fn file(&self, _seconds: f64) -> Option<&Path> {
         None
     }
 }
 
-/// Says whether the triangles of a mesh may change with time.
+/// Constancy of the triangles of a mesh over time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Topology {
-    /// Only [`Shape::Vertices`] are given: vertices move, triangles keep their number, order and corners.
+    /// Only [`Shape::Vertices`] occur: vertices move, triangles keep their number, order and corners.
     Fixed,
     /// Meshes may have other vertices and triangles at every time.
     Changing,
@@ -45,23 +45,23 @@ pub enum Topology {
 /// Meshes at a time.
 #[derive(Clone, Debug, Default)]
 pub struct Deformation {
-    /// Index into [`Scene::meshes`](crate::Scene::meshes), and the mesh then.
+    /// Changed meshes, each with its index into [`Scene::meshes`](crate::Scene::meshes).
     pub shapes: Vec<(usize, Shape)>,
-    /// Data that was dropped or replaced in them.
+    /// Data that was dropped or replaced in the meshes.
     pub warnings: Vec<Warning>,
 }
 
-/// A mesh at a time.
+/// Mesh at a time.
 #[derive(Clone, Debug)]
 pub enum Shape {
-    /// Everything but these stays: as many positions as before.
+    /// New vertices, as many as before; all other data of the mesh stay.
     Vertices {
-        /// Metres, mesh space.
+        /// Positions, metres, mesh space.
         positions: Vec<[f32; 3]>,
-        /// Unit; absent: flat.
+        /// Unit shading normals; absent means flat.
         normals: Option<Vec<[f32; 3]>>,
     },
-    /// The whole mesh.
+    /// New mesh that replaces the old one.
     Mesh(Mesh),
 }
 
@@ -71,7 +71,7 @@ impl Shape {
             Self::Vertices { positions, normals } => {
                 mesh.positions = positions;
                 mesh.normals = normals;
-                // They lie in the surface that was; integrators derive others.
+                // The old tangents lie in the surface as it was; integrators derive new ones.
                 mesh.tangents = None;
             }
             Self::Mesh(other) => *mesh = other,
@@ -79,21 +79,21 @@ impl Shape {
     }
 }
 
-/// The way in which a scene changes with time.
+/// Way in which a scene changes with time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// Not at all.
+    /// No change.
     Still,
-    /// By clips of its rig; triangles stay what they are.
+    /// Change by clips of the rig; triangles keep their corners.
     Rig,
-    /// By a [`Deformer`], triangles stay what they are.
+    /// Change by a [`Deformer`]; triangles keep their corners.
     Deforming,
-    /// By a [`Deformer`], and vertices and triangles may be others at every time.
+    /// Change by a [`Deformer`]; vertices and triangles may be others at every time.
     Changing,
 }
 
 impl Motion {
-    /// Its name in reports.
+    /// Name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Still => "still",
@@ -103,7 +103,7 @@ impl Motion {
         }
     }
 
-    /// Its description, in words.
+    /// Description in words.
     pub fn described(self) -> &'static str {
         match self {
             Self::Still => "nothing moves",

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::text::{reason, sentence, shown};
 
-/// Why a scene could not be loaded. Every message names the scene file and the place at fault, and no
-/// message holds control characters, whatever the names in the file.
+/// Error of loading a scene. Every message names the scene file and the place at fault, and no message holds
+/// control characters, even if names in the file do.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
@@ -17,7 +17,7 @@ pub enum SceneError {
         /// Error of the operating system.
         source: std::io::Error,
     },
-    /// A file that the scene refers to, and cannot be shown without, could not be read.
+    /// A file that the scene refers to and needs could not be read.
     #[error("{}: {} needs {}, which cannot be read: {}", path.display(), shown(place), file.display(), reason(source))]
     Missing {
         /// The scene file.
@@ -29,7 +29,7 @@ pub enum SceneError {
         /// Error of the operating system.
         source: std::io::Error,
     },
-    /// A limit of how a scene is loaded was exceeded. More may be allowed by the field `option`.
+    /// A limit of loading was exceeded. The limit can be raised in the field `option`.
     #[error("{}: {} is {found}, which is more than the limit of {limit} ({option})", path.display(), shown(what))]
     TooLarge {
         /// The scene file.
@@ -40,17 +40,17 @@ pub enum SceneError {
         found: u64,
         /// Amount allowed.
         limit: u64,
-        /// The field of the limits that decides.
+        /// Field of the limits that sets the limit.
         option: &'static str,
     },
-    /// The extension of the file name tells no known format.
+    /// The extension of the file name stands for no known format.
     #[error("{}: unknown scene format; use .gltf, .glb, .obj or .ply", path.display())]
     UnknownFormat {
         /// The scene file.
         path: PathBuf,
     },
-    /// The file, or one that it needs, is something else than its name says, or of a version that is not
-    /// read.
+    /// The format of the file, or of one that it needs, is not the one of its name, or has a version that is
+    /// not supported.
     #[error("{}: {}; {fix}", path.display(), sentence(found))]
     NotThisFormat {
         /// The scene file.
@@ -108,7 +108,7 @@ pub enum SceneError {
         /// Advice on getting a file that can be loaded.
         fix: &'static str,
     },
-    /// A reference to another file leaves the folder of the scene, or is not a file.
+    /// A reference to another file leaves the folder of the scene, or does not name a file.
     #[error("{}: {}: the reference `{}` {reason}; only data: URIs and files below the scene's folder are read", path.display(), shown(place), shown(uri))]
     UnsafeReference {
         /// The scene file.
@@ -130,7 +130,7 @@ pub enum SceneError {
         /// Fault of the image.
         reason: String,
     },
-    /// The file has no such scene.
+    /// The file has no scene of the name or number that was asked for.
     #[error("{}: there is no scene {}; the file has: {}", path.display(), shown(wanted), sentence(available))]
     NoSuchScene {
         /// The scene file.
@@ -140,7 +140,7 @@ pub enum SceneError {
         /// Names or numbers of the scenes in the file.
         available: String,
     },
-    /// The files of a sequence do not make one scene over time.
+    /// The files of a sequence do not form one scene over time.
     #[error("{}: {}", path.display(), sentence(problem))]
     Sequence {
         /// The pattern, or the file at fault.
@@ -168,17 +168,17 @@ pub enum SceneError {
 }
 
 impl SceneError {
-    /// An element of `path` that contradicts itself or the format.
+    /// Makes the error of an element of `path` that contradicts itself or the format.
     pub fn invalid(path: &Path, place: impl Into<String>, reason: impl Into<String>) -> Self {
         Self::Invalid { path: path.to_owned(), place: place.into(), reason: reason.into() }
     }
 
-    /// Bytes of `path` that do not follow the grammar of its format.
+    /// Makes the error of bytes of `path` that do not follow the grammar of its format.
     pub fn syntax(path: &Path, reason: impl Into<String>) -> Self {
         Self::Syntax { path: path.to_owned(), reason: reason.into() }
     }
 
-    /// More of something than the limits of how a scene is loaded allow.
+    /// Makes the error of an amount that exceeds the limits of loading.
     pub fn too_large(
         path: &Path,
         what: impl Into<String>,
@@ -189,7 +189,7 @@ impl SceneError {
         Self::TooLarge { path: path.to_owned(), what: what.into(), found, limit, option }
     }
 
-    /// The error of a file that `scene` refers to, as one of `scene`: both are named.
+    /// Turns the error of a file that `scene` refers to into an error of `scene`; the message names both.
     pub fn of_scene(self, scene: &Path) -> Self {
         let path = scene.to_owned();
         let below = |file: &Path, text: &str| format!("{}: {text}", file.display());

@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use crate::Scene;
 
-/// Areas of a scene's triangles as the axes see them, in square metres. Seen along an axis, a triangle of
+/// Areas of a scene's triangles projected along the axes, in square metres. Seen along an axis, a triangle of
 /// area A and unit normal n leaves fragments in proportion to A times the magnitude of n's component along
-/// it.
+/// that axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Facing {
     /// Sum over triangles of the area seen along the axis each faces most: max|n| A.
@@ -16,7 +16,7 @@ pub struct Facing {
 }
 
 impl Facing {
-    /// Facing of the triangles as placed by the instances, at rest. Linear in triangles.
+    /// Computes the areas of the triangles as placed by the instances, at rest. Linear in triangles.
     pub fn of(scene: &Scene) -> Self {
         let mut facing = Self::default();
         for instance in &scene.instances {
@@ -37,7 +37,7 @@ impl Facing {
         facing
     }
 
-    /// Adds a triangle by its corners, metres. One whose corners are not finite does not count.
+    /// Adds a triangle by its corners, metres. A triangle with corners that are not finite does not count.
     pub fn add(&mut self, [a, b, c]: [DVec3; 3]) {
         let areas = 0.5 * (b - a).cross(c - a).abs();
         if areas.is_finite() {
@@ -46,9 +46,9 @@ impl Facing {
         }
     }
 
-    /// The share of the fragments of three views along the axes that keeping each triangle in the view it
-    /// faces most saves, were cells infinitely small: 1 - `most` / `all`, between 0 (walls along the axes)
-    /// and 2/3. `None` without area.
+    /// Returns the share of the fragments of three views along the axes that is saved if each triangle is
+    /// kept only in the view that it faces most, in the limit of infinitely small cells: 1 - `most` / `all`,
+    /// between 0 (walls along the axes) and 2/3. `None` without area.
     pub fn saved_by_one_view(self) -> Option<f64> {
         (self.all > 0.0).then(|| 1.0 - self.most / self.all)
     }

@@ -1,18 +1,19 @@
-//! Nodes that flatten what they place.
+//! Remarks on nodes that flatten the triangles that they place.
 
 use crate::animation::{ChannelValues, NodeTransform, Rig, RigNode};
 use crate::remarks::Remarks;
 use crate::{Instance, Scene};
 
-/// Share of the volume that its columns could span below which a matrix is singular, but for rounding.
+/// Ratio of a matrix's volume to the largest that columns of these lengths can span, below which the matrix
+/// is singular, but for rounding.
 const SINGULAR: f64 = 1e-12;
 
 const ZERO_SCALE: (&str, &str) = ("zero-scale", "has a scale of 0; what it places is flat or a point");
 const SINGULAR_MATRIX: (&str, &str) =
     ("singular-transform", "has a singular matrix; what it places is flat or a point");
 
-/// Remarks on nodes of a rig that place triangles and flatten them while these clips play; what a clip scales
-/// comes and goes as it says.
+/// Notes remarks on the nodes of a rig that place triangles and flatten them while these clips play. Nodes
+/// that a clip scales are left out: their geometry comes and goes on purpose.
 pub fn remark(rig: &Rig, instances: &[Instance], clips: &[usize], remarks: &mut Remarks) {
     let places = placing(rig, instances);
     let mut is_scaled = vec![false; rig.nodes.len()];
@@ -42,8 +43,8 @@ fn flattens(transform: &NodeTransform) -> Option<(&'static str, &'static str)> {
     }
 }
 
-/// Nodes at or above a node that places triangles: one that shows a mesh, or a joint that has weight. The
-/// node of a mesh with joints does not place it.
+/// Marks the nodes at or above a node that places triangles: one that shows a mesh, or a joint that has
+/// weight. The node of a mesh with joints does not place the mesh.
 fn placing(rig: &Rig, instances: &[Instance]) -> Vec<bool> {
     let mut starts = vec![false; rig.nodes.len()];
     let mut skinned = std::collections::HashSet::new();
@@ -76,9 +77,9 @@ fn placing(rig: &Rig, instances: &[Instance]) -> Vec<bool> {
 }
 
 impl Scene {
-    /// Brings the warnings of nodes that flatten what they place to what holds while these clips play: a clip
-    /// that scales a node, to hide something for a while, flattens nothing by mistake. Without clips they are
-    /// those of rest.
+    /// Updates the warnings of nodes that flatten the triangles they place to the state in which these clips
+    /// play: a clip that scales a node, to hide an object for a while, flattens nothing by mistake. Without
+    /// clips they are the warnings of the pose at rest.
     pub fn warn_while_playing(&mut self, clips: &[usize]) {
         let ours = [ZERO_SCALE, SINGULAR_MATRIX];
         self.warnings.retain(|warning| {

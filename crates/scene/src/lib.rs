@@ -1,5 +1,5 @@
-//! Scenes as data: meshes, instances, materials, lights, cameras and their animation. Loaders make them, and
-//! everything that renders or checks reads them.
+//! Scenes as data: meshes, instances, materials, lights, cameras and their animation. Loaders make scenes;
+//! renderers and checks read them.
 //!
 //! - [`Scene`] is a scene; [`model`] has its parts.
 //! - [`builtin`] has the scenes that need no file.

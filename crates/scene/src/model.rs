@@ -31,12 +31,12 @@ pub struct Scene {
     pub environment: Environment,
     /// Cameras in world space, in scene order.
     pub cameras: Vec<Camera>,
-    /// Its changes with time: clips, skins and morph targets as read, or a deformer.
+    /// Changes of the scene with time: clips, skins and morph targets as read, or a deformer.
     pub animation: Animation,
     /// Data that was dropped, replaced or not supported, each with a count and a place.
     pub warnings: Vec<Warning>,
-    /// Files that the scene's own file refers to and that were read: buffers, images and material libraries,
-    /// in the order in which they were read. One that is referred to twice may be here twice.
+    /// Files that were read because the scene's own file refers to them: buffers, images and material
+    /// libraries, in the order in which they were read. A file that is referred to twice may be listed twice.
     pub files: Vec<std::path::PathBuf>,
 }
 
@@ -47,7 +47,7 @@ pub struct Instance {
     pub name: String,
     /// Index into `Scene::meshes`.
     pub mesh: usize,
-    /// Place in the world, metres, in f64: rounded to f32 once, after the frame origin is taken off.
+    /// Transform into the world, metres, in f64: rounded to f32 once, after the frame origin is subtracted.
     pub world_from_mesh: DAffine3,
 }
 
@@ -57,9 +57,9 @@ pub enum AlphaMode {
     /// Alpha is ignored.
     #[default]
     Opaque,
-    /// A point counts iff its alpha is at least the cutoff.
+    /// A point counts if and only if its alpha is at least the cutoff.
     Mask {
-        /// At least 0. Above 1, which files give as infinity, no point counts.
+        /// Cutoff, at least 0. With a cutoff above 1, which files give as infinity, no point counts.
         cutoff: f32,
     },
     /// Stochastic opacity in integrators.
@@ -72,41 +72,42 @@ pub enum AlphaMode {
 pub struct Material {
     /// Name from the file.
     pub name: String,
-    /// Linear RGBA.
+    /// Base colour, linear RGBA.
     pub base_color: [f32; 4],
-    /// sRGB colour, linear alpha.
+    /// Texture of the base colour: sRGB colour, linear alpha.
     pub base_color_texture: Option<TextureRef>,
-    /// In [0, 1].
+    /// Metalness in [0, 1].
     pub metallic: f32,
     /// Perceptual roughness in [0, 1]; alpha of the microfacet distribution is its square.
     pub roughness: f32,
-    /// Roughness in G, metallic in B, linear.
+    /// Texture of metalness and roughness: roughness in G, metalness in B, linear.
     pub metallic_roughness_texture: Option<TextureRef>,
     /// Excess roughness of facets along one direction, in [0, 1].
     pub anisotropy: f32,
     /// Angle of that direction, radians from the tangent to the bitangent.
     pub anisotropy_rotation: f32,
-    /// Direction in RG, from -1 to 1, before the rotation, and factor of the strength in B, linear.
+    /// Texture of the anisotropy: direction in RG, from -1 to 1, before the rotation, and a factor of the
+    /// strength in B, linear.
     pub anisotropy_texture: Option<TextureRef>,
-    /// Tangent-space normals, linear.
+    /// Normal map: tangent-space normals, linear.
     pub normal_texture: Option<TextureRef>,
     /// Scale of the normal texture's x and y.
     pub normal_scale: f32,
     /// Emitted radiance, W/(sr m^2): factor times strength.
     pub emission: [f32; 3],
-    /// sRGB.
+    /// Texture of the emission, sRGB.
     pub emission_texture: Option<TextureRef>,
     /// Share of the dielectric base that transmits, in [0, 1].
     pub transmission: f32,
-    /// Transmission in R, linear.
+    /// Texture of the transmission: factor in R, linear.
     pub transmission_texture: Option<TextureRef>,
     /// Index of refraction, 1.5 unless told.
     pub ior: f32,
-    /// Metres; 0 means a thin wall: refraction does not bend, nothing is absorbed.
+    /// Thickness, metres; 0 means a thin wall: refraction does not bend, nothing is absorbed.
     pub thickness: f32,
     /// Colour that white light has after `attenuation_distance` metres inside.
     pub attenuation_color: [f32; 3],
-    /// Metres; infinite means no absorption.
+    /// Distance after which light has the attenuation colour, metres; infinite means no absorption.
     pub attenuation_distance: f32,
     /// Strength of the dielectric specular reflection, 1 unless told.
     pub specular: f32,
@@ -114,12 +115,12 @@ pub struct Material {
     pub specular_color: [f32; 3],
     /// Interpretation of alpha.
     pub alpha_mode: AlphaMode,
-    /// Emission leaves both sides, not the front alone.
+    /// True if both sides emit, not the front alone.
     pub double_sided: bool,
-    /// The back is not drawn: rays that pass backs ([`BackFaces`](crate::BackFaces)) go on behind it. The
-    /// front is the counter-clockwise side of the mesh.
+    /// True if the back is not drawn: rays that pass backs ([`BackFaces`](crate::BackFaces)) go on behind it.
+    /// The front is the counter-clockwise side of the mesh.
     pub culls_back: bool,
-    /// Shows its base colour as emission and scatters nothing.
+    /// True if the surface shows its base colour as emission and scatters nothing.
     pub unlit: bool,
 }
 
@@ -160,9 +161,9 @@ impl Default for Material {
 pub struct TextureRef {
     /// Index into `Scene::textures`.
     pub texture: usize,
-    /// 0 or 1.
+    /// Set of texture coordinates, 0 or 1.
     pub uv_set: u32,
-    /// Rows of the 2x3 matrix applied to (u, v, 1).
+    /// Transform of the texture coordinates: rows of the 2x3 matrix applied to (u, v, 1).
     pub uv_transform: [[f32; 3]; 2],
 }
 
@@ -175,7 +176,7 @@ pub struct Texture {
     pub wrap_u: Wrap,
     /// Behaviour outside [0, 1] in v.
     pub wrap_v: Wrap,
-    /// Nearest where the magnification filter says so.
+    /// Filter of magnification: nearest texel or bilinear.
     pub filter: Filter,
     /// True if smaller levels are used for distant surfaces.
     pub mipmapped: bool,
@@ -222,41 +223,41 @@ pub struct Image {
 pub enum Light {
     /// Radiates evenly from a point.
     Point {
-        /// Metres, world.
+        /// Position, metres, world.
         position: DVec3,
-        /// W/sr, linear RGB.
+        /// Radiant intensity, W/sr, linear RGB.
         intensity: [f32; 3],
-        /// Metres; infinite unless the file says so.
+        /// Range, metres; infinite unless the file says so.
         range: f32,
     },
     /// Parallel light.
     Directional {
-        /// Unit, the way light travels.
+        /// Unit direction in which the light travels.
         direction: DVec3,
-        /// W/m^2, linear RGB.
+        /// Irradiance, W/m^2, linear RGB.
         irradiance: [f32; 3],
     },
     /// A point light within a cone.
     Spot {
-        /// Metres, world.
+        /// Position, metres, world.
         position: DVec3,
-        /// Unit, axis of the cone.
+        /// Axis of the cone, unit.
         direction: DVec3,
-        /// W/sr, linear RGB.
+        /// Radiant intensity, W/sr, linear RGB.
         intensity: [f32; 3],
-        /// Metres.
+        /// Range, metres.
         range: f32,
-        /// Radians from the axis where falloff starts.
+        /// Angle between the axis and the start of the falloff, radians.
         inner_cone: f32,
-        /// Radians from the axis where light ends.
+        /// Angle between the axis and the end of the light, radians.
         outer_cone: f32,
     },
 }
 
-/// Radiance from outside.
+/// Radiance that arrives from outside the scene.
 #[derive(Clone, Debug)]
 pub enum Environment {
-    /// One radiance in every direction, linear RGB, W/(sr m^2). Black: no environment.
+    /// One radiance in every direction, linear RGB, W/(sr m^2). Black means no environment.
     Constant([f32; 3]),
     /// Latitude-longitude map: u grows with the azimuth from +x over +z, v from +y (top) down.
     LatLong {
@@ -264,7 +265,7 @@ pub enum Environment {
         width: u32,
         /// Rows.
         height: u32,
-        /// Linear RGB, W/(sr m^2), rows top first.
+        /// Radiance of the texels, linear RGB, W/(sr m^2), rows top first.
         radiance: Vec<[f32; 3]>,
     },
 }
@@ -275,7 +276,7 @@ impl Default for Environment {
     }
 }
 
-/// A camera in the world: looks along -z of its own frame, +y up.
+/// Camera in the world: it looks along -z of its own frame, +y up.
 #[derive(Clone, Debug)]
 pub struct Camera {
     /// Name from the file.
@@ -284,51 +285,52 @@ pub struct Camera {
     pub world_from_camera: DAffine3,
     /// Projection.
     pub projection: Projection,
-    /// Width over height of what it frames, above 0, where the file says so; see [`Camera::half_extents`].
+    /// Ratio of width to height of the camera's frame, above 0, where the file gives one; see
+    /// [`Camera::half_extents`].
     pub aspect_ratio: Option<f32>,
-    /// The lens of a perspective; absent: a pinhole, which blurs nothing. No file format that is read has
-    /// one.
+    /// Lens of a perspective camera; absent means a pinhole, which blurs nothing. No supported file format
+    /// has one.
     pub lens: Option<Lens>,
 }
 
-/// A thin lens: all of its opening sees a pixel, and what is not in the plane in focus is blurred. Brightness
-/// does not depend on it.
+/// Thin lens: all of its opening sees a pixel, and points outside the plane in focus are blurred. Brightness
+/// does not depend on the lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
     /// Diameter of the opening, metres; 0 is a pinhole.
     pub aperture: f32,
-    /// Metres from the eye to the plane in focus, along the view; above 0.
+    /// Distance from the eye to the plane in focus, along the view, metres; above 0.
     pub focus: f32,
 }
 
 impl Camera {
-    /// Half of what an image of that many pixels shows, across and upwards: tangents of angles of a
-    /// perspective, metres of a parallel projection. Pixels are square. What the projection says of the
-    /// height holds for images that are at least as wide for their height as the camera's frame, or where it
-    /// has none: wider ones show more at both sides. A narrower one shows the frame in its full width, and
-    /// more above and below.
+    /// Returns half of the extent that an image of that many pixels shows, across and upwards: tangents of
+    /// angles of a perspective, metres of a parallel projection. Pixels are square. The height that the
+    /// projection gives holds for images that are at least as wide for their height as the camera's frame,
+    /// and for cameras without a frame: wider images show more at both sides. A narrower image shows the
+    /// frame in its full width, and more above and below.
     pub fn half_extents(&self, width: u32, height: u32) -> [f64; 2] {
         let aspect = f64::from(width.max(1)) / f64::from(height.max(1));
         let half_height = match self.projection {
             Projection::Perspective { fov_y } => (0.5 * f64::from(fov_y)).tan(),
             Projection::Orthographic { half_height } => f64::from(half_height),
         };
-        // In the precision of files: an image of the frame's own shape is neither.
+        // The comparison is in the precision of files: an image of the frame's own shape is not narrower.
         let narrower = self.aspect_ratio.filter(|own| *own > aspect as f32);
         let half_height = narrower.map_or(half_height, |own| half_height * f64::from(own) / aspect);
         [half_height * aspect, half_height]
     }
 }
 
-/// Mapping of directions to pixels.
+/// Mapping from directions to pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
-    /// Pinhole.
+    /// Pinhole projection.
     Perspective {
         /// Full vertical angle, radians.
         fov_y: f32,
     },
-    /// Parallel.
+    /// Parallel projection.
     Orthographic {
         /// Half of the visible height, metres.
         half_height: f32,
@@ -340,16 +342,17 @@ pub enum Projection {
 pub struct Animation {
     /// Names of the clips.
     pub clips: Vec<String>,
-    /// Seconds from which on nothing changes: the end of the longest clip, or of what the deformer does.
+    /// Time in seconds from which on nothing changes: the end of the longest clip, or of the deformer's
+    /// motion.
     pub duration: f32,
     /// Number of skins.
     pub skins: usize,
     /// Number of meshes with morph targets.
     pub morphed_meshes: usize,
-    /// Nodes, keys, skins and morph targets: all that posing needs.
+    /// Nodes, keys, skins and morph targets: the data that posing needs.
     pub rig: crate::animation::Rig,
     /// Deformer of meshes without a rig: a simulation, or a file for each frame.
     pub deformer: Option<Arc<dyn crate::deforming::Deformer>>,
-    /// Remarks of the deformer at the time that is shown; [`Scene::warnings`] holds it too.
+    /// Warnings of the deformer at the time that is shown; [`Scene::warnings`] holds them too.
     pub deformer_warnings: Vec<Warning>,
 }

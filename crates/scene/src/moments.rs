@@ -4,8 +4,8 @@ use crate::deforming::{Deformation, Topology};
 use crate::{Moment, Motion, Scene, SceneError};
 
 impl Scene {
-    /// The way in which the scene changes with time. In every case the number of instances and materials
-    /// stays; meshes may be added by [`Self::at`] where nodes share one that they deform differently.
+    /// Returns the way in which the scene changes with time. In every case the number of instances and
+    /// materials stays; [`Self::at`] may add meshes where nodes share one that they deform differently.
     pub fn motion(&self) -> Motion {
         match self.animation.deformer.as_ref().map(|deformer| deformer.topology()) {
             Some(Topology::Changing) => Motion::Changing,
@@ -15,27 +15,27 @@ impl Scene {
         }
     }
 
-    /// True if the scene at any moment is the scene at rest with other positions, normals and places, so that
-    /// a device can pose it: not where vertices and triangles may be others at every time, as in numbered
-    /// files, nor where a deformer changes what a rig deforms as well.
+    /// True if the scene at any moment is the scene at rest with other positions, normals and transforms, so
+    /// that a device can pose it. False where vertices and triangles may be others at every time, as in
+    /// numbered files, and where a deformer changes a mesh that a rig deforms as well.
     pub fn is_posed_in_place(&self) -> bool {
         let Some(deformer) = &self.animation.deformer else { return true };
         let by_rig = |mesh: &usize| self.animation.rig.deformed.iter().any(|shape| shape.mesh == *mesh);
         deformer.topology() == Topology::Fixed && !deformer.meshes().iter().any(by_rig)
     }
 
-    /// The scene at a moment: instances, cameras and lights where their nodes are then, meshes deformed by
-    /// the rig or by the [`Deformer`](crate::deforming::Deformer). With a rig, or a deformer of fixed
+    /// Returns the scene at a moment: instances, cameras and lights move with their nodes, and the rig or the
+    /// [`Deformer`](crate::deforming::Deformer) deforms the meshes. With a rig, or a deformer of fixed
     /// topology, triangles keep their order and number, so that ids do not depend on the time. The result can
-    /// be shown at another moment in the same way. A scene that nothing moves is as it was. Everything else
-    /// is copied, images included: take those out before where they are large.
+    /// be shown at another moment in the same way. A scene without motion is returned unchanged. All other
+    /// data are copied, images included: take large images out before.
     ///
-    /// Positions are rounded to f32 once, relative to the mesh's place. One that overflows is not finite:
-    /// whoever places it drops its triangles and counts them, as for an instance that is scaled too far. A
-    /// camera or a light whose node degenerates stays where it was at rest.
+    /// Positions are rounded to f32 once, relative to the mesh's place. A position that overflows is not
+    /// finite: the code that places the mesh drops its triangles and counts them, as for an instance that is
+    /// scaled too far. A camera or a light whose node degenerates stays where it was at rest.
     ///
     /// # Errors
-    /// Those of the deformer: a file of a sequence that cannot be read or does not go with the first.
+    /// Errors of the deformer: a file of a sequence that cannot be read or does not match the first.
     pub fn at(&self, moment: &Moment) -> Result<Self, SceneError> {
         let mut scene = self.posed(moment);
         let Some(deformer) = self.animation.deformer.clone() else { return Ok(scene) };

@@ -1,8 +1,9 @@
-//! The name that was meant, where one is not known.
+//! Suggestion of the name that was meant in place of an unknown one.
 
-/// The candidate that takes the fewest changes of single letters to get from `word`, swaps of neighbours
-/// included and upper case ignored: one for words of up to three letters, two beyond, three from eight on.
-/// The first of equally near ones; absent where all are farther.
+/// Returns the candidate that is reached from `word` with the fewest changes of single letters, swaps of
+/// neighbours included and upper case ignored. At most one change is allowed for words of up to three
+/// letters, two beyond, three from eight on. The first of equally near candidates is returned; `None` if all
+/// are farther.
 ///
 /// ```
 /// use rasray_scene::nearest::nearest;
@@ -12,7 +13,7 @@
 /// ```
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let length = word.chars().count();
-    // Nothing that is longer is a slip of a finger, and comparing takes the product of both lengths.
+    // A longer word is no typing error, and the comparison takes the product of both lengths.
     if length > 64 {
         return None;
     }
@@ -22,14 +23,14 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         _ => 3,
     };
     let near = candidates.into_iter().map(|candidate| (changes(word, candidate), candidate));
-    // The first of equal ones.
+    // The first of equally near candidates is kept.
     near.filter(|(changes, _)| *changes <= most.min(length.saturating_sub(1)))
         .min_by_key(|near| near.0)
         .map(|near| near.1)
 }
 
-/// Letters that are put in, taken out, replaced or swapped with their neighbour on the way from one word to
-/// the other.
+/// Counts the letters that are inserted, removed, replaced or swapped with their neighbour between one word
+/// and the other.
 fn changes(from: &str, to: &str) -> usize {
     let letters = |word: &str| word.to_lowercase().chars().collect::<Vec<_>>();
     let (from, to) = (letters(from), letters(to));

@@ -17,7 +17,7 @@ pub use workload::Workload;
 
 use crate::Scene;
 
-/// Decision on whether a term is needed, with the reason.
+/// Decision whether a term is needed, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Verdict {
     /// Term decided on.
@@ -28,14 +28,14 @@ pub struct Verdict {
     pub why: String,
 }
 
-/// The verdicts on all terms for a scene and a workload.
+/// Verdicts on all terms for a scene and a workload.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Needs {
     verdicts: Vec<Verdict>,
 }
 
 impl Needs {
-    /// Terms of `scene` that `workload` can observe.
+    /// Decides which terms of `scene` the `workload` can observe.
     pub fn of(scene: &Scene, workload: Workload) -> Self {
         let survey = survey::Survey::of(scene, workload);
         let verdicts = Term::ALL
@@ -50,13 +50,14 @@ impl Needs {
         Self { verdicts }
     }
 
-    /// Everything, whatever the scene has: to show that leaving out what is not needed changes nothing.
+    /// Returns needs of all terms, whatever the scene has: a reference that shows that leaving out unneeded
+    /// terms changes nothing.
     pub fn all() -> Self {
         let verdict = |term| Verdict { term, needed: true, why: "everything was asked for".to_owned() };
         Self { verdicts: Term::ALL.into_iter().map(verdict).collect() }
     }
 
-    /// These needs with `term` needed; `why` is one sentence without a full stop.
+    /// Returns these needs with `term` needed; `why` is one sentence without a full stop.
     #[must_use]
     pub fn with(mut self, term: Term, why: &str) -> Self {
         for verdict in self.verdicts.iter_mut().filter(|verdict| verdict.term == term && !verdict.needed) {
@@ -70,7 +71,7 @@ impl Needs {
         self.verdicts.iter().any(|verdict| verdict.term == term && verdict.needed)
     }
 
-    /// All verdicts in the order of [`Term::ALL`].
+    /// Returns all verdicts in the order of [`Term::ALL`].
     pub fn verdicts(&self) -> &[Verdict] {
         &self.verdicts
     }

@@ -1,4 +1,4 @@
-//! Scenes at a time: nodes moved by clips, meshes deformed by morph targets and joints, all in f64 and
+//! Poses of scenes at a time: clips move nodes, morph targets and joints deform meshes, all in f64 and
 //! rounded once.
 
 use std::collections::HashMap;
@@ -11,20 +11,21 @@ use crate::animation::{
 use crate::remarks::Remarks;
 use crate::{Camera, Light, Mesh, Scene, check, time};
 
-/// When a scene is shown, and what moves it.
+/// Time at which a scene is shown, and the clips that move it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Moment {
     /// Seconds from the beginning of every clip. Before the first and after the last key of a channel its
-    /// value is the one of that key. A time that is a key's but for single precision, as files hold keys, is
-    /// at that key.
+    /// value is that of the key. A time that differs from a key's only by the single precision in which files
+    /// hold keys is at that key.
     pub seconds: f64,
-    /// Indices into [`Rig::clips`]; of two that animate the same property of a node the later one counts.
+    /// Indices into [`Rig::clips`]; of two clips that animate the same property of a node the later one
+    /// counts.
     pub clips: Vec<usize>,
 }
 
 impl Rig {
-    /// The clips that can be played at once: all, but for those that animate a property of a node that an
-    /// earlier one of them animates as well, such as the gaits of a figure.
+    /// Returns the clips that can be played at once: all but those that animate a property of a node that an
+    /// earlier clip of the list animates as well, such as the gaits of a figure.
     pub fn compatible_clips(&self) -> Vec<usize> {
         let mut taken = std::collections::HashSet::new();
         let property = |channel: &Channel| (channel.node, std::mem::discriminant(&channel.values));
@@ -63,7 +64,7 @@ impl Pose {
                 weights[channel.node] = Some(at.of_slices(channel.interpolation, values, *targets));
                 continue;
             }
-            // The format forbids to animate a matrix.
+            // The format forbids animated matrices.
             let NodeTransform::Parts { translation, rotation, scale } = node else { continue };
             match &channel.values {
                 ChannelValues::Translation(values) => {
@@ -77,19 +78,19 @@ impl Pose {
         Self { world_from_node: multiply(rig, &local), weights }
     }
 
-    /// Map from a node's space to the world; the identity where there is no such node.
+    /// Returns the map from a node's space to the world; the identity where there is no such node.
     pub fn world(&self, node: usize) -> DAffine3 {
         self.world_from_node.get(node).copied().unwrap_or(DAffine3::IDENTITY)
     }
 
-    /// Weights of the morph targets of a mesh at a node: as animated, else as at rest.
+    /// Returns the weights of the morph targets of a mesh at a node: the animated ones, else those at rest.
     pub fn weights_of(&self, node: usize, deformed: &DeformedMesh) -> Vec<f64> {
         let animated = self.weights.get(node).cloned().flatten();
         animated.unwrap_or_else(|| deformed.weights.iter().copied().map(f64::from).collect())
     }
 
-    /// Poses of the cameras of that rig's scene: world, metres, rigid. One without a node, or whose node
-    /// degenerates, stays.
+    /// Returns the poses of the cameras of the scene of `rig`: world, metres, rigid. A camera without a node,
+    /// or whose node degenerates, stays.
     pub fn cameras(&self, rig: &Rig, at_rest: &[Camera]) -> Vec<DAffine3> {
         let nodes = rig.cameras.iter().map(|&node| Some(node)).chain(std::iter::repeat(None));
         let placed = |node: Option<usize>| node.and_then(|node| rigid(self.world(node)));
@@ -100,8 +101,8 @@ impl Pose {
             .collect()
     }
 
-    /// The lights of the scene with that rig where they are. One without a node, or whose node degenerates,
-    /// stays.
+    /// Returns the lights of the scene of `rig`, moved with their nodes. A light without a node, or whose
+    /// node degenerates, stays.
     pub fn lights(&self, rig: &Rig, at_rest: &[Light]) -> Vec<Light> {
         let mut lights = at_rest.to_vec();
         for (light, &node) in lights.iter_mut().zip(&rig.lights) {
@@ -111,7 +112,7 @@ impl Pose {
     }
 }
 
-/// Transforms multiplied along the forest, whose parents may come after their children.
+/// Multiplies transforms along the forest, whose parents may come after their children.
 fn multiply(rig: &Rig, local: &[NodeTransform]) -> Vec<DAffine3> {
     let mut world: Vec<Option<DAffine3>> = vec![None; local.len()];
     for start in 0..local.len() {
@@ -131,13 +132,13 @@ fn multiply(rig: &Rig, local: &[NodeTransform]) -> Vec<DAffine3> {
     world.into_iter().map(|world| world.unwrap_or(DAffine3::IDENTITY)).collect()
 }
 
-/// The keys around a time.
+/// Keys before and after a time.
 struct Between {
     first: usize,
     second: usize,
-    /// Share of the way from the first to the second, 0 to 1.
+    /// Share of the way from the first key to the second, 0 to 1.
     share: f64,
-    /// Seconds between them.
+    /// Time between the keys, seconds.
     seconds: f64,
 }
 
@@ -154,8 +155,8 @@ impl Between {
         Self { first: after - 1, second: after, share, seconds: end - begin }
     }
 
-    /// Terms of a value that is interpolated number by number: places in the list of elements, with their
-    /// shares.
+    /// Returns the terms of a value that is interpolated number by number: indices into the list of elements,
+    /// with their weights.
     fn terms(&self, interpolation: Interpolation) -> [(usize, f64); 4] {
         let Self { first, second, share: s, seconds } = *self;
         match interpolation {
@@ -196,7 +197,7 @@ impl Between {
         }
     }
 
-    /// Elements of `length` numbers each.
+    /// Interpolates elements of `length` numbers each.
     fn of_slices(&self, interpolation: Interpolation, values: &[f32], length: usize) -> Vec<f64> {
         let terms = self.terms(interpolation);
         let number =
@@ -210,15 +211,16 @@ impl Between {
     }
 }
 
-/// Movements of joints since a mesh was bound to them.
+/// Transforms of joints relative to the pose in which a mesh was bound to them.
 pub struct Joints<'a> {
     binding: &'a SkinBinding,
-    /// Movement of each joint: from mesh space to the world.
+    /// Transform of each joint: from mesh space to the world.
     moves: Vec<DAffine3>,
 }
 
 impl<'a> Joints<'a> {
-    /// Joints of a mesh that was bound to a skin, where the nodes are now.
+    /// Computes the transforms of the joints of a mesh that was bound to a skin, at the nodes' current
+    /// transforms.
     pub fn new(skin: &Skin, binding: &'a SkinBinding, world_from_node: &[DAffine3]) -> Self {
         let world = |joint: usize| world_from_node.get(joint).copied().unwrap_or(DAffine3::IDENTITY);
         let moves = skin.joints.iter().zip(&skin.joint_from_mesh);
@@ -226,8 +228,8 @@ impl<'a> Joints<'a> {
         Self { binding, moves }
     }
 
-    /// The mean of the joints of a vertex. Weights add up to 1 but for rounding, which would be multiplied by
-    /// the way from the world's origin: so the sum is divided by theirs.
+    /// Returns the weighted mean of the joints of a vertex. Weights add up to 1 but for rounding, which would
+    /// be multiplied by the distance to the world's origin: so the sum is divided by the sum of the weights.
     fn of_vertex(&self, vertex: usize) -> DAffine3 {
         let (mut matrix3, mut translation, mut total) = (DMat3::ZERO, DVec3::ZERO, 0.0);
         for (joint, weight) in self.binding.of_vertex(vertex).filter(|(_, weight)| *weight > 0.0) {
@@ -241,10 +243,10 @@ impl<'a> Joints<'a> {
     }
 }
 
-/// Origin relative to which positions are rounded to f32, so that each keeps its digits: the world's origin
-/// where it lies among them or not far away, so that they are rounded once; else a place among them, on a
-/// grid of at least their size, which stays while they move a little. Wherever that is, a position is rounded
-/// by at most a unit in the last place of half their size.
+/// Returns the origin relative to which positions are rounded to f32, so that each keeps its digits. It is
+/// the world's origin where that lies among the positions or not far away, so that they are rounded once;
+/// else a point among them, on a grid of at least their size, which stays while they move a little. With
+/// either origin a position is rounded by at most a unit in the last place of half their size.
 fn origin_for(positions: &[DVec3]) -> DVec3 {
     let finite = positions.iter().filter(|position| position.is_finite());
     let (lower, upper) = finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lower, upper), position| {
@@ -254,17 +256,17 @@ fn origin_for(positions: &[DVec3]) -> DVec3 {
     if !centre.is_finite() {
         return DVec3::ZERO;
     }
-    // A power of two above their size: places of the grid, and ways from them, are exact.
+    // The spacing is a power of two above their size: points of the grid, and differences to them, are exact.
     let spacing = ((2.0 * half).log2().floor() + 1.0).exp2();
     let origin =
         if half > 0.0 && spacing.is_finite() { (centre / spacing).round() * spacing } else { centre };
-    // A zero has no sign.
+    // Adding zero removes the sign of a negative zero.
     origin + DVec3::ZERO
 }
 
 /// Moves the vertices of `mesh`, which is as the file has it, by weighted targets of `deformed` and by
-/// joints. Answers where a mesh is that joints place; as the format asks, the transform of the node that
-/// holds it plays no part.
+/// joints. Returns the place of a mesh that joints move; as the format asks, the transform of the node that
+/// holds the mesh plays no part.
 pub fn deform(
     mesh: &mut Mesh,
     deformed: &DeformedMesh,
@@ -280,7 +282,7 @@ pub fn deform(
                 displacement.map_or(sum, |by| sum + DVec3::from(by.map(f64::from)) * **weight)
             })
         };
-    // A mesh that nothing moves keeps every bit.
+    // A mesh without deformation keeps every bit.
     let is_still = shown.is_empty();
     if is_still && joints.is_none() {
         return None;
@@ -309,8 +311,8 @@ pub fn deform(
     origin.map(DAffine3::from_translation)
 }
 
-/// Gives a mesh that is flattened to nothing the normals and tangents of its own shape: what is left of them
-/// has no direction, nobody sees it, and the mesh has them again as soon as it is more than nothing.
+/// Gives a mesh that is flattened to zero size the normals and tangents of its undeformed shape. Its own have
+/// no direction and are not visible, and the mesh has its own again as soon as it has a size.
 fn keep_attributes(mesh: &mut Mesh, deformed: &DeformedMesh) {
     if (deformed.normals.is_some() || deformed.tangents.is_some()) && check::is_flattened(mesh) {
         mesh.normals.clone_from(&deformed.normals);
@@ -318,16 +320,16 @@ fn keep_attributes(mesh: &mut Mesh, deformed: &DeformedMesh) {
     }
 }
 
-/// The matrix that turns normals, whatever the determinant; for a mirrored map it also flips them back to the
-/// side that the winding has.
+/// Returns the matrix that transforms normals, for any sign of the determinant; for a mirrored map it also
+/// flips them back to the side that the winding has.
 fn cofactors(matrix: DMat3) -> DMat3 {
     let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let side = if matrix.determinant() < 0.0 { -1.0 } else { 1.0 };
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * side
 }
 
-/// The rigid map with the same place, view direction and up direction: where a camera at a node is. Absent
-/// where the node is degenerate.
+/// Returns the rigid map with the position, view direction and up direction of a node: the pose of a camera
+/// at it. `None` where the node is degenerate.
 pub fn rigid(world: DAffine3) -> Option<DAffine3> {
     let back = world.matrix3.z_axis.try_normalize()?;
     let right = world.matrix3.y_axis.try_normalize()?.cross(back).try_normalize()?;
@@ -336,13 +338,14 @@ pub fn rigid(world: DAffine3) -> Option<DAffine3> {
     rigid.is_finite().then_some(rigid)
 }
 
-/// The way that a light at a node shines.
+/// Returns the direction in which a light at a node shines.
 pub fn light_direction(world: DAffine3) -> Option<DVec3> {
     world.transform_vector3(DVec3::NEG_Z).try_normalize()
 }
 
 impl Scene {
-    /// The scene with what hangs on its rig at a moment; one without a rig is as it was. See [`Self::at`].
+    /// Returns the scene with the elements of its rig at a moment; a scene without a rig is unchanged. See
+    /// [`Self::at`].
     pub(crate) fn posed(&self, moment: &Moment) -> Self {
         let rig = &self.animation.rig;
         let mut scene = self.clone();
@@ -366,7 +369,7 @@ impl Scene {
                     let (mesh, place) =
                         posed_mesh(&self.meshes[instance.mesh], deformed, &weights, rig, &pose);
                     let index = if std::mem::replace(&mut is_replaced[instance.mesh], true) {
-                        // A mesh of its own from now on, so that the result can be posed again.
+                        // The node has a mesh of its own from now on, so that the result can be posed again.
                         let mesh_index = scene.meshes.len();
                         scene.meshes.push(mesh);
                         scene
@@ -395,8 +398,8 @@ impl Scene {
     }
 }
 
-/// A mesh deformed, with the attributes brought into the state that [`Mesh`] promises; and where it is, if
-/// joints say so.
+/// Deforms a mesh and brings its attributes into the state that [`Mesh`] promises; also returns its place if
+/// joints move it.
 pub fn posed_mesh(
     at_rest: &Mesh,
     deformed: &DeformedMesh,
@@ -420,7 +423,7 @@ pub fn posed_mesh(
     (mesh, placed)
 }
 
-/// Moves a light to where its node is; one whose node degenerates stays.
+/// Moves a light to its node; a light whose node degenerates stays.
 fn move_light(light: &mut Light, world: DAffine3) {
     let (place, way) = (world.translation, light_direction(world));
     if !place.is_finite() {

@@ -1,4 +1,4 @@
-//! Remarks of a reader on a file: collected while it is read, told once.
+//! Remarks of a reader on a file: collected while the file is read, reported once.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -6,46 +6,47 @@ use std::path::PathBuf;
 use crate::text::{sentence, shown};
 use crate::warning::Warning;
 
-/// Different texts of one kind that are told; more are counted, so that no file can make the list long.
+/// Largest number of texts of one kind that are reported; more are counted, so that no file can make the list
+/// long.
 const TEXTS: usize = 16;
 
-/// Remarks on the places of a file, and which files were read for it. The same remark on many places becomes
+/// Remarks on the places of a file, and the files that were read for it. Equal remarks on many places become
 /// one warning.
 #[derive(Debug, Default)]
 pub struct Remarks {
-    /// In the order in which they were read.
+    /// Files in the order in which they were read.
     pub files: Vec<PathBuf>,
     list: Vec<Remark>,
-    /// Position in `list` by kind and text.
+    /// Index into `list` by kind and text.
     known: HashMap<(&'static str, String), usize>,
-    /// Number of texts, and the position of the last that is told, by kind.
+    /// Number of texts of each kind, and the index of the last one that is reported.
     kinds: HashMap<&'static str, (usize, usize)>,
 }
 
 #[derive(Debug)]
 struct Remark {
     kind: &'static str,
-    /// Place at which it was first made; empty for the file as a whole.
+    /// Place of the first remark; empty for the file as a whole.
     place: String,
-    /// Place at which it was last made.
+    /// Place of the last remark.
     last: String,
-    /// Places after the first.
+    /// Number of places after the first.
     more: usize,
-    /// Sum over all places, where things are counted.
+    /// Sum of the counts over all places, for remarks that have counts.
     count: Option<u64>,
     text: String,
-    /// Remarks of the same kind that are not told.
+    /// Number of remarks of this kind that are not reported.
     untold: usize,
 }
 
 impl Remarks {
-    /// A remark on a place: `mesh a: text`. An empty place is the file as a whole.
+    /// Notes a remark on a place: `mesh a: text`. An empty place is the file as a whole.
     pub fn note(&mut self, kind: &'static str, place: impl Into<String>, text: impl Into<String>) {
         self.add(kind, place.into(), None, text.into());
     }
 
-    /// A remark on `count` things in a place, unless there are none: `mesh a: 3 text`. Counts of several
-    /// places are added.
+    /// Notes a remark on `count` elements in a place, unless there are none: `mesh a: 3 text`. Counts of
+    /// several places are added.
     pub fn count(
         &mut self,
         kind: &'static str,
@@ -79,13 +80,13 @@ impl Remarks {
         self.list.push(Remark { kind, place, last, more: 0, count, text, untold: 0 });
     }
 
-    /// The messages of some kinds as one sentence.
+    /// Joins the messages of the given kinds into one sentence.
     pub fn sentence(&self, kinds: &[&str]) -> String {
         let chosen = self.list.iter().filter(|remark| kinds.contains(&remark.kind));
         chosen.map(Remark::message).collect::<Vec<_>>().join("; ")
     }
 
-    /// One warning a text, in the order in which they were first made.
+    /// Turns the remarks into warnings, one per text, in the order of their first occurrence.
     pub fn into_warnings(self) -> impl Iterator<Item = Warning> {
         self.list.into_iter().map(|remark| Warning { kind: remark.kind, message: remark.message() })
     }

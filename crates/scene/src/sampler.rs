@@ -1,19 +1,19 @@
-/// The random numbers of the samples of an image.
+/// Generator of the random numbers of an image's samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sampler {
-    /// Sobol points in groups of four dimensions, shuffled and scrambled for every pixel: least noise, above
-    /// all where the samples per pixel are a power of two.
+    /// Sobol points in groups of four dimensions, shuffled and scrambled for every pixel: the least noise, in
+    /// particular where the samples per pixel are a power of two.
     #[default]
     Sobol,
-    /// Independent numbers.
+    /// Independent random numbers.
     Pcg,
 }
 
 impl Sampler {
-    /// All of them.
+    /// All samplers.
     pub const ALL: [Self; 2] = [Self::Sobol, Self::Pcg];
 
-    /// Its name on the command line.
+    /// Name of the sampler on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sobol => "sobol",
@@ -21,7 +21,7 @@ impl Sampler {
         }
     }
 
-    /// Meaning, in one line of help.
+    /// Meaning of the sampler, in one line of help.
     pub fn doc(self) -> &'static str {
         match self {
             Self::Sobol => {

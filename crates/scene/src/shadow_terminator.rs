@@ -1,18 +1,19 @@
 /// Origin of shadow rays of smooth surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShadowTerminator {
-    /// On the triangle: its edges show where light grazes a coarse mesh.
+    /// Origin on the triangle: its edges show where light grazes a coarse mesh.
     #[default]
     None,
-    /// On the smooth shape that the normals of its vertices suggest, which also decides what faces a light.
+    /// Origin on the smooth shape that the normals of the vertices suggest. That shape also decides which
+    /// surfaces face a light.
     Offset,
 }
 
 impl ShadowTerminator {
-    /// Both.
+    /// Both choices.
     pub const ALL: [Self; 2] = [Self::None, Self::Offset];
 
-    /// Its name on the command line.
+    /// Name of the choice on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -20,7 +21,7 @@ impl ShadowTerminator {
         }
     }
 
-    /// Meaning, in one line of help.
+    /// Meaning of the choice, in one line of help.
     pub const fn doc(self) -> &'static str {
         match self {
             Self::None => "On the triangle: true to the mesh, whose edges show where light grazes it",

@@ -1,23 +1,23 @@
-//! Text from files, cut to the length that fits a message. Whoever writes it to a terminal escapes it.
+//! Text from files, cut to the length that fits a message. Code that writes it to a terminal must escape it.
 
 use std::fmt::Display;
 
-/// Longest text of a file that a message repeats, characters.
+/// Largest length of a file's text that a message repeats, characters.
 const LONGEST: usize = 160;
-/// Longest sentence, characters.
+/// Largest length of a sentence, characters.
 const LONGEST_SENTENCE: usize = 800;
 
-/// A name or value of a file, cut where it is long.
+/// Returns a name or value of a file, cut where it is long.
 pub fn shown(text: impl Display) -> String {
     cut(text.to_string(), LONGEST)
 }
 
-/// A sentence, cut where it is long.
+/// Returns a sentence, cut where it is long.
 pub fn sentence(text: impl Display) -> String {
     cut(text.to_string(), LONGEST_SENTENCE)
 }
 
-/// Message of the operating system, without its error number.
+/// Returns the message of the operating system, without its error number.
 pub fn reason(error: &std::io::Error) -> String {
     let whole = sentence(error);
     match whole.rfind(" (os error ") {

@@ -1,15 +1,15 @@
-//! When a time has come.
+//! Comparison of times in different precisions.
 //!
-//! Files hold times in single precision, and frames and command lines ask for them in double: frame 10 of 25
-//! per second is at 0.4000000059604645 s in a file and is asked for at 0.4 s. Both mean the same, so both
-//! meet here and nowhere else.
+//! Files hold times in single precision, and frames and command lines give them in double: frame 10 of 25 per
+//! second is at 0.4000000059604645 s in a file and is requested at 0.4 s. Both mean the same time, and this
+//! module alone compares them.
 
-/// Share by which a time may be off and is still the same: what single precision makes of a frame's number
-/// times the seconds of a frame, by which some exporters go: two roundings of half a unit in the last place
-/// each.
+/// Relative tolerance within which two times are equal: the error of a frame's number times the duration of a
+/// frame in single precision, as some exporters compute it, which is two roundings of half a unit in the last
+/// place each.
 const SAME: f64 = 1.0 / (1 << 22) as f64;
 
-/// True if a time that is asked for is that of a key, both in seconds.
+/// True if a requested time is that of a key, both in seconds.
 pub(crate) fn is_at(key: f64, seconds: f64) -> bool {
     (key - seconds).abs() <= SAME * key.abs()
 }
@@ -19,7 +19,7 @@ pub(crate) fn has_come(key: f64, seconds: f64) -> bool {
     key <= seconds || is_at(key, seconds)
 }
 
-/// The last frame that has begun, of those that begin at n / `fps`.
+/// Returns the number of the last frame that has begun, of frames that begin at n / `fps`.
 pub fn frame(seconds: f64, fps: f64) -> f64 {
     let nearest = (seconds * fps).round();
     if has_come(nearest / fps, seconds) { nearest } else { nearest - 1.0 }

@@ -5,6 +5,6 @@
 pub struct Warning {
     /// Stable word for tests and reports, such as `degenerate-triangles`.
     pub kind: &'static str,
-    /// One sentence: what, where, how many, what was done instead.
+    /// One sentence with the fault, its place, the number of cases, and the replacement.
     pub message: String,
 }

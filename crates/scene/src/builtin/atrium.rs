@@ -15,12 +15,12 @@ use crate::{Environment, Light, Material, Scene};
 /// Parameters of [`atrium`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Atrium {
-    /// Fineness of curved surfaces, in [0.25, 4]; triangles grow with its square.
+    /// Fineness of curved surfaces, in [0.25, 4]; the number of triangles grows with its square.
     pub detail: f64,
 }
 
 impl Atrium {
-    /// Fineness that can be asked for.
+    /// Valid range of [`Atrium::detail`].
     pub const DETAIL: RangeInclusive<f64> = 0.25..=4.0;
 }
 
@@ -54,9 +54,9 @@ const SCREEN: usize = 5;
 const BRASS: usize = 6;
 const PLASTER: usize = 7;
 
-/// A courtyard of 18 m by 8 m that is open to the sky, around it two storeys of columns and round
-/// arches before walks with walls, a tiled floor, a gallery with pierced screens (alpha masks),
-/// hanging drapes and brass lamps. A low sun shines in and a blue sky stands above. About 98,000
+/// Makes a courtyard of 18 m by 8 m that is open to the sky. Around it stand two storeys of columns and round
+/// arches before walks with walls, a tiled floor, a gallery with pierced screens (alpha masks), hanging
+/// drapes and brass lamps. A low sun shines in and a blue sky stands above. The scene has about 98,000
 /// triangles at detail 1; the camera stands in the courtyard.
 pub fn atrium(parameters: Atrium) -> Scene {
     let fineness = Fineness(parameters.detail.clamp(*Atrium::DETAIL.start(), *Atrium::DETAIL.end()));
@@ -122,7 +122,7 @@ fn at(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-/// The four sides of the courtyard: start, direction along the row, outward direction, bays.
+/// Returns the four sides of the courtyard: start, direction along the row, outward direction, bays.
 fn sides() -> [(DVec3, DVec3, DVec3, usize); 4] {
     let (x, z) = COURT;
     let bays = |half: f64| (2.0 * half / BAY).round() as usize;
@@ -134,7 +134,7 @@ fn sides() -> [(DVec3, DVec3, DVec3, usize); 4] {
     ]
 }
 
-/// Foot of each column, once around the courtyard.
+/// Returns the foot of each column, once around the courtyard.
 fn column_feet() -> Vec<DVec3> {
     let row = |(start, along, _, bays): (DVec3, DVec3, DVec3, usize)| {
         (0..bays).map(move |bay| start + along * (bay as f64 * BAY))
@@ -164,14 +164,14 @@ fn columns(shapes: &mut Shapes, ground: f64, fineness: Fineness) {
     }
 }
 
-/// A moulding: half a circle that bulges outwards around height `y`.
+/// Makes the profile of a moulding: half a circle that bulges outwards around height `y`.
 fn half_round(radius: f64, y: f64, bulge: f64, fineness: Fineness) -> Vec<(f64, f64)> {
     let steps = fineness.of(6.0, 2);
     let angle = |step: usize| -FRAC_PI_2 + PI * step as f64 / steps as f64;
     (0..=steps).map(|step| (radius + bulge * angle(step).cos(), y + bulge * angle(step).sin())).collect()
 }
 
-/// Walls with a round arch in each bay, from the capitals to the ceiling of the storey.
+/// Adds walls with a round arch in each bay, from the capitals to the ceiling of the storey.
 fn arcades(shapes: &mut Shapes, ground: f64, fineness: Fineness) {
     let steps = fineness.of(24.0, 6);
     let radius = BAY / 2.0 - 0.25;
@@ -198,7 +198,7 @@ fn arcades(shapes: &mut Shapes, ground: f64, fineness: Fineness) {
     }
 }
 
-/// The wall around one arch, seen from `normal`: from the arch out to the bay's rectangle.
+/// Adds the wall around one arch, seen from `normal`: from the arch out to the bay's rectangle.
 fn spandrel(
     shapes: &mut Shapes,
     middle: DVec3,
@@ -233,7 +233,7 @@ fn spandrel(
     }
 }
 
-/// Tiles under everything, one picture for two metres.
+/// Makes a tiled floor under the whole scene; one picture covers two metres.
 fn floor() -> crate::Mesh {
     let mut shapes = Shapes::new("floor", FLOOR);
     let (x, z) = WALL;
@@ -241,7 +241,8 @@ fn floor() -> crate::Mesh {
     shapes.finish()
 }
 
-/// Outer walls, fronts inwards, a parapet's height above the upper ceiling.
+/// Makes the outer walls. Their fronts face inwards, and they reach a parapet's height above the upper
+/// ceiling.
 fn walls() -> crate::Mesh {
     let mut shapes = Shapes::new("walls", PLASTER);
     let (x, z) = WALL;
@@ -257,7 +258,7 @@ fn walls() -> crate::Mesh {
     shapes.finish()
 }
 
-/// The slab between the storeys and the roof: rings between the outer walls and the courtyard.
+/// Makes the slab between the storeys and the roof: rings between the outer walls and the courtyard.
 fn gallery() -> crate::Mesh {
     let mut shapes = Shapes::new("gallery", STONE);
     let edge = ARCADE / 2.0 + 0.15;
@@ -278,7 +279,7 @@ fn gallery() -> crate::Mesh {
     shapes.finish()
 }
 
-/// Cloth in every second bay of the long sides, of each storey in turn.
+/// Makes drapes in every second bay of the long sides, in each storey by turns.
 fn drapes(name: &str, material: usize, turn: usize, fineness: Fineness) -> crate::Mesh {
     let mut shapes = Shapes::new(name, material);
     let (columns, rows) = (fineness.of(44.0, 10), fineness.of(32.0, 8));
@@ -292,7 +293,7 @@ fn drapes(name: &str, material: usize, turn: usize, fineness: Fineness) -> crate
                     - outward * (ARCADE / 2.0 + 0.25);
             let (half, drop) = (0.8, 2.1);
             let phase = bay as f64 * 1.3 + index as f64;
-            // Folds deepen downwards; the lower hem swings.
+            // Folds deepen downwards, and the lower hem swings.
             let place = |u: f64, v: f64| {
                 let down = 1.0 - v;
                 let fold = (0.03 + 0.09 * down) * (u * 9.0 * PI + phase).sin()
@@ -314,7 +315,7 @@ fn drapes(name: &str, material: usize, turn: usize, fineness: Fineness) -> crate
     shapes.finish()
 }
 
-/// Pierced screens along the edge of the gallery, between the upper columns.
+/// Makes pierced screens along the edge of the gallery, between the upper columns.
 fn screens() -> crate::Mesh {
     let mut shapes = Shapes::new("screens", SCREEN);
     for (start, along, _, bays) in sides() {
@@ -328,7 +329,7 @@ fn screens() -> crate::Mesh {
     shapes.finish()
 }
 
-/// Brass globes under the arches of the lower storey, and two urns in the courtyard.
+/// Makes brass globes under the arches of the lower storey, and two urns in the courtyard.
 fn lamps(fineness: Fineness) -> crate::Mesh {
     let mut shapes = Shapes::new("brass", BRASS);
     let unit = Icosphere::new(if fineness.0 < 0.6 {
@@ -352,7 +353,7 @@ fn lamps(fineness: Fineness) -> crate::Mesh {
             (belly.max(0.05), share)
         })
         .collect();
-    // A lid.
+    // The lid of the urn.
     profile.push((0.0, 1.0));
     for x in [-4.5, 4.5] {
         shapes.lathe(at(x, 0.0, 0.0), fineness.of(40.0, 12), &profile, DVec2::ONE);
@@ -360,7 +361,8 @@ fn lamps(fineness: Fineness) -> crate::Mesh {
     shapes.finish()
 }
 
-/// Blue above, bright at the horizon, dim ground below, times `brightness`; the sun is a light of its own.
+/// Makes the sky: blue above, bright at the horizon, dim ground below, times `brightness`. The sun is a
+/// separate light.
 pub(super) fn sky(brightness: f32) -> Environment {
     let (width, height) = (32_u32, 32_u32);
     let mut radiance = Vec::with_capacity((width * height) as usize);

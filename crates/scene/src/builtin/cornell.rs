@@ -13,9 +13,9 @@ const HEIGHT: f64 = 0.5488;
 /// Depth of the room, metres; it reaches from z = -DEPTH to the open front at z = 0.
 const DEPTH: f64 = 0.5592;
 
-/// The Cornell box at its measured size of about half a metre, open at z = 0 where the camera looks
-/// in along -z. All surfaces are Lambertian. Room and light together form a surface whose only
-/// border is the open front. The blocks stand on the floor and have no bottom.
+/// Makes the Cornell box at its measured size of about half a metre, open at z = 0 where the camera looks in
+/// along -z. All surfaces are Lambertian. Room and light together form a surface whose only border is the
+/// open front. The blocks stand on the floor and have no bottom.
 pub fn cornell() -> Scene {
     let materials = vec![
         diffuse("white", [0.725, 0.71, 0.68]),
@@ -46,7 +46,7 @@ pub fn cornell() -> Scene {
     }
 }
 
-/// A Lambertian material: no metal, no specular reflection.
+/// Makes a Lambertian material: no metal, no specular reflection.
 pub(super) fn diffuse(name: &str, [red, green, blue]: [f32; 3]) -> Material {
     Material {
         name: name.to_owned(),
@@ -58,7 +58,7 @@ pub(super) fn diffuse(name: &str, [red, green, blue]: [f32; 3]) -> Material {
     }
 }
 
-/// One instance for each mesh, at the origin, in order.
+/// Makes one instance of each mesh, at the origin, in order.
 pub(super) fn place_each(meshes: &[Mesh]) -> Vec<Instance> {
     let place = |(index, mesh): (usize, &Mesh)| Instance {
         name: mesh.name.clone(),
@@ -72,7 +72,7 @@ fn at(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-/// Corners of the light, which are the corners of the hole, counter-clockwise from below.
+/// Returns the corners of the light, which are the corners of the hole, counter-clockwise from below.
 fn light_corners() -> [DVec3; 4] {
     let (x, near, far) = (0.065, -0.227, -0.332);
     [at(-x, HEIGHT, near), at(-x, HEIGHT, far), at(x, HEIGHT, far), at(x, HEIGHT, near)]
@@ -96,7 +96,7 @@ fn room() -> Mesh {
 
 fn wall(name: &str, material: usize, x: f64) -> Mesh {
     let mut shapes = Shapes::new(name, material);
-    // Bottom left first as seen from inside.
+    // The first corner is the bottom left one as seen from inside.
     let (left, right) = if x < 0.0 { (0.0, -DEPTH) } else { (-DEPTH, 0.0) };
     shapes.quad([at(x, 0.0, left), at(x, 0.0, right), at(x, HEIGHT, right), at(x, HEIGHT, left)], DVec2::ONE);
     shapes.finish()
@@ -108,7 +108,7 @@ fn light() -> Mesh {
     shapes.finish()
 }
 
-/// A block over a footprint given as (metres from the right wall, metres from the front).
+/// Makes a block over a footprint given as (metres from the right wall, metres from the front).
 fn block(name: &str, footprint: [(f64, f64); 4], height: f64) -> Mesh {
     let mut shapes = Shapes::new(name, 0);
     let corner = |index: usize, y: f64| {
@@ -116,7 +116,7 @@ fn block(name: &str, footprint: [(f64, f64); 4], height: f64) -> Mesh {
         at(HALF_WIDTH - from_right, y, -from_front)
     };
     let top = [3, 2, 1, 0].map(|index| corner(index, height));
-    // The footprints run one way round; whichever it is, the top faces up.
+    // Footprints may run clockwise or counter-clockwise; in both cases the top faces up.
     let up = (top[1] - top[0]).cross(top[2] - top[0]).y > 0.0;
     let order: [usize; 5] = if up { [3, 2, 1, 0, 3] } else { [0, 1, 2, 3, 0] };
     shapes.quad([order[0], order[1], order[2], order[3]].map(|index| corner(index, height)), DVec2::ONE);
@@ -143,7 +143,7 @@ mod tests {
         for (x, y) in [(-HALF_WIDTH, 0.0), (HALF_WIDTH, 0.0), (-HALF_WIDTH, HEIGHT), (HALF_WIDTH, HEIGHT)] {
             let seen = view.transform_point3(at(x, y, 0.0));
             let half = -seen.z * (0.5 * f64::from(fov_y)).tan();
-            // Corners of the opening lie within the frame, and less than one part in twenty from its edge.
+            // Corners of the opening lie inside the picture, less than one part in twenty from its edge.
             for share in [seen.x.abs() / (half * width / height), seen.y.abs() / half] {
                 assert!((0.95..1.0).contains(&share), "{x} {y}: {share}");
             }

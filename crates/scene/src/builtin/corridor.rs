@@ -17,7 +17,7 @@ const HEIGHT: f64 = 3.0;
 pub struct Corridor {
     /// Reflectance of the mirrors, in [0, 1].
     pub reflectance: f32,
-    /// Distance of the mirrors, metres, in [0.5, 50].
+    /// Distance between the mirrors, metres, in [0.5, 50].
     pub width: f64,
 }
 
@@ -27,9 +27,9 @@ impl Default for Corridor {
     }
 }
 
-/// A closed corridor along z. The walls at x = -width/2 and x = width/2 are perfect mirrors; floor,
-/// ceiling and ends are Lambertian, a strip of the ceiling glows, and a sphere stands on the floor.
-/// A path that hits k mirrors is dimmed by reflectance^k. The camera looks into a mirror at a slant.
+/// Makes a closed corridor along z. The walls at x = -width/2 and x = width/2 are perfect mirrors; floor,
+/// ceiling and ends are Lambertian, a strip of the ceiling glows, and a sphere stands on the floor. A path
+/// that hits k mirrors is dimmed by reflectance^k. The camera looks into a mirror at a slant.
 pub fn corridor(parameters: Corridor) -> Scene {
     let Corridor { reflectance, width } = parameters;
     let half = width / 2.0;
@@ -59,7 +59,7 @@ pub fn corridor(parameters: Corridor) -> Scene {
     );
     plaster
         .quad([at(half, 0.0, end), at(-half, 0.0, end), at(-half, HEIGHT, end), at(half, HEIGHT, end)], once);
-    // The ceiling leaves the lamp's place free and shares its edges.
+    // The ceiling leaves a hole for the lamp and shares its edges.
     let ring = |x: f64, z: f64| [at(-x, HEIGHT, z), at(-x, HEIGHT, -z), at(x, HEIGHT, -z), at(x, HEIGHT, z)];
     let (outer, inner) = (ring(half, end), ring(half * 0.3, end * 0.5));
     for side in 0..4 {
@@ -72,7 +72,7 @@ pub fn corridor(parameters: Corridor) -> Scene {
 
     let radius = (half * 0.4).min(0.5);
     let mut sphere = Shapes::new("sphere", 3);
-    // A little above the floor: resting on it, its lowest vertex would lie in the floor's plane.
+    // The sphere hovers a little above the floor: its lowest vertex would otherwise lie in the floor's plane.
     sphere.sphere(&Icosphere::new(3), at(0.15 * half, radius * 1.02, -0.5), radius, false);
 
     let meshes = vec![mirrors.finish(), plaster.finish(), lamp.finish(), sphere.finish()];

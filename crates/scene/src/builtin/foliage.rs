@@ -1,4 +1,4 @@
-//! Trees and grass: leaves that are slivers smaller than a pixel.
+//! Trees and grass whose leaves are slivers smaller than a pixel.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -18,14 +18,15 @@ use crate::{Animation, Light, Material, Mesh, Scene, SceneError};
 /// Parameters of [`foliage`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Foliage {
-    /// Leaves of the trees and blades of grass, within [`Foliage::LEAVES`].
+    /// Number of leaves of the trees and blades of grass, within [`Foliage::LEAVES`].
     pub leaves: u64,
-    /// True if a leaf of a tree is a square card with an alpha mask instead of its outline in triangles.
+    /// True if each leaf of a tree is a square card with an alpha mask; false if it is an outline of
+    /// triangles.
     pub cards: bool,
 }
 
 impl Foliage {
-    /// Numbers of leaves that can be asked for.
+    /// Valid range of [`Foliage::leaves`].
     pub const LEAVES: RangeInclusive<u64> = 1_000..=1_000_000;
 }
 
@@ -35,20 +36,20 @@ impl Default for Foliage {
     }
 }
 
-/// Half the side of the ground, metres: near its border it rises over the horizon of the camera.
+/// Half the side of the ground, metres. Near its border the ground rises over the horizon of the camera.
 const GROUND: f64 = 20.0;
 /// Distance from the middle at which the ground begins to rise, and height of its border, metres.
 const RISE: (f64, f64) = (12.5, 2.4);
-/// Seed of everything that grows.
+/// Seed of all plants.
 const SEED: u64 = 0x5EED_0008;
-/// Seconds of wind.
+/// Duration of the wind, seconds.
 const DURATION: f64 = 8.0;
 /// Foot and height of each tree, metres.
 const TREES: [(f64, f64, f64); 5] =
     [(0.3, 0.0, 6.2), (-3.9, -2.6, 5.0), (4.2, -3.4, 5.6), (-7.6, -7.5, 6.8), (9.0, -9.0, 6.4)];
 /// Area of the grass: middle and half the extent, metres.
 const MEADOW: (f64, f64, f64, f64) = (0.0, 1.2, 7.0, 5.2);
-/// One of so many is a blade of grass.
+/// Period of blades of grass: one of so many leaves is a blade of grass.
 const GRASS_SHARE: u64 = 3;
 
 const EARTH: usize = 0;
@@ -56,13 +57,13 @@ const BARK: usize = 1;
 const LEAF: usize = 2;
 const GRASS: usize = 3;
 
-/// Meshes that the wind moves: leaves and grass.
+/// Indices of the meshes that the wind moves: leaves and grass.
 const MOVING: [usize; 2] = [2, 3];
 
-/// Five trees and a meadow in a hollow, in a wind ([`Scene::at`]). Two thirds of the leaves asked for are on
-/// the trees, each a folded outline of six triangles, or a card of two with an alpha mask; the others are
-/// blades of grass of five. More than half of these triangles are narrower than a pixel of a picture of 640
-/// by 360.
+/// Makes five trees and a meadow in a hollow, in a wind ([`Scene::at`]). Two thirds of the leaves asked for
+/// are on the trees, each a folded outline of six triangles, or a card of two with an alpha mask; the others
+/// are blades of grass of five triangles. More than half of these triangles are narrower than a pixel of a
+/// picture of 640 by 360.
 pub fn foliage(parameters: Foliage) -> Scene {
     let leaves = parameters.leaves.clamp(*Foliage::LEAVES.start(), *Foliage::LEAVES.end());
     let plants = Plants::grow(leaves, parameters.cards);
@@ -126,38 +127,38 @@ pub fn foliage(parameters: Foliage) -> Scene {
     }
 }
 
-/// Quads along a side of the ground.
+/// Number of quads along a side of the ground.
 const GROUND_GRID: usize = 64;
 
-/// The ground over (u, v) in [0, 1]^2: level in the middle.
+/// Returns a point of the ground over (u, v) in [0, 1]^2; the ground is level in the middle.
 fn hollow(u: f64, v: f64) -> DVec3 {
     let (x, z) = (GROUND * (2.0 * u - 1.0), GROUND * (1.0 - 2.0 * v));
     let out = (((x * x + z * z).sqrt() - RISE.0) / (GROUND - RISE.0)).clamp(0.0, 1.0);
     DVec3::new(x, RISE.1 * out * out * (3.0 - 2.0 * out), z)
 }
 
-/// A branch: where it goes, and its radius at its foot, metres.
+/// Branch of a tree: its course, and its radius at its foot, metres.
 #[derive(Debug)]
 struct Limb {
     path: Vec<DVec3>,
     radius: f64,
 }
 
-/// A leaf or a blade at rest.
+/// Leaf or blade of grass at rest.
 #[derive(Clone, Copy, Debug)]
 struct Blade {
     foot: DVec3,
-    /// From foot to tip, metres.
+    /// Vector from foot to tip, metres.
     long: DVec3,
-    /// Half the width, metres, across `long`.
+    /// Half the width as a vector across `long`, metres.
     wide: DVec3,
-    /// Distances that the wind moves its foot and its tip, metres.
+    /// Distances by which the wind moves the foot and the tip, metres.
     give: [f64; 2],
-    /// Phase of its flutter, as a share of a turn.
+    /// Phase of the flutter, as a share of a turn.
     phase: f64,
 }
 
-/// Everything that grows.
+/// Limbs, leaves and grass of the scene.
 #[derive(Debug)]
 struct Plants {
     limbs: Vec<Limb>,
@@ -176,7 +177,7 @@ impl Plants {
             plants.branch(&mut random, &mut twigs, (foot, DVec3::Y), height * 0.45, 0.034 * height, 0);
         }
         let grass = leaves / GRASS_SHARE;
-        // Larger leaves where there are few, so that trees are as dense to the eye.
+        // Few leaves are larger ones, so that trees look as dense.
         let size = (40_000.0 / leaves as f64).sqrt().clamp(0.35, 3.0);
         for index in 0..leaves - grass {
             let (from, to) = twigs[index as usize % twigs.len()];
@@ -188,7 +189,7 @@ impl Plants {
         plants
     }
 
-    /// A limb and what grows from it; the last ones are twigs.
+    /// Grows a limb and its children; the last ones are twigs.
     fn branch(
         &mut self,
         random: &mut Random,
@@ -214,7 +215,7 @@ impl Plants {
             let count = [7, 4, 4, 3][depth as usize];
             let spin = random.unit();
             for child in 0..count {
-                // Along the outer part of the limb, around it by golden angles.
+                // Children sit along the outer part of the limb, around it by golden angles.
                 let share = 0.45 + 0.55 * f64::from(child) / f64::from(count - 1);
                 let place = share * 5.0;
                 let low = (place as usize).min(4);
@@ -232,7 +233,7 @@ impl Plants {
         self.limbs.push(Limb { path, radius });
     }
 
-    /// Leaves and grass, seconds into the wind.
+    /// Makes leaves and grass after the given seconds of wind.
     fn meshes_at(&self, seconds: f64) -> [Mesh; 2] {
         let mut leaves = Shapes::new("leaves", LEAF);
         for blade in &self.leaves {
@@ -269,7 +270,8 @@ impl Deformer for Plants {
 }
 
 impl Blade {
-    /// Gusts that cross the meadow, and a flutter of its own. The wind begins at 0 s and ends where it began.
+    /// Moves the blade by gusts that cross the meadow and by a flutter of its own. The wind begins at 0 s and
+    /// ends where it began.
     fn in_wind(self, seconds: f64) -> Self {
         let gust = |rate: f64, reach: f64| {
             let place = (self.foot.x + 0.4 * self.foot.z) / reach;
@@ -281,13 +283,13 @@ impl Blade {
         let foot = self.foot + toward * (self.give[0] * sway);
         let shift = toward * ((self.give[1] - self.give[0]) * sway)
             + self.wide.normalize().cross(self.long).normalize() * (0.25 * self.give[1] * flutter);
-        // As long as before.
+        // The length stays.
         let long = (self.long + shift).normalize() * self.long.length();
         Self { foot, long, ..self }
     }
 }
 
-/// A leaf of 12 to 19 cm beside a twig, hanging a little.
+/// Makes a leaf of 12 to 19 cm beside a twig; it hangs a little.
 fn leaf_at(random: &mut Random, from: DVec3, to: DVec3, size: f64) -> Blade {
     let foot = from.lerp(to, random.unit());
     let side = DVec3::new(random.signed(), random.signed(), random.signed()).normalize_or(DVec3::X);
@@ -304,7 +306,7 @@ fn leaf_at(random: &mut Random, from: DVec3, to: DVec3, size: f64) -> Blade {
     }
 }
 
-/// A blade of grass of 10 to 45 cm.
+/// Makes a blade of grass of 10 to 45 cm.
 fn blade_at(random: &mut Random, size: f64) -> Blade {
     let (x, z, half_x, half_z) = MEADOW;
     let foot = DVec3::new(x + half_x * random.signed(), 0.0, z + half_z * random.signed());
@@ -316,7 +318,7 @@ fn blade_at(random: &mut Random, size: f64) -> Blade {
     Blade { foot, long, wide, give: [0.0, 0.25 * length], phase: random.unit() }
 }
 
-/// Two halves folded along the middle rib, three triangles each.
+/// Adds a leaf of two halves folded along the middle rib, three triangles each.
 fn outline(shapes: &mut Shapes, blade: Blade) {
     let Blade { foot, long, wide, .. } = blade;
     let up = wide.cross(long).normalize() * (0.35 * wide.length());
@@ -330,7 +332,7 @@ fn outline(shapes: &mut Shapes, blade: Blade) {
     }
 }
 
-/// A square with the picture of a leaf.
+/// Adds a square with the picture of a leaf.
 fn card(shapes: &mut Shapes, blade: Blade) {
     let Blade { foot, long, wide, .. } = blade;
     let normal = wide.cross(long).normalize();
@@ -342,7 +344,7 @@ fn card(shapes: &mut Shapes, blade: Blade) {
     shapes.triangle([corners[0], corners[2], corners[3]]);
 }
 
-/// A blade that bends over: two quads and a tip.
+/// Adds a blade that bends over: two quads and a tip.
 fn bent(shapes: &mut Shapes, blade: Blade) {
     let Blade { foot, long, wide, .. } = blade;
     let sag = DVec3::new(long.x, -0.35 * long.length(), long.z);
@@ -358,7 +360,7 @@ fn bent(shapes: &mut Shapes, blade: Blade) {
     flat(shapes, [high[0], high[1], at(1.0, 0.0)], true);
 }
 
-/// A triangle with its own normal, in order or against it.
+/// Adds a triangle with its own normal, in the order of the corners or the opposite one.
 fn flat(shapes: &mut Shapes, corners: [DVec3; 3], in_order: bool) {
     let [a, b, c] = if in_order { corners } else { [corners[0], corners[2], corners[1]] };
     let normal = (b - a).cross(c - a).normalize_or(DVec3::Y);

@@ -1,6 +1,6 @@
-//! Closed forms that things in scenes are made of: turned, swept, cut from a block, folded.
+//! Closed forms that objects in scenes are made of: turned, swept, cut from a block, folded.
 //!
-//! Arithmetic is additions, multiplications, divisions and square roots in f64 alone, so the bits are the
+//! The arithmetic is additions, multiplications, divisions and square roots in f64 alone, so the bits are the
 //! same on every machine.
 
 use std::f64::consts::TAU;
@@ -18,14 +18,14 @@ const CREASE: f64 = 0.766;
 pub(super) struct Fineness(pub f64);
 
 impl Fineness {
-    /// `count` at detail 1, never below `least`.
+    /// Returns the number of divisions that is `count` at detail 1, and never below `least`.
     pub fn of(self, count: f64, least: usize) -> usize {
         ((count * self.0).round() as usize).max(least)
     }
 }
 
-/// Sine and cosine of a share of a full turn, within 2^-51; the same bits everywhere, which a mathematics
-/// library's are not.
+/// Returns sine and cosine of a share of a full turn, within 2^-51. The bits are the same everywhere, unlike
+/// those of mathematics libraries.
 pub(super) fn turn(share: f64) -> (f64, f64) {
     let quarter = (4.0 * share).round();
     let angle = (share - quarter / 4.0) * TAU;
@@ -44,7 +44,7 @@ pub(super) fn turn(share: f64) -> (f64, f64) {
     }
 }
 
-/// A smooth curve (Catmull-Rom) through all `points`, with `steps` steps from each to the next.
+/// Makes a smooth curve (Catmull-Rom) through all `points`, with `steps` steps from each to the next.
 pub(super) fn curve<P>(points: &[P], steps: usize) -> Vec<P>
 where
     P: Copy + Add<Output = P> + Sub<Output = P> + Mul<f64, Output = P>,
@@ -53,7 +53,7 @@ where
     let mut along = Vec::with_capacity(points.len() * steps);
     for gap in 0..points.len() - 1 {
         let (a, b) = (points[gap], points[gap + 1]);
-        // Beyond the ends the curve goes on as it is there.
+        // The curve continues straight beyond its ends.
         let before = if gap > 0 { points[gap - 1] } else { a + a - b };
         let after = points.get(gap + 2).copied().unwrap_or(b + b - a);
         let (leave, arrive) = ((b - before) * 0.5, (after - a) * 0.5);
@@ -72,8 +72,8 @@ where
     along
 }
 
-/// An arc of a profile around `centre`, from one share of a turn to another; 0 points along +x, 0.25 along
-/// +y.
+/// Makes an arc of a profile around `centre`, from one share of a turn to another; 0 points along +x, 0.25
+/// along +y.
 pub(super) fn arc(centre: DVec2, radius: f64, from: f64, to: f64, steps: usize) -> Vec<DVec2> {
     let at = |step: usize| {
         let (sin, cos) = turn(from + (to - from) * step as f64 / steps as f64);
@@ -82,18 +82,18 @@ pub(super) fn arc(centre: DVec2, radius: f64, from: f64, to: f64, steps: usize) 
     (0..=steps).map(at).collect()
 }
 
-/// A rotation about the y axis by a share of a turn, from +z towards +x.
+/// Makes a rotation about the y axis by a share of a turn, from +z towards +x.
 pub(super) fn about_y(share: f64) -> DMat3 {
     let (sin, cos) = turn(share);
     DMat3::from_cols(DVec3::new(cos, 0.0, -sin), DVec3::Y, DVec3::new(sin, 0.0, cos))
 }
 
-/// Standing at `foot`, turned about the vertical by a share of a turn.
+/// Makes the placement of a form that stands at `foot`, turned about the vertical by a share of a turn.
 pub(super) fn standing(foot: DVec3, share: f64) -> DAffine3 {
     DAffine3::from_mat3_translation(about_y(share), foot)
 }
 
-/// Rigid, with the y axis of the form along `axis` (any length).
+/// Makes a rigid placement with the y axis of the form along `axis` (any length).
 pub(super) fn along(axis: DVec3, origin: DVec3) -> DAffine3 {
     let y = axis.normalize_or(DVec3::Y);
     let x = if y.x.abs() < 0.7 { DVec3::X } else { DVec3::Z };
@@ -102,9 +102,10 @@ pub(super) fn along(axis: DVec3, origin: DVec3) -> DAffine3 {
 }
 
 impl Shapes {
-    /// A surface of revolution about the y axis of `place`. `profile` lists (radius, height) so that the
-    /// front is to the right: upwards on the outside. It is smooth but for edges of more than 40 degrees, and
-    /// closed where the profile begins and ends on the axis, or ends where it began.
+    /// Adds a surface of revolution about the y axis of `place`. `profile` lists (radius, height) so that the
+    /// front is to the right: a profile that runs upwards has its front outside. The surface is smooth but
+    /// for edges of more than 40 degrees, and closed where the profile begins and ends on the axis, or ends
+    /// where it began.
     pub fn revolve(&mut self, place: DAffine3, segments: usize, profile: &[DVec2], repeat: DVec2) {
         let steps = profile.len() - 1;
         let across: Vec<DVec2> = profile
@@ -160,8 +161,8 @@ impl Shapes {
         }
     }
 
-    /// A closed tube along `path`; `radius` is told the share of the points that is behind. A radius of 0 at
-    /// an end is a tip, any other is closed by a flat disc.
+    /// Adds a closed tube along `path`; `radius` gets the share of the points that lies behind. A radius of 0
+    /// at an end makes a tip, any other is closed by a flat disc.
     pub fn tube(&mut self, path: &[DVec3], segments: usize, radius: impl Fn(f64) -> f64, repeat: DVec2) {
         let last = path.len() - 1;
         let tangent =
@@ -170,7 +171,7 @@ impl Shapes {
         let mut rings = Vec::with_capacity(path.len());
         for (point, &middle) in path.iter().enumerate() {
             let ahead = tangent(point);
-            // The frame turns no more than it must.
+            // The frame is turned as little as possible.
             side = (side - ahead * side.dot(ahead)).normalize_or(along(ahead, DVec3::ZERO).matrix3.x_axis);
             rings.push((middle, side, ahead.cross(side), radius(point as f64 / last as f64)));
         }
@@ -219,7 +220,7 @@ impl Shapes {
         }
     }
 
-    /// A closed block around the origin of `place` with its edges cut off over `bevel` metres and shaded
+    /// Adds a closed block around the origin of `place` with its edges cut off over `bevel` metres and shaded
     /// round. Texture coordinates grow by `repeat` per metre, u along the longer side of a face.
     pub fn block_with_bevel(&mut self, place: DAffine3, half: DVec3, bevel: f64, repeat: f64) {
         let normal_from_form = place.matrix3.inverse().transpose();
@@ -266,7 +267,7 @@ impl Shapes {
         }
     }
 
-    /// A convex polygon in order, or against it.
+    /// Adds a convex polygon, in the order of the corners or the opposite one.
     fn flat(&mut self, corners: &[u32], in_order: bool) {
         for pair in corners[1..].windows(2) {
             self.triangle(if in_order {
@@ -277,9 +278,9 @@ impl Shapes {
         }
     }
 
-    /// A closed solid between two surfaces over (u, v) in [0, 1]^2, `columns` by `rows` quads each: cloth
-    /// with its thickness, or water over its ground. The front of `top` is on the side of d/du x d/dv; where
-    /// both meet on the border there is no wall between.
+    /// Adds a closed solid between two surfaces over (u, v) in [0, 1]^2, `columns` by `rows` quads each:
+    /// cloth with its thickness, or water over its ground. The front of `top` is on the side of d/du x d/dv;
+    /// where both surfaces meet on the border there is no wall between.
     pub fn between(
         &mut self,
         columns: usize,
@@ -315,7 +316,7 @@ impl Shapes {
                 self.flat(&corners, facing > 0.0);
             }
         }
-        // Once around, counter-clockwise seen from the front of the top.
+        // The border once around, counter-clockwise seen from the front of the top.
         let border: Vec<usize> = (0..columns)
             .map(|column| at(column, 0))
             .chain((0..rows).map(|row| at(columns, row)))
@@ -336,7 +337,7 @@ impl Shapes {
         }
     }
 
-    /// A closed surface as [`super::solid::surface`] makes it.
+    /// Adds a closed surface as [`super::solid::surface`] makes it.
     pub fn solid(&mut self, solid: super::solid::Surface, repeat: f64) {
         let first: Vec<u32> = solid
             .positions

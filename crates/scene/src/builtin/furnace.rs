@@ -1,4 +1,4 @@
-//! A closed room whose walls all glow and reflect alike: the radiance everywhere is known.
+//! A closed room whose walls all emit and reflect alike, so that the radiance everywhere is known.
 
 use glam::DVec3;
 
@@ -34,8 +34,8 @@ impl Default for Furnace {
     }
 }
 
-/// A closed Lambertian room around the camera, fronts inwards. With emission E and albedo a, a path
-/// of at most n scatterings sees E (1 - a^(n+1)) / (1 - a) in every direction.
+/// Makes a closed Lambertian room around the camera, with fronts inwards. With emission E and albedo a, a
+/// path of at most n scatterings sees E (1 - a^(n+1)) / (1 - a) in every direction.
 ///
 /// Normals are those of the triangles, so the law holds for the sphere's facets exactly.
 /// The camera stands away from the centre, so that no symmetry of the room sends its rays through
@@ -46,10 +46,10 @@ pub fn furnace(parameters: Furnace) -> Scene {
     let mut shapes = Shapes::new("wall", 0);
     match shape {
         FurnaceShape::Sphere => shapes.sphere(&Icosphere::new(3), DVec3::ZERO, 1.0, true),
-        // Corners swapped: what was outside is inside.
+        // Swapped corners turn the block inside out.
         FurnaceShape::Box => shapes.block(DVec3::ONE, DVec3::NEG_ONE, [true; 6], 0.5),
     }
-    // Flat: an interpolated normal would send some light through the wall, and energy would be lost.
+    // Flat shading: an interpolated normal would send some light through the wall, and energy would be lost.
     let meshes = vec![Mesh { normals: None, ..shapes.finish() }];
     let eye = DVec3::new(0.11, 0.07, 0.23);
     let camera = camera_looking_at("camera", eye, DVec3::new(-0.4, 0.19, -0.9), 1.0);

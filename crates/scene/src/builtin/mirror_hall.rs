@@ -1,4 +1,4 @@
-//! A hall in which a given share of what the camera sees is mirrors.
+//! A hall in which mirrors cover a given share of the picture.
 
 use glam::{DVec2, DVec3};
 
@@ -10,19 +10,19 @@ use crate::{Camera, Material, Mesh, Scene};
 
 /// Half the width of the hall, metres.
 const HALF: f64 = 6.0;
-/// Ends of the hall along z, metres: the far one, which is looked at, and the one behind the camera.
+/// Ends of the hall along z, metres: the far end, which the camera looks at, and the end behind the camera.
 const ENDS: (f64, f64) = (-16.0, 14.0);
 /// Height of the hall, metres.
 const HEIGHT: f64 = 8.0;
 /// Length of a bay, metres.
 const BAY: f64 = 3.0;
-/// Distance of a row of columns from the middle, metres.
+/// Distance from a row of columns to the middle, metres.
 const ROW: f64 = 3.9;
 /// Half the width of the glass roof, metres.
 const GLASS: f64 = 1.5;
 /// Half the size of a pane, metres.
 const PANE: DVec3 = DVec3::new(0.235, 0.285, 0.012);
-/// Picture in which pixels are counted.
+/// Size of the picture in which pixels are counted.
 const COUNTED: [u32; 2] = [240, 135];
 
 const PLASTER: usize = 0;
@@ -39,12 +39,12 @@ const MIRROR: usize = 9;
 /// Parameters of [`mirror_hall`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MirrorHall {
-    /// Share of the pixels of the scene's camera that show a mirror first, percent, in [0, 80].
+    /// Share of the pixels of the scene's camera that show a mirror at the first hit, percent, in [0, 80].
     pub share: f64,
 }
 
 impl MirrorHall {
-    /// Shares that can be asked for, percent.
+    /// Valid range of [`MirrorHall::share`], percent.
     pub const SHARE: std::ops::RangeInclusive<f64> = 0.0..=80.0;
 }
 
@@ -54,11 +54,11 @@ impl Default for MirrorHall {
     }
 }
 
-/// A hall of 12 m by 30 m between two rows of fluted columns, under a roof of glass. In a 16:9 picture of its
-/// camera the given share of the pixels shows a perfect mirror first, within a quarter of a percentage point.
-/// Parts become mirrors one after the other: the panes of the walls, the balls, the panes of the far end, the
-/// dark tiles, the light ones, columns, ceiling, and what is between. All other surfaces are Lambertian and
-/// without specular reflection; the same triangles are there at every share.
+/// Makes a hall of 12 m by 30 m between two rows of fluted columns, under a roof of glass. In a 16:9 picture
+/// of its camera the given share of the pixels shows a perfect mirror at the first hit, within a quarter of a
+/// percentage point. Parts become mirrors one after the other: the panes of the walls, the balls, the panes
+/// of the far end, the dark tiles, the light ones, columns, ceiling, and what is between. All other surfaces
+/// are Lambertian and without specular reflection; the scene has the same triangles at every share.
 pub fn mirror_hall(parameters: MirrorHall) -> Scene {
     let share = parameters.share.clamp(*MirrorHall::SHARE.start(), *MirrorHall::SHARE.end());
     let materials = vec![
@@ -97,8 +97,9 @@ pub fn mirror_hall(parameters: MirrorHall) -> Scene {
     }
 }
 
-/// Candidates that are mirrors: in order, up to the first that shows more pixels than are still wanted; then
-/// those that fill the rest. What the camera does not see is so as what comes before it.
+/// Chooses the candidates that are mirrors: all in order up to the first that shows more pixels than are
+/// still wanted, then those that fill the rest. A candidate that the camera does not see is treated like the
+/// one before it.
 fn choose(candidates: &[Shapes], fixed: &[Shapes], camera: &Camera, share: f64) -> Vec<bool> {
     let meshes: Vec<Mesh> = candidates.iter().chain(fixed).cloned().map(Shapes::finish).collect();
     let scene = Scene { instances: place_each(&meshes), meshes, ..Scene::default() };
@@ -117,7 +118,7 @@ fn choose(candidates: &[Shapes], fixed: &[Shapes], camera: &Camera, share: f64) 
     pixels[..candidates.len()].iter().map(&mut take).collect()
 }
 
-/// Parts that can be mirrors, in the order in which they become mirrors, and those that cannot.
+/// Makes the parts that can be mirrors, in the order in which they become mirrors, and the parts that cannot.
 fn parts() -> (Vec<Shapes>, Vec<Shapes>) {
     let mut parts = Vec::new();
     wall_panes(&mut parts);
@@ -157,17 +158,17 @@ fn block(parts: &mut Vec<Shapes>, material: usize, middle: DVec3, half: DVec3, b
     part(parts, material, |shapes| shapes.block_with_bevel(standing(middle, 0.0), half, bevel, 1.0));
 }
 
-/// Middles of the bays along z, from the far one.
+/// Iterates over the middles of the bays along z, from the far one.
 fn bays() -> impl Iterator<Item = f64> {
     (0..10).map(|bay| ENDS.0 + (f64::from(bay) + 0.5) * BAY)
 }
 
-/// Places of columns along z.
+/// Iterates over the positions of columns along z.
 fn column_places() -> impl Iterator<Item = f64> {
     (1..9).map(|bay| ENDS.0 + f64::from(bay) * BAY)
 }
 
-/// Four by eight panes with cut edges in each bay of the long walls.
+/// Adds four by eight panes with cut edges in each bay of the long walls.
 fn wall_panes(parts: &mut Vec<Shapes>) {
     for (z, side) in bays().flat_map(|z| [(z, -1.0), (z, 1.0)]) {
         for pane in 0..32 {
@@ -178,13 +179,14 @@ fn wall_panes(parts: &mut Vec<Shapes>) {
     }
 }
 
-/// Balls on the floor, and urns on pedestals between the columns.
+/// Adds balls on the floor, and urns on pedestals between the columns.
 fn balls(parts: &mut Vec<Shapes>) {
     let unit = Icosphere::new(4);
     for (x, z, radius) in
         [(0.9, -12.0, 0.8), (-1.1, -8.5, 0.65), (1.2, -4.0, 0.6), (-1.3, 1.5, 0.55), (1.0, 4.6, 0.4)]
     {
-        // A little above the floor: resting on it, its lowest vertex would lie in the floor's plane.
+        // The ball hovers a little above the floor: its lowest vertex would otherwise lie in the floor's
+        // plane.
         let middle = DVec3::new(x, 1.001 * radius, z);
         part(parts, RED, |shapes| shapes.sphere(&unit, middle, radius, false));
     }
@@ -217,12 +219,12 @@ fn balls(parts: &mut Vec<Shapes>) {
     }
 }
 
-/// The profile of a closed vessel: nothing beyond the axis.
+/// Moves the profile of a closed vessel so that nothing lies beyond the axis.
 fn on_axis(profile: &[DVec2]) -> Vec<DVec2> {
     profile.iter().map(|point| DVec2::new(point.x.max(0.0), point.y)).collect()
 }
 
-/// Panes all over the far end.
+/// Adds panes all over the far end.
 fn end_panes(parts: &mut Vec<Shapes>) {
     for pane in 0..20 * 10 {
         let (across, up) = (f64::from(pane % 20) - 9.5, f64::from(pane / 20));
@@ -231,7 +233,7 @@ fn end_panes(parts: &mut Vec<Shapes>) {
     }
 }
 
-/// Square metres of the floor, of one of its two colours, from the far end.
+/// Adds the square metres of the floor that have one of its two colours, from the far end.
 fn tiles(parts: &mut Vec<Shapes>, dark: bool) {
     let material = if dark { DARK } else { LIGHT };
     for (row, column) in (0..30).flat_map(|row| (0..12).map(move |column| (row, column))) {
@@ -244,7 +246,7 @@ fn tiles(parts: &mut Vec<Shapes>, dark: bool) {
     }
 }
 
-/// Base, fluted shaft, capital, and the plate that carries the beam.
+/// Adds a column: base, fluted shaft, capital, and the plate that carries the beam.
 fn column(parts: &mut Vec<Shapes>, foot: DVec3) {
     let place = standing(foot, 0.0);
     let below =
@@ -256,7 +258,7 @@ fn column(parts: &mut Vec<Shapes>, foot: DVec3) {
     block(parts, MARBLE, foot + DVec3::Y * 5.79, DVec3::new(0.5, 0.09, 0.5), 0.015);
 }
 
-/// Twenty flutes around a column that is thinner at its top, from base to capital.
+/// Adds twenty flutes around a column that is thinner at its top, from base to capital.
 fn shaft(shapes: &mut Shapes, foot: DVec3) {
     let point = |u: f64, v: f64| {
         let (sin, cos) = turn(u);
@@ -274,7 +276,7 @@ fn shaft(shapes: &mut Shapes, foot: DVec3) {
     });
 }
 
-/// Beams and bars below the glass.
+/// Adds beams and bars below the glass.
 fn ceiling(parts: &mut Vec<Shapes>) {
     let middle = 0.5 * (ENDS.0 + ENDS.1);
     for z in (0..20).map(|row| ENDS.0 + f64::from(row) * 1.5) {
@@ -297,7 +299,7 @@ fn ceiling(parts: &mut Vec<Shapes>) {
     }
 }
 
-/// Walls behind the panes, in parts of a bay, and curtains at the end behind the camera.
+/// Adds walls behind the panes, in parts of a bay, and curtains at the end behind the camera.
 fn walls(parts: &mut Vec<Shapes>) {
     let mut wall = |from: DVec3, to: DVec3| {
         let up = DVec3::Y * HEIGHT;
@@ -327,7 +329,7 @@ fn walls(parts: &mut Vec<Shapes>) {
     }
 }
 
-/// Gilded frames around the panes, and pilasters and a skirting between.
+/// Adds gilded frames around the panes, and pilasters and a skirting between.
 fn frames(parts: &mut Vec<Shapes>) {
     for (z, side) in bays().flat_map(|z| [(z, -1.0), (z, 1.0)]) {
         let at = |y: f64, dz: f64| DVec3::new(side * (HALF - 0.05), y, z + dz);

@@ -84,17 +84,17 @@ pub const NAMES: [&str; 15] = [
     "cloth-ball",
 ];
 
-/// Size and samples of a picture, for built-in scenes that those of all scenes do not suit.
+/// Size and samples of a picture, for built-in scenes that the common defaults do not suit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Picture {
-    /// Pixels a row, and rows: in the proportions of what the scene's camera looks at.
+    /// Pixels per row and number of rows, in the proportions of the part that the scene's camera looks at.
     pub size: [u32; 2],
     /// Samples per pixel.
     pub samples: u32,
 }
 
-/// The picture that suits the built-in scene that `spec` names, seen by its own camera. `cornell` is square
-/// and hard to light: fewer pixels that all show it, with more samples.
+/// Returns the picture that suits the built-in scene that `spec` names, seen by its own camera. `cornell` is
+/// square and hard to light, so its picture has fewer pixels, all on the scene, and more samples.
 pub fn picture(spec: &str) -> Option<Picture> {
     (spec.split(':').next() == Some("cornell")).then_some(Picture { size: [256, 256], samples: 32 })
 }

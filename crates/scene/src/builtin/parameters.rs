@@ -1,17 +1,17 @@
-//! The part of a built-in's name after the colon.
+//! Parameters of a built-in scene: the part of its name after the colon.
 
 use std::ops::RangeInclusive;
 
 use crate::SceneError;
 use crate::nearest::nearest;
 
-/// Parameters as written, each taken out once by the scene that knows it.
+/// Parameters as written; each is taken out once by the scene that knows it.
 pub(super) struct Parameters {
     spec: String,
-    /// The value without a key, as in `spheres:10k`.
+    /// Value without a key, as in `spheres:10k`.
     positional: Option<String>,
     named: Vec<(String, String)>,
-    /// Keys that the scene asked for: those that it has.
+    /// Keys that the scene asked for, which are the keys that it has.
     known: Vec<String>,
 }
 
@@ -43,7 +43,7 @@ impl Parameters {
         Ok(parsed)
     }
 
-    /// Gives the value without a key this key.
+    /// Gives the value without a key the name `key`.
     pub fn name_positional(&mut self, key: &str) -> Result<(), SceneError> {
         if let Some(value) = self.positional.take() {
             if self.named.iter().any(|(other, _)| other == key) {
@@ -54,7 +54,7 @@ impl Parameters {
         Ok(())
     }
 
-    /// A real number within `range`.
+    /// Takes a real number within `range`.
     pub fn number(&mut self, key: &str, default: f64, range: RangeInclusive<f64>) -> Result<f64, SceneError> {
         let Some(text) = self.take(key) else { return Ok(default) };
         match text.parse::<f64>() {
@@ -63,7 +63,7 @@ impl Parameters {
         }
     }
 
-    /// A whole number within `range`, with `k` and `M` understood.
+    /// Takes a whole number within `range`; the suffixes `k` and `M` are understood.
     pub fn count(&mut self, key: &str, default: u64, range: RangeInclusive<u64>) -> Result<u64, SceneError> {
         let Some(text) = self.take(key) else { return Ok(default) };
         let (digits, factor) = match text.as_bytes().last() {
@@ -71,7 +71,7 @@ impl Parameters {
             Some(b'm' | b'M') => (&text[..text.len() - 1], 1.0e6),
             _ => (text.as_str(), 1.0),
         };
-        // Saturates for huge values and is 0 for NaN, both of which the range refuses.
+        // The cast saturates for huge values and gives 0 for NaN; the range refuses both.
         let value = digits.parse::<f64>().map(|value| (value * factor).round() as u64);
         match value {
             Ok(value) if range.contains(&value) => Ok(value),
@@ -79,7 +79,7 @@ impl Parameters {
         }
     }
 
-    /// One of a few words; the returned word is one of `choices` or the default.
+    /// Takes one of a few words; the returned word is one of `choices` or the default.
     pub fn word<'a>(
         &mut self,
         key: &str,
@@ -93,7 +93,7 @@ impl Parameters {
         }
     }
 
-    /// Refuses what no scene took.
+    /// Refuses parameters that the scene did not take.
     pub fn finish(self) -> Result<(), SceneError> {
         if let Some((key, value)) = self.named.first() {
             let known = self.known.iter().map(String::as_str);
@@ -114,7 +114,7 @@ impl Parameters {
         Ok(())
     }
 
-    /// Parameters that the scene has.
+    /// Lists the parameters that the scene has.
     fn what_there_is(&self) -> String {
         match self.known.as_slice() {
             [] => "the scene takes none".to_owned(),

@@ -13,18 +13,19 @@ use crate::default_view::camera_looking_at;
 use crate::deforming::{Deformation, Deformer, Shape, Topology};
 use crate::{Animation, Light, Material, Mesh, Scene, SceneError};
 
-/// Half the basin, metres: x and z.
+/// Half extent of the basin, metres: x and z.
 const BASIN: (f64, f64) = (5.0, 2.5);
 /// Depth of the basin at its two ends, metres.
 const DEPTH: (f64, f64) = (1.1, 2.0);
 /// Height of the water at rest; the deck is at 0. Metres.
 const LEVEL: f64 = -0.11;
-/// The water reaches into the walls, so that there is no air between, and below the floor. Metres.
+/// Length by which the water reaches into the walls, so that there is no air between, and height of its
+/// underside, below the floor. Metres.
 const OVERLAP: f64 = 0.02;
 const BELOW: f64 = -2.3;
-/// Quads of the surface of the water along x and z.
+/// Number of quads of the water's surface along x and z.
 const WATER_GRID: (usize, usize) = (200, 100);
-/// Seconds for which the waves are described.
+/// Duration for which the waves are described, seconds.
 const DURATION: f64 = 20.0;
 /// Waves: direction as a share of a turn from +x, length and amplitude in metres, phase as a share of a turn.
 const WAVES: [(f64, f64, f64, f64); 9] = [
@@ -52,10 +53,10 @@ const CUSHION: usize = 9;
 const LEAF: usize = 10;
 const CLAY: usize = 11;
 
-/// A pool of 10 m by 5 m under the sun: tiles, steps, a ladder, a board, around it a deck of slabs, loungers,
-/// a pergola before a white wall. The water is a closed volume with an index of refraction of 1.33 that
-/// reaches a little into the walls, so that water meets tiles without air between. Its waves move
-/// ([`Scene::at`]), each with the speed that its length has in deep water.
+/// Makes a pool of 10 m by 5 m under the sun, with tiles, steps, a ladder and a board. Around it are a deck
+/// of slabs, loungers and a pergola before a white wall. The water is a closed volume with an index of
+/// refraction of 1.33 that reaches a little into the walls, so that water meets tiles without air between.
+/// The waves move ([`Scene::at`]), each with the speed that a wave of its length has in deep water.
 pub fn pool() -> Scene {
     let mut meshes = vec![water_at(0.0)];
     basin(&mut meshes);
@@ -120,11 +121,11 @@ fn at(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-/// Height of the surface over a point of the plan, metres.
+/// Returns the height of the water over a point of the plan, metres.
 fn height(x: f64, z: f64, seconds: f64) -> f64 {
     let wave = |&(direction, length, amplitude, phase): &(f64, f64, f64, f64)| {
         let (sin, cos) = turn(direction);
-        // Turns a second: sqrt(g / (2 pi length)).
+        // Turns per second: sqrt(g / (2 pi length)).
         let rate = (9.81 / (std::f64::consts::TAU * length)).sqrt();
         amplitude * turn((x * cos + z * sin) / length - rate * seconds + phase).0
     };
@@ -147,7 +148,7 @@ fn water_at(seconds: f64) -> Mesh {
     shapes.finish()
 }
 
-/// The water at a time.
+/// Deformer of the water's surface.
 #[derive(Debug)]
 struct Waves;
 
@@ -171,13 +172,13 @@ impl Deformer for Waves {
     }
 }
 
-/// Height of the floor of the basin.
+/// Returns the height of the floor of the basin.
 fn floor(x: f64) -> f64 {
     let share = ((x + BASIN.0) / (2.0 * BASIN.0)).clamp(0.0, 1.0);
     -DEPTH.0 + (DEPTH.0 - DEPTH.1) * share
 }
 
-/// Walls and floor of tiles, dark lines, steps.
+/// Adds the walls and the floor of tiles, dark lines, steps.
 fn basin(meshes: &mut Vec<Mesh>) {
     let (x, z) = BASIN;
     let mut tiles = Shapes::new("basin", TILE);
@@ -218,7 +219,7 @@ fn basin(meshes: &mut Vec<Mesh>) {
     meshes.push(lines.finish());
 }
 
-/// Slabs of half a metre, and a coping around the basin.
+/// Adds slabs of half a metre, and a coping around the basin.
 fn deck(meshes: &mut Vec<Mesh>) {
     let (x, z) = BASIN;
     let half = DVec3::new(0.246, 0.02, 0.246);
@@ -246,7 +247,7 @@ fn deck(meshes: &mut Vec<Mesh>) {
     meshes.extend([slabs.finish(), coping.finish(), ground.finish()]);
 }
 
-/// Ladder, board, ball and lifebelt.
+/// Adds the ladder, the board, a ball and a lifebelt.
 fn fittings(meshes: &mut Vec<Mesh>) {
     let (x, z) = BASIN;
     let mut steel = Shapes::new("ladder", CHROME);
@@ -299,7 +300,7 @@ fn fittings(meshes: &mut Vec<Mesh>) {
     meshes.push(red.finish());
 }
 
-/// The wall with its pergola, and two loungers.
+/// Adds the wall with its pergola, and two loungers.
 fn around(meshes: &mut Vec<Mesh>) {
     let mut wall = Shapes::new("wall", PLASTER);
     wall.block_with_bevel(standing(at(0.0, 1.2, -5.5), 0.0), DVec3::new(9.2, 1.25, 0.15), 0.03, 1.0);
@@ -339,7 +340,7 @@ fn around(meshes: &mut Vec<Mesh>) {
     meshes.extend([timber.finish(), cushions.finish()]);
 }
 
-/// Three agaves in pots.
+/// Adds three agaves in pots.
 fn plants(meshes: &mut Vec<Mesh>) {
     let mut pots = Shapes::new("pots", CLAY);
     let mut leaves = Shapes::new("leaves", LEAF);
@@ -358,7 +359,7 @@ fn plants(meshes: &mut Vec<Mesh>) {
         let foot = at(x, 0.001, z);
         pots.revolve(standing(foot, 0.0), 40, &profile, DVec2::ONE);
         for leaf in 0..46 {
-            // Golden angle: each leaf grows where there is most room.
+            // Turns by the golden angle place each leaf where there is most room.
             let share = f64::from(leaf) * 0.381_966 + 0.21 * plant as f64;
             let (sin, cos) = turn(share);
             let (steep, long) = (0.15 + 0.75 * f64::from(leaf) / 46.0, 0.95 - 0.007 * f64::from(leaf));

@@ -14,9 +14,9 @@ use crate::{Light, Material, Scene};
 
 /// Half the side of the ground, metres.
 const GROUND: f64 = 14.0;
-/// Seed of places, sizes and shapes.
+/// Seed of the stones' places, sizes and shapes.
 const SEED: u64 = 0x5EED_0003;
-/// Middle on the ground, radius and height of the heaps, metres.
+/// Centre on the ground, radius and height of each heap, metres.
 const HEAPS: [(f64, f64, f64, f64); 5] = [
     (0.0, 0.0, 3.2, 2.4),
     (-5.2, 3.6, 2.2, 1.7),
@@ -24,7 +24,7 @@ const HEAPS: [(f64, f64, f64, f64); 5] = [
     (-4.8, -5.0, 2.6, 1.8),
     (5.2, -4.8, 1.9, 1.4),
 ];
-/// Foot of each column on the ground, and its height, metres.
+/// Foot on the ground and height of each column, metres.
 const COLUMNS: [(f64, f64, f64); 7] = [
     (-4.5, -4.0, 5.2),
     (-1.5, -4.0, 2.1),
@@ -42,12 +42,12 @@ const STONES: (f64, f64) = (0.1, 1.0);
 /// Parameters of [`ruins`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ruins {
-    /// Triangles wanted, within [`Ruins::TRIANGLES`]; the scene has as many within 20.
+    /// Number of triangles that is asked for, within [`Ruins::TRIANGLES`]; the scene has that many within 20.
     pub triangles: u64,
 }
 
 impl Ruins {
-    /// Triangles that can be asked for.
+    /// Valid range of [`Ruins::triangles`].
     pub const TRIANGLES: RangeInclusive<u64> = 10_000..=10_000_000;
 }
 
@@ -57,8 +57,8 @@ impl Default for Ruins {
     }
 }
 
-/// Five heaps of faceted stones on a square of ground, stones buried in stones, with stumps of columns among
-/// them, under a low sun and a blue sky. Radii follow a power law, so that a ray hits many layers of
+/// Makes five heaps of faceted stones on a square of ground, stones buried in stones, with stumps of columns
+/// among them, under a low sun and a blue sky. Radii follow a power law, so that a ray hits many layers of
 /// triangles of every size; large stones have 320 triangles, middle ones 80, crumbs 20. The camera stands at
 /// the edge of the ground.
 pub fn ruins(parameters: Ruins) -> Scene {
@@ -86,7 +86,7 @@ pub fn ruins(parameters: Ruins) -> Scene {
     let mut left = triangles.saturating_sub(standing);
     let mut stones = [Shapes::new("sandstone", 1), Shapes::new("limestone", 2)];
     let mut random = Random::new(SEED);
-    // Wide fields of few stones have larger ones, so that heaps are solid at every count.
+    // Scenes of few stones have larger ones, so that heaps are solid at every count.
     let crowd = (200_000.0 / triangles as f64).cbrt().clamp(0.3, 2.5);
     while left >= 20 {
         let radius = crowd * STONES.0 * (STONES.1 / STONES.0).powf(random.unit().powi(2));
@@ -118,7 +118,8 @@ pub fn ruins(parameters: Ruins) -> Scene {
     }
 }
 
-/// Somewhere in a heap: evenly over its foot, and evenly below its surface, which falls off towards the rim.
+/// Picks a point in a heap: evenly over its foot, and evenly below its surface, which falls off towards the
+/// rim.
 fn place(random: &mut Random) -> DVec3 {
     let (x, z, radius, height) = HEAPS[(random.next() % HEAPS.len() as u64) as usize];
     let share = random.unit().sqrt();
@@ -127,7 +128,7 @@ fn place(random: &mut Random) -> DVec3 {
     DVec3::new(x + share * radius * angle.cos(), surface * random.unit(), z + share * radius * angle.sin())
 }
 
-/// A faceted stone: a sphere cut down by a few planes, scaled and rotated.
+/// Adds a faceted stone: a sphere cut down by a few planes, scaled and rotated.
 fn stone(shapes: &mut Shapes, unit: &Icosphere, centre: DVec3, radius: f64, random: &mut Random) {
     let angles: [f64; 3] = std::array::from_fn(|_| TAU * random.unit());
     let turn = DMat3::from_quat(DQuat::from_euler(EulerRot::XYZ, angles[0], angles[1], angles[2]));
@@ -140,7 +141,8 @@ fn stone(shapes: &mut Shapes, unit: &Icosphere, centre: DVec3, radius: f64, rand
         .directions
         .iter()
         .map(|&direction| {
-            // As far as the nearest cut lets it, so that the stone stays star-shaped and its front outside.
+            // Each vertex reaches as far as the nearest cut lets it, so that the stone stays star-shaped with
+            // its front outside.
             let reach = cuts.iter().fold(1.0_f64, |reach, &(normal, distance)| {
                 let along = direction.dot(normal);
                 if along > 0.0 { reach.min(distance / along) } else { reach }
@@ -156,7 +158,7 @@ fn stone(shapes: &mut Shapes, unit: &Icosphere, centre: DVec3, radius: f64, rand
     }
 }
 
-/// A stump with a base, broken off level.
+/// Adds a stump of a column with a base, broken off level.
 fn column(shapes: &mut Shapes, foot: DVec3, height: f64) {
     let profile =
         [(COLUMN * 1.5, 0.0), (COLUMN * 1.5, 0.3), (COLUMN, 0.45), (COLUMN * 0.92, height), (0.0, height)];

@@ -1,4 +1,4 @@
-//! Simple shapes put into meshes, all counter-clockwise seen from their front.
+//! Simple shapes added to meshes, all counter-clockwise seen from their front.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use crate::Mesh;
 
-/// A mesh being put together, computed in f64 and rounded to f32 once.
+/// Mesh under construction, computed in f64 and rounded to f32 once.
 #[derive(Clone, Default)]
 pub(super) struct Shapes {
     mesh: Mesh,
@@ -20,12 +20,12 @@ impl Shapes {
         Self { mesh, ..Self::default() }
     }
 
-    /// The material that it was made with.
+    /// Index of the material that the mesh was made with.
     pub fn material(&self) -> usize {
         self.mesh.material
     }
 
-    /// Adds all of other shapes; the material stays.
+    /// Adds all triangles of `other`; the material stays.
     pub fn append(&mut self, other: &Self) {
         let first = self.mesh.positions.len() as u32;
         self.mesh.positions.extend(&other.mesh.positions);
@@ -46,9 +46,9 @@ impl Shapes {
         self.mesh.indices.extend(corners);
     }
 
-    /// A flat quad; corners counter-clockwise. Texture coordinates run from (0, 1) at the first
-    /// corner to `(repeat.x, 1 - repeat.y)` at the third, so the picture stands upright on a wall
-    /// whose first corner is bottom left.
+    /// Adds a flat quad; corners counter-clockwise. Texture coordinates run from (0, 1) at the first corner
+    /// to `(repeat.x, 1 - repeat.y)` at the third, so the picture stands upright on a wall whose first corner
+    /// is bottom left.
     pub fn quad(&mut self, corners: [DVec3; 4], repeat: DVec2) {
         let normal = (corners[2] - corners[0]).cross(corners[3] - corners[1]).normalize_or(DVec3::Y);
         let uvs = [
@@ -65,8 +65,8 @@ impl Shapes {
         self.triangle([first, first + 2, first + 3]);
     }
 
-    /// A block between two corners, front outwards; `faces` in the order -x +x -y +y -z +z.
-    /// Texture coordinates grow by `repeat_per_metre` along each face.
+    /// Adds a block between two corners, front outwards; `faces` says in the order -x +x -y +y -z +z which
+    /// faces it has. Texture coordinates grow by `repeat_per_metre` along each face.
     pub fn block(&mut self, low: DVec3, high: DVec3, faces: [bool; 6], repeat_per_metre: f64) {
         let corner = |bits: usize| {
             let pick = |axis: usize| if bits >> axis & 1 == 1 { high[axis] } else { low[axis] };
@@ -84,7 +84,7 @@ impl Shapes {
         }
     }
 
-    /// A patch of `columns` by `rows` quads over a function of (u, v) in [0, 1]^2 that gives position
+    /// Adds a patch of `columns` by `rows` quads over a function of (u, v) in [0, 1]^2 that gives position
     /// and normal. The front is on the side of d/du x d/dv; v = 0 is texture row `repeat.y`.
     pub fn patch(
         &mut self,
@@ -111,9 +111,9 @@ impl Shapes {
         }
     }
 
-    /// A surface of revolution about the vertical axis through `centre`. `profile` lists (radius,
-    /// height) from bottom to top; the front is outside. A step of the profile is shaded flat along
-    /// its height and smooth around the axis.
+    /// Adds a surface of revolution about the vertical axis through `centre`. `profile` lists (radius,
+    /// height) from bottom to top; the front is outside. A step of the profile is shaded flat along its
+    /// height and smooth around the axis.
     pub fn lathe(&mut self, centre: DVec3, segments: usize, profile: &[(f64, f64)], repeat: DVec2) {
         let total: f64 = profile.windows(2).map(|step| length(step[0], step[1])).sum();
         let mut travelled = 0.0;
@@ -122,7 +122,7 @@ impl Shapes {
             let long = length(step[0], step[1]);
             let (v0, v1) = (travelled / total, (travelled + long) / total);
             travelled += long;
-            // Across the step, pointing away from the axis.
+            // The direction across the step, pointing away from the axis.
             let across = DVec2::new(y1 - y0, r0 - r1).normalize_or(DVec2::X);
             let first = self.mesh.positions.len() as u32;
             for segment in 0..=segments {
@@ -150,7 +150,7 @@ impl Shapes {
         }
     }
 
-    /// A copy of a unit sphere, scaled and moved, front outwards (inwards if `inside_out`).
+    /// Adds a copy of a unit sphere, scaled and moved, front outwards (inwards if `inside_out`).
     pub fn sphere(&mut self, unit: &Icosphere, centre: DVec3, radius: f64, inside_out: bool) {
         let first = self.mesh.positions.len() as u32;
         let facing = if inside_out { -1.0 } else { 1.0 };
@@ -176,7 +176,7 @@ fn length(a: (f64, f64), b: (f64, f64)) -> f64 {
     (b.0 - a.0).hypot(b.1 - a.1)
 }
 
-/// A unit sphere of 20 * 4^level triangles that share vertices.
+/// Unit sphere of 20 * 4^level triangles that share vertices.
 pub(super) struct Icosphere {
     pub directions: Vec<DVec3>,
     pub triangles: Vec<[u32; 3]>,
@@ -187,7 +187,7 @@ impl Icosphere {
     pub fn new(level: u32) -> Self {
         let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
         let mut directions = Vec::new();
-        // Three golden rectangles, one in each axis plane.
+        // The corners are those of three golden rectangles, one in each axis plane.
         for axis in 0..3 {
             for (long, short) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
                 let mut corner = DVec3::ZERO;
@@ -217,9 +217,9 @@ impl Icosphere {
     }
 }
 
-/// All triples of mutually nearest corners, counter-clockwise from outside.
+/// Finds all triples of mutually nearest corners, counter-clockwise from outside.
 fn icosahedron_faces(corners: &[DVec3]) -> Vec<[u32; 3]> {
-    // Neighbours of a corner are seen at an angle of about 63 degrees, all others at 116 or 180.
+    // Neighbours of a corner are seen at an angle of about 63 degrees, all other corners at 116 or 180.
     let near = |a: usize, b: usize| corners[a].dot(corners[b]) > 0.4;
     let mut faces = Vec::with_capacity(20);
     for a in 0..corners.len() {

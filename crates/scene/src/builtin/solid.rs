@@ -1,10 +1,10 @@
-//! Solids given by their distance, and triangles over their surface.
+//! Solids given by their distance functions, and triangle meshes of their surfaces.
 
 use std::collections::HashMap;
 
 use glam::{DVec3, IVec3};
 
-/// A cone with rounded ends: the hull of two spheres.
+/// Cone with rounded ends: the convex hull of two spheres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RoundCone {
     /// Centre and radius of each sphere, metres.
@@ -12,13 +12,13 @@ pub(super) struct RoundCone {
 }
 
 impl RoundCone {
-    /// Metres to the surface, negative inside.
+    /// Returns the distance from a point to the surface, metres, negative inside.
     pub fn distance(&self, point: DVec3) -> f64 {
         let [(from, r0), (to, r1)] = self.ends;
         let axis = to - from;
         let length2 = axis.length_squared();
         let fall = r0 - r1;
-        // One sphere within the other, or both at one place.
+        // One sphere lies within the other, or both have the same centre.
         if length2 <= fall * fall {
             return (point.distance(from) - r0).min(point.distance(to) - r1);
         }
@@ -39,18 +39,18 @@ impl RoundCone {
     }
 }
 
-/// The smaller of two distances, with their seam rounded over `width` metres.
+/// Returns the smaller of two distances, with their seam rounded over `width` metres.
 pub(super) fn smooth_min(a: f64, b: f64, width: f64) -> f64 {
     let overlap = (width - (a - b).abs()).max(0.0) / width;
     a.min(b) - 0.25 * width * overlap * overlap
 }
 
-/// The larger of two distances, with their edge rounded over `width` metres.
+/// Returns the larger of two distances, with their edge rounded over `width` metres.
 pub(super) fn smooth_max(a: f64, b: f64, width: f64) -> f64 {
     -smooth_min(-a, -b, width)
 }
 
-/// Triangles over a surface, fronts outside.
+/// Triangle mesh of a solid's surface, fronts outside.
 #[derive(Default)]
 pub(super) struct Surface {
     pub positions: Vec<DVec3>,
@@ -58,14 +58,14 @@ pub(super) struct Surface {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Cells along a side of a block, which is left out as a whole where the surface is far.
+/// Number of cells along a side of a block; a block far from the surface is skipped as a whole.
 const BLOCK: i32 = 8;
 
-/// The surface of a solid between two corners, which must hold all of it, in about two triangles for each
-/// square with sides of `cell` metres.
+/// Meshes the surface of a solid between two corners, which must enclose all of it, with about two triangles
+/// for each square of the surface with sides of `cell` metres.
 ///
-/// Surface nets: each cell of a grid that the surface passes has a vertex, which is moved onto the surface.
-/// `distance` must nowhere change faster than the place does.
+/// The method is surface nets: each cell of a grid that the surface passes through has a vertex, which is
+/// moved onto the surface. `distance` must have a slope of at most 1 everywhere.
 pub(super) fn surface(distance: &impl Fn(DVec3) -> f64, low: DVec3, high: DVec3, cell: f64) -> Surface {
     let counts = ((high - low) / cell).ceil().as_ivec3() + IVec3::splat(2);
     let corner = |at: IVec3| low + (at.as_dvec3() - 0.5) * cell;
@@ -85,7 +85,7 @@ pub(super) fn surface(distance: &impl Fn(DVec3) -> f64, low: DVec3, high: DVec3,
     }
     net.connect();
     let Net { mut surface, .. } = net;
-    // Central differences over less than a cell, so that sharp edges are shaded over about one.
+    // Central differences over less than a cell, so that sharp edges are shaded over about one cell.
     let gradient = |point: DVec3| {
         let step = 0.35 * cell;
         let along = |axis: DVec3| distance(point + axis * step) - distance(point - axis * step);
@@ -93,7 +93,7 @@ pub(super) fn surface(distance: &impl Fn(DVec3) -> f64, low: DVec3, high: DVec3,
     };
     for position in &mut surface.positions {
         for _ in 0..3 {
-            // A quarter of a cell at most: no vertex leaves its neighbours.
+            // The step is a quarter of a cell at most, so that no vertex passes its neighbours.
             let step = distance(*position).clamp(-0.25 * cell, 0.25 * cell);
             *position -= gradient(*position) * step;
         }
@@ -102,18 +102,19 @@ pub(super) fn surface(distance: &impl Fn(DVec3) -> f64, low: DVec3, high: DVec3,
     surface
 }
 
-/// A surface being put together.
+/// Surface under construction.
 #[derive(Default)]
 struct Net {
     surface: Surface,
-    /// The vertex of each cell that has one.
+    /// Vertex of each cell that has one.
     vertex_of: HashMap<IVec3, u32>,
-    /// Edges of the grid that pass through the surface: the first corner, the axis, whether it begins inside.
+    /// Edges of the grid that pass through the surface: first corner, axis, and true if the first corner is
+    /// inside.
     crossings: Vec<(IVec3, usize, bool)>,
 }
 
 impl Net {
-    /// Vertices and crossings of the cells of a block.
+    /// Adds the vertices and crossings of the cells of a block.
     fn add_block(
         &mut self,
         first: IVec3,
@@ -170,12 +171,13 @@ impl Net {
         }
     }
 
-    /// A quad around each crossing, between the cells that share the edge, cut along its shorter diagonal.
+    /// Adds a quad around each crossing, between the cells that share the edge, cut along its shorter
+    /// diagonal.
     fn connect(&mut self) {
         for &(start, axis, begins_inside) in &self.crossings {
             let (one, other) = (IVec3::AXES[(axis + 1) % 3], IVec3::AXES[(axis + 2) % 3]);
             let cells = [start, start - one, start - one - other, start - other];
-            // A cell without a vertex is outside of the corners that were given: the solid reaches there.
+            // A missing vertex means that the solid reaches beyond the corners that were given.
             let found = cells.map(|cell| self.vertex_of.get(&cell).copied());
             let [Some(a), Some(b), Some(c), Some(d)] = found else {
                 debug_assert!(false, "the solid reaches out of its bounds at {start}");
@@ -203,7 +205,7 @@ mod tests {
         let cone = RoundCone { ends: [(DVec3::ZERO, 2.0), (DVec3::new(0.0, 4.0, 0.0), 1.0)] };
         let on_axis = |y: f64| cone.distance(DVec3::new(0.0, y, 0.0));
         assert_eq!((on_axis(-3.0), on_axis(6.0)), (1.0, 1.0));
-        // The side touches both spheres: the nearest of many spheres between them is as near.
+        // The side touches both spheres, so the nearest of many spheres between them is as near.
         for x in [0.5, 2.0, 3.0] {
             let point = DVec3::new(x, 1.7, 0.4);
             let spheres = (0..=10_000).map(|k| {
@@ -223,7 +225,7 @@ mod tests {
         let whole: f64 = sphere.triangles.iter().map(volume).sum();
         assert!((whole / (4.0 / 3.0 * std::f64::consts::PI) - 1.0).abs() < 0.01, "{whole}");
         assert!(sphere.positions.iter().all(|position| (position.length() - 1.0).abs() < 1.0e-6));
-        // A closed surface of this kind: two more vertices than half the triangles.
+        // A closed surface of genus 0 has two more vertices than half the triangles.
         assert_eq!(sphere.positions.len(), sphere.triangles.len() / 2 + 2);
     }
 }

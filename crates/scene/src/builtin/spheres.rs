@@ -17,12 +17,13 @@ const SEED: u64 = 0x5EED_0001;
 /// Parameters of [`spheres`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spheres {
-    /// Triangles wanted, within [`Spheres::TRIANGLES`]; the scene has as many within 10.
+    /// Number of triangles that is asked for, within [`Spheres::TRIANGLES`]; the scene has that many within
+    /// 10.
     pub triangles: u64,
 }
 
 impl Spheres {
-    /// Triangles that can be asked for.
+    /// Valid range of [`Spheres::triangles`].
     pub const TRIANGLES: RangeInclusive<u64> = 10_000..=10_000_000;
 }
 
@@ -32,10 +33,10 @@ impl Default for Spheres {
     }
 }
 
-/// Icospheres in the cube [-10, 10]^3, none touching another, under a white sky of radiance 1.
-/// Most have 1,280 triangles (320 below 100,000 in all); a few coarser ones fill up the count.
-/// One mesh per material, four materials: two diffuse, one glossy, one metal. The camera stands
-/// outside and sees the whole cube.
+/// Makes icospheres in the cube [-10, 10]^3, none touching another, under a white sky of radiance 1. Most
+/// have 1,280 triangles (320 below 100,000 in all); a few coarser ones fill up the count. The scene has one
+/// mesh per material and four materials: two diffuse, one glossy, one metal. The camera stands outside and
+/// sees the whole cube.
 pub fn spheres(parameters: Spheres) -> Scene {
     let triangles = parameters.triangles.clamp(*Spheres::TRIANGLES.start(), *Spheres::TRIANGLES.end());
     let finest = if triangles < 100_000 { 2 } else { 3 };
@@ -48,7 +49,7 @@ pub fn spheres(parameters: Spheres) -> Scene {
         levels.extend(std::iter::repeat_n(level, (left / each) as usize));
         left %= each;
     }
-    // Another of the coarsest where that comes closer than stopping short.
+    // One more of the coarsest spheres, where the sum comes closer to the target with it.
     if left >= 10 {
         levels.push(0);
     }
@@ -62,7 +63,7 @@ pub fn spheres(parameters: Spheres) -> Scene {
     let mut shapes: Vec<Shapes> =
         materials.iter().enumerate().map(|(index, material)| Shapes::new(&material.name, index)).collect();
 
-    // The smallest cube of cells with one for each sphere; the spheres take evenly spread cells.
+    // The smallest cube of cells with a cell for each sphere; the spheres take evenly spread cells.
     let across = (1_u64..).find(|across| across.pow(3) >= levels.len() as u64).unwrap_or(1);
     let cell = SIDE / across as f64;
     let mut random = Random::new(SEED);
@@ -74,7 +75,7 @@ pub fn spheres(parameters: Spheres) -> Scene {
             (place / (across * across)) as f64,
         );
         let radius = cell * (0.2 + 0.25 * random.unit());
-        // Space to move within the cell, a hundredth of it kept free on all sides.
+        // Space to move within the cell; a hundredth of the cell is kept free on all sides.
         let slack = cell * 0.49 - radius;
         let jitter = DVec3::new(random.signed(), random.signed(), random.signed()) * slack;
         let centre = DVec3::splat(-SIDE / 2.0) + (corner + 0.5) * cell + jitter;
@@ -95,7 +96,7 @@ pub fn spheres(parameters: Spheres) -> Scene {
     }
 }
 
-/// A counter through a 64-bit mixing function; the same numbers everywhere.
+/// Random numbers: a counter through a 64-bit mixing function; the same numbers on every machine.
 pub(super) struct Random {
     counter: u64,
 }
@@ -113,12 +114,12 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    /// In [0, 1).
+    /// Returns the next number in [0, 1).
     pub fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// In [-1, 1).
+    /// Returns the next number in [-1, 1).
     pub fn signed(&mut self) -> f64 {
         2.0 * self.unit() - 1.0
     }

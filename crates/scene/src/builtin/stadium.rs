@@ -15,12 +15,12 @@ use crate::{Instance, Light, Material, Mesh, Scene};
 /// Parameters of [`stadium`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stadium {
-    /// Seats, within [`Stadium::SEATS`]; there are as many within 10.
+    /// Number of seats that is asked for, within [`Stadium::SEATS`]; the scene has that many within 10.
     pub seats: u64,
 }
 
 impl Stadium {
-    /// Numbers of seats that can be asked for.
+    /// Valid range of [`Stadium::seats`].
     pub const SEATS: RangeInclusive<u64> = 100..=15_000;
 }
 
@@ -30,15 +30,15 @@ impl Default for Stadium {
     }
 }
 
-/// Half axis of the first row along x, metres, and what the one along z is of it.
+/// Half axis of the first row along x, metres, and the ratio of the half axis along z to it.
 const FIRST_ROW: f64 = 60.0;
 const FLAT: f64 = 0.75;
-/// Rows, and how deep and high a step is, metres.
+/// Number of rows, and depth and height of a step, metres.
 const ROWS: usize = 24;
 const STEP: (f64, f64) = (0.95, 0.55);
 /// Height of the first step above the pitch, metres.
 const FOOT: f64 = 1.6;
-/// Seats side by side in a bench, and the width of one, metres.
+/// Number of seats side by side in a bench, and the width of one, metres.
 const BENCH: usize = 10;
 const SEAT: f64 = 0.52;
 /// Height of the top of the pedestal, metres.
@@ -57,9 +57,10 @@ const MARBLE: usize = 6;
 const GOLD: usize = 7;
 const SEATS: usize = 8;
 
-/// A bowl of benches in three colours around a pitch, under a ring of roof, and in the middle on a pedestal a
-/// silver teapot of 24 cm with a string of golden beads whose triangles measure less than a millimetre. The
-/// camera stands half a metre from the pot. Benches of ten seats are instances of three meshes.
+/// Makes a bowl of benches in three colours around a pitch, under a ring of roof. On a pedestal in the middle
+/// stands a silver teapot of 24 cm with a string of golden beads whose triangles measure less than a
+/// millimetre. The camera stands half a metre from the pot. Benches of ten seats are instances of three
+/// meshes.
 pub fn stadium(parameters: Stadium) -> Scene {
     let seats = parameters.seats.clamp(*Stadium::SEATS.start(), *Stadium::SEATS.end());
     let paint =
@@ -113,12 +114,12 @@ fn at(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-/// Circles become the ellipses of the bowl.
+/// Returns the map from circles to the ellipses of the bowl.
 fn bowl() -> DAffine3 {
     DAffine3::from_scale(at(1.0, 1.0, FLAT))
 }
 
-/// Steps of concrete, closed by a slope behind.
+/// Makes steps of concrete, closed by a slope behind.
 fn stands() -> Mesh {
     let mut shapes = Shapes::new("stands", CONCRETE);
     let back = FIRST_ROW + STEP.0 * ROWS as f64 + 1.5;
@@ -134,7 +135,7 @@ fn stands() -> Mesh {
     shapes.finish()
 }
 
-/// A ring of roof over the upper rows on trusses.
+/// Makes a ring of roof over the upper rows, carried by trusses.
 fn roof() -> Mesh {
     let mut shapes = Shapes::new("roof", STEEL);
     let back = FIRST_ROW + STEP.0 * ROWS as f64 + 4.0;
@@ -155,14 +156,14 @@ fn roof() -> Mesh {
         for share in [0.25, 0.5, 0.75] {
             rod(corners[3].lerp(corners[2], share), below(share - 0.12), 0.07);
         }
-        // Lamps under the edge.
+        // Lamps under the edge of the roof.
         let lamp = standing(below(0.97) - DVec3::Y * 0.5, f64::from(truss) / 64.0);
         shapes.block_with_bevel(lamp, at(0.5, 0.25, 0.5), 0.06, 1.0);
     }
     shapes.finish()
 }
 
-/// Stripes of grass, lines, and two goals.
+/// Adds stripes of grass, lines, and two goals.
 fn pitch(meshes: &mut Vec<Mesh>) {
     let (half_x, half_z) = (48.0, 31.0);
     let mut kinds = [Shapes::new("pitch", PITCH), Shapes::new("mown pitch", MOWN)];
@@ -206,7 +207,7 @@ fn pitch(meshes: &mut Vec<Mesh>) {
     meshes.extend([plain, mown, track, lines, goals].map(Shapes::finish));
 }
 
-/// The pedestal, the pot and its beads.
+/// Adds the pedestal, the pot and its beads.
 fn centre(meshes: &mut Vec<Mesh>) {
     let mut marble = Shapes::new("pedestal", MARBLE);
     for (y, half, height) in [(0.06, 0.3, 0.06), (0.55, 0.2, 0.43), (PEDESTAL - 0.035, 0.26, 0.035)] {
@@ -214,7 +215,7 @@ fn centre(meshes: &mut Vec<Mesh>) {
     }
     meshes.push(marble.finish());
     let mut pot = Shapes::new("teapot", POT_SILVER);
-    // Just above the marble: standing on it, the bottom would lie in its plane.
+    // The pot hovers just above the marble: its bottom would otherwise lie in the marble's plane.
     let foot = at(0.0, PEDESTAL + 0.000_05, 0.0);
     let scale = DMat3::from_diagonal(DVec3::splat(POT * 2.0 / BODY));
     let place = DAffine3::from_mat3_translation(scale * about_y(0.06), foot);
@@ -234,7 +235,7 @@ fn centre(meshes: &mut Vec<Mesh>) {
     meshes.push(beads.finish());
 }
 
-/// Ten seats around the origin that look along +z.
+/// Makes ten seats around the origin that look along +z.
 fn bench(name: &str, material: usize) -> Mesh {
     let mut shapes = Shapes::new(name, material);
     let faces = [true, true, false, true, true, true];
@@ -246,7 +247,7 @@ fn bench(name: &str, material: usize) -> Mesh {
     shapes.finish()
 }
 
-/// Places so many benches on the steps, on each as many as its length has of all, evenly.
+/// Places `count` benches evenly on the steps; each step gets a share of them in proportion to its length.
 fn benches(instances: &mut Vec<Instance>, meshes: &[Mesh], first: usize, count: usize) {
     let steps = 512;
     let point = |row: usize, share: f64| {
@@ -276,7 +277,7 @@ fn benches(instances: &mut Vec<Instance>, meshes: &[Mesh], first: usize, count: 
             while next < here && (next as f64 + 0.5) * length / (here as f64) <= travelled + reach {
                 let share = ((next as f64 + 0.5) * length / (here as f64) - travelled) / reach;
                 let along = (to - from).normalize();
-                // A row runs from +x over +z: what is to its right is the middle.
+                // A row runs from +x over +z, so the middle is to its right.
                 let inward = along.cross(DVec3::Y);
                 let turned = DMat3::from_cols(DVec3::Y.cross(inward), DVec3::Y, inward);
                 let place = from.lerp(to, share);

@@ -1,4 +1,4 @@
-//! A laid table: glass with thickness and what is in it, metal, fruit, cloth.
+//! A laid table: glass vessels with thickness and contents, metal, fruit, cloth.
 
 use std::ops::RangeInclusive;
 
@@ -15,12 +15,12 @@ use crate::{Environment, Material, Mesh, Scene};
 /// Parameters of [`still_life`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StillLife {
-    /// Fineness of curved surfaces, in [0.25, 4]; triangles grow with its square.
+    /// Fineness of curved surfaces, in [0.25, 4]; the number of triangles grows with its square.
     pub detail: f64,
 }
 
 impl StillLife {
-    /// Fineness that can be asked for.
+    /// Valid range of [`StillLife::detail`].
     pub const DETAIL: RangeInclusive<f64> = 0.25..=4.0;
 }
 
@@ -30,9 +30,9 @@ impl Default for StillLife {
     }
 }
 
-/// Seed of the places of grapes.
+/// Seed of the positions of grapes.
 const SEED: u64 = 0x5EED_0004;
-/// Distance of what lies on another from it, and of a liquid from its vessel, metres.
+/// Gap between an object and its support, and between a liquid and its vessel, metres.
 const GAP: f64 = 0.0004;
 
 const WOOD: usize = 0;
@@ -52,10 +52,10 @@ const WAX: usize = 13;
 const STALK: usize = 14;
 const WINDOW: usize = 15;
 
-/// A table with a glass bowl of fruit, a bottle, a carafe, two glasses of wine, a silver jug, a candlestick,
-/// grapes and a cloth over the table's edge, lit by a window from the left. Every thing is a closed solid:
-/// glass has an outer and an inner side, and what is in it is a volume of its own that nowhere touches it.
-/// About 291,000 triangles at detail 1.
+/// Makes a table with a glass bowl of fruit, a bottle, a carafe, two glasses of wine, a silver jug, a
+/// candlestick, grapes and a cloth over the table's edge, lit by a window from the left. Every object is a
+/// closed solid: glass has an outer and an inner side, and its contents are a volume of their own that
+/// nowhere touches the glass. The scene has about 291,000 triangles at detail 1.
 pub fn still_life(parameters: StillLife) -> Scene {
     let fineness = Fineness(parameters.detail.clamp(*StillLife::DETAIL.start(), *StillLife::DETAIL.end()));
     let materials = materials();
@@ -122,7 +122,7 @@ fn materials() -> Vec<Material> {
     ]
 }
 
-/// The table's top is at height 0.
+/// Makes the table; its top is at height 0.
 fn table() -> Mesh {
     let mut shapes = Shapes::new("table", WOOD);
     for board in 0..5 {
@@ -133,7 +133,7 @@ fn table() -> Mesh {
     shapes.finish()
 }
 
-/// Behind the table, and the floor below.
+/// Makes the wall behind the table, and the floor below.
 fn wall() -> Mesh {
     let mut shapes = Shapes::new("wall", WALL);
     let at = DVec3::new;
@@ -148,7 +148,7 @@ fn wall() -> Mesh {
     shapes.finish()
 }
 
-/// Six panes to the left, fronts towards the table.
+/// Makes a window of six panes to the left, fronts towards the table.
 fn window() -> Mesh {
     let mut shapes = Shapes::new("window", WINDOW);
     for (column, row) in (0..3).flat_map(|row| (0..2).map(move |column| (f64::from(column), f64::from(row))))
@@ -160,7 +160,7 @@ fn window() -> Mesh {
     shapes.finish()
 }
 
-/// A cloth with folds, over the table's front edge.
+/// Makes a cloth with folds, over the table's front edge.
 fn tablecloth(fineness: Fineness) -> Mesh {
     let mut shapes = Shapes::new("cloth", CLOTH);
     let (round, drop, depth, thickness) = (0.012, 0.24, 0.62, 0.0012);
@@ -173,7 +173,7 @@ fn tablecloth(fineness: Fineness) -> Mesh {
         let wave = 0.5 + 0.3 * crease(3.0, 0.1) + 0.2 * crease(7.0, 0.6);
         let hang = ((drop - s) / drop).clamp(0.0, 1.0);
         let flat = ((s - drop - quarter) / 0.12).clamp(0.0, 1.0);
-        // Nearly flat where things stand on it.
+        // The cloth is nearly flat where objects stand on it.
         let crest = 0.5 + 0.5 * turn(1.7 * u - 2.3 * v + 0.2).0;
         let ridge = (crest * crest) * (crest * crest) * (crest * crest);
         let rise = lift + GAP + 0.002 * flat * ridge + 0.045 * hang * wave;
@@ -192,12 +192,13 @@ fn tablecloth(fineness: Fineness) -> Mesh {
     shapes.finish()
 }
 
-/// (radius, height) pairs in metres, one after the other.
+/// Reads (radius, height) pairs in metres from a flat list.
 fn points(listed: &[f64]) -> Vec<DVec2> {
     listed.chunks_exact(2).map(DVec2::from_slice).collect()
 }
 
-/// The profile of a vessel: outside from the axis up to the rim, and back inside; both smooth, the rim round.
+/// Makes the profile of a vessel: outside from the axis up to the rim, and back inside; both smooth, the rim
+/// round.
 fn vessel(outside: &[DVec2], inside: &[DVec2], fineness: Fineness) -> Vec<DVec2> {
     let steps = fineness.of(6.0, 2);
     let mut profile = curve(outside, steps);
@@ -205,7 +206,8 @@ fn vessel(outside: &[DVec2], inside: &[DVec2], fineness: Fineness) -> Vec<DVec2>
     profile.iter().map(|point| DVec2::new(point.x.max(0.0), point.y)).collect()
 }
 
-/// Profile of the filling of a vessel up to `level`: within its inside by a gap, level on top.
+/// Makes the profile of the filling of a vessel up to `level`: a gap away from the vessel's inside, level on
+/// top.
 fn filling(inside: &[DVec2], level: f64, fineness: Fineness) -> Vec<DVec2> {
     let mut profile: Vec<DVec2> = curve(inside, fineness.of(6.0, 2))
         .into_iter()
@@ -219,7 +221,7 @@ fn filling(inside: &[DVec2], level: f64, fineness: Fineness) -> Vec<DVec2> {
     profile
 }
 
-/// Bottle, carafe, two glasses, the bowl; and what is in them.
+/// Adds a bottle, a carafe, two glasses and a bowl, with their contents.
 fn glass(meshes: &mut Vec<Mesh>, fineness: Fineness) {
     let segments = fineness.of(72.0, 12);
     let mut turned = |name: &str, material: usize, place: DVec3, profile: &[DVec2]| {
@@ -266,7 +268,7 @@ fn glass(meshes: &mut Vec<Mesh>, fineness: Fineness) {
         turned("wine in a glass", WINE, stand, &filling(&glass_in, level, fineness));
     }
 
-    // Inner side: a sphere of 0.17 m around (0, 0.18).
+    // The inner side is a sphere of 0.17 m around (0, 0.18).
     let mut bowl_out = points(&[0.0, 0.0, 0.05, 0.0, 0.056, 0.002, 0.055, 0.006, 0.05, 0.0085]);
     let centre = DVec2::new(0.0, 0.18);
     bowl_out = curve(&bowl_out, fineness.of(4.0, 2));
@@ -282,7 +284,7 @@ fn glass(meshes: &mut Vec<Mesh>, fineness: Fineness) {
 /// Position of the bowl.
 const BOWL: DVec3 = DVec3::new(0.02, 0.0, -0.02);
 
-/// The jug with its handle, a plate, the candlestick with its candle.
+/// Adds the jug with its handle, a plate, the candlestick with its candle.
 fn metal(meshes: &mut Vec<Mesh>, fineness: Fineness) {
     let segments = fineness.of(72.0, 12);
     let mut jug = Shapes::new("jug", SILVER);
@@ -348,7 +350,7 @@ fn metal(meshes: &mut Vec<Mesh>, fineness: Fineness) {
 /// Position of the plate, on the cloth.
 const PLATE: DVec3 = DVec3::new(0.14, 0.0, 0.27);
 
-/// A fruit: its profile about its axis, from blossom to stalk, around its middle.
+/// Adds a fruit: its profile about its axis, from blossom to stalk, around its centre.
 fn one_fruit(shapes: &mut Shapes, stalks: &mut Shapes, kind: usize, place: DAffine3, fineness: Fineness) {
     let outline = match kind {
         APPLE => points(&[
@@ -377,7 +379,7 @@ fn one_fruit(shapes: &mut Shapes, stalks: &mut Shapes, kind: usize, place: DAffi
     }
 }
 
-/// Fruit in the bowl and beside it, and grapes on the plate.
+/// Adds fruit in the bowl and beside it, and grapes on the plate.
 fn fruit(meshes: &mut Vec<Mesh>, fineness: Fineness) {
     let mut kinds = [(APPLE, "apples"), (ORANGE, "oranges"), (LEMON, "lemons")]
         .map(|(material, name)| (material, Shapes::new(name, material)));
@@ -417,7 +419,7 @@ fn fruit(meshes: &mut Vec<Mesh>, fineness: Fineness) {
             continue;
         }
         let radius = 0.0088 + 0.0016 * random.unit();
-        // The lowest first, so that none floats far above the others.
+        // The lowest grapes come first, so that none floats far above the others.
         let layer = (placed.len() / 26) as f64;
         let middle = plate
             + DVec3::new(

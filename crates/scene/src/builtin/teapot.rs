@@ -8,7 +8,7 @@ use super::shape::Shapes;
 /// height.
 type Profile = [[f64; 3]; 4];
 
-/// Rim, body in two parts, bottom, knob and lid, from where each begins to where it ends below.
+/// Profiles of rim, body in two parts, bottom, knob and lid, each from its beginning down to its end.
 const PROFILES: [Profile; 6] = [
     [[1.4, 0.784, 2.4], [1.3375, 0.749, 2.53125], [1.4375, 0.805, 2.53125], [1.5, 0.84, 2.4]],
     [[1.5, 0.84, 2.4], [1.75, 0.98, 1.875], [2.0, 1.12, 1.35], [2.0, 1.12, 0.9]],
@@ -18,8 +18,8 @@ const PROFILES: [Profile; 6] = [
     [[0.2, 0.112, 2.7], [0.4, 0.224, 2.55], [1.3, 0.728, 2.55], [1.3, 0.728, 2.4]],
 ];
 
-/// Control points (x, z) of the two sides in the plane of symmetry, and how far the half tube swells between
-/// them: two patches of the handle, two of the spout, each in four rows.
+/// Control points (x, z) of the two sides in the plane of symmetry, and the swelling of the half tube between
+/// the sides: two patches of the handle, two of the spout, each in four rows.
 type Half = [[f64; 5]; 4];
 
 const HALVES: [Half; 4] = [
@@ -49,7 +49,7 @@ const HALVES: [Half; 4] = [
     ],
 ];
 
-/// Width of the body in the units of the control points; it is 3.15 high, and 6.5 from handle to spout.
+/// Width of the body in the units of the control points. The pot is 3.15 high, and 6.5 from handle to spout.
 pub(super) const BODY: f64 = 4.0;
 
 /// Adds a teapot that stands on the origin of `place` with its spout towards +x, each patch as `steps` by
@@ -83,7 +83,7 @@ pub(super) fn teapot(shapes: &mut Shapes, place: DAffine3, steps: usize) {
     }
 }
 
-/// One patch, with up the z axis of its control points; its front is on the other side where it is
+/// Adds one patch; "up" is the z axis of its control points. The front is on the other side if the patch is
 /// `mirrored`.
 fn patch(shapes: &mut Shapes, place: &DAffine3, rows: &[[DVec3; 4]; 4], steps: usize, mirrored: bool) {
     let upright = |point: DVec3| DVec3::new(point.x, point.z, -point.y);
@@ -93,7 +93,7 @@ fn patch(shapes: &mut Shapes, place: &DAffine3, rows: &[[DVec3; 4]; 4], steps: u
     for (row, column) in (0..=steps).flat_map(|row| (0..=steps).map(move |column| (row, column))) {
         let (u, v) = (share(column), share(row));
         let (point, _, _) = bicubic(rows, u, v);
-        // Beside an edge that is a single point there is a normal still.
+        // Beside an edge that is a single point there is still a normal.
         let inside = |share: f64| share.clamp(1.0e-4, 1.0 - 1.0e-4);
         let (_, along_u, along_v) = bicubic(rows, inside(u), inside(v));
         let normal = along_u.cross(along_v) * if mirrored { -1.0 } else { 1.0 };
@@ -113,7 +113,7 @@ fn patch(shapes: &mut Shapes, place: &DAffine3, rows: &[[DVec3; 4]; 4], steps: u
     }
 }
 
-/// The point of a patch and its derivatives; u runs along a row, v over the rows.
+/// Returns the point of a patch and its derivatives; u runs along a row, v over the rows.
 fn bicubic(rows: &[[DVec3; 4]; 4], u: f64, v: f64) -> (DVec3, DVec3, DVec3) {
     let [mut points, mut slopes] = [[DVec3::ZERO; 4]; 2];
     for (row, controls) in rows.iter().enumerate() {
@@ -123,7 +123,7 @@ fn bicubic(rows: &[[DVec3; 4]; 4], u: f64, v: f64) -> (DVec3, DVec3, DVec3) {
     (point, along_u, along_v)
 }
 
-/// The point of a Bezier curve and its derivative.
+/// Returns the point of a Bezier curve and its derivative.
 fn cubic(controls: &[DVec3; 4], t: f64) -> (DVec3, DVec3) {
     let [a, b, c, d] = *controls;
     let s = 1.0 - t;
@@ -148,7 +148,7 @@ mod tests {
             .fold((points[0], points[0]), |(low, high), &point| (low.min(point), high.max(point)));
         assert!(low.distance(DVec3::new(-3.0, 0.0, -2.0)) < 0.02, "{low}");
         assert!(high.distance(DVec3::new(3.43, 3.15, 2.0)) < 0.02, "{high}");
-        // Six times the volume to the axis; handle and spout are counted, too.
+        // Six times the volume to the axis; handle and spout are counted as well.
         let enclosed: f64 = mesh
             .indices
             .chunks_exact(3)

@@ -1,4 +1,4 @@
-//! Teapots on a mirror, or beside one.
+//! Teapots on a mirror, or beside a mirror.
 
 use std::ops::RangeInclusive;
 
@@ -12,15 +12,15 @@ use super::teapot::{BODY, teapot};
 use crate::default_view::{camera_looking_at, default_light};
 use crate::{Environment, Instance, Material, Scene};
 
-/// Width of the mirror beyond the middle of the outermost pot, metres.
+/// Width of the mirror beyond the centre of the outermost pot, metres.
 const MARGIN: f64 = 4.0;
-/// Quads along a side of a patch.
+/// Number of quads along a side of a patch.
 const STEPS: usize = 10;
-/// Width of a pot's body, metres; from handle to spout it is 1.61 times as long.
+/// Width of a pot's body, metres. The length from handle to spout is 1.61 times as much.
 const WIDTH: f64 = 0.4;
-/// Distance of the pots times 0.65, metres: none reaches another, however they are turned.
+/// Distance between pots times 0.65, metres: no pot reaches another, however they are turned.
 const SPACING: f64 = 0.46;
-/// Seed of the turns of the pots.
+/// Seed of the pots' rotations.
 const SEED: u64 = 0x5EED_0005;
 
 /// Parameters of [`teapots`].
@@ -28,10 +28,10 @@ const SEED: u64 = 0x5EED_0005;
 pub struct Teapots {
     /// Number of pots, within [`Teapots::POTS`].
     pub pots: u64,
-    /// Ground under the pots.
+    /// Kind of ground under the pots.
     pub ground: Ground,
-    /// Rectangular lamps above them, within [`Teapots::LAMPS`]. Without one the environment is a map:
-    /// [`default_light`].
+    /// Number of rectangular lamps above the pots, within [`Teapots::LAMPS`]. Without a lamp the environment
+    /// is a map: [`default_light`].
     pub lamps: u64,
 }
 
@@ -40,19 +40,19 @@ pub struct Teapots {
 pub enum Ground {
     /// A plane mirror.
     Mirror,
-    /// A matt plane; the mirror is a ball, where one more pot would stand.
+    /// A matt plane; the mirror is a ball in the place of one more pot.
     Matt,
 }
 
 impl Ground {
-    /// Values of the parameter.
+    /// Names of the values on the command line.
     pub const NAMES: [&'static str; 2] = ["mirror", "matt"];
 }
 
 impl Teapots {
-    /// Numbers of pots that can be asked for.
+    /// Valid range of [`Teapots::pots`].
     pub const POTS: RangeInclusive<u64> = 1..=2_000;
-    /// Numbers of lamps that can be asked for.
+    /// Valid range of [`Teapots::lamps`].
     pub const LAMPS: RangeInclusive<u64> = 0..=2;
 }
 
@@ -62,15 +62,15 @@ impl Default for Teapots {
     }
 }
 
-/// Position of a pot: a spiral of golden angles, as much room for each.
+/// Returns the position of a pot: a spiral of golden angles gives each pot as much room.
 fn place(index: u64) -> (f64, f64) {
     let (sin, cos) = turn(index as f64 * 0.381_966_011_250_105);
     let distance = SPACING * (index as f64 + 0.5).sqrt();
     (distance * cos, distance * sin)
 }
 
-/// Utah teapots of seven glazes and metals in a spiral on a plane mirror or beside a mirroring ball, under
-/// large lamps or a sky. All are instances of one shape, with a mesh for each material.
+/// Makes Utah teapots of seven glazes and metals in a spiral on a plane mirror or beside a mirroring ball,
+/// under large lamps or a sky. All are instances of one shape, with a mesh for each material.
 pub fn teapots(parameters: Teapots) -> Scene {
     let pots = parameters.pots.clamp(*Teapots::POTS.start(), *Teapots::POTS.end());
     let glaze = |name: &str, color: [f32; 3], roughness: f32| Material {
@@ -108,7 +108,7 @@ pub fn teapots(parameters: Teapots) -> Scene {
         .map(|index| {
             let (x, z) = place(index);
             let turned = DMat3::from_diagonal(DVec3::splat(WIDTH)) * about_y(random.unit());
-            // Just above the mirror: standing on it, the bottom would lie in its plane.
+            // The pot hovers just above the mirror: its bottom would otherwise lie in the mirror's plane.
             let foot = DVec3::new(x, 0.0005, z);
             let kind = index as usize % kinds;
             Instance {
@@ -147,7 +147,7 @@ pub fn teapots(parameters: Teapots) -> Scene {
             [at(-6.5, 3.0, 4.5), at(-4.0, 3.0, 6.5), at(-2.2, 6.5, 4.2), at(-4.7, 6.5, 2.2)],
             [at(3.0, 5.5, 1.0), at(5.5, 5.5, 1.0), at(5.5, 5.5, 5.0), at(3.0, 5.5, 5.0)],
         ];
-        // The first faces away from the pots.
+        // The first lamp faces away from the pots.
         for quad in quads.into_iter().skip(usize::from(parameters.lamps == 1)) {
             lamps.quad(quad, DVec2::ONE);
         }

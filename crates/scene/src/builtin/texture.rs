@@ -3,7 +3,7 @@
 use super::forms::turn;
 use crate::{AlphaMode, Filter, Image, Material, Texture, TextureRef, Wrap};
 
-/// Texels along a side of every picture here.
+/// Number of texels along a side of every picture of this module.
 const SIDE: u32 = 256;
 
 /// Fills a square image from a function of (u, v) in [0, 1)^2 that gives sRGB bytes and alpha.
@@ -18,7 +18,7 @@ fn paint(name: &str, texel: impl Fn(f64, f64) -> [u8; 4]) -> Image {
     Image { name: name.to_owned(), width: SIDE, height: SIDE, rgba8 }
 }
 
-/// A reproducible value in [0, 1] for each cell of a grid.
+/// Returns a reproducible value in [0, 1] for each cell of a grid.
 fn grain(x: u32, y: u32) -> f64 {
     let mut mixed = x.wrapping_mul(0x85EB_CA6B) ^ y.wrapping_mul(0xC2B2_AE35);
     mixed = (mixed ^ (mixed >> 15)).wrapping_mul(0x2C1B_3C6D);
@@ -31,7 +31,7 @@ fn shade(color: [f64; 3], factor: f64, alpha: u8) -> [u8; 4] {
     [red, green, blue, alpha]
 }
 
-/// Four by four tiles of light and dark stone with joints; repeats.
+/// Paints four by four tiles of light and dark stone with joints; repeats.
 pub(super) fn tiles() -> Image {
     paint("tiles", |u, v| {
         let (x, y) = (u * 4.0, v * 4.0);
@@ -47,7 +47,7 @@ pub(super) fn tiles() -> Image {
     })
 }
 
-/// Woven cloth with a stripe of another colour and a diamond pattern; repeats.
+/// Paints woven cloth with a stripe of another colour and a diamond pattern; repeats.
 pub(super) fn cloth(name: &str, ground: [f64; 3], figure: [f64; 3]) -> Image {
     paint(name, |u, v| {
         let thread = if ((u * 128.0) as u32 + (v * 128.0) as u32).is_multiple_of(2) { 1.0 } else { 0.88 };
@@ -57,7 +57,7 @@ pub(super) fn cloth(name: &str, ground: [f64; 3], figure: [f64; 3]) -> Image {
     })
 }
 
-/// Eight by eight small glazed tiles in shades of blue; repeats.
+/// Paints eight by eight small glazed tiles in shades of blue; repeats.
 pub(super) fn mosaic() -> Image {
     paint("mosaic", |u, v| {
         let (x, y) = (u * 8.0, v * 8.0);
@@ -70,7 +70,7 @@ pub(super) fn mosaic() -> Image {
     })
 }
 
-/// Wood with its grain along u; repeats.
+/// Paints wood with its grain along u; repeats.
 pub(super) fn wood() -> Image {
     paint("wood", |u, v| {
         let bend = 0.012 * turn(u).0 + 0.006 * turn(3.0 * u + 0.4).0;
@@ -81,7 +81,7 @@ pub(super) fn wood() -> Image {
     })
 }
 
-/// A leaf with its foot at the bottom: alpha is 0 around it.
+/// Paints a leaf with its foot at the bottom: alpha is 0 around it.
 pub(super) fn leaf() -> Image {
     paint("leaf", |u, v| {
         let along = 1.0 - v;
@@ -93,7 +93,7 @@ pub(super) fn leaf() -> Image {
     })
 }
 
-/// A bronze screen with round and square holes: alpha is 0 where it is pierced; repeats.
+/// Paints a bronze screen with round and square holes: alpha is 0 where it is pierced; repeats.
 pub(super) fn screen() -> Image {
     paint("screen", |u, v| {
         let (x, y) = ((u * 4.0).fract() - 0.5, (v * 4.0).fract() - 0.5);
@@ -107,12 +107,12 @@ pub(super) fn screen() -> Image {
     })
 }
 
-/// A repeating, filtered, mipmapped texture of image `image`.
+/// Makes a repeating, filtered, mipmapped texture of the image with index `image`.
 pub(super) fn repeating(image: usize) -> Texture {
     Texture { image, wrap_u: Wrap::Repeat, wrap_v: Wrap::Repeat, filter: Filter::Linear, mipmapped: true }
 }
 
-/// `material` with texture `texture` as its base colour, on texture coordinates 0 as they are.
+/// Returns `material` with texture `texture` as its base colour, on untransformed texture coordinates 0.
 pub(super) fn textured(material: Material, texture: usize) -> Material {
     let uv_transform = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     Material {
@@ -122,7 +122,7 @@ pub(super) fn textured(material: Material, texture: usize) -> Material {
     }
 }
 
-/// `material` where alpha below one half is a hole.
+/// Returns `material` with holes where alpha is below one half.
 pub(super) fn pierced(material: Material) -> Material {
     Material { alpha_mode: AlphaMode::Mask { cutoff: 0.5 }, double_sided: true, ..material }
 }

@@ -7,10 +7,10 @@ use super::triangles::face_normal;
 use crate::Mesh;
 use crate::remarks::Remarks;
 
-/// A normal whose length is off by more than this is reported; below, it is rounding.
+/// Tolerance of the length of a normal: a larger deviation is reported, a smaller one is rounding.
 const LENGTH_TOLERANCE: f32 = 1e-2;
 
-/// Brings every attribute to its promise or drops it.
+/// Brings every attribute into the state that [`Mesh`] promises, or drops it.
 pub(super) fn clean(mesh: &mut Mesh, remarks: &mut Remarks) {
     let vertices = mesh.positions.len();
     let place = place(mesh);
@@ -51,7 +51,8 @@ fn same_length<T>(
     }
 }
 
-/// Applies `fix` to every component (its place in the element comes first) and counts those that changed.
+/// Applies `fix` to every component (the first argument is the component's index in the element) and counts
+/// those that changed.
 fn replace<const N: usize>(elements: &mut [[f32; N]], fix: impl Fn(usize, f32) -> f32) -> usize {
     let mut changed = 0;
     for element in elements {
@@ -66,7 +67,7 @@ fn replace<const N: usize>(elements: &mut [[f32; N]], fix: impl Fn(usize, f32) -
     changed
 }
 
-/// The unit vector along `v`, computed in f64 so that no finite length overflows or vanishes.
+/// Returns the unit vector along `v`, computed in f64 so that no finite length overflows or vanishes.
 fn unit(v: [f32; 3]) -> Option<Vec3> {
     let v = DVec3::from(v.map(f64::from));
     v.is_finite().then(|| v.try_normalize()).flatten().map(|unit| unit.as_vec3())

@@ -1,8 +1,8 @@
-//! Places of remarks.
+//! Texts that name the place of a remark.
 
 use crate::Mesh;
 
-/// A mesh as the place of a remark.
+/// Names a mesh as the place of a remark.
 pub(super) fn place(mesh: &Mesh) -> String {
     format!("mesh {}", mesh.name)
 }

@@ -1,17 +1,17 @@
-//! Textures that meshes have no coordinates for.
+//! Remarks on textures of meshes without matching coordinates.
 
 use super::place::place;
 use crate::remarks::Remarks;
 use crate::{Material, Scene, TextureRef};
 
-/// Remarks on every mesh whose material has a texture that the mesh has no coordinates for.
+/// Notes a remark on every mesh without the coordinates that a texture of its material needs.
 pub fn textured(scene: &Scene, remarks: &mut Remarks) {
     for mesh in &scene.meshes {
         let Some(material) = scene.materials.get(mesh.material) else { continue };
         for (what, texture) in textures(material) {
             let Some(TextureRef { uv_set, .. }) = texture else { continue };
             if mesh.uvs.get(uv_set as usize).is_none_or(Option::is_none) {
-                // A tangent follows from coordinates unless the mesh has its own.
+                // A tangent is derived from coordinates unless the mesh has its own.
                 let is_laid = ["normal map", "anisotropy texture"].contains(&what);
                 let flat = is_laid && mesh.tangents.is_none();
                 let effect =
@@ -28,7 +28,7 @@ pub fn textured(scene: &Scene, remarks: &mut Remarks) {
     }
 }
 
-/// The textures of a material with their names.
+/// Returns the textures of a material with their names.
 fn textures(material: &Material) -> [(&'static str, Option<TextureRef>); 6] {
     [
         ("base colour texture", material.base_color_texture),

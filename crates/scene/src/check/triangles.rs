@@ -1,4 +1,4 @@
-//! Indices and positions: what a triangle needs to be traced.
+//! Checks of indices and positions: the requirements of a triangle that can be traced.
 
 use std::path::Path;
 
@@ -77,7 +77,7 @@ pub(super) fn is_degenerate(positions: &[[f32; 3]], corners: &[u32]) -> bool {
     face_normal(positions, corners) == DVec3::ZERO
 }
 
-/// Twice the area of a triangle along its normal, square metres.
+/// Returns a triangle's normal with twice the area as length, square metres.
 pub(super) fn face_normal(positions: &[[f32; 3]], corners: &[u32]) -> DVec3 {
     let corner = |k: usize| DVec3::from(positions[corners[k] as usize].map(f64::from));
     (corner(1) - corner(0)).cross(corner(2) - corner(0))

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use crate::Scene;
 
-/// Least and greatest corner, in metres, of the triangles as placed by the instances. Vertices that
-/// no triangle uses do not count, nor do coordinates that are not finite. `None` without triangles.
+/// Returns the least and greatest corner, in metres, of the triangles as placed by the instances. Vertices
+/// that no triangle uses do not count, nor do coordinates that are not finite. `None` without triangles.
 pub fn bounds(scene: &Scene) -> Option<(DVec3, DVec3)> {
     let mut used: Vec<Option<Vec<DVec3>>> = vec![None; scene.meshes.len()];
     let mut total: Option<(DVec3, DVec3)> = None;

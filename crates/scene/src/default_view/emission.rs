@@ -1,11 +1,11 @@
-//! Light that the surfaces of a scene send out, spread over all of them.
+//! Light that the surfaces of a scene emit, averaged over all of them.
 
 use glam::DVec3;
 
 use super::emitters::{emits, shown_materials};
 use crate::{Image, Instance, Material, Mesh, Scene, TextureRef, Wrap};
 
-/// Weights of a triangle's corners at the places where its emission is looked up.
+/// Barycentric weights of the points of a triangle at which its emission is looked up.
 const PLACES: [[f64; 3]; 4] = [
     [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
     [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
@@ -13,11 +13,11 @@ const PLACES: [[f64; 3]; 4] = [
     [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
 ];
 
-/// The mean over the area of all placed triangles of the luminance of the radiance they emit, W/(sr m^2); a
-/// side that does not emit adds nothing, one that does counts in full. 0 without area. Textures are looked up
-/// at four places of each triangle; holes that alpha cuts are not.
+/// Returns the mean, over the area of all placed triangles, of the luminance of the radiance that they emit,
+/// W/(sr m^2). A side that does not emit adds nothing, an emitting side counts in full. 0 without area.
+/// Textures are looked up at four points of each triangle; holes that alpha cuts are ignored.
 pub(super) fn mean_emission(scene: &Scene) -> f64 {
-    // Most scenes have nothing that glows, and some have millions of triangles.
+    // Most scenes have no emissive surface, and some have millions of triangles.
     if !shown_materials(scene).any(emits) {
         return 0.0;
     }
@@ -36,7 +36,7 @@ pub(super) fn mean_emission(scene: &Scene) -> f64 {
     if area > 0.0 { emitted / area } else { 0.0 }
 }
 
-/// Square metres; not finite where a corner is missing or not finite.
+/// Returns the area of a triangle in square metres; not finite where a corner is missing or not finite.
 fn triangle_area(instance: &Instance, mesh: &Mesh, corners: &[u32]) -> f64 {
     let place = |index: u32| {
         let position = mesh.positions.get(index as usize).map_or([f64::NAN; 3], |p| p.map(f64::from));
@@ -46,7 +46,7 @@ fn triangle_area(instance: &Instance, mesh: &Mesh, corners: &[u32]) -> f64 {
     0.5 * (b - a).cross(c - a).length()
 }
 
-/// Luminance of what a triangle emits on average, once for each side that does.
+/// Returns the luminance that a triangle emits on average, once for each side that emits.
 fn luminance(scene: &Scene, material: &Material, mesh: &Mesh, corners: &[u32]) -> f64 {
     let (color, texture) = if material.unlit {
         let [red, green, blue, _] = material.base_color;
@@ -64,7 +64,7 @@ fn luminance(scene: &Scene, material: &Material, mesh: &Mesh, corners: &[u32]) -
     sides * PLACES.iter().map(at).sum::<f64>() / PLACES.len() as f64
 }
 
-/// The colour of the texel at a place of a triangle, linear; `None` where there is no such texel.
+/// Returns the linear colour of the texel at a point of a triangle; `None` where there is no such texel.
 fn texel(
     scene: &Scene,
     mesh: &Mesh,
@@ -89,14 +89,14 @@ fn texel(
     decoded(image, column, line)
 }
 
-/// The texel of a row or a column in which a coordinate lies.
+/// Returns the row or column of texels in which a coordinate lies.
 fn position(coordinate: f64, wrap: Wrap, size: u32) -> u32 {
     let share = match wrap {
         Wrap::Repeat => coordinate.rem_euclid(1.0),
         Wrap::Mirror => 1.0 - (coordinate.rem_euclid(2.0) - 1.0).abs(),
         Wrap::Clamp => coordinate.clamp(0.0, 1.0),
     };
-    // Not-a-number becomes 0.
+    // The cast turns not-a-number into 0.
     ((share * f64::from(size)) as u32).min(size.saturating_sub(1))
 }
 

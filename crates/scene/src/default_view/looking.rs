@@ -1,12 +1,12 @@
-//! Cameras by where they look.
+//! Cameras given by an eye and a target.
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use crate::{Camera, Projection};
 
-/// A perspective camera at `eye` (metres) that looks at `target`, upright; `fov_y` is the full
-/// vertical angle in radians. Looking straight up or down, -z is up in the picture. If eye and target
-/// coincide, it looks along -z.
+/// Makes a perspective camera at `eye` (metres) that looks at `target`, upright; `fov_y` is the full vertical
+/// angle in radians. Looking straight up or down, -z is up in the picture. If eye and target coincide, the
+/// camera looks along -z.
 pub fn camera_looking_at(name: &str, eye: DVec3, target: DVec3, fov_y: f32) -> Camera {
     let back = (eye - target).normalize_or(DVec3::Z);
     let right = DVec3::Y.cross(back).try_normalize().unwrap_or(DVec3::X);

@@ -1,4 +1,4 @@
-//! Scenes that are rooms, and where to stand in one.
+//! Tests whether a scene is a room, and a camera that stands in it.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
@@ -9,61 +9,63 @@ use super::looking::camera_looking_at;
 use super::sight::Sight;
 use crate::{Camera, Scene};
 
-/// Region that is searched for a room, in the middle of the bounds, and region of the eye: shares of the
-/// height of the bounds, preferred ones first.
+/// Heights of points, as shares of the height of the bounds, preferred ones first: of the region in the
+/// middle of the bounds that is searched for a room, and of the eye.
 const HEIGHTS: [f64; 5] = [0.35, 0.25, 0.5, 0.15, 0.7];
-/// Directions, over the whole sphere, in which one looks around.
+/// Number of directions, over the whole sphere, in which a point's surroundings are examined.
 const DIRECTIONS: usize = 96;
-/// Shares of the directions that end on the front of a surface, of all and of those downwards. A
-/// hollow thing with walls of its own, such as a helmet, lacks the floor.
+/// Least shares of directions that end on the front of a surface: of all directions, and of the downward
+/// ones. A hollow object with walls of its own, such as a helmet, lacks the floor.
 const FRONTS: f64 = 0.6;
 const FRONTS_BELOW: f64 = 0.9;
-/// To be stood in, a room must be one in all directions: of those that do not rise by more than 30 degrees
-/// this share ends on fronts, in each quarter of the horizon. The face of a mask is open.
+/// Least share of fronts in each quarter of the horizon, among the directions that do not rise by more than
+/// 30 degrees: the camera stands only in a room that is one in all directions. The face of a mask is open.
 const FRONTS_AROUND: f64 = 0.75;
-/// Cosine between straight up and the steepest of them.
+/// Cosine of the angle between straight up and the steepest of those directions.
 const STEEPEST: f64 = 0.5;
-/// The share of the surface that may lie outside. Of a hollow thing that is lined, such as a helmet or the
-/// shell of a machine, more than half does, since a lining is smaller than what it lines; of a building that
-/// is modelled for its inside, with its outer walls, a third and less.
+/// Largest share of the surface that may lie outside. Of a lined hollow object, such as a helmet or the shell
+/// of a machine, more than half does, since a lining is smaller than the outer shell; of a building that is
+/// modelled for its inside, with its outer walls, a third and less.
 const OUTER: f64 = 0.42;
-/// Places on the surface that are looked at for that, and directions from each of which three in four must be
-/// free.
+/// Number of points on the surface that are examined for that share, and number of directions from each,
+/// three in four of which must be free.
 const PLACES_ON_SURFACE: usize = 1024;
 const DIRECTIONS_FROM_SURFACE: usize = 12;
-/// An open side, as a box for show has one, takes at least this share of the directions, and the
-/// mean of all that end nowhere is at least this long (1: all the same).
+/// Least share of the directions that an open side takes, as of a box for show, and least length of the mean
+/// of all directions that end nowhere (1 if all are equal).
 const OPEN_SIDE: f64 = 0.08;
 const OPEN_SIDE_MEAN: f64 = 0.7;
-/// Cosine between that mean and the axis that the side lies across.
+/// Least cosine of the angle between that mean and the axis that the side lies across.
 const OPEN_SIDE_AXIS: f64 = 0.95;
-/// Full vertical angle through an open side, degrees, and how much more than the side is in view.
+/// Full vertical angle through an open side, degrees, and the margin of the view around the side.
 const OPEN_SIDE_FOV_Y: f64 = 40.0;
 const OPEN_SIDE_MARGIN: f64 = 1.05;
-/// Nothing may be closer to the eye, in diagonals of the bounds.
+/// Least distance from the eye to any surface, in diagonals of the bounds.
 const CLEARANCE: f64 = 0.02;
-/// Level directions among which the view is chosen.
+/// Number of level directions among which the view is chosen.
 const HEADINGS: usize = 64;
-/// Turns from a heading, radians. The way ahead is as long as the shortest of them, so that a gap
-/// between two columns is no view.
+/// Angles from a heading at which rays are cast, radians. The way ahead is as long as the shortest of these
+/// rays, so that a gap between two columns is no view.
 const FAN: [f64; 5] = [0.0, -0.035, 0.035, -0.07, 0.07];
-/// Places tried for each heading, from the middle back to the bounds.
+/// Number of positions tried for each heading, from the middle back to the bounds.
 const PLACES: usize = 13;
-/// A view is better if it is longer by this factor; among views almost as long the first stays.
+/// Factor by which a view must be longer to be better; among views almost as long the first stays.
 const LONGER: f64 = 1.03;
-/// The way ahead, in longest level edges of the bounds, without which the room is only a nook.
+/// Least length of the way ahead, in longest level edges of the bounds; a room with a shorter one is only a
+/// nook.
 const LEAST_WAY: f64 = 0.3;
-/// The view's fall over its length: about three degrees.
+/// Fall of the view over its length: about three degrees.
 const FALL: f64 = 0.05;
-/// Full vertical angles, degrees, for ways as long as they are broad, and for at least three times that.
+/// Full vertical angles, degrees, for ways that are as long as they are broad, and for ways at least three
+/// times as long.
 const FOV_Y: (f64, f64) = (70.0, 60.0);
 
-/// A camera in the room that the scene is, if it is one.
+/// Places a camera in the room that the scene is; `None` if the scene is no room.
 pub(super) fn camera_inside(scene: &Scene) -> Option<Camera> {
     let (low, high) = bounds(scene)?;
     let extent = high - low;
     let clearance = extent.length() * CLEARANCE;
-    // Keeps out what is too flat to stand in, and bounds too far apart for arithmetic.
+    // The test excludes bounds that are too flat to stand in, and bounds too large for arithmetic.
     if !(clearance > 0.0 && clearance.is_finite() && extent.min_element() >= 2.0 * clearance) {
         return None;
     }
@@ -84,17 +86,17 @@ pub(super) fn camera_inside(scene: &Scene) -> Option<Camera> {
     Some(room.camera(&view))
 }
 
-/// A place and a level direction.
+/// Position and level direction of a view.
 struct View {
     eye: DVec3,
     forward: DVec3,
-    /// Metres to the first surface ahead.
+    /// Length of the free way ahead up to the first surface, metres.
     way: f64,
 }
 
 /// Surfaces seen from a point.
 struct Surroundings {
-    /// Metres; infinite if nothing is seen.
+    /// Distance to the nearest surface, metres; infinite if nothing is seen.
     nearest: f64,
     /// Share of all directions that end on a front.
     fronts: f64,
@@ -104,7 +106,7 @@ struct Surroundings {
 
 struct Room<'a> {
     sight: Sight<'a>,
-    /// Metres.
+    /// Least distance from the eye to any surface, metres.
     clearance: f64,
 }
 
@@ -125,11 +127,11 @@ impl Room<'_> {
         all.iter().zip(fronts).all(|(&all, fronts)| f64::from(fronts) >= FRONTS_AROUND * f64::from(all))
     }
 
-    /// The share of the surface, by area, whose front is open to the outside: from where three in four
-    /// directions, by the cosine law, hit nothing.
+    /// Returns the share of the surface, by area, whose front is open to the outside: three in four
+    /// directions from there, by the cosine law, hit nothing.
     fn outer_share(&self) -> f64 {
         let places = self.sight.places(PLACES_ON_SURFACE);
-        // A hit closer than this is on the surface that the place lies on.
+        // A hit closer than this is on the surface that the point lies on.
         let own = self.clearance * 1.0e-4;
         let is_outside = |&(place, normal): &(DVec3, DVec3)| {
             let ways = sphere_of(DIRECTIONS_FROM_SURFACE).map(|point| (normal + point).normalize_or(normal));
@@ -153,7 +155,7 @@ impl Room<'_> {
                 fronts_below += front;
             }
         }
-        // Walls lie across the axes more often than not, and between the directions of the sphere.
+        // Walls often lie across the axes, which are between the directions of the sphere.
         for axis in DVec3::AXES {
             for direction in [axis, -axis] {
                 nearest = self.sight.first(point, direction).map_or(nearest, |hit| hit.t.min(nearest));
@@ -167,13 +169,13 @@ impl Room<'_> {
         }
     }
 
-    /// Replaces the best view by better ones whose way passes through the middle or near it. What
-    /// stands in the middle may hide the rest, so places behind it count too.
+    /// Replaces the best view by better ones whose way passes through the middle or near it. An object in the
+    /// middle may hide the rest, so positions behind it count too.
     fn look_from(&self, middle: DVec3, best: &mut Option<View>) {
         for heading in 0..HEADINGS {
             let angle = TAU * heading as f64 / HEADINGS as f64;
             let forward = level(angle);
-            // A little more than clear, so that rounding does not decide.
+            // The eye is a little more than clear, so that rounding does not decide.
             let room_behind = self.exit(middle, -forward) - self.clearance * 1.01;
             for place in 0..PLACES {
                 let eye = middle - forward * (room_behind * place as f64 / (PLACES - 1) as f64);
@@ -186,7 +188,7 @@ impl Room<'_> {
         }
     }
 
-    /// A camera before the one open side of the room, looking straight in; `None` if there is no such
+    /// Places a camera before the one open side of the room, looking straight in; `None` if there is no such
     /// side, or it is the top.
     fn camera_at_open_side(&self, middle: DVec3) -> Option<Camera> {
         let open: Vec<DVec3> =
@@ -217,19 +219,19 @@ impl Room<'_> {
         camera_looking_at("default", view.eye, target, fov_y as f32)
     }
 
-    /// The free way in the fan around a heading, metres; `None` if any ray of it leaves the scene or
-    /// ends on the back of a surface: a view is of something.
+    /// Returns the length of the free way in the fan around a heading, metres; `None` if any ray of the fan
+    /// leaves the scene or ends on the back of a surface, since a view must show surfaces.
     fn way_to_front(&self, from: DVec3, angle: f64) -> Option<f64> {
         let ray = |turn: &f64| self.sight.first(from, level(angle + turn)).filter(|hit| hit.front);
         FAN.iter().try_fold(f64::INFINITY, |way, turn| Some(way.min(ray(turn)?.t)))
     }
 
-    /// Metres to the first surface, or to the bounds if there is none.
+    /// Returns the distance to the first surface, or to the bounds if there is none, metres.
     fn reach(&self, from: DVec3, direction: DVec3) -> f64 {
         self.sight.first(from, direction).map_or_else(|| self.exit(from, direction), |hit| hit.t)
     }
 
-    /// Metres to the bounds from inside.
+    /// Returns the distance to the bounds from inside, metres.
     fn exit(&self, from: DVec3, direction: DVec3) -> f64 {
         let border = DVec3::select(direction.cmpgt(DVec3::ZERO), self.sight.high, self.sight.low);
         let crossed = (0..3).filter(|&axis| direction[axis] != 0.0);
@@ -237,7 +239,7 @@ impl Room<'_> {
     }
 }
 
-/// The level direction at an angle from -z towards -x, radians.
+/// Returns the level direction at an angle from -z towards -x, radians.
 fn level(angle: f64) -> DVec3 {
     DVec3::new(-angle.sin(), 0.0, -angle.cos())
 }
@@ -246,7 +248,7 @@ fn sphere() -> impl Iterator<Item = DVec3> {
     sphere_of(DIRECTIONS)
 }
 
-/// Directions evenly over the sphere: a spiral that turns by the golden angle.
+/// Iterates over directions spread evenly over the sphere: a spiral that turns by the golden angle.
 fn sphere_of(count: usize) -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5.0_f64.sqrt());
     (0..count).map(move |step| {

@@ -6,9 +6,9 @@ use super::bounds;
 use super::sight::Sight;
 use crate::{Camera, Projection, Scene};
 
-/// The instance that the middle of each pixel shows, rows from the top; nothing where a ray leaves the scene.
+/// Returns the instance at the middle of each pixel, rows from the top; `None` where a ray leaves the scene.
 /// The camera is a perspective one and stands within the bounds of the scene, which has few enough triangles
-/// to be looked through.
+/// for [`Sight`].
 pub(crate) fn seen_instances(scene: &Scene, camera: &Camera, [width, height]: [u32; 2]) -> Vec<Option<u32>> {
     debug_assert!(matches!(camera.projection, Projection::Perspective { .. }));
     let Some((low, high)) = bounds(scene) else { return Vec::new() };

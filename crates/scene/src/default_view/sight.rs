@@ -1,8 +1,8 @@
 //! First hits of rays inside a scene: a uniform grid over the placed triangles, in f64.
 //!
-//! It answers a few thousand rays, once, so it is made for little work in the making: a grid of about
-//! as many cells as triangles, which is coarsened until the lists in the cells stay short in total.
-//! Triangles stay where the meshes have them and are placed anew for each test.
+//! The grid answers a few thousand rays, once, so it is cheap to build: it has about as many cells as
+//! triangles, and is coarsened until the lists in the cells stay short in total. Triangles stay where the
+//! meshes have them and are placed anew for each test.
 
 use std::cell::Cell;
 
@@ -10,48 +10,49 @@ use glam::{DVec3, UVec3};
 
 use crate::Scene;
 
-/// Scenes of more triangles, over all instances, are not looked through.
+/// Largest number of triangles, over all instances, of a scene that is examined.
 const MAX_TRIANGLES: usize = 1 << 23;
-/// Cells along the longest edge of the bounds, at most.
+/// Largest number of cells along the longest edge of the bounds.
 const MAX_CELLS: u32 = 96;
-/// Entries of all cell lists, per triangle and on top of that, before the grid is coarsened.
+/// Limits of the entries of all cell lists, per triangle and on top of that, beyond which the grid is
+/// coarsened.
 const ENTRIES_PER_TRIANGLE: usize = 6;
 const ENTRIES_FREE: usize = 1 << 20;
 
-/// Tests of a ray against a triangle, over all rays: about a second's worth.
+/// Limit of ray-triangle tests, over all rays: about a second's worth.
 const MAX_TESTS: usize = 50_000_000;
 
 /// Hit of a ray on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hit {
-    /// Distance in lengths of the direction.
+    /// Distance in multiples of the direction's length.
     pub t: f64,
-    /// True if the front side, the one seen counter-clockwise, faces the ray. Placements that mirror
-    /// turn the order of the corners, not the side.
+    /// True if the front side, the one seen counter-clockwise, faces the ray. Placements that mirror reverse
+    /// the order of the corners, not the side.
     pub front: bool,
     /// Index into [`Scene::instances`].
     pub instance: u32,
 }
 
-/// The placed triangles of a scene, ready for rays.
+/// Placed triangles of a scene, ready for rays.
 pub(super) struct Sight<'a> {
     scene: &'a Scene,
     pub low: DVec3,
     pub high: DVec3,
     cells: UVec3,
     cell_size: DVec3,
-    /// Instance, and triangle of its mesh.
+    /// Triangles: instance, and triangle of its mesh.
     triangles: Vec<[u32; 2]>,
-    /// Entries of cell `i` are `starts[i]..starts[i + 1]`.
+    /// Ranges of the lists: entries of cell `i` are `starts[i]..starts[i + 1]`.
     starts: Vec<u32>,
     entries: Vec<u32>,
-    /// Tests that may still be made.
+    /// Number of tests that may still be made.
     tests_left: Cell<usize>,
 }
 
 impl<'a> Sight<'a> {
-    /// `None` for scenes of too many triangles or of none. `low` and `high` are the scene's bounds,
-    /// with an extent on every axis.
+    /// Makes the grid; `None` for scenes of too many triangles or of none. `low` and `high` are the scene's
+    /// bounds, with an extent on every axis.
     pub fn new(scene: &'a Scene, low: DVec3, high: DVec3) -> Option<Self> {
         let of = |mesh: usize| scene.meshes.get(mesh).map_or(0, |mesh| mesh.triangle_count());
         let count = scene.instances.iter().fold(0_usize, |sum, placed| sum.saturating_add(of(placed.mesh)));
@@ -96,13 +97,13 @@ impl<'a> Sight<'a> {
         Some(sight)
     }
 
-    /// The nearest hit of the ray, at distance 0 too. The origin lies in the bounds. Once too much has
-    /// been looked at, as where many large triangles lie on each other, there are no more hits.
+    /// Returns the nearest hit of the ray, at distance 0 too. The origin lies in the bounds. After too many
+    /// tests, as where many large triangles lie on each other, there are no more hits.
     pub fn first(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         self.first_beyond(origin, direction, 0.0)
     }
 
-    /// [`Self::first`] at a distance of at least `least`.
+    /// Returns the nearest hit like [`Self::first`], at a distance of at least `least`.
     pub fn first_beyond(&self, origin: DVec3, direction: DVec3, least: f64) -> Option<Hit> {
         let mut cell = self.cell_at(origin);
         let mut best: Option<Hit> = None;
@@ -121,7 +122,7 @@ impl<'a> Sight<'a> {
                     best = Some(hit);
                 }
             }
-            // The next border, and the axis it lies across.
+            // The next border of the cell, and the axis that it lies across.
             let mut leave = (f64::INFINITY, 0);
             for axis in 0..3 {
                 let border = f64::from(cell[axis] + u32::from(direction[axis] > 0.0));
@@ -140,8 +141,8 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// So many places evenly over the area of the surfaces, each with the unit normal of its front. Fewer
-    /// where triangles are too thin to have a normal, none without area.
+    /// Returns `count` points spread evenly over the area of the surfaces, each with the unit normal of its
+    /// front. There are fewer where triangles are too thin to have a normal, and none without area.
     pub fn places(&self, count: usize) -> Vec<(DVec3, DVec3)> {
         let placed = |triangle: &[u32; 2]| {
             let (points, mirrored) = corners(self.scene, *triangle).unwrap_or_default();
@@ -157,7 +158,7 @@ impl<'a> Sight<'a> {
             passed += normal.length();
             while places.len() < count && passed > step * (places.len() as f64 + 0.5) {
                 let Some(normal) = normal.try_normalize() else { break };
-                // Two numbers that fill the square evenly (Roberts 2018), folded into the triangle.
+                // The two numbers fill the square evenly (Roberts 2018) and are folded into the triangle.
                 let [u, v] = [0.754_877_666, 0.569_840_291].map(|turn| (turn * places.len() as f64).fract());
                 let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
                 let place = a + (b - a) * u + (c - a) * v;
@@ -200,7 +201,7 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// Number of cells that the triangle's box overlaps, and the first and the last of them.
+    /// Returns the number of cells that the triangle's box overlaps, and the first and the last of them.
     fn cells_of(&self, triangle: [u32; 2]) -> (usize, UVec3, UVec3) {
         let Some(([a, b, c], _)) = corners(self.scene, triangle) else { return (0, UVec3::ONE, UVec3::ZERO) };
         let (first, last) = (self.cell_at(a.min(b).min(c)), self.cell_at(a.max(b).max(c)));
@@ -216,7 +217,7 @@ impl<'a> Sight<'a> {
         (cell.z * cells.y + cell.y) * cells.x + cell.x
     }
 
-    /// Intersection of the ray with the triangle's plane within its three edges.
+    /// Intersects the ray with the triangle's plane within its three edges.
     fn meet(&self, triangle: [u32; 2], origin: DVec3, direction: DVec3) -> Option<Hit> {
         let ([a, b, c], mirrored) = corners(self.scene, triangle)?;
         let (to_b, to_c, from_a) = (b - a, c - a, origin - a);
@@ -225,13 +226,13 @@ impl<'a> Sight<'a> {
         let turn = from_a.cross(direction);
         let (u, v) = (to_c.dot(turn) / facing, -to_b.dot(turn) / facing);
         let t = normal.dot(from_a) / facing;
-        // A ray in the plane divides by zero, and no comparison below holds for what comes of it.
+        // A ray in the plane divides by zero, and no comparison below holds for the result.
         let within = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0 && t.is_finite();
         within.then_some(Hit { t, front: (facing > 0.0) != mirrored, instance: triangle[0] })
     }
 }
 
-/// The placed corners, and whether the placement mirrors. `None` where an index has no vertex or a
+/// Returns the placed corners, and true if the placement mirrors. `None` where an index has no vertex or a
 /// coordinate is not finite.
 fn corners(scene: &Scene, [instance, triangle]: [u32; 2]) -> Option<([DVec3; 3], bool)> {
     let placed = scene.instances.get(instance as usize)?;

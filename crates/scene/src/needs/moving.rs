@@ -3,9 +3,9 @@
 use crate::Scene;
 use crate::animation::{ChannelValues, Rig};
 
-/// For each instance, in scene order, whether a clip moves or deforms it (a clip animates its node or
-/// one above it, a joint of its skin or one above that, or the weights of its morph targets), or the deformer
-/// changes its mesh.
+/// Returns for each instance, in scene order, true if it changes with time. A clip can move or deform it: by
+/// animating its node or one above it, a joint of its skin or one above that, or the weights of its morph
+/// targets. A deformer can change its mesh.
 pub fn moving_instances(scene: &Scene) -> Vec<bool> {
     let mut moving = moved_by_clips(scene);
     if let Some(deformer) = &scene.animation.deformer {
@@ -49,7 +49,7 @@ fn moved_by_clips(scene: &Scene) -> Vec<bool> {
     scene.instances.iter().enumerate().map(of_instance).collect()
 }
 
-/// Nodes that a clip animates, and all below them.
+/// Marks the nodes that a clip animates, and all nodes below them.
 fn moving_nodes(rig: &Rig) -> Vec<bool> {
     let mut animated = vec![false; rig.nodes.len()];
     for channel in rig.clips.iter().flat_map(|clip| &clip.channels) {

@@ -3,12 +3,12 @@
 use super::workload::Workload;
 use crate::{AlphaMode, Material, TextureRef};
 
-/// Purposes for which a material's textures are read.
+/// Textures of a material by the purpose for which a workload reads them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Reads<'a> {
-    /// As colour, or for partial opacity.
+    /// Base colour texture, read as colour or for partial opacity.
     pub base_color: Option<&'a TextureRef>,
-    /// For its alpha, against a cutoff.
+    /// Base colour texture, read for its alpha against a cutoff.
     pub mask: Option<&'a TextureRef>,
     pub metallic_roughness: Option<&'a TextureRef>,
     pub anisotropy: Option<&'a TextureRef>,
@@ -46,7 +46,7 @@ impl<'a> Reads<'a> {
         reads
     }
 
-    /// All textures that are read; one that is read twice occurs twice.
+    /// Iterates over all textures that are read; one that is read twice occurs twice.
     pub fn textures(&self) -> impl Iterator<Item = &'a TextureRef> {
         let Self { base_color, mask, metallic_roughness, anisotropy, normal, emission, transmission } = *self;
         [base_color, mask, metallic_roughness, anisotropy, normal, emission, transmission]
@@ -55,7 +55,7 @@ impl<'a> Reads<'a> {
     }
 }
 
-/// True if the base colour, of material, texture or vertices, changes what the workload shows.
+/// True if the base colour, of material, texture or vertices, changes the workload's result.
 pub(super) fn reads_base_color(material: &Material, workload: Workload) -> bool {
     workload.shades || (workload.emission && material.unlit) || blends(material, workload)
 }
@@ -65,7 +65,7 @@ pub(super) fn blends(material: &Material, workload: Workload) -> bool {
     workload.blends && material.alpha_mode == AlphaMode::Blend
 }
 
-/// True if the workload shows that facets are rougher along one direction.
+/// True if the workload's result depends on anisotropic roughness.
 pub(super) fn is_anisotropic(material: &Material, workload: Workload) -> bool {
     workload.scatters && !material.unlit && material.anisotropy > 0.0
 }

@@ -1,4 +1,4 @@
-//! Terms that a scene has, as far as a workload could look at them.
+//! Terms that a scene has, as far as a workload can observe them.
 
 use super::moving::moving_instances;
 use super::reads::{Reads, blends, is_anisotropic, is_lit, reads_base_color};
@@ -6,7 +6,7 @@ use super::term::Term;
 use super::workload::Workload;
 use crate::{AlphaMode, Environment, Light, Material, Mesh, Scene, TextureRef};
 
-/// Materials that triangles in the world have, each once, in the order of the scene.
+/// Iterates over the materials of placed triangles, each once, in the order of the scene.
 pub(super) fn placed_materials(scene: &Scene) -> impl Iterator<Item = &Material> {
     let mut used = vec![false; scene.materials.len()];
     for mesh in placed_meshes(scene) {
@@ -17,7 +17,7 @@ pub(super) fn placed_materials(scene: &Scene) -> impl Iterator<Item = &Material>
     scene.materials.iter().zip(used).filter(|(_, used)| *used).map(|(material, _)| material)
 }
 
-/// Meshes with triangles that are placed in the world, each once.
+/// Iterates over the placed meshes that have triangles, each once.
 fn placed_meshes(scene: &Scene) -> impl Iterator<Item = &Mesh> {
     let mut used = vec![false; scene.meshes.len()];
     for instance in &scene.instances {
@@ -48,7 +48,7 @@ impl Found {
         self.count += 1;
     }
 
-    /// Why a term that the workload looks at is needed or not.
+    /// Says why a term that the workload observes is needed or not.
     pub fn sentence(&self, term: Term) -> String {
         let ((one, many), is, predicate) = words(term);
         let are = if is == "is" { "are" } else { "have" };
@@ -62,7 +62,7 @@ impl Found {
     }
 }
 
-/// The words of a sentence on a term: subject in singular and plural, `is` or `has`, predicate.
+/// Returns the words of a sentence on a term: subject in singular and plural, `is` or `has`, predicate.
 fn words(term: Term) -> ((&'static str, &'static str), &'static str, &'static str) {
     let (mesh, material) = (("mesh", "meshes"), ("material", "materials"));
     match term {
@@ -92,12 +92,12 @@ fn words(term: Term) -> ((&'static str, &'static str), &'static str, &'static st
     }
 }
 
-/// Why a workload cannot see a term in any scene; `None` if it can.
+/// Says why a workload cannot observe a term in any scene; `None` if it can.
 pub(super) fn unseen(term: Term, workload: Workload) -> Option<&'static str> {
     let seen = match term {
         Term::Motion | Term::AlphaMask | Term::Uv0 | Term::Uv1 | Term::Colors => true,
         Term::Emission | Term::EmissionTextures | Term::Environment => workload.emission,
-        // Unlit materials show it as emission.
+        // Unlit materials show their base colour as emission.
         Term::BaseColorTextures => workload.emission || workload.shades || workload.blends,
         Term::AlphaBlend => workload.blends,
         Term::Normals | Term::Tangents | Term::NormalTextures => workload.shades,
@@ -115,7 +115,7 @@ pub(super) fn unseen(term: Term, workload: Workload) -> Option<&'static str> {
     (!seen).then_some(workload.why)
 }
 
-/// Counts of everything that has a term.
+/// Numbers of elements of a scene that have each term.
 pub(super) struct Survey {
     counts: [Found; Term::ALL.len()],
 }
@@ -204,7 +204,7 @@ impl Survey {
         self.add_if(mesh.tangents.is_some() && reads_tangents, Term::Tangents, name);
         for (set, term) in [Term::Uv0, Term::Uv1].into_iter().enumerate() {
             let reads_set = |texture: &TextureRef| texture.uv_set as usize == set;
-            // Tangents follow from the first set where nothing else says from which.
+            // Tangents are derived from the first set unless a texture names another.
             let reads_it = reads.textures().any(reads_set) || (is_anisotropic && set == 0);
             self.add_if(mesh.uvs[set].is_some() && reads_it, term, name);
         }

@@ -1,6 +1,6 @@
-//! The parts of scenes that may or may not be needed.
+//! Parts of scenes that a render may or may not need.
 
-/// A part of scenes that may or may not be needed.
+/// Part of scenes that a render may or may not need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Term {
     /// Shading normals of vertices.
@@ -13,7 +13,7 @@ pub enum Term {
     Uv1,
     /// Colours of vertices.
     Colors,
-    /// Base colour textures, as colour. Those of alpha masks come with [`Term::AlphaMask`].
+    /// Base colour textures, read as colour. Textures of alpha masks come with [`Term::AlphaMask`].
     BaseColorTextures,
     /// Metallic-roughness textures.
     MetallicRoughnessTextures,
@@ -25,7 +25,7 @@ pub enum Term {
     EmissionTextures,
     /// Transmission textures.
     TransmissionTextures,
-    /// Surfaces that show light of their own.
+    /// Surfaces that emit light.
     Emission,
     /// Specular reflection, of metals and of dielectrics.
     Specular,
@@ -33,7 +33,7 @@ pub enum Term {
     Transmission,
     /// Absorption inside of bodies.
     Volume,
-    /// Alpha tested against a cutoff.
+    /// Alpha that is tested against a cutoff.
     AlphaMask,
     /// Partial opacity.
     AlphaBlend,
@@ -43,9 +43,9 @@ pub enum Term {
     DirectionalLights,
     /// Spot lights.
     SpotLights,
-    /// Emissive triangles as lights to sample.
+    /// Emissive triangles that are sampled as lights.
     AreaLights,
-    /// Radiance from outside.
+    /// Radiance that arrives from outside the scene.
     Environment,
     /// Geometry that changes with time.
     Motion,
@@ -79,7 +79,7 @@ impl Term {
         Self::Motion,
     ];
 
-    /// The term as reports write it.
+    /// Name of the term in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Normals => "shading normals",

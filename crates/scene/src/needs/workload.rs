@@ -1,22 +1,23 @@
-//! Properties of hits that a workload looks at.
+//! Properties of hits that a workload observes.
 
-/// Properties of hits that are looked at. Alpha masks, motion, and what these read are looked at by all.
+/// Properties of hits that a workload observes. All workloads observe alpha masks, motion, and the terms that
+/// these read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Workload {
-    /// Light that surfaces and the environment emit is seen.
+    /// True if light that surfaces and the environment emit is seen.
     pub emission: bool,
-    /// Base colours and shading normals are shown, lit in whatever way.
+    /// True if base colours and shading normals are shown, however they are lit.
     pub shades: bool,
-    /// Materials scatter light, and lights are sampled.
+    /// True if materials scatter light, and lights are sampled.
     pub scatters: bool,
-    /// Rays go on through surfaces of partial opacity.
+    /// True if rays go on through surfaces of partial opacity.
     pub blends: bool,
-    /// Why nothing else is looked at: one sentence without a full stop.
+    /// Reason why other properties are not observed: one sentence without a full stop.
     pub why: &'static str,
 }
 
 impl Workload {
-    /// Only what is visible: no material is looked at.
+    /// Workload of visibility alone: no material is observed.
     pub const VISIBILITY: Self = Self {
         emission: false,
         shades: false,
@@ -25,11 +26,11 @@ impl Workload {
         why: "only visibility is asked for",
     };
 
-    /// Everything that light does.
+    /// Workload of full light transport.
     pub const ALL: Self =
         Self { emission: true, shades: true, scatters: true, blends: true, why: "it is not looked at" };
 
-    /// True if only visibility is asked for.
+    /// True if the workload observes visibility alone.
     pub fn is_visibility(self) -> bool {
         !(self.emission || self.shades || self.scatters || self.blends)
     }

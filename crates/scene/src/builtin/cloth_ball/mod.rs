@@ -18,21 +18,21 @@ use simulation::{MIDDLE, RADIUS, Simulation};
 
 /// Half the side of the ground, metres.
 const GROUND: f64 = 12.0;
-/// Seconds after which the cloth is held still.
+/// Duration of the simulated motion, seconds; after it the cloth is held still.
 const DURATION: f64 = 3.0;
-/// The mesh of the cloth.
+/// Index of the cloth's mesh.
 const CLOTH: usize = 0;
 
 /// Parameters of [`cloth_ball`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClothBall {
-    /// Triangles of the cloth, within [`ClothBall::TRIANGLES`]; it has as many within 4 %. Ball and ground
-    /// have 5,122 more.
+    /// Number of triangles of the cloth that is asked for, within [`ClothBall::TRIANGLES`]; the cloth has
+    /// that many within 4 %. Ball and ground have 5,122 more.
     pub triangles: u64,
 }
 
 impl ClothBall {
-    /// Triangles that can be asked for.
+    /// Valid range of [`ClothBall::triangles`].
     pub const TRIANGLES: RangeInclusive<u64> = 1_000..=1_000_000;
 }
 
@@ -42,13 +42,13 @@ impl Default for ClothBall {
     }
 }
 
-/// A square cloth of 2.3 m that falls over a ball on the ground and comes to rest there within 3 s, under a
-/// low sun and a blue sky. It is simulated when a time is asked for ([`crate::Scene::at`]), from the
-/// beginning or from the last time that was; at rest the scene is at the beginning. The simulation is the
-/// same to the bit everywhere.
+/// Makes a square cloth of 2.3 m that falls over a ball on the ground and comes to rest there within 3 s,
+/// under a low sun and a blue sky. The cloth is simulated when the scene at a time is asked for
+/// ([`crate::Scene::at`]), from the beginning or from the last time that was simulated; at rest the scene is
+/// at the beginning. The simulation gives the same bits on every machine.
 ///
-/// A second of 10,000 triangles takes 1,200 steps, of 1,000,000 triangles 3,600. The cloth does not collide
-/// with itself.
+/// One second takes 1,200 steps with 10,000 triangles and 3,600 steps with 1,000,000 triangles. The cloth
+/// does not collide with itself.
 pub fn cloth_ball(parameters: ClothBall) -> Scene {
     let triangles = parameters.triangles.clamp(*ClothBall::TRIANGLES.start(), *ClothBall::TRIANGLES.end());
     let squares = (triangles as f64 / 2.0).sqrt().round() as usize;
@@ -95,7 +95,7 @@ pub fn cloth_ball(parameters: ClothBall) -> Scene {
     }
 }
 
-/// The cloth as a mesh.
+/// Makes the mesh of the cloth.
 fn sheet(simulation: &Simulation) -> Mesh {
     let side = simulation.squares() as u32 + 1;
     let mut indices = Vec::with_capacity(6 * simulation.squares() * simulation.squares());
@@ -103,7 +103,7 @@ fn sheet(simulation: &Simulation) -> Mesh {
         for column in 0..side - 1 {
             let a = row * side + column;
             let (b, c, d) = (a + 1, a + side + 1, a + side);
-            // Diagonals take turns, so that folds have no preferred direction. The front is above.
+            // Diagonals alternate, so that folds have no preferred direction. The front is above.
             let halves =
                 if (row + column).is_multiple_of(2) { [a, d, c, a, c, b] } else { [a, d, b, b, d, c] };
             indices.extend(halves);
@@ -123,7 +123,7 @@ fn sheet(simulation: &Simulation) -> Mesh {
     }
 }
 
-/// Positions, and normals as the sum over the triangles of a vertex, weighted by their areas.
+/// Returns positions, and normals as the sum over the triangles of a vertex, weighted by their areas.
 fn shape(positions: &[DVec3], indices: &[u32]) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
     let mut sums = vec![DVec3::ZERO; positions.len()];
     for corners in indices.chunks_exact(3) {
@@ -137,7 +137,7 @@ fn shape(positions: &[DVec3], indices: &[u32]) -> (Vec<[f32; 3]>, Vec<[f32; 3]>)
     (positions.iter().map(|position| position.as_vec3().to_array()).collect(), normals.collect())
 }
 
-/// The simulation, at the time that was asked for last.
+/// Deformer that holds the simulation at the time that was asked for last.
 #[derive(Debug)]
 struct Falling {
     indices: Vec<u32>,
@@ -158,7 +158,8 @@ impl Deformer for Falling {
     }
 
     fn at(&self, seconds: f64) -> Result<Deformation, SceneError> {
-        // A step is whole or not begun as far as others see, unless a thread panicked: begin anew then.
+        // To other threads a step is either complete or not begun, unless a thread panicked: start again
+        // then.
         let mut latest = self.latest.lock().unwrap_or_else(|poisoned: PoisonError<_>| {
             let mut latest = poisoned.into_inner();
             *latest = Simulation::new(latest.squares());

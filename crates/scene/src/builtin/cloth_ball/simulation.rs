@@ -1,62 +1,63 @@
-//! A cloth that falls, by position-based dynamics.
+//! Simulation of a falling cloth by position-based dynamics.
 //!
 //! Each step moves all vertices by their velocities and gravity, corrects distances along and across threads,
-//! puts what is inside of the ball or below the ground back onto their surfaces with Coulomb friction, and
-//! takes the velocities from what became of the positions (M. Macklin et al., "Small Steps in Physics
-//! Simulation", 2019). There are many small steps with one correction each. All is f64 in a fixed order with
-//! operations that IEEE 754 rounds exactly, so that every machine gets the same bits.
+//! moves vertices that are inside the ball or below the ground back onto the surfaces with Coulomb friction,
+//! and derives the velocities from the change of the positions (M. Macklin et al., "Small Steps in Physics
+//! Simulation", 2019). There are many small steps with one correction each. All arithmetic is f64 in a fixed
+//! order with operations that IEEE 754 rounds exactly, so that every machine gets the same bits.
 
 use glam::DVec3;
 
-/// Radius of the ball, metres; it lies on the ground.
+/// Radius of the ball, metres; the ball lies on the ground.
 pub(super) const RADIUS: f64 = 0.45;
-/// Height of the ball's middle above the ground, metres.
+/// Centre of the ball, metres, above the ground.
 pub(super) const MIDDLE: DVec3 = DVec3::new(0.0, RADIUS + 0.002, 0.0);
 /// Side of the cloth, metres.
 pub(super) const SIDE: f64 = 2.3;
-/// Height from which it falls, metres.
+/// Height from which the cloth falls, metres.
 const START: f64 = 1.12;
-/// Place of its middle over the ground, metres: not quite over the ball.
+/// Position of the cloth's centre over the ground, metres: not exactly over the ball.
 const OFFSET: (f64, f64) = (0.06, -0.04);
-/// Cosine and sine of the angle that it is turned by.
+/// Cosine and sine of the angle by which the cloth is turned.
 const TURN: (f64, f64) = (0.96, 0.28);
-/// Half of the thickness, metres, that is kept between the cloth and everything else.
+/// Half thickness of the cloth, metres, which is kept between the cloth and everything else.
 const CLEARANCE: f64 = 0.004;
 
-/// m/s^2.
+/// Acceleration of gravity, m/s^2.
 const GRAVITY: f64 = 9.81;
 /// Damping of velocities by air, 1/s.
 const DRAG: f64 = 0.6;
-/// Share of a difference of velocities between neighbours that a step takes away: friction of the threads.
+/// Share of a velocity difference between neighbours that one step removes: friction of the threads.
 const THREADS: f64 = 0.08;
-/// Friction on the ball and on the ground.
+/// Coefficients of friction on the ball and on the ground.
 const FRICTION: (f64, f64) = (0.35, 0.7);
-/// Rate at which a deviation is corrected, 1/s: of diagonals, and of distances that resist bending.
+/// Rates at which deviations of lengths are corrected, 1/s: of diagonals, and of the distances that resist
+/// bending.
 const SHEAR: f64 = 500.0;
 const BEND: f64 = 160.0;
-/// Length over which bending is resisted, metres.
+/// Length over which the cloth resists bending, metres.
 const BEND_SPAN: f64 = 0.075;
-/// Steps per second; a multiple of this for fine cloth.
+/// Steps per second for coarse cloth; fine cloth takes a multiple.
 const STEPS: u64 = 1200;
-/// Squares along a side for which that many steps suffice.
+/// Number of squares along a side for which [`STEPS`] suffices.
 const SQUARES: u64 = 240;
 
-/// The cloth after some steps.
+/// Cloth after a number of steps.
 #[derive(Clone, Debug)]
 pub(super) struct Simulation {
-    /// Squares along a side.
+    /// Number of squares along a side.
     squares: usize,
-    /// Row by row, squares + 1 in each; metres.
+    /// Positions of the vertices, row by row, squares + 1 in each; metres.
     positions: Vec<DVec3>,
-    /// Metres per second.
+    /// Velocities of the vertices, metres per second.
     velocities: Vec<DVec3>,
     before: Vec<DVec3>,
-    /// Steps done.
+    /// Number of steps done.
     step: u64,
 }
 
 impl Simulation {
-    /// The cloth before it falls: level.
+    /// Makes the cloth before it falls: level.
     pub fn new(squares: usize) -> Self {
         let place = |index: usize| {
             let (row, column) = (index / (squares + 1), index % (squares + 1));
@@ -74,22 +75,22 @@ impl Simulation {
         }
     }
 
-    /// Squares along a side.
+    /// Number of squares along a side.
     pub fn squares(&self) -> usize {
         self.squares
     }
 
-    /// Row by row, metres.
+    /// Positions of the vertices, row by row, metres.
     pub fn positions(&self) -> &[DVec3] {
         &self.positions
     }
 
-    /// Steps per second.
+    /// Number of steps per second.
     fn rate(&self) -> u64 {
         STEPS * (self.squares as u64).div_ceil(SQUARES)
     }
 
-    /// Goes on to the step nearest to a time, seconds, at least 0; begins anew where that has passed.
+    /// Advances to the step nearest to a time in seconds, at least 0; starts again if that step has passed.
     pub fn advance_to(&mut self, seconds: f64) {
         let wanted = (seconds * self.rate() as f64).round() as u64;
         if wanted < self.step {
@@ -123,10 +124,10 @@ impl Simulation {
         self.step += 1;
     }
 
-    /// Draws every velocity towards the mean of its neighbours'.
+    /// Draws every velocity towards the mean velocity of its neighbours.
     fn calm(&mut self) {
         let side = self.squares + 1;
-        // Places before the step are not needed any more.
+        // Positions before the step are not needed any more.
         let old = &mut self.before;
         old.clone_from(&self.velocities);
         for (vertex, velocity) in self.velocities.iter_mut().enumerate() {
@@ -146,13 +147,13 @@ impl Simulation {
         }
     }
 
-    /// One correction of every distance, from the first vertex to the last and in the next step from the last
-    /// to the first, so that no direction is preferred and a pull reaches across the cloth in one step.
+    /// Corrects every distance once, from the first vertex to the last and in the next step from the last to
+    /// the first, so that no direction is preferred and a pull reaches across the cloth in one step.
     fn keep_lengths(&mut self) {
         let side = self.squares + 1;
         let square = SIDE / self.squares as f64;
         let span = ((BEND_SPAN / square).round() as usize).clamp(2, self.squares);
-        // A spring that is solved implicitly takes this share of a deviation.
+        // An implicitly solved spring corrects this share of a deviation.
         let share = |rate: f64| {
             let steps = self.rate() as f64 / rate;
             1.0 / (1.0 + steps * steps)
@@ -188,14 +189,15 @@ impl Simulation {
     }
 }
 
-/// Metres that vertices keep from the ball and the ground: what lies between them keeps some of it.
+/// Distance that vertices keep from the ball and the ground, metres, so that the surface between them stays
+/// clear too.
 fn clearance(squares: usize) -> f64 {
     let square = SIDE / squares as f64;
-    // Depth of the middle of a square's diagonal below a sphere that its ends are on.
+    // Depth of the centre of a square's diagonal below the sphere that its ends lie on.
     CLEARANCE + square * square / (4.0 * RADIUS)
 }
 
-/// Moves two vertices towards or away from one another, by `share` of what their distance is off.
+/// Moves two vertices towards or away from one another, by `share` of the deviation of their distance.
 fn keep(positions: &mut [DVec3], a: usize, b: usize, distance: f64, share: f64) {
     let between = positions[b] - positions[a];
     let length = between.length();
@@ -206,7 +208,7 @@ fn keep(positions: &mut [DVec3], a: usize, b: usize, distance: f64, share: f64) 
     }
 }
 
-/// A vertex brought out of ball and ground, slowed by friction.
+/// Moves a vertex out of ball and ground, slowed by friction.
 fn outside(mut position: DVec3, before: DVec3, clearance: f64) -> DVec3 {
     if position.y < clearance {
         let depth = clearance - position.y;
@@ -220,14 +222,14 @@ fn outside(mut position: DVec3, before: DVec3, clearance: f64) -> DVec3 {
         let depth = RADIUS + clearance - distance;
         position += normal * depth;
         position = slowed(position, before, normal, FRICTION.0 * depth);
-        // Along the sphere, not off it.
+        // The movement along the sphere, not off it.
         let out = position - MIDDLE;
         position = MIDDLE + out * ((RADIUS + clearance) / out.length());
     }
     position
 }
 
-/// Takes back up to `most` metres of a movement along a surface.
+/// Takes back up to `most` metres of a vertex's movement along a surface.
 fn slowed(position: DVec3, before: DVec3, normal: DVec3, most: f64) -> DVec3 {
     let moved = position - before;
     let along = moved - normal * moved.dot(normal);
@@ -239,7 +241,7 @@ fn slowed(position: DVec3, before: DVec3, normal: DVec3, most: f64) -> DVec3 {
 mod tests {
     use super::*;
 
-    /// FNV-1a of all bits.
+    /// FNV-1a hash of all bits.
     fn checksum(simulation: &Simulation) -> u64 {
         let numbers = simulation.positions().iter().flat_map(|position| position.to_array());
         numbers.flat_map(|number| number.to_bits().to_le_bytes()).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
@@ -281,7 +283,7 @@ mod tests {
                 }
             }
         }
-        // It lies on the ball, and its corners on the ground.
+        // The cloth lies on the ball, and its corners on the ground.
         let positions = simulation.positions();
         let highest = positions.iter().map(|position| position.y).fold(0.0, f64::max);
         assert!((highest - MIDDLE.y - RADIUS).abs() < 0.03, "{highest}");

@@ -1,4 +1,4 @@
-//! A smithy: one room with much in it, lit through a door and a window.
+//! A smithy: one room full of objects, lit through a door and a window.
 
 mod things;
 mod walls;
@@ -11,12 +11,12 @@ use super::texture::{repeating, textured, wood};
 use crate::default_view::camera_looking_at;
 use crate::{Light, Material, Mesh, Scene};
 
-/// Half the room, metres: x and z.
+/// Half extent of the room, metres: x and z.
 const ROOM: (f64, f64) = (3.5, 2.6);
 /// Height under the beams, metres.
 const HEIGHT: f64 = 3.0;
 
-/// Middle of the lantern, metres.
+/// Centre of the lantern, metres.
 const LANTERN: DVec3 = DVec3::new(0.9, 2.05, -0.6);
 
 /// Materials in the order of [`Kit::shapes`].
@@ -39,7 +39,7 @@ enum Of {
     Daylight,
 }
 
-/// Shapes by material.
+/// Shapes of the scene by material.
 struct Kit {
     shapes: Vec<Shapes>,
 }
@@ -50,11 +50,11 @@ impl Kit {
     }
 }
 
-/// A smithy of 7 m by 5.2 m with walls of single stones, beams, a forge with glowing coals, an anvil, a
-/// bench, tools on the walls, barrels, crates, a wheel. Screens as bright as the sky stand outside of its
-/// door and window and above two lights in the roof; so a renderer that samples lamps finds them, and the
-/// openings stay open. Corners, gaps and things before walls at every size are what ambient occlusion is
-/// about.
+/// Makes a smithy of 7 m by 5.2 m with walls of single stones, beams, a forge with glowing coals, an anvil, a
+/// bench, tools on the walls, barrels, crates, a wheel. Screens as bright as the sky stand outside the door
+/// and the window and above two lights in the roof: a renderer that samples lamps finds them, and the
+/// openings stay open. The scene suits ambient occlusion, with corners, gaps and objects before walls at
+/// every size.
 pub fn smithy() -> Scene {
     let materials = materials();
     let shapes =

@@ -1,4 +1,4 @@
-//! Things that stand, lie and hang in the room.
+//! Objects that stand, lie and hang in the room.
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
@@ -8,7 +8,7 @@ use super::super::solid::{RoundCone, smooth_max, smooth_min, surface};
 use super::super::spheres::Random;
 use super::{Kit, LANTERN, Of, ROOM, at};
 
-/// Seed of what lies about.
+/// Seed of the litter on the floor.
 const SEED: u64 = 0x5EED_0007;
 
 pub(super) fn add(kit: &mut Kit) {
@@ -26,7 +26,7 @@ pub(super) fn add(kit: &mut Kit) {
     litter(kit);
 }
 
-/// An anvil of iron on a stump: blocks with rounded edges and a horn, melted together.
+/// Adds an anvil of iron on a stump: blocks with rounded edges and a horn, melted together.
 fn anvil(kit: &mut Kit, place: DAffine3) {
     let block = |point: DVec3, middle: DVec3, half: DVec3| {
         let beyond = (point - middle).abs() - half + 0.012;
@@ -39,7 +39,7 @@ fn anvil(kit: &mut Kit, place: DAffine3) {
         let foot = block(point, at(0.0, 0.035, 0.0), at(0.18, 0.035, 0.105));
         let body = smooth_min(smooth_min(top, waist, 0.09), foot, 0.08);
         let whole = smooth_min(body, horn.distance(point), 0.03);
-        // The hole for tools in the face.
+        // The hole for tools in the face of the anvil.
         smooth_max(whole, -block(point, at(-0.21, 0.3, 0.0), at(0.016, 0.06, 0.016)), 0.006)
     };
     let mut net = surface(&distance, at(-0.33, -0.04, -0.15), at(0.52, 0.36, 0.15), 0.009);
@@ -56,14 +56,14 @@ fn anvil(kit: &mut Kit, place: DAffine3) {
     hammer(kit, place * DAffine3::from_mat3_translation(lying(0.13), at(-0.05, 0.873, 0.01)), 0.3);
 }
 
-/// The y axis of a form level, towards a share of a turn from +x.
+/// Makes a rotation that lays the y axis of a form level, towards a share of a turn from +x.
 fn lying(share: f64) -> DMat3 {
     let (sin, cos) = turn(share);
     let y = at(cos, 0.0, sin);
     DMat3::from_cols(DVec3::Y, y, DVec3::Y.cross(y))
 }
 
-/// A hammer around the middle of its head; the handle runs along +y.
+/// Adds a hammer around the centre of its head; the handle runs along +y.
 fn hammer(kit: &mut Kit, place: DAffine3, length: f64) {
     kit.of(Of::Steel).block_with_bevel(place, at(0.028, 0.026, 0.062), 0.008, 1.0);
     let handle: Vec<DVec3> = (0..=6)
@@ -72,7 +72,7 @@ fn hammer(kit: &mut Kit, place: DAffine3, length: f64) {
     kit.of(Of::Timber).tube(&handle, 12, |share| 0.0115 + 0.005 * turn(0.5 * share).0, DVec2::ONE);
 }
 
-/// Twenty staves with hoops of iron; full to a hand below the rim.
+/// Adds a barrel of twenty staves with hoops of iron, full to a hand below the rim.
 fn barrel(kit: &mut Kit, foot: DVec3, size: f64) {
     let place =
         DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(size)), foot + DVec3::Y * 0.001);
@@ -116,7 +116,7 @@ fn barrel(kit: &mut Kit, foot: DVec3, size: f64) {
     kit.of(Of::Water).revolve(place, 40, &inside.map(DVec2::from), DVec2::ONE);
 }
 
-/// The bench below the window with a vice, jars, a pan and bars of iron.
+/// Adds the bench below the window with a vice, jars, a pan and bars of iron.
 fn bench(kit: &mut Kit) {
     for plank in 0..4 {
         let place = standing(at(0.95, 0.86, -2.38 + 0.165 * f64::from(plank)), 0.0);
@@ -172,7 +172,8 @@ fn bench(kit: &mut Kit) {
     }
 }
 
-/// A rack with hammers and tongs beside the window, horseshoes above the bellows, blades on the right wall.
+/// Adds a rack with hammers and tongs beside the window, horseshoes above the bellows, blades on the right
+/// wall.
 fn tools(kit: &mut Kit) {
     let back = -ROOM.1 + 0.1;
     kit.of(Of::Timber).block_with_bevel(
@@ -228,7 +229,7 @@ fn tools(kit: &mut Kit) {
     }
 }
 
-/// Crates of slats in the right corner behind the blades.
+/// Adds crates of slats in the right corner behind the blades.
 fn crates(kit: &mut Kit) {
     for (middle, half, share) in [
         (at(2.85, 0.0, -0.35), 0.32, 0.02),
@@ -267,7 +268,7 @@ fn crates(kit: &mut Kit) {
     }
 }
 
-/// A cart wheel that leans against the left wall.
+/// Adds a cart wheel that leans against the left wall.
 fn wheel(kit: &mut Kit, middle: DVec3) {
     let axis = at(1.0, 0.2, 0.05);
     let place = along(axis, middle);
@@ -284,13 +285,13 @@ fn wheel(kit: &mut Kit, middle: DVec3) {
     }
 }
 
-/// A chain with a hook from a beam.
+/// Adds a chain with a hook that hangs from a beam.
 fn chain(kit: &mut Kit) {
     let mut ring: Vec<DVec2> = arc(DVec2::new(0.022, 0.0), 0.006, 0.0, 1.0, 10);
     ring[10] = ring[0];
     for link in 0..26 {
         let middle = at(0.0, 2.86 - 0.05 * f64::from(link), -0.35);
-        // Longer than wide, every other one across.
+        // Links are longer than wide, and every other one lies across.
         let up = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y * 1.6);
         let place = DAffine3::from_mat3_translation(about_y(0.25 * f64::from(link % 2)) * up, middle);
         kit.of(Of::Iron).revolve(place, 24, &ring, DVec2::ONE);
@@ -300,7 +301,7 @@ fn chain(kit: &mut Kit) {
     kit.of(Of::Iron).tube(&curve(&hook, 8), 12, |share| 0.012 * (1.0 - 0.6 * share * share), DVec2::ONE);
 }
 
-/// A lantern on a rod from a beam.
+/// Adds a lantern on a rod from a beam.
 fn lantern(kit: &mut Kit, middle: DVec3) {
     kit.of(Of::Flame).sphere(&Icosphere::new(2), middle, 0.035, false);
     let iron = kit.of(Of::Iron);
@@ -314,7 +315,7 @@ fn lantern(kit: &mut Kit, middle: DVec3) {
     iron.tube(&[middle + DVec3::Y * 0.12, middle + DVec3::Y * 0.9], 8, |_| 0.006, DVec2::ONE);
 }
 
-/// Logs, scraps and nails on the floor.
+/// Adds logs, scraps and nails on the floor.
 fn litter(kit: &mut Kit) {
     let mut random = Random::new(SEED);
     for log in 0..14 {

@@ -9,10 +9,10 @@ use super::{HEIGHT, Kit, Of, ROOM, at};
 
 /// Seed of stones, boards and coals.
 const SEED: u64 = 0x5EED_0006;
-/// Middle of the top of the hearth, metres.
+/// Centre of the top of the hearth, metres.
 const HEARTH: DVec3 = DVec3::new(-2.65, 0.78, -1.85);
 
-/// An opening of a wall: from and to along it, from and to in height, metres.
+/// Opening of a wall: its start and end along the wall, its lower and upper height, metres.
 type Opening = [f64; 4];
 
 pub(super) fn add(kit: &mut Kit) {
@@ -21,7 +21,7 @@ pub(super) fn add(kit: &mut Kit) {
     let door: Opening = [0.9, 2.5, 0.0, 2.2];
     let window: Opening = [4.2, 5.4, 1.25, 2.25];
     let none: Opening = [0.0; 4];
-    // From left to right as seen from inside.
+    // The order is from left to right as seen from inside.
     let sides = [
         (at(-x, 0.0, z), DVec3::NEG_Z, 2.0 * z, door),
         (at(-x, 0.0, -z), DVec3::X, 2.0 * x, window),
@@ -49,7 +49,7 @@ pub(super) fn add(kit: &mut Kit) {
             bar(0.5 * (from + to), 0.5 * (low + high), 0.5 * (to - from), 0.02);
         }
     }
-    // Fronts towards the room.
+    // The fronts of the screens face the room.
     let mut screen = |corners: [DVec3; 4]| kit.of(Of::Daylight).quad(corners, DVec2::ONE);
     let (left, back, top) = (-x - 0.9, -z - 0.5, HEIGHT + 0.285);
     screen([at(left, 0.0, 2.4), at(left, 0.0, -0.6), at(left, 2.7, -0.6), at(left, 2.7, 2.4)]);
@@ -67,7 +67,8 @@ pub(super) fn add(kit: &mut Kit) {
     forge(kit, &mut random);
 }
 
-/// Courses of stones before mortar, bound so that joints do not stand above each other, around an opening.
+/// Adds courses of stones before mortar, bound so that joints do not stand above each other, around an
+/// opening.
 fn wall(
     kit: &mut Kit,
     random: &mut Random,
@@ -118,7 +119,7 @@ fn wall(
     }
 }
 
-/// Flags of several sizes, and the ground that they lie in, which goes on outside.
+/// Adds flags of several sizes, and the ground that they lie in, which continues outside.
 fn floor(kit: &mut Kit, random: &mut Random) {
     let corner = |x: f64, z: f64| at(x, -0.012, z);
     let far = 4.6;
@@ -140,7 +141,7 @@ fn floor(kit: &mut Kit, random: &mut Random) {
     }
 }
 
-/// Beams from wall to wall with braces, and boards on them.
+/// Adds beams from wall to wall with braces, and boards on them.
 fn roof(kit: &mut Kit) {
     let timber = kit.of(Of::Timber);
     for beam in 0..5 {
@@ -167,13 +168,13 @@ fn roof(kit: &mut Kit) {
     }
 }
 
-/// A rotation about x that takes the y axis along a direction in the plane of y and z.
+/// Makes a rotation about x that takes the y axis along a direction in the plane of y and z.
 fn turned_up(direction: DVec3) -> glam::DMat3 {
     let y = direction.normalize();
     glam::DMat3::from_cols(DVec3::X, y, DVec3::X.cross(y))
 }
 
-/// A hearth of bricks with coals in it, a hood and a chimney above, bellows beside.
+/// Adds a hearth of bricks with coals in it, a hood and a chimney above, bellows beside.
 fn forge(kit: &mut Kit, random: &mut Random) {
     let (wide, deep) = (0.75, 0.62);
     let courses = 9;
@@ -239,7 +240,7 @@ fn forge(kit: &mut Kit, random: &mut Random) {
     bellows(kit);
 }
 
-/// Boards with pleats of leather between, on a trestle beside the forge.
+/// Adds bellows: boards with pleats of leather between, on a trestle beside the forge.
 fn bellows(kit: &mut Kit) {
     let middle = at(-1.28, 0.82, -2.05);
     for pleat in 0..9 {

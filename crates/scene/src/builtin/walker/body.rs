@@ -1,4 +1,4 @@
-//! The body of the walker and its clothes: solids around the joints, and how much each joint moves their
+//! Body of the walker and its clothes: solids around the joints, and the weights by which joints move their
 //! surfaces.
 
 use glam::DVec3;
@@ -10,16 +10,17 @@ use crate::animation::SkinBinding;
 /// Distance over which the influence of a joint fades out, metres.
 const FADE: f64 = 0.07;
 
-/// A part of one material.
+/// Part of the body that has one material.
 pub(super) struct Part {
     pub name: &'static str,
     /// Solids, each with the joint that moves it.
     cones: Vec<(usize, RoundCone)>,
-    /// Planes that cut all of it off: a place, and the way to what is left out.
+    /// Planes that cut the whole part: a point, and the direction of the side that is cut off.
     cuts: Vec<(DVec3, DVec3)>,
-    /// Such planes of one solid each, by its place in `cones`.
+    /// Planes that cut one solid each, by its index in `cones`: a point, and the direction of the side that
+    /// is cut off.
     ends: Vec<(usize, DVec3, DVec3)>,
-    /// Over how many metres solids run into one another.
+    /// Distance over which solids blend into one another, metres.
     seam: f64,
 }
 
@@ -46,7 +47,7 @@ impl Part {
         self.cuts.iter().fold(whole, |whole, &(place, out)| cut(whole, place, out))
     }
 
-    /// Its surface with triangles of about this size, metres.
+    /// Meshes the surface with triangles of about this size, metres.
     pub fn surface(&self, size: f64) -> Surface {
         let corners = self.cones.iter().flat_map(|(_, cone)| cone.ends);
         let (low, high) =
@@ -62,8 +63,8 @@ impl Part {
         surface(&|point| self.distance(point, edge), low, high, size)
     }
 
-    /// The four joints nearest to each vertex, with shares that fade out with the distance from what they
-    /// move.
+    /// Binds each vertex to the four nearest joints, with weights that fade out with the distance from the
+    /// solids that each joint moves.
     pub fn binding(&self, positions: &[DVec3]) -> SkinBinding {
         let mut binding = SkinBinding { skin: 0, per_vertex: 4, joints: Vec::new(), weights: Vec::new() };
         for &position in positions {
@@ -94,7 +95,7 @@ fn at(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-/// All parts, in the order of their materials.
+/// Makes all parts, in the order of their materials.
 pub(super) fn parts(joints: &[Joint]) -> [Part; 6] {
     [skin(joints), shirt(joints), trousers(joints), shoes(joints), hair(), eyes()]
 }
@@ -113,7 +114,7 @@ fn skin(joints: &[Joint]) -> Part {
         part.cone(side.upper_arm(), shoulder.lerp(elbow, 0.5), 0.045, elbow, 0.039);
         part.cone(side.forearm(), elbow, 0.039, elbow.lerp(wrist, 0.3), 0.042);
         part.cone(side.forearm(), elbow.lerp(wrist, 0.3), 0.042, wrist, 0.028);
-        // Half closed: knuckles, fingers bent ahead, the thumb in front.
+        // The hand is half closed: knuckles, fingers bent ahead, the thumb in front.
         part.cone(side.hand(), wrist + along * 0.02, 0.029, wrist + along * 0.075 + DVec3::Z * 0.008, 0.034);
         part.cone(
             side.hand(),
@@ -181,7 +182,7 @@ fn shoes(joints: &[Joint]) -> Part {
             0.034,
         );
     }
-    // Anything that would reach into the ground is cut off just above it.
+    // The plane cuts off everything that would reach into the ground, just above it.
     part.cuts.push((at(0.0, 0.002, 0.0), DVec3::NEG_Y));
     part
 }

@@ -1,7 +1,7 @@
-//! Gait of the walker: a circle of whole strides, so that the end of the clip is its beginning.
+//! Gait of the walker: a circle of whole strides, so that the end of the clip equals its beginning.
 //!
-//! Feet stand still where they are set down; legs follow by inverse kinematics, everything above swings
-//! against them.
+//! Feet stand still where they are set down; legs follow by inverse kinematics, and the body above the legs
+//! swings against them.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,43 +11,43 @@ use super::skeleton::{
     ANKLE, ARM_ANGLE, BALL, CHEST, COUNT, HEAD, HEEL, Joint, NECK, PELVIS, SHIN, SPINE, Side, THIGH,
 };
 
-/// Strides (two steps each) of the circle; one takes a second.
+/// Number of strides (two steps each) of the circle; one takes a second.
 pub(super) const STRIDES: usize = 6;
-/// Metres of a stride.
+/// Length of a stride, metres.
 const STRIDE: f64 = 1.12;
 /// Radius of the circle, metres.
 pub(super) const RADIUS: f64 = STRIDES as f64 * STRIDE / TAU;
-/// Share of a stride in which a foot stands.
+/// Share of a stride during which a foot stands.
 const STANCE: f64 = 0.62;
-/// Strides from where a foot is set down until the body is above it.
+/// Number of strides from the moment when a foot is set down until the body is above it.
 const REACH: f64 = 0.25;
-/// Distance of the feet from the line of walking, metres.
+/// Distance from the feet to the line of walking, metres.
 const TRACK: f64 = 0.065;
 
-/// Turns of all joints, and the place of the first.
+/// Rotations of all joints, and the position of the first.
 pub(super) struct Stance {
-    /// Place of the pelvis, metres, world.
+    /// Position of the pelvis, metres, world.
     pub pelvis: DVec3,
     /// Rotation of each joint, relative to its parent.
     pub rotations: [DQuat; COUNT],
 }
 
-/// The pose after so many strides, at least 0.
+/// Returns the pose after the given number of strides, at least 0.
 pub(super) fn stance(joints: &[Joint], strides: f64) -> Stance {
     let swing = TAU * strides;
     let heading = heading(strides);
     let turn = |x: f64, y: f64, z: f64| {
         DQuat::from_rotation_y(y) * DQuat::from_rotation_z(z) * DQuat::from_rotation_x(x)
     };
-    // The hip whose leg reaches forward comes along, the side whose leg swings hangs, the body is above the
-    // standing foot.
+    // The hip of the leg that reaches forward turns forward, the side of the swinging leg hangs, and the body
+    // is above the standing foot.
     let pelvis_turn = heading * turn(0.03, -0.09 * swing.cos(), 0.05 * swing.sin());
     let bob = 0.018 * (2.0 * swing - PI).cos();
     let pelvis = place(strides, DVec3::new(0.022 * swing.sin(), 0.912 + bob, 0.0));
 
     let mut rotations = [DQuat::IDENTITY; COUNT];
     rotations[PELVIS] = pelvis_turn;
-    // Leaning into the curve; shoulders turn against hips, the head looks ahead.
+    // The body leans into the curve; shoulders turn against hips, and the head looks ahead.
     rotations[SPINE] = turn(0.05, 0.09 * swing.cos(), -0.03 * swing.sin() - 0.035);
     rotations[CHEST] = turn(0.01, 0.10 * swing.cos(), -0.02 * swing.sin() - 0.015);
     rotations[NECK] = turn(-0.02, -0.05 * swing.cos(), 0.01);
@@ -59,17 +59,17 @@ pub(super) fn stance(joints: &[Joint], strides: f64) -> Stance {
     Stance { pelvis, rotations }
 }
 
-/// The way that the body faces: turned by as much as the circle has turned.
+/// Returns the rotation of the body: by the angle of the circle that it has walked.
 fn heading(strides: f64) -> DQuat {
     DQuat::from_rotation_y(strides / STRIDES as f64 * TAU)
 }
 
-/// A place relative to the walking body (x to its left, z ahead), in the world.
+/// Returns the world position of a point relative to the walking body (x to its left, z ahead).
 fn place(strides: f64, relative: DVec3) -> DVec3 {
     heading(strides) * (relative - DVec3::X * RADIUS)
 }
 
-/// An arm swings with the other side's leg.
+/// Swings an arm with the leg of the other side.
 fn arm(side: Side, swing: f64, rotations: &mut [DQuat; COUNT]) {
     let back = swing.cos() * side.sign();
     let hang = DQuat::from_rotation_z(-(ARM_ANGLE - 0.24) * side.sign());
@@ -81,9 +81,9 @@ fn arm(side: Side, swing: f64, rotations: &mut [DQuat; COUNT]) {
 
 /// Position and rotation of a foot.
 struct Foot {
-    /// Place of the ankle, metres, world.
+    /// Position of the ankle, metres, world.
     ankle: DVec3,
-    /// Turn of the foot about the vertical, radians.
+    /// Rotation of the foot about the vertical, radians.
     yaw: f64,
     /// Slope from the toes up to the heel, radians.
     pitch: f64,
@@ -91,7 +91,7 @@ struct Foot {
     bend: f64,
 }
 
-/// A foot that stands, after a share of its time on the ground: it lands on the heel and leaves over the
+/// Returns a standing foot after a share of its time on the ground: it lands on the heel and leaves over the
 /// ball.
 fn standing(side: Side, landing: f64, share: f64) -> Foot {
     let over = landing + REACH;
@@ -106,7 +106,7 @@ fn standing(side: Side, landing: f64, share: f64) -> Foot {
     Foot { ankle, yaw, pitch, bend: leaving }
 }
 
-/// 0 before 0, 1 after 1, with level ends.
+/// Returns a smooth step: 0 before 0, 1 after 1, with level ends.
 fn ease(share: f64) -> f64 {
     let share = share.clamp(0.0, 1.0);
     share * share * (3.0 - 2.0 * share)
@@ -133,7 +133,7 @@ fn foot(side: Side, strides: f64) -> Foot {
     }
 }
 
-/// Turns thigh, shin, foot and toes so that the ankle is where the foot has it.
+/// Rotates thigh, shin, foot and toes so that the ankle is where the foot has it.
 fn leg(
     joints: &[Joint],
     side: Side,
@@ -156,7 +156,8 @@ fn leg(
     rotations[side.toe()] = DQuat::from_rotation_x(-foot.bend);
 }
 
-/// The knee between hip and ankle, bent ahead; straight where they are too far apart.
+/// Returns the position of the knee between hip and ankle, bent ahead; the leg is straight where they are too
+/// far apart.
 fn knee(hip: DVec3, ankle: DVec3, ahead: DVec3) -> DVec3 {
     let down = (ankle - hip).normalize();
     let distance = hip.distance(ankle).min((THIGH + SHIN) * 0.9999);
@@ -166,7 +167,7 @@ fn knee(hip: DVec3, ankle: DVec3, ahead: DVec3) -> DVec3 {
     hip + down * along + forward * out
 }
 
-/// The rotation of a limb that hangs down when the body is bound and now leads from one place to another.
+/// Returns the rotation of a limb that hangs down in the bind pose and now leads from `from` to `to`.
 fn hanging(from: DVec3, to: DVec3, ahead: DVec3) -> DQuat {
     let up = (from - to).normalize();
     let left = up.cross(ahead).normalize();

@@ -22,22 +22,23 @@ use body::{Part, parts};
 use gait::{STRIDES, stance};
 use skeleton::{COUNT, Joint, PELVIS, joints};
 
-/// Keys per second: between two of them a standing foot slides by less than a millimetre.
+/// Number of keys per second: between two keys a standing foot slides by less than a millimetre.
 const KEYS_PER_SECOND: usize = 60;
 /// Half the side of the ground, metres.
 const GROUND: f64 = 12.0;
-/// The node of the first joint.
+/// Index of the node of the first joint.
 const FIRST_JOINT: usize = 1;
 
 /// Parameters of [`walker`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Walker {
-    /// Triangles wanted, within [`Walker::TRIANGLES`]; the scene has as many within 5 %.
+    /// Number of triangles that is asked for, within [`Walker::TRIANGLES`]; the scene has that many within 5
+    /// %.
     pub triangles: u64,
 }
 
 impl Walker {
-    /// Triangles that can be asked for.
+    /// Valid range of [`Walker::triangles`].
     pub const TRIANGLES: RangeInclusive<u64> = 8_000..=2_000_000;
 }
 
@@ -47,8 +48,8 @@ impl Default for Walker {
     }
 }
 
-/// A figure of 1.76 m that walks in a circle on a tiled floor, under a low sun and a blue sky: a rig of 19
-/// joints with one clip, `walk`, that ends as it begins after 6 s. Body and clothes are six closed meshes,
+/// Makes a figure of 1.76 m that walks in a circle on a tiled floor, under a low sun and a blue sky: a rig of
+/// 19 joints with one clip, `walk`, that ends as it begins after 6 s. Body and clothes are six closed meshes,
 /// each vertex of which is moved by up to four joints. At rest the scene is at the beginning of the clip.
 pub fn walker(parameters: Walker) -> Scene {
     let triangles = parameters.triangles.clamp(*Walker::TRIANGLES.start(), *Walker::TRIANGLES.end());
@@ -100,7 +101,7 @@ pub fn walker(parameters: Walker) -> Scene {
     scene.posed(&Moment { seconds: 0.0, clips: vec![0] })
 }
 
-/// Materials of the ground and of the parts, in their order.
+/// Makes the materials of the ground and of the parts, in their order.
 fn materials() -> Vec<Material> {
     let dull = |material: Material| Material { specular: 0.4, roughness: 0.7, ..material };
     vec![
@@ -114,10 +115,10 @@ fn materials() -> Vec<Material> {
     ]
 }
 
-/// The surfaces of all parts with about as many triangles together.
+/// Meshes the surfaces of all parts, with about `triangles` triangles in all.
 fn surfaces(parts: &[Part], triangles: u64) -> Vec<Surface> {
-    // Metres. Triangles per area are as the inverse square of their size, so few steps suffice; the smallest
-    // parts have a size of their own.
+    // Size of a triangle, metres. The number of triangles per area is as the inverse square of their size, so
+    // few steps suffice; the smallest parts have a size of their own.
     let mut size = 0.012 * (30_000.0 / triangles as f64).sqrt();
     let mut made: Vec<Surface> = Vec::new();
     for _ in 0..8 {
@@ -145,7 +146,7 @@ fn mesh(name: &str, material: usize, surface: &Surface) -> Mesh {
     }
 }
 
-/// Nodes in this order: what stands still, the joints, the camera, the sun.
+/// Makes the nodes, in this order: the node of objects that stand still, the joints, the camera, the sun.
 fn rig(
     joints: &[Joint],
     deformed: Vec<DeformedMesh>,
@@ -164,7 +165,7 @@ fn rig(
     nodes.push(fixed("camera", world_from_camera));
     nodes.push(fixed("sun", camera_looking_at("sun", DVec3::ZERO, sun, 1.0).world_from_camera));
     let (clip, first) = (walk(joints), stance(joints, 0.0));
-    // At rest as at the beginning of the clip.
+    // The pose at rest is the pose at the beginning of the clip.
     for (node, turned) in nodes[FIRST_JOINT..].iter_mut().zip(first.rotations) {
         if let NodeTransform::Parts { rotation, .. } = &mut node.transform {
             *rotation = turned;
@@ -184,7 +185,7 @@ fn rig(
     }
 }
 
-/// The gait as keys; a stride takes a second.
+/// Makes the keys of the gait; a stride takes a second.
 fn walk(joints: &[Joint]) -> Clip {
     let keys = STRIDES * KEYS_PER_SECOND;
     let seconds = |key: usize| key as f64 / KEYS_PER_SECOND as f64;

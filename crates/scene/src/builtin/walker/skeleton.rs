@@ -1,4 +1,4 @@
-//! The joints of the walker, in the pose in which the body is bound to them.
+//! Joints of the walker, in the pose in which the body is bound to them.
 
 use glam::{DAffine3, DQuat, DVec3};
 
@@ -12,7 +12,7 @@ pub(super) const CHEST: usize = 2;
 pub(super) const NECK: usize = 3;
 pub(super) const HEAD: usize = 4;
 
-/// Angle of the arms from the vertical when the body is bound, radians.
+/// Angle between the arms and the vertical in the bind pose, radians.
 pub(super) const ARM_ANGLE: f64 = 0.5;
 /// Lengths, metres.
 const UPPER_ARM: f64 = 0.28;
@@ -21,12 +21,12 @@ pub(super) const THIGH: f64 = 0.42;
 pub(super) const SHIN: f64 = 0.41;
 /// Height of the ankle above the sole, metres.
 pub(super) const ANKLE: f64 = 0.09;
-/// From the ankle to the ball of the foot, metres.
+/// Vector from the ankle to the ball of the foot, metres.
 pub(super) const BALL: DVec3 = DVec3::new(0.0, -0.065, 0.13);
-/// From the ankle to the lowest point of the heel, metres.
+/// Vector from the ankle to the lowest point of the heel, metres.
 pub(super) const HEEL: DVec3 = DVec3::new(0.0, -ANKLE, -0.05);
 
-/// One side of the body.
+/// Side of the body.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
     Left,
@@ -36,7 +36,7 @@ pub(super) enum Side {
 impl Side {
     pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
-    /// Its place along x: the figure looks along +z, its left hand is at +x.
+    /// Sign of the side along x: the figure looks along +z, its left hand is at +x.
     pub fn sign(self) -> f64 {
         if self == Self::Left { 1.0 } else { -1.0 }
     }
@@ -69,22 +69,22 @@ impl Side {
         self.thigh() + 3
     }
 
-    /// The way from the shoulder to the hand.
+    /// Vector from the shoulder to the hand.
     pub fn along_arm(self) -> DVec3 {
         DVec3::new(self.sign() * ARM_ANGLE.sin(), -ARM_ANGLE.cos(), 0.0)
     }
 }
 
-/// A joint; all have the axes of the world when the body is bound.
+/// Joint; in the bind pose all joints have the axes of the world.
 #[derive(Clone)]
 pub(super) struct Joint {
     pub name: String,
     pub parent: Option<usize>,
-    /// Metres, in the space of the mesh.
+    /// Position of the joint, metres, in the space of the mesh.
     pub place: DVec3,
 }
 
-/// All joints; parents come first.
+/// Returns all joints; parents come first.
 pub(super) fn joints() -> Vec<Joint> {
     let joint = |name: &str, parent: Option<usize>, x: f64, y: f64, z: f64| Joint {
         name: name.to_owned(),
@@ -119,12 +119,12 @@ pub(super) fn joints() -> Vec<Joint> {
     joints
 }
 
-/// The place of each joint relative to its parent when the body is bound.
+/// Returns the position of each joint relative to its parent in the bind pose.
 fn offset(joints: &[Joint], joint: usize) -> DVec3 {
     joints[joint].place - joints[joint].parent.map_or(DVec3::ZERO, |parent| joints[parent].place)
 }
 
-/// Nodes of the joints, the first of which will be node `first`.
+/// Makes the nodes of the joints, the first of which will be node `first`.
 pub(super) fn nodes(joints: &[Joint], first: usize) -> Vec<RigNode> {
     let node = |(index, joint): (usize, &Joint)| RigNode {
         name: joint.name.clone(),
@@ -138,7 +138,7 @@ pub(super) fn nodes(joints: &[Joint], first: usize) -> Vec<RigNode> {
     joints.iter().enumerate().map(node).collect()
 }
 
-/// The skin over these joints.
+/// Makes the skin over these joints.
 pub(super) fn skin(joints: &[Joint], first: usize) -> Skin {
     Skin {
         name: "walker".to_owned(),
