@@ -1,7 +1,8 @@
-//! Writes where the vertices of a scene's triangles are at a time, one per line: x, y, z, metres, world.
+//! Writes the positions of the vertices of a scene's triangles at a time, one per line: x, y, z, metres,
+//! world.
 //!
-//! `positions FILE [SECONDS [CLIP]]`; without a time at rest, without a clip (a number from 0) all that can
-//! be played at once.
+//! Usage: `positions FILE [SECONDS [CLIP]]`. Without a time the scene is at rest; without a clip (a number
+//! from 0) all clips are played that can be played at once.
 
 use std::io::{BufWriter, Write, stdout};
 use std::path::Path;

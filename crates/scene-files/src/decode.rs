@@ -1,4 +1,4 @@
-//! Encoded images to texels, within limits.
+//! Decoding of encoded images to texels, within limits.
 
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -14,12 +14,12 @@ use rasray_scene::{Image, SceneError, Warning};
 /// Longest side of an image, texels.
 const MAX_SIDE: u32 = 1 << 16;
 
-/// Fault of an image beyond that.
+/// Fault of an image with a longer side.
 const TOO_LARGE: &str = "is too large to be decoded";
 
-/// Decodes a PNG, JPEG or KTX2 image (ETC1S or UASTC), told apart by its first bytes, to RGBA8 with the first
-/// row at the top. More than 8 bits per channel are rounded, with a warning; an image without alpha
-/// is opaque; grey becomes three equal channels. Values are taken as stored: no colour profile is applied.
+/// Decodes a PNG, JPEG or KTX2 image (ETC1S or UASTC), recognised by its first bytes, to RGBA8 with the first
+/// row at the top. Channels of more than 8 bits are rounded, with a warning; an image without alpha is
+/// opaque; grey becomes three equal channels. Values are taken as stored: no colour profile is applied.
 ///
 /// `path` is the scene file, for messages; `name` names the image.
 ///
@@ -39,7 +39,7 @@ pub fn decode_image(
     Ok(image)
 }
 
-/// See [`decode_image`].
+/// Decodes an image as [`decode_image`] does.
 pub(crate) fn decode(
     path: &Path,
     name: &str,
@@ -63,7 +63,7 @@ pub(crate) fn decode(
             )));
         }
     };
-    // A last net: the decoders promise not to panic, and hostile files are what tests that promise.
+    // Last safety net: the decoders promise not to panic, and hostile files test that promise.
     let decoded = catch_unwind(AssertUnwindSafe(|| match format {
         Some(format) => decode_as(path, name, bytes, format, limits),
         None => {
@@ -104,7 +104,7 @@ fn decode_as(
     format: ImageFormat,
     limits: &Limits,
 ) -> Result<DynamicImage, SceneError> {
-    // Messages about the inner state of a decoder help nobody who has only the file.
+    // Messages about the inner state of a decoder do not help a user who has only the file.
     let failed = |error: image::ImageError| SceneError::Image {
         path: path.to_owned(),
         image: name.to_owned(),
@@ -120,7 +120,7 @@ fn decode_as(
     let mut bounds = image::Limits::default();
     bounds.max_image_width = Some(MAX_SIDE);
     bounds.max_image_height = Some(MAX_SIDE);
-    // 16 bytes per texel: four channels of f32, the widest a decoder hands out.
+    // 16 bytes per texel: four channels of f32, the widest output of a decoder.
     bounds.max_alloc = Some(limits.image_pixels.saturating_mul(16).saturating_add(1 << 20));
     reader.limits(bounds);
     let decoder = reader.into_decoder().map_err(failed)?;
@@ -129,14 +129,14 @@ fn decode_as(
     DynamicImage::from_decoder(decoder).map_err(failed)
 }
 
-/// Refuses an image of more texels than are allowed.
+/// Refuses an image of more texels than the limits allow.
 fn check_size(path: &Path, name: &str, width: u32, height: u32, limits: &Limits) -> Result<(), SceneError> {
     let pixels = u64::from(width) * u64::from(height);
     let what = format!("the size in texels of image {name}");
     Limits::check(path, &what, pixels, limits.image_pixels, "image_pixels")
 }
 
-/// Message of a caught panic.
+/// Returns the message of a caught panic.
 pub(crate) fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
     panic
         .downcast_ref::<String>()

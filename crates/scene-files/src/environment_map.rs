@@ -1,4 +1,4 @@
-//! Radiance from outside, read from a latitude-longitude map.
+//! Reader of environment maps: radiance from outside in a latitude-longitude map.
 
 use std::io::Cursor;
 use std::panic::catch_unwind;
@@ -11,7 +11,7 @@ use crate::decode::panic_message;
 use crate::files::read_file;
 use rasray_scene::{Environment, SceneError};
 
-/// Most pixels of a map; 16384 x 8192 fits.
+/// Largest number of pixels of a map; 16384 x 8192 fits.
 const PIXEL_LIMIT: u64 = 1 << 27;
 
 /// Reads a Radiance `.hdr` file of at most 2^27 pixels.
@@ -38,7 +38,7 @@ pub fn load_environment(path: &Path) -> Result<Environment, SceneError> {
 fn decode(bytes: &[u8]) -> Result<DynamicImage, String> {
     let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Hdr);
     let mut limits = image::Limits::default();
-    // Decoders count what they keep besides the pixels as well.
+    // Decoders also count the memory that they use besides the pixels.
     limits.max_alloc = Some(PIXEL_LIMIT * 16);
     reader.limits(limits);
     let decoder = reader.into_decoder().map_err(|error| error.to_string())?;
@@ -81,7 +81,7 @@ mod tests {
         );
     }
 
-    /// Not after a wait for whoever writes into it.
+    /// The pipe is refused at once, without waiting for a writer.
     #[cfg(unix)]
     #[test]
     fn a_pipe_is_refused_at_once() {

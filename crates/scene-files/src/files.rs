@@ -1,4 +1,4 @@
-//! Files that a scene is read from.
+//! Reading of the files of a scene.
 
 use std::fs::File;
 use std::io::Read;
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use rasray_scene::SceneError;
 
-/// Reads a file that `place` of the scene at `path` refers to and cannot do without.
+/// Reads a file that `place` of the scene at `path` refers to and needs.
 ///
 /// # Errors
 /// [`SceneError::Missing`] and [`SceneError::TooLarge`], which name both files.
@@ -19,9 +19,9 @@ pub(crate) fn read_needed(path: &Path, place: &str, file: &Path, limit: u64) -> 
     })
 }
 
-/// Reads a whole file of at most `limit` bytes. The length is asked for first; what grows while it
-/// is read is cut off by the same limit. Only regular files are opened: a pipe or a device could
-/// keep its reader waiting for ever.
+/// Reads a whole file of at most `limit` bytes. The length is queried first; bytes that are added during the
+/// reading are cut off by the same limit. Only regular files are opened: a pipe or a device could keep its
+/// reader waiting for ever.
 ///
 /// # Errors
 /// [`SceneError::Read`], or [`SceneError::TooLarge`] naming `file_bytes`.

@@ -1,20 +1,20 @@
-//! The last step of every format.
+//! Last step of every format.
 
 use std::path::Path;
 
 use rasray_scene::remarks::Remarks;
 use rasray_scene::{Scene, SceneError};
 
-/// Why a file shows no triangle.
+/// Reason why a file shows no triangle.
 pub(crate) enum Empty {
-    /// It has none: a scene all the same, and a warning unless one says it already.
+    /// The file has no triangles: it is still a scene, with a warning unless one says so already.
     Bare(String),
-    /// It has some, and all were dropped.
+    /// The file has triangles, and all were dropped.
     Dropped(String),
 }
 
-/// The last step of every format: what holds for the scene as a whole is checked, and what was remarked
-/// becomes warnings. `empty` says why, should there be no triangle.
+/// Finishes a scene of any format: checks the scene as a whole, and turns the remarks into warnings. `empty`
+/// is the reason to name if there are no triangles.
 ///
 /// # Errors
 /// [`SceneError::NoTriangles`] if all triangles were dropped.
@@ -42,7 +42,7 @@ pub(crate) fn finish(
     Ok(scene)
 }
 
-/// The name of a scene that was read from `path`: the file's stem.
+/// Returns the name of a scene that was read from `path`: the file's stem.
 pub(crate) fn scene_name(path: &Path) -> String {
     path.file_stem().map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

@@ -1,4 +1,4 @@
-//! The formats of files, by the extension of their names.
+//! Choice of the file format by the extension of the name.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use crate::LoadOptions;
 use crate::origin::Origins;
 use rasray_scene::{Scene, SceneError};
 
-/// Loads one file. `origins` is for formats that place meshes by origins.
+/// Loads one file. `origins` concerns formats that place meshes by origins.
 pub(crate) fn load_file(
     path: &Path,
     options: &LoadOptions,

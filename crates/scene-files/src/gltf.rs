@@ -1,15 +1,15 @@
-//! glTF 2.0 and GLB.
+//! Reader of glTF 2.0 and GLB.
 //!
-//! The `gltf` crate is used for what it is good at, the typed JSON of a file; its wrappers, which
-//! index and unwrap freely, are never touched. Everything a file claims is checked here first:
-//! indices, types, byte ranges (in u128), the node graph (iteratively), references to other files.
+//! The `gltf` crate provides the typed JSON of a file; its wrappers, which index and unwrap freely, are never
+//! used. All claims of a file are checked here first: indices, types, byte ranges (in u128), the node graph
+//! (iteratively), references to other files.
 //!
-//! Only parts that the chosen scene needs are read: a buffer, image or accessor that only another part
-//! of the file refers to may be missing or broken.
+//! Only parts that the chosen scene needs are read: a buffer, image or accessor to which only another part of
+//! the file refers may be missing or broken.
 //!
-//! Units are taken as written: metres, radians, and for light the number in the file, which is
-//! read as radiometric: point and spot intensities as W/sr, directional illuminance as W/m^2,
-//! emission as W/(sr m^2). A photometric file is thus scaled by one constant, its picture by exposure.
+//! Units are taken as written: metres, radians, and for light the number in the file, which is read as
+//! radiometric: point and spot intensities as W/sr, directional illuminance as W/m^2, emission as W/(sr m^2).
+//! A photometric file is thus scaled by one constant, and exposure compensates for it.
 //!
 //! Scene order is depth-first over the nodes of the chosen scene, then the primitives of the node's
 //! mesh in order, then (with `EXT_mesh_gpu_instancing`) the instances of the node in order.
@@ -54,8 +54,8 @@ use crate::files::read_file;
 use crate::finish::{Empty, finish, scene_name};
 use rasray_scene::{Animation, Scene, SceneError};
 
-/// Loads a `.gltf` or `.glb` file; which of the two it is is decided by its first bytes. Files that
-/// it refers to are read from its folder or below.
+/// Loads a `.gltf` or `.glb` file; its first bytes decide which of the two formats it has. Files that it
+/// refers to are read from its folder or below.
 ///
 /// # Errors
 /// [`SceneError`]: see [`crate::load`].
@@ -64,13 +64,13 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     from_slice(path, &bytes, options)
 }
 
-/// Loads the bytes of a `.gltf` or `.glb` file as if they had been read from `path`, which need not
-/// exist: it names the scene, and its folder is where references are looked for.
+/// Loads the bytes of a `.gltf` or `.glb` file as if they had been read from `path`, which need not exist: it
+/// names the scene, and references are looked up in its folder.
 ///
 /// # Errors
 /// [`SceneError`]: see [`crate::load`].
 pub fn from_slice(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Scene, SceneError> {
-    // The last net under the checks: a panic of a library becomes an error that says so.
+    // Last safety net under the checks: a panic of a library becomes an error.
     catch_unwind(AssertUnwindSafe(|| build(path, bytes, options))).unwrap_or_else(|panic| {
         Err(SceneError::Internal { path: path.to_owned(), reason: panic_message(&*panic) })
     })
@@ -88,7 +88,7 @@ fn build(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Scene, Scen
     let mut scene = Scene { name: scene_name(path), meshes, instances, animation, ..Scene::default() };
     let rig = &scene.animation.rig;
     if rig.clips.is_empty() && rig.deformed.is_empty() {
-        // Nothing moves along its nodes.
+        // No clip moves the scene, and no mesh is deformed.
         scene.animation = Animation::default();
     }
     materials::convert(&document, &mut scene)?;

@@ -1,5 +1,5 @@
-//! Images that a scene refers to. One that cannot be read or decoded is left out, with a warning: the
-//! factors of its material stand in for it.
+//! Images that a scene refers to. An image that cannot be read or decoded is left out, with a warning: the
+//! factors of its material are used without it.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ pub(crate) enum Encoded<'a> {
     File(&'a Path),
 }
 
-/// Decodes the image called `name` of the scene at `path`; `None`, with a remark, if that cannot be done.
+/// Decodes the image called `name` of the scene at `path`; `None`, with a remark, if that fails.
 ///
 /// # Errors
 /// [`SceneError::TooLarge`] for files and images beyond a limit.
@@ -58,7 +58,7 @@ pub(crate) fn read_image(
     }
 }
 
-/// Counts the texels of an image that is added to those of a scene.
+/// Adds the texels of an image to those of a scene and checks the sum.
 ///
 /// # Errors
 /// [`SceneError::TooLarge`] beyond [`Limits::total_pixels`].

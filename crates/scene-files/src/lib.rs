@@ -1,12 +1,13 @@
-//! Scenes from files: glTF, OBJ, PLY, numbered files that are one scene over time, and environment maps.
-//! `rasray-scene-source` loads scenes with it; a host can use it alone.
+//! Scenes from files: glTF, OBJ, PLY, numbered files that form one scene over time, and environment maps.
+//! `rasray-scene-source` loads scenes with this crate; a host can use it alone.
 //!
-//! - [`load()`] makes a [`rasray_scene::Scene`] of a file; [`LoadOptions`] has limits, the scene of a file
-//!   with several, and frames per second.
+//! - [`load()`] makes a [`rasray_scene::Scene`] from a file; [`LoadOptions`] holds limits, the choice of a
+//!   scene in a file with several, and frames per second.
 //! - [`load_environment`] reads an environment map, [`decode_image`] an image.
 //! - [`sequence`] reads numbered files.
 //!
-//! `docs/scene-files.md` of the repository says what of a file is read, refused and remarked on.
+//! The page `docs/scene-files.md` of the repository says which parts of a file are read, refused and remarked
+//! on.
 
 mod basis;
 mod decode;

@@ -1,4 +1,4 @@
-//! Limits of what a scene file may ask for, and the choice of a scene of it.
+//! Limits of the memory that a scene file may ask for, and the choice of a scene in the file.
 
 use std::path::Path;
 
@@ -8,25 +8,25 @@ use rasray_scene::SceneError;
 /// large workstation and refuse files that are small but ask for a lot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Bytes of the scene file, of each file it refers to, of each decoded `data:` URI, and of all buffers
-    /// together, those that are decoded included.
+    /// Largest number of bytes of the scene file, of each file that it refers to, of each decoded `data:`
+    /// URI, and of all buffers together, decoded ones included.
     pub file_bytes: u64,
-    /// Triangles placed in the world: those of every instance count.
+    /// Largest number of triangles placed in the world; every instance counts.
     pub triangles: u64,
-    /// Elements of one vertex or index array.
+    /// Largest number of elements of one vertex or index array.
     pub vertices: u64,
-    /// Elements of all vertex, index and animation arrays together, counted each time one is read:
-    /// a small file may refer to the same array many times.
+    /// Largest number of elements of all vertex, index and animation arrays together, counted each time one
+    /// is read: a small file may refer to the same array many times.
     pub elements: u64,
-    /// Texels of one image.
+    /// Largest number of texels of one image.
     pub image_pixels: u64,
-    /// Texels of all images together.
+    /// Largest number of texels of all images together.
     pub total_pixels: u64,
-    /// Nodes of a scene graph.
+    /// Largest number of nodes of a scene graph.
     pub nodes: u64,
-    /// Placed meshes.
+    /// Largest number of placed meshes.
     pub instances: u64,
-    /// Nodes on the longest path from a root to a leaf.
+    /// Largest number of nodes on the path from a root to a leaf.
     pub depth: u64,
 }
 
@@ -47,7 +47,7 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// Refuses `found` where it exceeds `limit`, the field called `option`.
+    /// Returns an error if `found` exceeds `limit`, which is the field called `option`.
     ///
     /// # Errors
     /// [`SceneError::TooLarge`], naming `what` and `option`.
@@ -65,31 +65,31 @@ impl Limits {
     }
 }
 
-/// Choice of the scene of a file with several. Formats with one scene ignore it.
+/// Choice of a scene in a file with several. Formats with one scene ignore it.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub enum SceneChoice {
     /// The default scene of the file; else its first; else all nodes without a parent.
     #[default]
     Default,
-    /// By position, from 0.
+    /// The scene with this index, from 0.
     Index(usize),
-    /// By name; the first of that name.
+    /// The first scene with this name.
     Name(String),
 }
 
 /// Options of loading a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadOptions {
-    /// Limits of what a file may ask for.
+    /// Limits of the memory that a file may ask for.
     pub limits: Limits,
-    /// Scene of the file.
+    /// Choice of the scene in the file.
     pub scene: SceneChoice,
     /// Frames per second of a sequence of files, above 0.
     pub fps: f64,
 }
 
 impl LoadOptions {
-    /// Frames per second unless told.
+    /// Default frames per second of a sequence of files.
     pub const FPS: f64 = 25.0;
 }
 

@@ -1,23 +1,23 @@
-//! Origins of meshes of OBJ and PLY files, chosen so that coordinates far from the origin keep their
+//! Choice of origins for meshes of OBJ and PLY files, so that coordinates far from the origin keep their
 //! precision.
 //!
 //! These files have coordinates in text, in double precision or in whole numbers, and no transforms; a mesh
-//! has positions in single precision. Georeferenced coordinates lose what matters in it: northings of 4,650
-//! km are rounded to half a metre. So a mesh gets an origin in double precision, which its instance carries:
-//! positions are the differences to it, rounded once.
+//! has positions in single precision. Georeferenced coordinates lose their significant digits in it:
+//! northings of 4,650 km are rounded to half a metre. So a mesh gets an origin in double precision, which its
+//! instance carries: positions are the differences to it, rounded once.
 //!
 //! The rule: an axis is *far* where its greatest coordinate is more than [`FAR`] times the longest side of
-//! the box around what is placed. On a far axis the origin is the middle of the box (to a quarter of the
-//! power of two below that side), on any other axis 0. All meshes of a file share one origin if it is far;
-//! otherwise the file is divided where its boxes have gaps, and the same holds for each part. So meshes that
-//! touch always share an origin, and what is closed stays closed. Where every coordinate of a part is a
-//! single-precision number, the origin is 0: these meshes keep every bit of their file.
+//! the box around the placed triangles. On a far axis the origin is the middle of the box (to a quarter of
+//! the power of two below that side), on any other axis 0. All meshes of a file share one origin if the file
+//! is far; otherwise the file is divided where its boxes have gaps, and the same rule applies to each part.
+//! So meshes that touch always share an origin, and closed surfaces stay closed. Where every coordinate of a
+//! part is a single-precision number, the origin is 0: these meshes keep every bit of their file.
 //!
 //! Groups of one mesh may lie far apart, too, and one origin cannot serve both: such a mesh is divided first
 //! ([`apart`]).
 //!
-//! On a far axis the difference of two single-precision coordinates is one, too. So placing by an origin
-//! never costs precision, wherever that origin is.
+//! On a far axis the difference of two single-precision coordinates is a single-precision number, too. So
+//! placing by an origin never costs precision, wherever the origin is.
 
 use std::collections::HashMap;
 
@@ -26,30 +26,31 @@ use glam::{DAffine3, DVec3};
 use rasray_scene::check::MAX_COORDINATE;
 use rasray_scene::{Instance, Material, Mesh, Texture, Wrap};
 
-/// See the module's documentation.
+/// Ratio of the greatest coordinate to the longest side of the box above which an axis is far; see the
+/// documentation of the module.
 const FAR: f64 = 8.0;
 
-/// Least width of a gap that divides a mesh into groups, over the side of the larger box next to it.
+/// Least width of a gap that divides a mesh into groups, over the side of the larger box next to the gap.
 const APART: f64 = 32.0;
 
-/// Most levels of division of a file: gaps that are nested deeper are no plausible file, and would take long
-/// to find.
+/// Largest number of levels of division of a file: gaps that are nested deeper occur in no plausible file,
+/// and would take long to find.
 const DEPTH: u32 = 32;
 
 /// Choice of origins.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Origins<'a> {
-    /// By what the file holds.
+    /// Origins that follow from the content of the file.
     Own,
-    /// By what the file holds, also where this file loses nothing: others follow, which are placed by its
-    /// origins.
+    /// Origins that follow from the content of the file, also where this file loses nothing: later files are
+    /// placed by these origins.
     First,
-    /// Those of an earlier file, mesh by mesh; zero beyond them.
+    /// Origins of an earlier file, mesh by mesh; zero for further meshes.
     Given(&'a [DVec3]),
 }
 
-/// Rounds the positions of meshes relative to origins, one for each mesh. `wide` has the positions of each
-/// mesh as the file has them, metres, world.
+/// Rounds the positions of meshes relative to origins, one for each mesh, and returns the origins. `wide` has
+/// the positions of each mesh as the file has them, metres, world.
 pub(crate) fn settle(meshes: &mut [Mesh], wide: &[Vec<DVec3>], origins: Origins<'_>) -> Vec<DVec3> {
     let mut found = vec![DVec3::ZERO; meshes.len()];
     match origins {
@@ -71,9 +72,9 @@ pub(crate) fn settle(meshes: &mut [Mesh], wide: &[Vec<DVec3>], origins: Origins<
     found
 }
 
-/// Rounds texture coordinates of a mesh, v turned over. `wide` has them as the file does: v counts from the
-/// bottom of the image. Where textures repeat, whole numbers change nothing but take precision: they are
-/// taken off an axis that is far, by the same rule.
+/// Rounds the texture coordinates of a mesh and flips v. `wide` has them as in the file: v counts from the
+/// bottom of the image. Where textures repeat, whole numbers have no effect but cost precision: they are
+/// subtracted on an axis that is far, by the same rule.
 pub(crate) fn texture_coordinates(
     wide: &[[f64; 2]],
     material: &Material,
@@ -84,7 +85,8 @@ pub(crate) fn texture_coordinates(
     wide.iter().map(|[u, v]| [on_axis(0, *u), 1.0 - on_axis(1, *v)]).collect()
 }
 
-/// True if a material has textures, and all of them look the same a whole number of coordinates further.
+/// True if a material has textures, and all of them look the same when moved by a whole number of
+/// coordinates.
 fn repeats(material: &Material, textures: &[Texture]) -> bool {
     let used = [
         material.base_color_texture,
@@ -103,7 +105,7 @@ fn repeats(material: &Material, textures: &[Texture]) -> bool {
         })
 }
 
-/// The whole number that is taken off an axis of texture coordinates.
+/// Returns the whole number to subtract on an axis of texture coordinates.
 fn whole(wide: &[[f64; 2]], axis: usize) -> f64 {
     let values = || wide.iter().map(|point| point[axis]).filter(|x| x.abs() <= f64::from(MAX_COORDINATE));
     if values().all(|x| f64::from(x as f32) == x) {
@@ -116,7 +118,7 @@ fn whole(wide: &[[f64; 2]], axis: usize) -> f64 {
     if is_far { ((low + high) / 2.0).round() } else { 0.0 }
 }
 
-/// One instance for each mesh, at its origin; names that occur more than once get a running number.
+/// Makes one instance for each mesh, at its origin; names that occur more than once get a running number.
 pub(crate) fn place(meshes: &[Mesh], origins: &[DVec3]) -> Vec<Instance> {
     let mut seen: HashMap<&str, usize> = HashMap::new();
     let placed = meshes.iter().zip(origins).enumerate().map(|(index, (mesh, origin))| {
@@ -128,7 +130,7 @@ pub(crate) fn place(meshes: &[Mesh], origins: &[DVec3]) -> Vec<Instance> {
     placed.collect()
 }
 
-/// A position relative to an origin; one that no triangle may use stays out of range.
+/// Returns a position relative to an origin; an unusable position stays out of range.
 fn relative(point: DVec3, origin: DVec3) -> [f32; 3] {
     // A difference from zero would turn -0 into +0.
     let keeps = origin == DVec3::ZERO || !is_usable(point);
@@ -140,7 +142,7 @@ fn is_usable(point: DVec3) -> bool {
     point.to_array().iter().all(|x| x.abs() <= f64::from(MAX_COORDINATE))
 }
 
-/// A mesh, or a group of one, as the rules see it: what its triangles use.
+/// Triangles of a mesh or of a group, reduced to the data that the rules use.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     number: usize,
@@ -163,7 +165,7 @@ impl Part {
         (part.low.x <= part.high.x).then_some(part)
     }
 
-    /// The box around both.
+    /// Returns the box around both parts.
     fn and(self, other: Self) -> Self {
         let (low, high) = (self.low.min(other.low), self.high.max(other.high));
         Self { low, high, ..self }
@@ -174,9 +176,9 @@ impl Part {
     }
 }
 
-/// Groups of a mesh that lie together, as a number for each: the same on both sides of every gap that is not
-/// much wider than what is on either side. Each group has its part of the indices; all are 0 where single
-/// precision loses nothing.
+/// Divides the groups of a mesh at wide gaps and returns a cluster number for each group. Groups on the two
+/// sides of a gap have the same number unless the gap is much wider than the larger of the boxes next to it.
+/// Each group has its part of the indices; all numbers are 0 where single precision loses nothing.
 pub(crate) fn apart<'a>(groups: impl Iterator<Item = &'a [u32]>, wide: &[DVec3]) -> Vec<u32> {
     let boxes: Vec<Option<Part>> =
         groups.enumerate().map(|(number, indices)| Part::of(number, indices, wide)).collect();
@@ -188,11 +190,11 @@ pub(crate) fn apart<'a>(groups: impl Iterator<Item = &'a [u32]>, wide: &[DVec3])
     clusters
 }
 
-/// Numbers clusters from `next` on.
+/// Numbers the clusters from `next` on.
 fn separate(parts: &mut [Part], next: &mut u32, clusters: &mut [u32]) {
     for axis in 0..3 {
         parts.sort_unstable_by(|a, b| a.low[axis].total_cmp(&b.low[axis]));
-        // Boxes around all that is above a gap.
+        // Boxes around all parts above a gap.
         let mut above: Vec<Part> = parts.to_vec();
         for place in (1..above.len()).rev() {
             above[place - 1] = above[place - 1].and(above[place]);
@@ -216,7 +218,7 @@ fn separate(parts: &mut [Part], next: &mut u32, clusters: &mut [u32]) {
     *next += 1;
 }
 
-/// Origins of parts by the rule; `spares` leaves those alone that lose nothing.
+/// Chooses the origins of parts by the rule; with `spares`, parts that lose nothing keep the origin 0.
 fn divide(parts: &mut [Part], spares: bool, depth: u32, origins: &mut [DVec3]) {
     if spares && parts.iter().all(|part| part.is_exact) {
         return;
@@ -244,14 +246,14 @@ fn divide(parts: &mut [Part], spares: bool, depth: u32, origins: &mut [DVec3]) {
     }
 }
 
-/// The origin of a box.
+/// Returns the origin for a box.
 fn origin(low: DVec3, high: DVec3) -> DVec3 {
     let side = (high - low).max_element();
-    // A point has no size that could be lost.
+    // A point has no extent that could be lost.
     if side <= 0.0 || !side.is_normal() {
         return DVec3::ZERO;
     }
-    // The power of two that is not above the side: its exponent without the rest.
+    // The largest power of two that is not above the side: the exponent bits alone.
     let spacing = f64::from_bits(side.to_bits() & 0x7FF0_0000_0000_0000) / 4.0;
     let on_axis = |axis: usize| {
         let (low, high) = (low[axis], high[axis]);
@@ -299,7 +301,7 @@ mod tests {
             [[500_123.5, 4_649_776.0, 0.0], [500_124.5, 4_649_776.0, 0.0], [500_123.5, 4_649_777.0, 0.0]];
         let (meshes, origins) = settled(&[&exact], Origins::Own);
         assert_eq!((origins[0], meshes[0].positions[1]), (DVec3::ZERO, [500_124.5, 4_649_776.0, 0.0]));
-        // As the first of many it has an origin all the same, and loses nothing by it.
+        // As the first of many files, this one has an origin all the same, and loses nothing by it.
         let (meshes, origins) = settled(&[&exact], Origins::First);
         assert_ne!(origins[0], DVec3::ZERO);
         for (position, corner) in meshes[0].positions.iter().zip(exact) {

@@ -1,10 +1,10 @@
-//! Polygons to triangles.
+//! Division of polygons into triangles.
 //!
-//! A polygon that a fan from its first corner fills is that fan: every convex one, and concave ones whose
-//! first corner sees all others. Any other is cut along its ears in the plane of its normal (Newell's, the
-//! sum of the fan's), by the crate `earcut`. A polygon of n corners is n - 2 triangles in either case, and
-//! every corner is one of theirs, so that polygons that share corners stay closed. Triangles keep the side
-//! that the polygon faces.
+//! A polygon that a fan from its first corner fills becomes that fan: every convex polygon does, and each
+//! concave one whose first corner sees all others. Any other polygon is cut along its ears in the plane of
+//! its normal (Newell's, the sum of the fan's), by the crate `earcut`. A polygon of n corners becomes n - 2
+//! triangles in either case, and every corner is a corner of a triangle, so that polygons that share corners
+//! stay closed. Triangles keep the side that the polygon faces.
 
 use std::collections::HashMap;
 
@@ -14,26 +14,27 @@ use glam::{DVec2, DVec3};
 /// Division of a polygon into triangles.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Filling {
-    /// A fan from the first corner.
+    /// Fan from the first corner.
     Fan,
-    /// These triangles, numbers of its corners; two fewer than there are corners.
+    /// These triangles, as indices of the polygon's corners; there are two fewer than corners.
     Cut(Vec<[u32; 3]>),
-    /// Its sides cross, or it is too large to be cut: no triangles fill it for certain, and a fan shows it.
+    /// The polygon's sides cross, or it is too large to be cut: no triangles fill it for certain, and a fan
+    /// shows it.
     Crossing,
 }
 
-/// Said of faces that are [`Filling::Crossing`], behind their number.
+/// Remark on faces that are [`Filling::Crossing`], after their number.
 pub(crate) const CROSSING: &str =
     "faces have sides that cross, or too many corners; they are shown as fans from their first corner";
 
-/// Sine of the angle by which a fan may turn back without being taken for concave: rounding of
-/// single-precision positions.
+/// Sine of the angle by which a fan may turn back without counting as concave: rounding of single-precision
+/// positions.
 const ROUNDING: f64 = 1.0e-7;
 
-/// Corners of the largest polygon that is cut. The time grows with the square in the worst case.
+/// Number of corners of the largest polygon that is cut. The time grows with the square in the worst case.
 const MOST: usize = 1 << 15;
 
-/// Fills polygons one after the other, in memory that is kept between them.
+/// Divider of polygons, one after the other, that keeps its memory between them.
 #[derive(Default)]
 pub(crate) struct Polygons {
     earcut: Earcut<f64>,
@@ -48,18 +49,19 @@ impl Polygons {
         if rest.len() < 3 || !corners.iter().all(|corner| corner.is_finite()) {
             return Filling::Fan;
         }
-        // Differences first: far from the origin products of coordinates have no bits left for a polygon.
+        // Coordinates are relative to the first corner: far from the origin, products of coordinates have no
+        // bits left for a polygon.
         let from_first = || rest.iter().map(|corner| *corner - first);
         let normal: DVec3 = from_first().zip(from_first().skip(1)).map(|(a, b)| a.cross(b)).sum();
         let size = from_first().map(|side| side.abs().max_element()).fold(0.0, f64::max);
         let steepest = normal.abs().max_position();
-        // The cross products may be rounding alone.
+        // Cross products this small may be rounding alone.
         if normal[steepest].abs() <= 1.0e-14 * size * size {
             let is_line = from_first().zip(from_first().skip(1)).all(|(a, b)| is_line(a, b));
             return if is_line { Filling::Fan } else { Filling::Crossing };
         }
-        // Seen along the steepest axis, no coordinate is rounded; from the side on which corners run to the
-        // left.
+        // The projection along the steepest axis rounds no coordinate; the view is from the side on which
+        // corners run to the left.
         let (u, v) = ((steepest + 1) % 3, (steepest + 2) % 3);
         let (u, v) = if normal[steepest] > 0.0 { (u, v) } else { (v, u) };
         self.flat.clear();
@@ -87,8 +89,8 @@ fn is_fan(flat: &[[f64; 2]]) -> bool {
     flat[1..].windows(2).all(|pair| {
         let [a, b] = [pair[0], pair[1]].map(DVec2::from);
         let turns_left = a.perp_dot(b) >= -ROUNDING * a.length() * b.length();
-        // Once around the first corner: what has passed to the right of its first side may not come back to
-        // its left.
+        // The corners run once around the first one: after passing to the right of the first side, they may
+        // not come back to its left.
         let side = DVec2::from(flat[1]).perp_dot(b);
         let comes_back = was_right && side > 0.0;
         was_right |= side < 0.0;
@@ -96,10 +98,10 @@ fn is_fan(flat: &[[f64; 2]]) -> bool {
     })
 }
 
-/// Triangles that use every corner and fill the polygon, from those that `earcut` found, which leaves out
-/// corners that lie on a line with their neighbours. `None` if they fill something else: their areas must be
-/// positive and sum up to that of the polygon, so that each point is covered as often as the polygon runs
-/// around it.
+/// Returns triangles that use every corner and fill the polygon, made from those that `earcut` found, which
+/// leaves out corners that lie on a line with their neighbours. `None` if the triangles fill another area:
+/// their areas must be positive and add up to that of the polygon, so that each point is covered as often as
+/// the polygon runs around it.
 fn whole(flat: &[[f64; 2]], cut: &[u32]) -> Option<Vec<[u32; 3]>> {
     let point = |corner: u32| DVec2::from(flat[corner as usize]);
     let twice = |[a, b, c]: [u32; 3]| (point(b) - point(a)).perp_dot(point(c) - point(a));
@@ -113,7 +115,7 @@ fn whole(flat: &[[f64; 2]], cut: &[u32]) -> Option<Vec<[u32; 3]>> {
             triangle
         });
     }
-    // The triangle that has a side, and the corner opposite of it.
+    // The triangle at each side, and the corner opposite the side.
     let mut sides: HashMap<(u32, u32), usize> = HashMap::with_capacity(3 * triangles.len());
     let mut is_used = vec![false; flat.len()];
     for (number, [a, b, c]) in triangles.iter().copied().enumerate() {
@@ -133,7 +135,7 @@ fn whole(flat: &[[f64; 2]], cut: &[u32]) -> Option<Vec<[u32; 3]>> {
         if !skipped.is_empty() {
             let number = *sides.get(&(from, to))?;
             let apex = *triangles[number].iter().find(|corner| **corner != from && **corner != to)?;
-            // Those that follow one another on the side divide its triangle; a spike has no area.
+            // Corners that follow one another on the side divide its triangle; a spike has no area.
             let side = point(to) - point(from);
             let length = side.length();
             let along = side / length;
@@ -173,7 +175,7 @@ mod tests {
     use super::*;
 
     fn lifted(flat: &[[f64; 2]]) -> Vec<DVec3> {
-        // A slanted plane, far away.
+        // The plane is slanted and far away.
         flat.iter().map(|[x, y]| DVec3::new(*x, *y, 0.5 * x - 0.25 * y) + DVec3::splat(4.0e6)).collect()
     }
 
@@ -206,9 +208,9 @@ mod tests {
             &[[0.5, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]],
             &[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
             &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
-            // Concave, but its first corner sees all others.
+            // Concave polygon whose first corner sees all others.
             &[[0.4, 1.0], [0.0, 0.0], [1.0, 1.0], [0.0, 2.0]],
-            // A line.
+            // Polygon on a line.
             &[[0.0, 0.0], [1.0, 0.0], [3.0, 0.0], [2.0, 0.0]],
         ];
         let mut fills = Polygons::default();
@@ -230,12 +232,12 @@ mod tests {
         assert_eq!(fills.fill(&bad), Filling::Fan);
     }
 
-    /// Corners on a line with their neighbours stay corners, spikes show nothing.
+    /// Corners on a line with their neighbours stay corners, and spikes show nothing.
     #[test]
     fn concave_polygons_are_filled_and_lose_no_corner() {
         let polygons: [(&[[f64; 2]], f64); 6] = [
             (&[[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [0.4, 1.0]], 0.6),
-            // An L with corners on its sides, one of them twice.
+            // L shape with corners on its sides, one of them twice.
             (
                 &[
                     [0.0, 0.0],
@@ -251,7 +253,7 @@ mod tests {
                 ],
                 3.0,
             ),
-            // From another corner on.
+            // Polygon that begins at another corner.
             (
                 &[
                     [1.0, 2.0],
@@ -266,9 +268,9 @@ mod tests {
                 ],
                 3.0,
             ),
-            // With a spike to the right.
+            // Polygon with a spike to the right.
             (&[[0.0, 0.0], [2.0, 0.0], [3.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.25], [0.0, 1.0]], 1.25),
-            // A frame: a hole with a bridge to it.
+            // Frame: a hole with a bridge to it.
             (
                 &[
                     [0.0, 0.0],
@@ -284,7 +286,7 @@ mod tests {
                 ],
                 8.0,
             ),
-            // A thin arrow head.
+            // Thin arrow head.
             (&[[0.0, 0.0], [1000.0, 0.001], [0.0, 0.002], [500.0, 0.001]], 0.5),
         ];
         let slant = (1.0_f64 + 0.25 + 0.0625).sqrt();
@@ -326,7 +328,7 @@ mod tests {
         let polygons: [&[[f64; 2]]; 3] = [
             &[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]],
             &[[0.0, 0.0], [2.0, 1.0], [2.0, 0.0], [0.0, 3.0]],
-            // A star of five in one stroke.
+            // Star of five points in one stroke.
             &[[0.0, 1.0], [0.588, -0.809], [-0.951, 0.309], [0.951, 0.309], [-0.588, -0.809]],
         ];
         for polygon in polygons {
@@ -334,7 +336,7 @@ mod tests {
         }
     }
 
-    /// The slowest cases: a comb whose teeth are all behind one another, and a spiral.
+    /// The slowest cases are a comb whose teeth are all behind one another, and a spiral.
     #[test]
     fn large_polygons_take_no_time() {
         let start = std::time::Instant::now();
@@ -362,7 +364,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// Corners at any distance around a point, in the order of their angle, make a polygon that does not
+        /// Corners at any distance around a point, in the order of their angles, make a polygon that does not
         /// cross itself.
         #[test]
         fn stars_are_filled(
@@ -389,7 +391,7 @@ mod tests {
             prop_assert!((area(&corners, &triangles) / net(&corners).length() - 1.0).abs() < 1.0e-6);
         }
 
-        /// Whatever the corners, there is an answer, with as many triangles as promised.
+        /// Any corners give an answer, with as many triangles as promised.
         #[test]
         fn any_polygon_is_answered(corners in prop::collection::vec(prop::array::uniform3(-3_i32..3), 0..24)) {
             let corners: Vec<DVec3> = corners.iter().map(|corner| DVec3::from(corner.map(f64::from))).collect();

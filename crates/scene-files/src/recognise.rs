@@ -1,19 +1,19 @@
-//! Kinds of files that are not what their names say, told by their first bytes.
+//! Recognition of files whose content differs from their name, by their first bytes.
 
 use std::path::Path;
 
 use rasray_scene::SceneError;
 
-/// Something else than was expected.
+/// Kind of file other than the expected one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Foreign {
-    /// With its article.
+    /// Name of the kind, with its article.
     pub what: &'static str,
     pub fix: &'static str,
 }
 
 impl Foreign {
-    /// The error of a scene file that should be of `format`.
+    /// Makes the error of a scene file that should have the format `format`.
     pub fn refuse(self, path: &Path, format: &str) -> SceneError {
         SceneError::NotThisFormat {
             path: path.to_owned(),
@@ -31,7 +31,7 @@ pub(crate) const RENAME: &str = "give the file the extension of its format";
 const CONVERT: &str = "convert it to glTF, OBJ or PLY";
 const AGAIN: &str = "export or download the file again";
 
-/// Beginnings of files, in lower case where they are text.
+/// First bytes of files, in lower case where they are text.
 const BEGINNINGS: [(&[u8], &str, &str); 23] = [
     (b"<!doctype html", "an HTML page", DOWNLOAD),
     (b"<html", "an HTML page", DOWNLOAD),
@@ -58,7 +58,7 @@ const BEGINNINGS: [(&[u8], &str, &str); 23] = [
     (b"%pdf", "a PDF document", AGAIN),
 ];
 
-/// Kind of `bytes`, where it can be told; formats of scenes and images included.
+/// Recognises the kind of `bytes`, if possible; formats of scenes and images are included.
 pub(crate) fn recognise(bytes: &[u8]) -> Option<Foreign> {
     if bytes.is_empty() {
         return Some(Foreign { what: "empty", fix: AGAIN });
@@ -71,7 +71,7 @@ pub(crate) fn recognise(bytes: &[u8]) -> Option<Foreign> {
     found.map(|&(_, what, fix)| Foreign { what, fix })
 }
 
-/// Kind of bytes that are no text.
+/// Kind of bytes that are not text.
 pub(crate) const BINARY: Foreign = Foreign { what: "binary data", fix: AGAIN };
 
 /// Returns [`BINARY`] for bytes that should be text but are not: text has no zero bytes.

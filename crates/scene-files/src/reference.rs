@@ -1,4 +1,4 @@
-//! References to other files by plain names, which must stay below the folder of the file that makes them.
+//! References to other files by plain names, which must stay below the folder of the referring file.
 
 use std::path::{Path, PathBuf};
 
@@ -9,17 +9,17 @@ use rasray_scene::remarks::Remarks;
 pub(crate) enum Place {
     /// A file below the folder; it may be missing.
     Below(PathBuf),
-    /// Outside of the folder, or nowhere. Such a file is never read.
+    /// Target outside the folder, or no target. Such a file is never read.
     Outside {
         /// Fault, such as `is absolute`.
         reason: &'static str,
-        /// A file in the folder that has the name at the end of the reference; it may be missing.
+        /// File in the folder with the name at the end of the reference; it may be missing.
         beside: Option<PathBuf>,
     },
 }
 
-/// Target of `name` from `folder`; backslashes separate folders too. It leads outside if it is absolute (with
-/// a root, a drive or a scheme), has `..` as a part, or holds a zero byte.
+/// Returns the target of `name` from `folder`; backslashes separate folders too. The target is outside if the
+/// name is absolute (with a root, a drive or a scheme), has `..` as a part, or holds a zero byte.
 pub(crate) fn place(folder: &Path, name: &str) -> Place {
     let forward = name.replace('\\', "/");
     let has_drive = forward.as_bytes().get(1) == Some(&b':');
@@ -40,16 +40,16 @@ pub(crate) fn place(folder: &Path, name: &str) -> Place {
     Place::Below(resolved)
 }
 
-/// A reference that is not followed for this reason.
+/// Makes the target of a reference that is not followed for this reason.
 pub(crate) fn outside(folder: &Path, name: &str, reason: &'static str) -> Place {
     let last = name.rsplit(['/', '\\', ':']).next().unwrap_or_default();
     let is_name = !matches!(last, "" | "." | "..") && !last.contains('\0');
     Place::Outside { reason, beside: is_name.then(|| folder.join(last)) }
 }
 
-/// The file of the texture that a scene calls `name`. One that leads outside is looked for beside the file
-/// that refers to it, since textures often travel with their scenes while paths stay behind. `None` if it is
-/// not there; either way with a remark.
+/// Returns the file of the texture that a scene calls `name`. If the reference leads outside, a file of its
+/// name is looked for beside the referring file, since textures often travel with their scenes while paths
+/// stay behind. `None` if there is none; in both cases a remark is noted.
 pub(crate) fn texture(place: &Place, name: &str, remarks: &mut Remarks) -> Option<PathBuf> {
     let (reason, beside) = match place {
         Place::Below(file) => return Some(file.clone()),

@@ -1,4 +1,4 @@
-//! Numbered OBJ and PLY files that are one scene over time.
+//! Numbered OBJ and PLY files that form one scene over time.
 
 use std::path::{Path, PathBuf};
 
@@ -9,23 +9,23 @@ use crate::origin::Origins;
 use rasray_scene::deforming::{Deformation, Deformer, Shape, Topology};
 use rasray_scene::{Mesh, Scene, SceneError, Warning};
 
-/// Files of one name but for a number, such as `cloth.####.ply`: file n is shown from n / fps seconds on,
-/// until the next one is. Before the first it is the first, after the last the last.
+/// Files whose names differ only in a number, such as `cloth.####.ply`: file n is shown from n / fps seconds
+/// on, until the next one. Before the first time the first file is shown, after the last time the last.
 ///
 /// Vertices and triangles may be others in every file. Materials, textures and instances are those of the
-/// first file with triangles; a later one may have fewer meshes (the others are empty then), not more, and no
-/// other materials. Each mesh stays where the instance of the first places it, and positions are relative to
-/// that.
+/// first file with triangles; a later file may have fewer meshes (the others are empty then), but not more,
+/// and no other materials. Each mesh stays where the instance of the first file places it, and positions are
+/// relative to that place.
 #[derive(Clone, Debug)]
 pub struct Sequence {
-    /// All files, without a gap.
+    /// All files, without a gap in their numbers.
     files: Vec<PathBuf>,
-    /// Number of the first.
+    /// Number of the first file.
     first: u64,
     options: LoadOptions,
 }
 
-/// The pattern of a file name: what stands before and behind the number, and its least number of digits.
+/// Pattern of a file name: the text before and after the number, and its least number of digits.
 struct Pattern<'a> {
     before: &'a str,
     behind: &'a str,
@@ -33,18 +33,18 @@ struct Pattern<'a> {
 }
 
 impl<'a> Pattern<'a> {
-    /// The last run of # in a name is the number.
+    /// The last run of `#` in a name is the number.
     fn of(name: &'a str) -> Option<Self> {
         let end = name.rfind('#')? + 1;
         let before = name[..end].trim_end_matches('#');
         Some(Self { before, behind: &name[end..], digits: end - before.len() })
     }
 
-    /// The number of a file with such a name.
+    /// Returns the number of a file with such a name.
     fn number(&self, name: &str) -> Option<u64> {
         let digits = name.strip_prefix(self.before)?.strip_suffix(self.behind)?;
         let number: u64 = digits.parse().ok()?;
-        // No sign, and no more zeros in front than the pattern asks for.
+        // The number has no sign, and no more leading zeros than the pattern asks for.
         (self.name(number) == name).then_some(number)
     }
 
@@ -63,9 +63,9 @@ impl Sequence {
     /// Finds the files of a pattern.
     ///
     /// # Errors
-    /// [`SceneError::Read`] for a folder that cannot be read, [`SceneError::Sequence`] where there are no
-    /// such files or one between the first and the last is missing, and [`SceneError::UnknownFormat`] for
-    /// other formats than OBJ and PLY.
+    /// [`SceneError::Read`] for a folder that cannot be read, [`SceneError::Sequence`] if no such file exists
+    /// or one between the first and the last is missing, and [`SceneError::UnknownFormat`] for formats other
+    /// than OBJ and PLY.
     pub fn find(pattern: &Path, options: &LoadOptions) -> Result<Self, SceneError> {
         let problem = |problem: String| SceneError::Sequence { path: pattern.to_owned(), problem };
         let extension = pattern.extension().and_then(|text| text.to_str()).unwrap_or_default();
@@ -102,12 +102,12 @@ impl Sequence {
         Ok(Self { files, first, options: options.clone() })
     }
 
-    /// All files, in the order of their numbers.
+    /// Returns all files, in the order of their numbers.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
 
-    /// The place in `files` of what is shown at a time: the last file that has begun.
+    /// Returns the index in `files` of the file that is shown at a time: the last one that has begun.
     fn index(&self, seconds: f64) -> usize {
         let number = rasray_scene::time::frame(seconds, self.options.fps);
         ((number - self.first as f64).max(0.0) as usize).min(self.files.len() - 1)
@@ -117,7 +117,7 @@ impl Sequence {
 /// Loads the scene of a pattern as its first file has it, with a [`Deformer`] that shows the others.
 ///
 /// # Errors
-/// Those of [`Sequence::find`], and of the first files up to one with triangles.
+/// Errors of [`Sequence::find`], and of the first files up to one with triangles.
 pub fn load(pattern: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     let sequence = Sequence::find(pattern, options)?;
     let mut model = crate::formats::load_file(&sequence.files[0], options, Origins::First)?;
@@ -127,7 +127,7 @@ pub fn load(pattern: &Path, options: &LoadOptions) -> Result<Scene, SceneError> 
             break;
         }
         model = crate::formats::load_file(file, options, Origins::First)?;
-        // Nothing of it is shown yet.
+        // The scene at rest shows none of these triangles yet.
         for mesh in &mut model.meshes {
             *mesh = empty(mesh);
         }
@@ -148,26 +148,26 @@ pub fn load(pattern: &Path, options: &LoadOptions) -> Result<Scene, SceneError> 
     Ok(model)
 }
 
-/// A mesh of the same name and material without triangles.
+/// Makes a mesh of the same name and material without triangles.
 fn empty(mesh: &Mesh) -> Mesh {
     Mesh { name: mesh.name.clone(), material: mesh.material, ..Mesh::default() }
 }
 
-/// The files, and what they must have in common.
+/// Files of the sequence, and the data that they must have in common.
 #[derive(Debug)]
 struct Frames {
     sequence: Sequence,
     meshes: Vec<usize>,
     /// The meshes of the scene, empty.
     templates: Vec<Mesh>,
-    /// Names of its materials.
+    /// Names of the scene's materials.
     materials: Vec<String>,
-    /// Positions of its meshes, metres, world; instance by instance, of which each mesh has one.
+    /// Origins of the scene's meshes, metres, world; one per instance, of which each mesh has one.
     origins: Vec<DVec3>,
 }
 
 impl Frames {
-    /// The meshes of a file, with the materials of the scene.
+    /// Returns the meshes of a file, with the materials of the scene.
     fn adapted(&self, file: &Path, scene: Scene) -> Result<Deformation, SceneError> {
         let problem = |problem: String| SceneError::Sequence { path: file.to_owned(), problem };
         let first = self.sequence.files[0].file_name().unwrap_or_default().display();

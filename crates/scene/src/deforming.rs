@@ -21,7 +21,7 @@ pub trait Deformer: Debug + Send + Sync {
     fn meshes(&self) -> &[usize];
 
     /// Returns these meshes at a time, seconds; before 0 as at 0, after the end as at the end. Times in
-    /// ascending order may be far cheaper than others. The same time gives the same bits.
+    /// ascending order may be far cheaper than others. Equal times give equal bits.
     ///
     /// # Errors
     /// An error for a file that cannot be read, or that does not match the others.

@@ -1,4 +1,4 @@
-//! Accessors: typed arrays in buffers, checked against the bytes that are there.
+//! Accessors: typed arrays in buffers, checked against the actual bytes.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use super::draco::{self, Elements};
 use crate::Limits;
 use rasray_scene::SceneError;
 
-/// An array of elements in a buffer view, known to fit.
+/// Array of elements in a buffer view, checked to fit.
 struct Layout<'a> {
     bytes: &'a [u8],
     stride: usize,
@@ -19,7 +19,7 @@ struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    /// The `count` elements of `size` bytes that start at `offset` of `view`, `stride` bytes apart.
+    /// Returns the `count` elements of `size` bytes that start at `offset` of `view`, `stride` bytes apart.
     fn of(
         document: &'a Document<'_>,
         place: &str,
@@ -52,11 +52,11 @@ impl<'a> Layout<'a> {
             let reason = format!("needs {end} bytes, but bufferViews[{view}] has only {}{cut}", bytes.len());
             return Err(document.invalid(place, reason));
         }
-        // offset <= end <= bytes.len(), and no element takes less than a byte.
+        // It holds that offset <= end <= bytes.len(), and no element takes less than a byte.
         Ok(Self { bytes: &bytes[offset as usize..], stride, size, count: count as usize })
     }
 
-    /// The elements of an accessor that Draco compressed, which must be those that it claims.
+    /// Returns the elements of an accessor that Draco compressed; they must match the accessor's claims.
     fn of_stream(
         document: &Document<'_>,
         place: &str,
@@ -86,14 +86,14 @@ impl<'a> Layout<'a> {
     }
 }
 
-/// An accessor whose base and sparse parts fit.
+/// Accessor whose base and sparse parts fit.
 struct Resolved<'a> {
     place: String,
     component: ComponentType,
     kind: Type,
     normalized: bool,
     count: usize,
-    /// Absent: all zeros.
+    /// Base array; absent means all zeros.
     base: Option<Layout<'a>>,
     sparse: Option<Sparse<'a>>,
 }
@@ -103,8 +103,8 @@ struct Sparse<'a> {
     values: Layout<'a>,
 }
 
-/// Reads an accessor of `N` components as f32. Integers become their value, or if normalised the
-/// share of their largest value, in [-1, 1] or [0, 1].
+/// Reads an accessor of `N` components as f32. Integers become their value or, if normalised, their ratio to
+/// the largest value of their type, in [-1, 1] or [0, 1].
 pub(super) fn read_floats<const N: usize>(
     document: &Document<'_>,
     accessor: usize,
@@ -152,18 +152,19 @@ pub(super) fn read_integers<const N: usize>(
     )
 }
 
-/// Number of components an element of `accessor` has; `None` for matrices of two or three columns.
+/// Returns the number of components of an element of `accessor`; `None` for matrices of two or three columns.
 pub(super) fn components(document: &Document<'_>, accessor: usize) -> Result<Option<usize>, SceneError> {
     Ok(resolve(document, accessor)?.components())
 }
 
-/// Number of elements of `accessor`.
+/// Returns the number of elements of `accessor`.
 pub(super) fn count(document: &Document<'_>, accessor: usize) -> Result<usize, SceneError> {
     Ok(resolve(document, accessor)?.count)
 }
 
 impl Resolved<'_> {
-    /// Components of an element that lie one after the other; `None` where columns are padded.
+    /// Returns the number of components of an element that lie one after the other; `None` where columns are
+    /// padded.
     fn components(&self) -> Option<usize> {
         (!matches!(self.kind, Type::Mat2 | Type::Mat3)).then(|| self.kind.multiplicity())
     }
@@ -205,8 +206,7 @@ fn resolve<'a>(document: &'a Document<'_>, index: usize) -> Result<Resolved<'a>,
     };
     let Checked::Valid(kind) = accessor.type_ else { return Err(unknown("type")) };
     let stream = draco::elements(document, index)?;
-    // Small integers and indices are as wide as their stream has them; what is normalized is a share of its
-    // own type.
+    // Small integers and indices have the width of their stream; normalised integers refer to their own type.
     let component = match stream {
         Some(stream) if !accessor.normalized && component != ComponentType::F32 => stream.component,
         _ => component,
@@ -222,7 +222,8 @@ fn resolve<'a>(document: &'a Document<'_>, index: usize) -> Result<Resolved<'a>,
             })
             .transpose()?,
     };
-    // After the bytes: a count that they contradict is an error of the file, whatever the limits.
+    // The count is checked after the bytes: a count that contradicts them is an error of the file, whatever
+    // the limits.
     let count = small(document.path, &place, accessor.count.0, document.limits)?;
     let sparse = accessor.sparse.as_ref().map(|sparse| {
         let Checked::Valid(IndexComponentType(index_type)) = sparse.indices.component_type else {
@@ -255,14 +256,14 @@ fn resolve<'a>(document: &'a Document<'_>, index: usize) -> Result<Resolved<'a>,
     })
 }
 
-/// A count that memory can hold.
+/// Converts a count to `usize` if memory can hold that many elements.
 fn small(path: &Path, place: &str, count: u64, limits: &Limits) -> Result<usize, SceneError> {
     Limits::check(path, &format!("the number of elements of {place}"), count, limits.vertices, "vertices")?;
     usize::try_from(count)
         .map_err(|_| SceneError::invalid(path, place, format!("{count} elements do not fit in memory")))
 }
 
-/// Bytes of an element. Columns of matrices start at multiples of four bytes.
+/// Returns the bytes of an element. Columns of matrices start at multiples of four bytes.
 fn element_size(component: ComponentType, kind: Type) -> usize {
     let (columns, rows) = match kind {
         Type::Mat2 => (2, 2),
@@ -273,7 +274,7 @@ fn element_size(component: ComponentType, kind: Type) -> usize {
     columns * (rows * component.size()).next_multiple_of(4)
 }
 
-/// Name of a type of elements in the format.
+/// Returns the format's name of a type of elements.
 fn type_name(kind: Type) -> &'static str {
     match kind {
         Type::Scalar => "SCALAR",
@@ -286,7 +287,7 @@ fn type_name(kind: Type) -> &'static str {
     }
 }
 
-/// A type of components in words.
+/// Describes a type of components in words.
 pub(super) fn component_name(component: ComponentType) -> &'static str {
     match component {
         ComponentType::I8 => "signed 8-bit integers",
@@ -298,7 +299,7 @@ pub(super) fn component_name(component: ComponentType) -> &'static str {
     }
 }
 
-/// A little-endian unsigned integer of one, two or four bytes.
+/// Reads a little-endian unsigned integer of one, two or four bytes.
 fn integer(bytes: &[u8]) -> u32 {
     bytes.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte))
 }

@@ -1,4 +1,4 @@
-//! Clips and the rig they move.
+//! Clips and the rig that they move.
 
 use std::collections::HashMap;
 
@@ -15,7 +15,7 @@ use rasray_scene::animation::{
 };
 use rasray_scene::{Animation, SceneError};
 
-/// Reads all clips and what they move.
+/// Reads all clips and the rig that they move.
 pub(super) fn read(
     document: &Document<'_>,
     hierarchy: &Hierarchy,
@@ -47,7 +47,7 @@ fn read_clip(document: &Document<'_>, index: usize, animation: &JsonAnimation) -
     let name = animation.name.clone().unwrap_or_else(|| format!("animation{index}"));
     let place = |number: usize| format!("animation {name}, channel {number}");
     let mut read: Vec<(usize, Channel)> = Vec::with_capacity(animation.channels.len());
-    // By what they animate, so that of two the later one is found to count.
+    // Channels by the property that they animate, so that the later one of two is found to count.
     let mut known: HashMap<_, usize> = HashMap::new();
     for (number, source) in animation.channels.iter().enumerate() {
         let sampler = &animation.samplers[source.sampler.value()];
@@ -83,10 +83,10 @@ fn read_clip(document: &Document<'_>, index: usize, animation: &JsonAnimation) -
     Ok(Clip { name, duration, channels })
 }
 
-/// A channel, or what is wrong with it.
+/// Reads a channel, or returns its fault.
 ///
 /// # Errors
-/// Accessors that cannot be read.
+/// Errors of accessors that cannot be read.
 fn read_channel(
     document: &Document<'_>,
     place: &str,
@@ -98,7 +98,7 @@ fn read_channel(
         let path = path_name(path);
         return Ok(Err(format!("it animates the {path} of nodes[{node}], which has a matrix instead")));
     }
-    // An accessor may be as it should for something else: name who needs it otherwise.
+    // An accessor may be valid for another use: the message names the channel that needs another form.
     let asked = |error: SceneError| match error {
         SceneError::Invalid { path: file, place: at, reason } => SceneError::Invalid {
             path: file,
@@ -143,7 +143,7 @@ fn read_channel(
     Ok(Ok(channel))
 }
 
-/// Fault of the keys of a channel.
+/// Returns the fault of the keys of a channel.
 fn fault(channel: &Channel) -> Option<String> {
     let Channel { interpolation, times, values, .. } = channel;
     if times.is_empty() {
@@ -187,8 +187,8 @@ fn path_name(path: Property) -> &'static str {
     }
 }
 
-/// Number of morph targets of the mesh at a node: of the primitive that has most, since others are not
-/// displaced by those that they lack. Else why there is none.
+/// Returns the number of morph targets of the mesh at a node: that of the primitive with most targets, since
+/// primitives are not displaced by targets that they lack. The error says why there is none.
 fn target_count(document: &Document<'_>, node: usize) -> Result<usize, String> {
     let Some(mesh) = document.root.nodes[node].mesh.map(|mesh| mesh.value()) else {
         return Err(format!("it animates the weights of nodes[{node}], which has no mesh"));

@@ -5,15 +5,15 @@ use ::gltf::json::material::Material as JsonMaterial;
 use ::gltf::json::texture::Info;
 use ::gltf::json::{Error, Value};
 
-/// Anisotropy of a material, in the form that was checked.
+/// Anisotropy of a material, after the checks.
 pub(super) struct Anisotropy {
     pub strength: f32,
-    /// Radians.
+    /// Rotation of the direction, radians.
     pub rotation: f32,
     pub texture: Option<Info>,
 }
 
-/// Reads the extension of a material; the typed tree keeps it as plain JSON.
+/// Reads the extension of a material, which the typed tree keeps as plain JSON.
 pub(super) fn anisotropy(source: &JsonMaterial) -> Result<Option<Anisotropy>, Error> {
     let extensions = source.extensions.as_ref();
     let Some(found) = extensions.and_then(|found| found.others.get("KHR_materials_anisotropy")) else {

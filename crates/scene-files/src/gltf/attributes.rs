@@ -8,7 +8,7 @@ use super::accessor::{component_name, components, read_floats};
 use super::document::Document;
 use rasray_scene::{Mesh, SceneError};
 
-/// The vertices of a primitive, as the file has them; no triangles yet.
+/// Reads the vertices of a primitive as the file has them, without triangles.
 pub(super) fn undeformed(
     document: &Document<'_>,
     primitive: &Primitive,
@@ -30,13 +30,13 @@ pub(super) fn undeformed(
     })
 }
 
-/// The accessor of an attribute.
+/// Returns the accessor of an attribute.
 pub(super) fn attribute(primitive: &Primitive, semantic: Semantic) -> Option<usize> {
     primitive.attributes.get(&Checked::Valid(semantic)).map(|index| index.value())
 }
 
-/// Positions, normals, tangents and their morph displacements: floats, unless the file says that its
-/// meshes are quantised.
+/// Reads positions, normals, tangents or their morph displacements: floats, or quantised numbers if the file
+/// says that its meshes are quantised.
 pub(super) fn read_directions<const N: usize>(
     document: &Document<'_>,
     accessor: usize,
@@ -75,8 +75,8 @@ fn read_colors(document: &Document<'_>, accessor: usize) -> Result<Vec<[f32; 4]>
     read_floats(document, accessor)
 }
 
-/// Remarks on attributes whose numbers are of a type that the format does not allow for them. They
-/// are read as they are.
+/// Notes remarks on attributes whose numbers are of a type that the format does not allow for them. They are
+/// read anyway.
 pub(super) fn remark(document: &Document<'_>, place: &str, primitive: &Primitive) {
     for (semantic, index) in &primitive.attributes {
         let Checked::Valid(semantic) = semantic else { continue };
@@ -91,7 +91,7 @@ pub(super) fn remark(document: &Document<'_>, place: &str, primitive: &Primitive
             }
             Semantic::Colors(0) | Semantic::Weights(_) => float || share,
             Semantic::Joints(_) => unsigned && !accessor.normalized,
-            // Not read, or refused where it is read.
+            // Other attributes are not read, or are refused where they are read.
             _ => true,
         };
         if !allowed {

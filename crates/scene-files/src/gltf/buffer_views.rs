@@ -1,4 +1,4 @@
-//! The bytes of buffer views; buffers are read when they are first needed.
+//! Bytes of buffer views; buffers are read when they are first needed.
 
 use std::borrow::Cow;
 
@@ -9,8 +9,8 @@ use crate::recognise::recognise;
 use rasray_scene::SceneError;
 
 impl<'a> Document<'a> {
-    /// The bytes of a buffer, at most as many as it claims: the binary chunk (a first buffer without
-    /// a reference), a `data:` URI or a file.
+    /// Returns the bytes of a buffer, at most as many as it claims: from the binary chunk (for a first buffer
+    /// without a reference), a `data:` URI or a file.
     pub(super) fn buffer(&self, index: usize) -> Result<&[u8], SceneError> {
         let claim = self.root.buffers[index].byte_length.0;
         let cell = &self.buffers.read[index];
@@ -59,7 +59,7 @@ impl<'a> Document<'a> {
         Ok(bytes.into())
     }
 
-    /// Bytes of a buffer view, as far as its buffer has them; those of a compressed one are decoded.
+    /// Returns the bytes of a buffer view, as far as its buffer has them; a compressed view is decoded.
     pub fn view(&self, view: usize) -> Result<&[u8], SceneError> {
         let claim = &self.root.buffer_views[view];
         #[cfg(feature = "meshopt")]
@@ -80,7 +80,8 @@ impl<'a> Document<'a> {
         Ok(&bytes[start.min(available) as usize..end.min(available) as usize])
     }
 
-    /// The bytes of a compressed view, decoded when they are first needed; `None` if it is stored as it is.
+    /// Returns the bytes of a compressed view, decoded when they are first needed; `None` if the view is not
+    /// compressed.
     #[cfg(feature = "meshopt")]
     fn decoded(&self, view: usize) -> Result<Option<&[u8]>, SceneError> {
         let cell = &self.buffers.decoded[view];

@@ -9,8 +9,8 @@ use ::gltf::json::validation::Checked;
 use rasray_scene::pose::rigid;
 use rasray_scene::{Camera, Projection};
 
-/// The cameras of the nodes in `order`, each with its node. Scale and shear of the nodes are taken off. Clip
-/// planes are not used: rays see at any distance.
+/// Returns the cameras of the nodes in `order`, each with its node. Scale and shear of the nodes are removed.
+/// Clip planes are not used: rays see at any distance.
 pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usize]) -> Vec<(usize, Camera)> {
     let mut cameras = Vec::new();
     for &node in order {
@@ -35,7 +35,7 @@ pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usi
     cameras
 }
 
-/// Why a camera is dropped.
+/// Returns the reason why a camera is dropped.
 fn fault(document: &Document<'_>, index: usize, source: &JsonCamera, is_placed: bool) -> String {
     match (source.type_, &source.perspective, &source.orthographic) {
         (Checked::Invalid, ..) => {
@@ -69,7 +69,7 @@ fn projection(source: &JsonCamera) -> Option<Projection> {
     }
 }
 
-/// Width over height of what a camera frames, if it says so.
+/// Returns the ratio of width to height of a camera's frame, if the file gives one.
 fn aspect_ratio(source: &JsonCamera) -> Option<f32> {
     let ratio = match source.type_ {
         Checked::Valid(Type::Perspective) => source.perspective.as_ref()?.aspect_ratio?,
@@ -82,7 +82,7 @@ fn aspect_ratio(source: &JsonCamera) -> Option<f32> {
     Some(ratio).filter(|ratio| *ratio > 0.0 && ratio.is_finite())
 }
 
-/// Says what of a camera was not taken as it is.
+/// Notes remarks on properties of a camera that were not taken as they are.
 fn remark(document: &Document<'_>, index: usize, source: &JsonCamera) {
     let note = |text: String| document.note("camera-range", format!("cameras[{index}]"), text);
     let sides = "the image decides what is seen at its sides";

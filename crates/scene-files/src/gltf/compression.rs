@@ -1,7 +1,7 @@
 //! `EXT_meshopt_compression` and `KHR_meshopt_compression`: buffer views whose bytes are stored compressed.
 //!
-//! meshoptimizer decodes the streams. It refuses those that are malformed; sizes, strides and words, which it
-//! takes for granted, are checked here before.
+//! The library meshoptimizer decodes the streams. It refuses malformed ones; sizes, strides and words, which
+//! it does not check, are checked here before.
 
 use ::gltf::json::Value;
 use meshopt::ffi;
@@ -9,20 +9,22 @@ use meshopt::ffi;
 use super::document::Document;
 use rasray_scene::SceneError;
 
-/// The extensions, which differ in what their exporters write: the decoder reads the streams of either.
+/// Names of the extensions, which differ in what their exporters write: the decoder reads the streams of
+/// either.
 pub(super) const EXTENSIONS: [&str; 2] = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
 
-/// Most bytes that one byte of a stream can stand for: 256 elements of four bytes, none of which changes.
+/// Largest number of bytes that one byte of a stream can stand for: 256 elements of four bytes, none of which
+/// changes.
 const MOST_BYTES: u64 = 1024;
 
 /// Compression of a buffer view.
 struct Compressed {
-    /// Such as `bufferViews[3].extensions.EXT_meshopt_compression`.
+    /// Place for messages, such as `bufferViews[3].extensions.EXT_meshopt_compression`.
     place: String,
     buffer: usize,
     offset: u64,
     length: u64,
-    /// Elements, and bytes of each.
+    /// Number of elements, and bytes of each.
     count: u64,
     stride: usize,
     mode: Mode,
@@ -47,17 +49,17 @@ enum Filter {
     Color,
 }
 
-/// The bytes of a view; elements begin at multiples of four.
+/// Bytes of a view; elements begin at multiples of four.
 pub(super) struct Decoded(Vec<u32>);
 
 impl Decoded {
-    /// As many bytes as the view has.
+    /// Returns as many bytes as the view has.
     pub fn bytes(&self, length: usize) -> &[u8] {
         &bytemuck::cast_slice(&self.0)[..length]
     }
 }
 
-/// Decodes a buffer view; `None` if it is stored as it is.
+/// Decodes a buffer view; `None` if it is not compressed.
 pub(super) fn decode(document: &Document<'_>, view: usize) -> Result<Option<Decoded>, SceneError> {
     let Some(compressed) = Compressed::of(document, view)? else { return Ok(None) };
     let claim = document.root.buffer_views[view].byte_length.0;
@@ -81,7 +83,7 @@ pub(super) fn decode(document: &Document<'_>, view: usize) -> Result<Option<Deco
 }
 
 impl Compressed {
-    /// Compression of a view, of the form that the schema asks for; `None` if it has none.
+    /// Reads the compression of a view in the form that the schema asks for; `None` if the view has none.
     fn of(document: &Document<'_>, view: usize) -> Result<Option<Self>, SceneError> {
         let extensions = document.root.buffer_views[view].extensions.as_ref();
         let found = EXTENSIONS.iter().find_map(|&name| Some((name, extensions?.others.get(name)?)));
@@ -120,7 +122,7 @@ impl Compressed {
         }))
     }
 
-    /// Checks the demands of the extensions on a view of `claim` bytes.
+    /// Checks the requirements of the extensions on a view of `claim` bytes.
     fn check(&self, claim: u64) -> Result<(), String> {
         let Self { count, stride, mode, filter, .. } = *self;
         let strides: &[usize] = match (mode, filter) {
@@ -150,7 +152,7 @@ impl Compressed {
         Ok(())
     }
 
-    /// The bytes of the stream.
+    /// Returns the bytes of the stream.
     fn stream<'a>(&self, document: &'a Document<'_>) -> Result<&'a [u8], SceneError> {
         let Self { buffer, offset, length, .. } = *self;
         let buffers = document.root.buffers.len();
@@ -171,16 +173,17 @@ impl Compressed {
         Ok(&bytes[offset as usize..end as usize])
     }
 
-    /// Decodes a stream into as many bytes as [`Compressed::check`] found right; false if it is malformed.
+    /// Decodes a stream into as many bytes as [`Compressed::check`] accepted; false if the stream is
+    /// malformed.
     fn decode_into(&self, stream: &[u8], decoded: &mut [u32]) -> bool {
-        // Their product is a length that was allocated, as `check` found.
+        // The product of both is a length that was allocated, as `check` found.
         let (count, stride) = (self.count as usize, self.stride);
         assert!(count * stride <= size_of_val(decoded));
         let (to, from, size) = (decoded.as_mut_ptr().cast(), stream.as_ptr(), stream.len());
         // SAFETY: `to` has room for `count` elements of `stride` bytes and is aligned for the widest numbers
-        // that are written, those of 32 bits; `from` has `size` bytes. Strides and counts are those that the
-        // functions allow for their mode and filter (`check`), and their decoders promise to stay inside of
-        // both ranges whatever the bytes are.
+        // that are written, which have 32 bits; `from` has `size` bytes. Strides and counts are among those
+        // that the functions allow for their mode and filter (`check` tests this), and the decoders promise
+        // to stay inside both ranges for any bytes.
         unsafe {
             let status = match self.mode {
                 Mode::Attributes => ffi::meshopt_decodeVertexBuffer(to, count, stride, from, size),
@@ -232,7 +235,8 @@ mod tests {
         compressed.decode_into(stream, &mut words).then(|| Decoded(words).bytes(bytes).to_vec())
     }
 
-    /// Every mode in its least and widest elements, as the encoders of meshoptimizer write them.
+    /// The test covers every mode with its smallest and widest elements, as the encoders of meshoptimizer
+    /// write them.
     #[test]
     fn streams_of_every_mode_come_back() {
         let indices: Vec<u32> = (0..600).map(|i| i % 301 + i / 3).collect();
@@ -247,7 +251,7 @@ mod tests {
         let elements: &[[u8; 4]] = bytemuck::cast_slice(&wide);
         let attributes = meshopt::encode_vertex_buffer(elements).expect("encoded");
         assert_eq!(decoded(&attributes, Mode::Attributes, 4, 600), Some(wide));
-        // Triangles come back from any of their corners.
+        // Decoded triangles may begin at any of their corners.
         let triangles = meshopt::encode_index_buffer(&indices, 1000).expect("encoded");
         let found = decoded(&triangles, Mode::Triangles, 4, 600).expect("decoded");
         let found: Vec<u32> =
@@ -262,7 +266,7 @@ mod tests {
         assert_eq!(decoded(&attributes, Mode::Attributes, 4, 700), None);
     }
 
-    /// The most that a stream can stand for is what is held for it.
+    /// The longest output of a stream is the memory that is reserved for it.
     #[test]
     fn no_stream_stands_for_more_than_is_allowed() {
         for elements in [1 << 12, 1 << 16] {

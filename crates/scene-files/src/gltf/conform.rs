@@ -1,4 +1,4 @@
-//! A plain JSON tree against the schema of the format, with the place and value of what departs from it.
+//! Check of a plain JSON tree against the schema of the format; a fault has its place and value.
 
 use std::collections::{BTreeSet, HashMap};
 use std::fmt::{self, Display};
@@ -10,19 +10,19 @@ use super::shape::{Kind, Member, ROOT};
 use rasray_scene::SceneError;
 use rasray_scene::text::shown;
 
-/// Contents of a tree that the typed tree has no place for.
+/// Contents of a tree that have no place in the typed tree.
 #[derive(Default)]
 pub(super) struct Found {
-    /// Values of enumerations that the format does not know, by their place, as they are written.
+    /// Values of enumerations that the format does not know, by their place, as written.
     pub unknown: HashMap<String, String>,
-    /// Names of all extensions that elements have.
+    /// Names of all extensions of elements.
     pub extensions: BTreeSet<String>,
 }
 
-/// Checks the tree of a whole file, and brings it into the form of the typed tree.
+/// Checks the tree of a whole file, and converts it to the form that the typed tree accepts.
 ///
 /// # Errors
-/// [`SceneError::Invalid`] at the first value that is not of its kind, or that is missing.
+/// [`SceneError::Invalid`] at the first value that has the wrong kind, or that is missing.
 pub(super) fn conform(path: &Path, tree: &mut Value) -> Result<Found, SceneError> {
     let mut found = Found::default();
     let file = Place { above: None, step: Step::Member("") };
@@ -31,7 +31,7 @@ pub(super) fn conform(path: &Path, tree: &mut Value) -> Result<Found, SceneError
     Ok(found)
 }
 
-/// Place of a value; written out only for messages. The depth is bounded by that of the JSON parser.
+/// Place of a value, formatted only for messages. The depth is bounded by that of the JSON parser.
 struct Place<'a> {
     above: Option<&'a Place<'a>>,
     step: Step<'a>,
@@ -64,7 +64,7 @@ impl Display for Place<'_> {
     }
 }
 
-/// A place and what is wrong there.
+/// Fault: its place and its description.
 type Fault = (String, String);
 
 fn check(value: &mut Value, kind: &Kind, place: &Place<'_>, found: &mut Found) -> Result<(), Fault> {
@@ -157,12 +157,12 @@ fn must_be_object(value: &Value, place: &Place<'_>) -> Result<(), Fault> {
     if value.is_object() { Ok(()) } else { Err(must_be("an object", value, place)) }
 }
 
-/// A whole number that is not negative; `1.0` counts, and becomes `1`.
+/// Reads a whole number that is not negative; `1.0` counts, and becomes `1`.
 fn whole(value: &mut Value, place: &Place<'_>) -> Result<u64, Fault> {
     if let Some(whole) = value.as_u64() {
         return Ok(whole);
     }
-    // The largest f64 below 2^64 is a whole number that u64 holds.
+    // The largest f64 below 2^64 is a whole number that u64 can hold.
     let written =
         value.as_f64().filter(|x| x.fract() == 0.0 && (0.0..18_446_744_073_709_551_616.0).contains(x));
     match written {

@@ -11,14 +11,14 @@ const CHUNK_HEADER: usize = 8;
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
 
-/// The parts of a file. A `.gltf` has only JSON.
+/// Parts of a file. A `.gltf` has only JSON.
 pub(super) struct Container<'a> {
     pub json: &'a [u8],
     pub binary: Option<&'a [u8]>,
 }
 
-/// Splits a file. Chunks of unknown type are skipped, as the format asks; chunks in the wrong place
-/// are remarked.
+/// Splits a file. Chunks of unknown type are skipped, as the format asks; chunks in the wrong place get a
+/// remark.
 pub(super) fn split<'a>(
     path: &Path,
     bytes: &'a [u8],
@@ -79,7 +79,7 @@ pub(super) fn split<'a>(
             break;
         }
         chunks += 1;
-        // A chunk ends on a multiple of four; writers that forget the padding are forgiven.
+        // A chunk ends on a multiple of four; missing padding is tolerated.
         at = start + size;
     }
     let json = json.ok_or_else(|| {
@@ -95,7 +95,7 @@ pub(super) fn split<'a>(
     Ok(Container { json: without_mark(&json[..end]), binary })
 }
 
-/// Text without the mark of its byte order, which the format forbids and some writers add.
+/// Returns text without its byte order mark, which the format forbids and some writers add.
 fn without_mark(text: &[u8]) -> &[u8] {
     text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text)
 }

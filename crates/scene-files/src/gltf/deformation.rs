@@ -1,4 +1,4 @@
-//! Morph targets, and what of a mesh must be kept so that it can be deformed again.
+//! Morph targets, and the data of a mesh that later deformation needs.
 
 use ::gltf::json::Index;
 use ::gltf::json::accessor::Accessor;
@@ -9,8 +9,8 @@ use super::document::Document;
 use rasray_scene::animation::{DeformedMesh, MorphTarget};
 use rasray_scene::{Mesh, SceneError};
 
-/// Reads the morph targets of a primitive with the undeformed `mesh`. `weights` are those at rest;
-/// absent ones are zero.
+/// Reads the morph targets of a primitive with the undeformed `mesh`. `weights` are those at rest; absent
+/// weights are zero.
 pub(super) fn read(
     document: &Document<'_>,
     place: &str,

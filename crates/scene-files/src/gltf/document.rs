@@ -1,4 +1,4 @@
-//! A file whose references have been checked: what all other modules read from.
+//! File whose references have been checked: the source of all other modules.
 
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
@@ -15,8 +15,8 @@ use rasray_scene::SceneError;
 use rasray_scene::animation::NodeTransform;
 use rasray_scene::remarks::Remarks;
 
-/// A parsed file with its bytes. Every index in `root` is in range. Buffers are read, and accessors
-/// checked against them, when something of the scene needs them.
+/// Parsed file with its bytes. Every index in `root` is in range. Buffers are read, and accessors checked
+/// against them, when an element of the scene needs them.
 pub(super) struct Document<'a> {
     pub path: &'a Path,
     pub limits: &'a Limits,
@@ -31,7 +31,7 @@ pub(super) struct Document<'a> {
     unknown: HashMap<String, String>,
     /// Attributes of primitives that are not read, by mesh and primitive.
     pub unread: HashMap<(usize, usize), Unread>,
-    /// Elements read so far, against [`Limits::elements`].
+    /// Number of elements read so far, checked against [`Limits::elements`].
     elements: Cell<u64>,
 }
 
@@ -61,7 +61,7 @@ impl<'a> Document<'a> {
         })
     }
 
-    /// Counts elements that are about to be read.
+    /// Counts elements before they are read.
     pub fn spend(&self, elements: usize) -> Result<(), SceneError> {
         let total = self.elements.get().saturating_add(elements as u64);
         self.elements.set(total);
@@ -69,7 +69,7 @@ impl<'a> Document<'a> {
         Limits::check(self.path, what, total, self.limits.elements, "elements")
     }
 
-    /// Counts bytes that are about to be held beside the file.
+    /// Counts bytes before they are held beside the file.
     pub fn spend_bytes(&self, bytes: u64) -> Result<(), SceneError> {
         let total = self.buffers.held.get().saturating_add(bytes);
         self.buffers.held.set(total);
@@ -77,18 +77,18 @@ impl<'a> Document<'a> {
         Limits::check(self.path, what, total, self.limits.file_bytes, "file_bytes")
     }
 
-    /// An error about an element of this file.
+    /// Makes an error about an element of this file.
     pub fn invalid(&self, place: impl Into<String>, reason: impl Into<String>) -> SceneError {
         SceneError::invalid(self.path, place, reason)
     }
 
-    /// Fault of an enumeration whose value the format does not know.
+    /// Describes the fault of an enumeration whose value the format does not know.
     pub fn unknown(&self, place: &str) -> String {
         let value = self.unknown.get(place).map_or("of a kind", String::as_str);
         format!("is {value}, which the format does not know")
     }
 
-    /// See [`Remarks::note`].
+    /// Notes a remark as [`Remarks::note`] does.
     pub fn note(&self, kind: &'static str, place: impl Into<String>, text: impl Into<String>) {
         self.remarks.borrow_mut().note(kind, place, text);
     }

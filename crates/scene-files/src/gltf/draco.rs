@@ -1,7 +1,7 @@
 //! `KHR_draco_mesh_compression`: primitives whose indices and attributes are one stream in a buffer view.
 //!
-//! The accessors of such a primitive say what they hold; their elements are those of the stream. Morph
-//! targets are never in it.
+//! The accessors of such a primitive describe its elements, and the stream holds them. Morph targets are
+//! never in the stream.
 
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -20,23 +20,23 @@ use rasray_scene::SceneError;
 
 const EXTENSION: &str = "KHR_draco_mesh_compression";
 
-/// The streams of a file, decoded when they are first needed.
+/// Streams of a file, decoded when they are first needed.
 #[derive(Default)]
 pub(super) struct Streams {
-    /// By accessor of a compressed primitive: the part of a stream that it stands for.
+    /// Parts of streams by the accessor of a compressed primitive that stands for them.
     parts: HashMap<usize, Part>,
-    /// By buffer view.
+    /// Decoded streams by buffer view.
     decoded: HashMap<usize, OnceCell<Decoded>>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
 struct Part {
     view: usize,
-    /// The number of an attribute in the stream; else the indices.
+    /// Number of an attribute in the stream; `None` for the indices.
     attribute: Option<u32>,
 }
 
-/// The elements of all parts of a stream.
+/// Elements of all parts of a stream.
 struct Decoded {
     indices: Elements,
     attributes: HashMap<u32, Elements>,
@@ -51,7 +51,7 @@ pub(super) struct Elements {
 }
 
 impl Streams {
-    /// Streams of the primitives of `root`, whose accessors are in range.
+    /// Collects the streams of the primitives of `root`, whose accessors are in range.
     pub fn of(path: &Path, root: &Root) -> Result<Self, SceneError> {
         let mut streams = Self::default();
         for (i, mesh) in root.meshes.iter().enumerate() {
@@ -100,14 +100,14 @@ fn extension(primitive: &Primitive) -> Option<&Value> {
     primitive.extensions.as_ref()?.others.get(EXTENSION)
 }
 
-/// The elements of an accessor that is of a stream; `None` of any other.
+/// Returns the elements of an accessor that is part of a stream; `None` for any other.
 pub(super) fn elements<'a>(
     document: &'a Document<'_>,
     accessor: usize,
 ) -> Result<Option<&'a Elements>, SceneError> {
     let Streams { parts, decoded } = &document.draco;
     let Some(&Part { view, attribute }) = parts.get(&accessor) else { return Ok(None) };
-    // Each view that is referred to has a place.
+    // Each view that a primitive refers to has a cell.
     let Some(cell) = decoded.get(&view) else { return Ok(None) };
     let stream = match cell.get() {
         Some(stream) => stream,
@@ -178,7 +178,7 @@ fn decode(document: &Document<'_>, view: usize) -> Result<Decoded, SceneError> {
     Ok(decoded)
 }
 
-/// The type of the same numbers in the format; `None` if it has none.
+/// Returns the format's type of the same numbers; `None` if it has none.
 fn component(found: DataType) -> Option<ComponentType> {
     Some(match found {
         DataType::Int8 => ComponentType::I8,

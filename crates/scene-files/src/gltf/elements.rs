@@ -12,13 +12,13 @@ use crate::Limits;
 use rasray_scene::animation::{DeformedMesh, Placement, Skin};
 use rasray_scene::{Instance, Mesh, SceneError};
 
-/// Meshes of the scene, `Mesh::material` still an index into the file (its length: the default
-/// material), where they are, and what they were before they were deformed.
+/// Meshes of the scene, with their placements and their undeformed shapes. `Mesh::material` is still an index
+/// into the file (the number of materials stands for the default material).
 #[derive(Default)]
 pub(super) struct Placed {
     pub meshes: Vec<Mesh>,
     pub instances: Vec<Instance>,
-    /// One an instance.
+    /// Placements, one per instance.
     pub placements: Vec<Placement>,
     pub deformed: Vec<DeformedMesh>,
 }
@@ -27,10 +27,10 @@ pub(super) struct Placed {
 /// morph weights of its own.
 type MeshKey = (usize, usize, Option<usize>);
 
-/// A mesh that was read, and where it is if not at its node.
+/// Mesh that was read, and its transform if it is not at its node.
 type Known = Option<(usize, Option<DAffine3>)>;
 
-/// Reads and places what the nodes in `order` show.
+/// Reads and places the meshes that the nodes in `order` show.
 pub(super) fn place(
     document: &Document<'_>,
     hierarchy: &Hierarchy,
@@ -55,7 +55,7 @@ pub(super) fn place(
         for primitive in 0..document.root.meshes[mesh].primitives.len() {
             let shown = Shown { node, mesh, primitive };
             match placer.mesh(shown)? {
-                // Joints place a skinned mesh, not its node: copies would coincide.
+                // Joints place a skinned mesh, and its node does not: copies would coincide.
                 Some((mesh, Some(world))) => {
                     if copies.len() > 1 {
                         let text = "has copies of a mesh with a skin, which joints place: they would coincide, and one is shown";
@@ -88,7 +88,7 @@ struct Placer<'a, 'd> {
 }
 
 impl Placer<'_, '_> {
-    /// The mesh of a primitive, `None` if it has no triangles.
+    /// Returns the mesh of a primitive, `None` if it has no triangles.
     fn mesh(&mut self, shown: Shown) -> Result<Known, SceneError> {
         let node = &self.document.root.nodes[shown.node];
         let own = node.weights.is_some() || node.skin.is_some();
@@ -107,7 +107,7 @@ impl Placer<'_, '_> {
         Ok(known)
     }
 
-    /// Adds the instances of a mesh at a node, one a copy.
+    /// Adds the instances of a mesh at a node, one per copy.
     fn instances(
         &mut self,
         node: usize,
@@ -133,7 +133,7 @@ impl Placer<'_, '_> {
         Ok(())
     }
 
-    /// The node's name, from its second use on with a running number.
+    /// Returns the node's name, from its second use on with a running number.
     fn instance_name(&mut self, node: usize) -> String {
         let name = self.document.root.nodes[node].name.clone().unwrap_or_else(|| format!("node{node}"));
         let uses = self.names.entry(name.clone()).or_insert(0);

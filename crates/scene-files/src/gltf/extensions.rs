@@ -1,4 +1,4 @@
-//! Extensions that are understood, and remarks on the others.
+//! Supported extensions, and remarks on the others.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -9,7 +9,7 @@ use rasray_scene::SceneError;
 use rasray_scene::remarks::Remarks;
 use rasray_scene::text::shown;
 
-/// Extensions that change the scene as they should.
+/// Names of the extensions that are fully supported.
 const SUPPORTED: [&str; 13] = [
     "EXT_mesh_gpu_instancing",
     "KHR_draco_mesh_compression",
@@ -34,7 +34,7 @@ fn is_supported(name: &str) -> bool {
     SUPPORTED.contains(&name)
 }
 
-/// Refuses files that require what is not supported.
+/// Refuses files that require an unsupported extension.
 pub(super) fn check_required(path: &Path, tree: &Value) -> Result<(), SceneError> {
     let required = tree["extensionsRequired"].as_array().into_iter().flatten().filter_map(Value::as_str);
     match required.into_iter().find(|name| !is_supported(name)) {
@@ -47,7 +47,7 @@ pub(super) fn check_required(path: &Path, tree: &Value) -> Result<(), SceneError
     }
 }
 
-/// Warns of what a file uses, whether it says so or not, and is not supported.
+/// Notes remarks on unsupported extensions that a file uses, declared or not.
 pub(super) fn report<'a>(used: impl Iterator<Item = &'a String>, remarks: &mut Remarks) {
     let unsupported: BTreeSet<&String> = used.filter(|name| !is_supported(name)).collect();
     for name in unsupported {
@@ -56,7 +56,7 @@ pub(super) fn report<'a>(used: impl Iterator<Item = &'a String>, remarks: &mut R
     }
 }
 
-/// Advice on getting rid of an extension.
+/// Returns advice on getting rid of an extension.
 fn fix_for(name: &str) -> &'static str {
     match name {
         "EXT_meshopt_compression" | "KHR_meshopt_compression" => {

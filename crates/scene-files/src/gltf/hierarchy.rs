@@ -45,7 +45,7 @@ impl Hierarchy {
             world[node] = above * document.locals[node].to_affine();
             stack.extend(nodes[node].children.iter().flatten().map(|child| (child.value(), depth + 1)));
         }
-        // With at most one parent each, what no root reaches is on a cycle or hangs below one.
+        // As each node has at most one parent, a node that no root reaches is on a cycle or hangs below one.
         match reached.iter().position(|&reached| !reached) {
             Some(node) => {
                 Err(document
@@ -55,7 +55,7 @@ impl Hierarchy {
         }
     }
 
-    /// The nodes of the chosen scene, depth-first, children in order.
+    /// Returns the nodes of the chosen scene, depth-first, children in order.
     pub fn scene_order(
         &self,
         document: &Document<'_>,
@@ -83,7 +83,7 @@ impl Hierarchy {
     }
 }
 
-/// Why the scene of the nodes in `order` shows no mesh, where none of them has one.
+/// Returns the reason why the scene of the nodes in `order` shows no mesh; `None` if a node has one.
 pub(super) fn without_meshes(document: &Document<'_>, order: &[usize]) -> Option<String> {
     let root = &document.root;
     let shown = |nodes: &[usize]| nodes.iter().any(|&node| root.nodes[node].mesh.is_some());
@@ -114,7 +114,7 @@ pub(super) fn without_meshes(document: &Document<'_>, order: &[usize]) -> Option
     })
 }
 
-/// Root nodes of the chosen scene.
+/// Returns the root nodes of the chosen scene.
 fn roots(
     document: &Document<'_>,
     hierarchy: &Hierarchy,

@@ -1,4 +1,4 @@
-//! Every index in range, before anything is looked up.
+//! Check that every index is in range, before any look-up.
 
 use std::path::Path;
 
@@ -150,7 +150,7 @@ impl Check<'_> {
         for (member, info) in infos {
             self.optional(place, member, info.map(|info| info.index), textures)?;
         }
-        // Extensions that cannot be read are refused where they are.
+        // Extensions that cannot be read are refused elsewhere.
         let anisotropy = anisotropy(material).ok().flatten();
         let info = anisotropy.and_then(|found| found.texture);
         self.optional(place, "anisotropyTexture", info.map(|info| info.index), textures)?;

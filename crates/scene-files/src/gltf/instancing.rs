@@ -9,7 +9,7 @@ use super::transforms::unit_rotation;
 use crate::Limits;
 use rasray_scene::SceneError;
 
-/// The copies of a node's mesh relative to the node; `None` if it is not instanced.
+/// Returns the copies of a node's mesh relative to the node; `None` if the mesh is not instanced.
 pub(super) fn transforms(document: &Document<'_>, node: usize) -> Result<Option<Vec<DAffine3>>, SceneError> {
     let extensions = document.root.nodes[node].extensions.as_ref();
     let Some(extension) = extensions.and_then(|found| found.others.get("EXT_mesh_gpu_instancing")) else {

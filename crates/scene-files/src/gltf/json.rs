@@ -1,8 +1,8 @@
-//! From JSON text to the typed tree, around what the typed tree cannot hold.
+//! Parser from JSON text to the typed tree, and the data that the typed tree cannot hold.
 //!
-//! The typed tree keeps indices as u32 by cutting off high bits, node transforms as f32, insists on
-//! members that the format makes optional, and does not say where it stopped. So the text is read as
-//! a plain tree first.
+//! The typed tree keeps indices as u32 by cutting off high bits, keeps node transforms as f32, insists on
+//! members that the format makes optional, and does not say where parsing stopped. So the text is read as a
+//! plain tree first.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -19,17 +19,17 @@ use rasray_scene::animation::NodeTransform;
 use rasray_scene::remarks::Remarks;
 use rasray_scene::text::shown;
 
-/// Bytes around an error that a message repeats.
+/// Number of bytes around an error that a message repeats.
 const AROUND: usize = 24;
 
-/// A parsed file: the typed tree, and what it cannot hold.
+/// Parsed file: the typed tree, and the data that it cannot hold.
 pub(super) struct Parsed {
     pub root: Root,
-    /// The transform of every node in f64.
+    /// Transform of every node in f64.
     pub locals: Vec<NodeTransform>,
     /// Values of enumerations that the format does not know, by their place.
     pub unknown: HashMap<String, String>,
-    /// See [`unread::find`].
+    /// Attributes that are not read, as [`unread::find`] returns them.
     pub unread: HashMap<(usize, usize), Unread>,
 }
 
@@ -40,7 +40,7 @@ pub(super) fn parse(path: &Path, text: &[u8], remarks: &mut Remarks) -> Result<P
         return Err(SceneError::syntax(path, "malformed glTF JSON: the file is not an object"));
     }
     check_version(path, &tree)?;
-    // Before the shape: what is required may have a shape of its own.
+    // This check comes before that of the shape: a required extension may change the shape.
     extensions::check_required(path, &tree)?;
     let Found { unknown, extensions } = conform(path, &mut tree)?;
     supply_optional_members(&mut tree);
@@ -48,14 +48,15 @@ pub(super) fn parse(path: &Path, text: &[u8], remarks: &mut Remarks) -> Result<P
     let locals = transforms::read_all(path, &tree, remarks)?;
     let unread = unread::find(&tree);
     let root: Root = from_value(tree).map_err(|_| {
-        // The schema lets nothing through that the typed tree refuses, as far as is known.
+        // As far as is known, the schema refuses all that the typed tree refuses.
         SceneError::syntax(path, "malformed glTF JSON: a member has a value of the wrong kind")
     })?;
     extensions::report(extensions.iter().chain(&root.extensions_used), remarks);
     Ok(Parsed { root, locals, unknown, unread })
 }
 
-/// The error of text that is no JSON: what it is instead, or where it stops being JSON.
+/// Makes the error of text that is no JSON: it names the actual kind of file, or the place where the JSON
+/// ends.
 fn malformed(path: &Path, text: &[u8], error: &::gltf::json::Error) -> SceneError {
     let begins = text.trim_ascii_start().first();
     if !matches!(begins, Some(b'{' | b'[')) {
@@ -102,7 +103,7 @@ fn check_version(path: &Path, tree: &Value) -> Result<(), SceneError> {
     }
 }
 
-/// Adds empty arrays where the format lets them be absent and the typed tree does not.
+/// Adds empty arrays that the format makes optional and the typed tree requires.
 fn supply_optional_members(tree: &mut Value) {
     let optional =
         [("scenes", "nodes"), ("animations", "channels"), ("animations", "samplers"), ("skins", "joints")];

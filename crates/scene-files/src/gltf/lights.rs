@@ -12,8 +12,8 @@ use super::punctual;
 use rasray_scene::Light;
 use rasray_scene::pose::light_direction;
 
-/// The lights of the nodes in `order`, each with its node. Scale moves a light but does not change how bright
-/// it is or how far it reaches.
+/// Returns the lights of the nodes in `order`, each with its node. Scale moves a light but changes neither
+/// its brightness nor its range.
 pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usize]) -> Vec<(usize, Light)> {
     let mut lights = Vec::new();
     for &node in order {
@@ -47,7 +47,7 @@ pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usi
     lights
 }
 
-/// Says what of a light was brought into range.
+/// Notes remarks on values of a light that were brought into range.
 fn remark(document: &Document<'_>, index: usize, source: &JsonLight) {
     let place = format!("lights[{index}]");
     if source.color.iter().any(|x| x * source.intensity < 0.0) {

@@ -1,4 +1,4 @@
-//! Materials: those that meshes of the scene use, with values in their ranges.
+//! Materials that meshes of the scene use, with values in their ranges.
 
 use ::gltf::json::material::{AlphaMode as JsonAlphaMode, Material as JsonMaterial};
 use ::gltf::json::validation::Checked;
@@ -60,7 +60,7 @@ fn convert_one(
     material.alpha_mode = match source.alpha_mode {
         Checked::Valid(JsonAlphaMode::Mask) => AlphaMode::Mask {
             cutoff: match source.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0) {
-                // No alpha is above 1, but for rounding: as the format says, nothing is shown.
+                // No alpha is above 1, but for rounding: as the format says, no point is shown.
                 cutoff if cutoff > 1.0 => f32::INFINITY,
                 cutoff => range.clamp("alphaCutoff", cutoff, 0.0, 1.0),
             },
@@ -111,7 +111,7 @@ fn extension<'a, T>(
     source.extensions.as_ref().and_then(pick)
 }
 
-/// Transmission, volume, index of refraction, specular and unlit.
+/// Reads transmission, volume, index of refraction, specular and unlit.
 fn scalar_extensions(source: &JsonMaterial, material: &mut Material, range: &mut Range<'_>) {
     let Some(extensions) = &source.extensions else { return };
     material.unlit = extensions.unlit.is_some();
@@ -139,7 +139,7 @@ fn scalar_extensions(source: &JsonMaterial, material: &mut Material, range: &mut
     }
 }
 
-/// Warns of textures that the material model has no place for.
+/// Notes remarks on textures that the material model does not have.
 fn unused_textures(document: &Document<'_>, place: &str, source: &JsonMaterial) {
     let volume = extension(source, |found| found.volume.as_ref());
     let specular = extension(source, |found| found.specular.as_ref());
@@ -157,7 +157,7 @@ fn unused_textures(document: &Document<'_>, place: &str, source: &JsonMaterial) 
     }
 }
 
-/// Brings numbers into their ranges and remembers which were outside.
+/// Clamps numbers to their ranges and remembers which were outside.
 struct Range<'a> {
     place: &'a str,
     out: Vec<String>,

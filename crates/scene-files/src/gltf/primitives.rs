@@ -1,4 +1,4 @@
-//! A mesh primitive to an indexed triangle mesh.
+//! Conversion of a mesh primitive to an indexed triangle mesh.
 
 use ::gltf::json::mesh::Semantic::{Joints as JointsOf, Weights as WeightsOf};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
@@ -16,7 +16,7 @@ use rasray_scene::pose::{Joints, deform};
 use rasray_scene::remarks::Remarks;
 use rasray_scene::{Mesh, SceneError, check};
 
-/// Primitives without triangles, counted for one warning a kind.
+/// Counts of primitives without triangles, for one warning per kind.
 #[derive(Default)]
 pub(super) struct Skipped {
     points: usize,
@@ -26,7 +26,7 @@ pub(super) struct Skipped {
 }
 
 impl Skipped {
-    /// One remark for each kind that occurred.
+    /// Notes one remark for each kind that occurred.
     pub fn report(&self, remarks: &mut Remarks) {
         let mut count = |kind, count, text| remarks.count(kind, "", count, text);
         count("points", self.points, "point primitives were dropped: only triangles are rendered");
@@ -35,7 +35,7 @@ impl Skipped {
         count("empty-mesh", self.empty, "primitives without triangles were dropped");
     }
 
-    /// Mode of the triangles of a primitive, and its positions; counts it if it has none.
+    /// Returns the mode of a primitive's triangles, and its positions; counts the primitive if it has none.
     fn triangles_of(
         &mut self,
         document: &Document<'_>,
@@ -60,7 +60,7 @@ impl Skipped {
     }
 }
 
-/// A primitive of the file and the node that shows it.
+/// Primitive of the file and the node that shows it.
 #[derive(Clone, Copy)]
 pub(super) struct Shown {
     pub node: usize,
@@ -68,13 +68,13 @@ pub(super) struct Shown {
     pub primitive: usize,
 }
 
-/// A primitive as read. `Mesh::material` is the index in the file, or the number of
-/// materials for the default one; `DeformedMesh::mesh` is not known here.
+/// Primitive as read. `Mesh::material` is the index in the file, or the number of materials for the default
+/// one; `DeformedMesh::mesh` is not set yet.
 pub(super) struct Read {
     pub mesh: Mesh,
-    /// The mesh before morph targets and joints moved it, if any do.
+    /// Mesh before morph targets and joints move it, if any do.
     pub deformed: Option<DeformedMesh>,
-    /// Transform of a skinned mesh; other meshes have that of their node.
+    /// Transform of a skinned mesh; other meshes have the transform of their node.
     pub world_from_mesh: Option<DAffine3>,
 }
 
@@ -161,7 +161,7 @@ fn mesh_name(name: Option<&str>, mesh: usize, primitive: usize, primitives: usiz
     if primitives > 1 { format!("{name}.{primitive}") } else { name }
 }
 
-/// Three corners a triangle, in the order and winding of the format.
+/// Returns three corners per triangle, in the order and winding of the format.
 fn triangles(
     document: &Document<'_>,
     place: &str,

@@ -1,9 +1,9 @@
-//! `KHR_lights_punctual`: lights as the file has them.
+//! Lights of `KHR_lights_punctual` as the file has them.
 
 use ::gltf::json::Root;
 use ::gltf::json::extensions::scene::khr_lights_punctual::Light;
 
-/// The lights of a file.
+/// Returns the lights of a file.
 pub(super) fn lights(root: &Root) -> &[Light] {
     root.extensions
         .as_ref()

@@ -1,20 +1,20 @@
-//! The schema of the format: which members the elements have, and of which kind their values are.
+//! Schema of the format: the members of the elements, and the kinds of their values.
 //!
-//! Read from here are all members that the typed tree has. What passes can be turned into it; whole
-//! numbers that are written as `1.0`, and members that are `null`, are brought into its form.
+//! The schema has all members of the typed tree. A tree that passes can be converted to the typed tree; whole
+//! numbers that are written as `1.0`, and `null` members, are brought into its form.
 
 use Kind::{
     Code, Extensions, Flag, List, Map, Number, Numbers, Object, OpenCode, OpenWord, Size, Text, Whole, Word,
 };
 
-/// Values that are allowed.
+/// Kind of the values that a member may have.
 pub(super) enum Kind {
-    /// An index, a stride or a number of the format: at most what 32 bits hold.
+    /// Index, stride or number of the format: at most what 32 bits hold.
     Whole,
-    /// A length or a place in bytes or elements: at most what 64 bits hold.
+    /// Length or offset in bytes or elements: at most what 64 bits hold.
     Size,
     Number,
-    /// So many numbers.
+    /// Array of exactly so many numbers.
     Numbers(usize),
     Text,
     Flag,
@@ -27,14 +27,14 @@ pub(super) enum Kind {
     /// One of these numbers, or another, which is refused where it is used.
     OpenCode(&'static [u64]),
     List(&'static Kind),
-    /// Any names with values of one kind.
+    /// Object with any names, whose values have one kind.
     Map(&'static Kind),
     Object(&'static [Member]),
-    /// The extensions of an element, of which these are understood.
+    /// Extensions of an element; the listed ones are supported.
     Extensions(&'static [Member]),
 }
 
-/// A member of an object.
+/// Member of an object.
 pub(super) struct Member {
     pub name: &'static str,
     pub kind: Kind,
@@ -52,7 +52,7 @@ const fn must(name: &'static str, kind: Kind) -> Member {
 const NAME: Member = may("name", Text);
 const PLAIN: Member = may("extensions", Extensions(&[]));
 
-/// The file.
+/// Schema of the whole file.
 pub(super) const ROOT: Kind = Object(&[
     must("asset", Object(ASSET)),
     may("accessors", List(&Object(ACCESSOR))),
@@ -135,7 +135,7 @@ const ANIMATION: &[Member] = &[
 
 const BUFFER: &[Member] = &[may("byteLength", Size), may("uri", Text), NAME, PLAIN];
 
-/// Object of `EXT_meshopt_compression` and `KHR_meshopt_compression`.
+/// Schema of `EXT_meshopt_compression` and `KHR_meshopt_compression`.
 const COMPRESSED: Kind = Object(&[
     must("buffer", Whole),
     may("byteOffset", Size),

@@ -40,7 +40,7 @@ pub(super) fn read_all(document: &Document<'_>) -> Result<Vec<Skin>, SceneError>
         .collect()
 }
 
-/// Says which inverse bind matrices are not taken as they are.
+/// Notes remarks on inverse bind matrices that are not taken as they are.
 fn remark_matrices(document: &Document<'_>, skin: usize, matrices: &[[f32; 16]]) {
     let count = |is_bad: &dyn Fn(&[f32; 16]) -> bool| matrices.iter().filter(|matrix| is_bad(matrix)).count();
     let (place, mut remarks) = (format!("skins[{skin}].inverseBindMatrices"), document.remarks.borrow_mut());
@@ -61,7 +61,7 @@ fn is_finite(matrix: &[f32; 16]) -> bool {
     matrix.iter().all(|x| x.is_finite())
 }
 
-/// The affine part of a column-major matrix; the identity where it is not finite.
+/// Returns the affine part of a column-major matrix; the identity where it is not finite.
 fn affine(elements: &[f32; 16]) -> DAffine3 {
     if !is_finite(elements) {
         return DAffine3::IDENTITY;
@@ -70,7 +70,7 @@ fn affine(elements: &[f32; 16]) -> DAffine3 {
     DAffine3 { matrix3: DMat3::from_cols(column(0), column(4), column(8)), translation: column(12) }
 }
 
-/// Remarks on joints without weights and weights without joints: sets from `read` on are not read.
+/// Notes remarks on joints without weights and weights without joints. Sets from `read` on are not read.
 pub(super) fn remark(document: &Document<'_>, place: &str, primitive: &Primitive, read: u32) {
     for semantic in primitive.attributes.keys() {
         let Checked::Valid(semantic @ (Semantic::Joints(set) | Semantic::Weights(set))) = semantic else {
@@ -86,8 +86,8 @@ pub(super) fn remark(document: &Document<'_>, place: &str, primitive: &Primitive
     }
 }
 
-/// Reads which joints move the vertices of a primitive. `sets` are the accessors of joints and weights, four
-/// joints per vertex each.
+/// Reads the joints and weights of the vertices of a primitive. `sets` are the accessors of joints and
+/// weights, four joints per vertex each.
 pub(super) fn read_binding(
     document: &Document<'_>,
     place: &str,

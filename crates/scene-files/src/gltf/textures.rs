@@ -14,7 +14,7 @@ use crate::images::{Encoded, count_texels, read_image};
 use crate::reference::{self, Place};
 use rasray_scene::{Filter, Image, SceneError, Texture, TextureRef, Wrap};
 
-/// A reference to a texture, whichever of the typed structs it came from.
+/// Reference to a texture, from any of the typed structs.
 pub(super) struct Use<'a> {
     pub texture: usize,
     pub uv_set: u32,
@@ -33,7 +33,7 @@ impl<'a> From<&'a Info> for Use<'a> {
 }
 
 impl<'a> Use<'a> {
-    /// Reference to a normal texture, whose transform the typed tree keeps as plain JSON.
+    /// Makes the reference to a normal texture, whose transform the typed tree keeps as plain JSON.
     pub fn of_normal(info: &'a ::gltf::json::material::NormalTexture) -> Result<Self, ::gltf::json::Error> {
         let raw = info.extensions.as_ref().and_then(|found| found.others.get("KHR_texture_transform"));
         let transform: Option<TextureTransform> = raw.map(|raw| from_value(raw.clone())).transpose()?;
@@ -45,18 +45,18 @@ impl<'a> Use<'a> {
     }
 }
 
-/// The image of a texture, that of `KHR_texture_basisu` before one that stands in for it; `None` if only
-/// another extension names one.
+/// Returns the image of a texture, that of `KHR_texture_basisu` before one that stands in for it; `None` if
+/// only another extension names an image.
 pub(super) fn source(texture: &JsonTexture) -> Option<usize> {
     let basis = texture.extensions.as_ref().and_then(|found| found.others.get("KHR_texture_basisu"));
     match basis.and_then(|found| found.get("source")).and_then(Value::as_u64) {
         Some(source) => Some(source as usize),
-        // The typed tree writes the absent index as the largest one.
+        // The typed tree stores an absent index as the largest one.
         None => Some(texture.source.value()).filter(|&source| source != u32::MAX as usize),
     }
 }
 
-/// Textures and images read so far.
+/// Reader with the textures and images read so far.
 pub(super) struct TextureReader<'a, 'd> {
     document: &'a Document<'d>,
     pub textures: Vec<Texture>,
@@ -67,7 +67,7 @@ pub(super) struct TextureReader<'a, 'd> {
 }
 
 impl<'a, 'd> TextureReader<'a, 'd> {
-    /// A reader that has read nothing.
+    /// Makes a reader that has read nothing.
     pub fn new(document: &'a Document<'d>) -> Self {
         Self {
             document,
@@ -79,7 +79,7 @@ impl<'a, 'd> TextureReader<'a, 'd> {
         }
     }
 
-    /// Reads what a material uses; `None`, with a warning, if it cannot be shown.
+    /// Reads a texture that a material uses; `None`, with a warning, if it cannot be shown.
     pub fn read(&mut self, place: &str, wanted: Use<'_>) -> Result<Option<TextureRef>, SceneError> {
         let transform = wanted.transform.as_deref();
         let uv_set = transform.and_then(|transform| transform.tex_coord).unwrap_or(wanted.uv_set);
@@ -123,7 +123,7 @@ impl<'a, 'd> TextureReader<'a, 'd> {
         Ok(read)
     }
 
-    /// Position of an image in the scene; `None`, with a remark, if it cannot be read.
+    /// Returns the index of an image in the scene; `None`, with a remark, if the image cannot be read.
     fn image(&mut self, index: usize) -> Result<Option<usize>, SceneError> {
         if let Some(&known) = self.known_images.get(&index) {
             return Ok(known);
@@ -170,8 +170,8 @@ impl<'a, 'd> TextureReader<'a, 'd> {
 }
 
 impl TextureReader<'_, '_> {
-    /// Resolves the reference of an image. One that cannot be followed is a missing texture, which a scene
-    /// can do without: `None`, with a remark, unless a file of its name stands in.
+    /// Resolves the reference of an image. A reference that cannot be followed is a missing texture, which a
+    /// scene does not need: `None`, with a remark, unless a file of its name stands in.
     fn image_reference(&self, place: &str, uri: &str) -> Result<Option<Reference>, SceneError> {
         let Document { path, limits, remarks, .. } = self.document;
         match resolve(path, place, uri, limits.file_bytes) {
@@ -184,7 +184,7 @@ impl TextureReader<'_, '_> {
             Err(SceneError::UnsafeReference { reason, .. }) => {
                 let (folder, name) = (path.parent().unwrap_or(std::path::Path::new("")), decoded(uri));
                 let place = match reference::place(folder, &name) {
-                    // Written with backslashes, or not escaped where a URI has to be.
+                    // The name is written with backslashes, or not escaped where a URI must be.
                     Place::Below(file) if file.is_file() && !name.contains(':') => {
                         Place::Outside { reason, beside: Some(file) }
                     }
@@ -220,8 +220,8 @@ fn sampled(document: &Document<'_>, texture: &JsonTexture, image: usize) -> Text
 
 const IDENTITY: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
-/// Scale, then rotation (counter-clockwise as seen on the image, whose v axis points down), then offset.
-/// `None` if that is not finite.
+/// Returns the matrix of scale, then rotation (counter-clockwise as seen on the image, whose v axis points
+/// down), then offset. `None` if the matrix is not finite.
 fn matrix(transform: &TextureTransform) -> Option<[[f32; 3]; 2]> {
     let (sin, cos) = f64::from(transform.rotation.0).sin_cos();
     let [scale_u, scale_v] = transform.scale.0.map(f64::from);
@@ -237,8 +237,8 @@ mod tests {
 
     use super::*;
 
-    /// The rotation and the combined quad of Khronos' texture transform test: where the marker of a
-    /// correct result stands, the tip of the arrow is sampled.
+    /// The rotation and the combined quad of Khronos' texture transform test: at the marker of a correct
+    /// result, the tip of the arrow is sampled.
     #[test]
     fn transforms_turn_the_right_way() {
         let tip = [0.7778, 0.7778];
@@ -259,7 +259,7 @@ mod tests {
 
     #[test]
     fn a_transform_that_is_not_finite_is_not_applied() {
-        // As a file is read: first as values, whose numbers are doubles.
+        // The value is parsed as a file is: first as a plain tree, whose numbers are doubles.
         let value: ::gltf::json::Value =
             ::gltf::json::deserialize::from_str(r#"{"scale":[1e39,1]}"#).expect("a value");
         let transform: TextureTransform =

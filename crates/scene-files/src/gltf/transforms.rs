@@ -55,14 +55,14 @@ fn read(path: &Path, index: usize, node: &Value, remarks: &mut Remarks) -> Resul
     Ok(NodeTransform::Parts { translation, rotation, scale })
 }
 
-/// The rotation along x, y, z, w, of whatever length but zero.
+/// Returns the unit rotation along x, y, z, w of any length but zero.
 pub(super) fn unit_rotation(elements: [f64; 4]) -> Option<DQuat> {
     let rotation = DQuat::from_array(elements);
     let length = rotation.length();
     (length.is_normal()).then(|| DQuat::from_array(elements.map(|x| x / length)))
 }
 
-/// The member `name` of a node as exactly `N` finite numbers.
+/// Returns the member `name` of a node as exactly `N` finite numbers.
 fn numbers<const N: usize>(
     path: &Path,
     index: usize,

@@ -6,17 +6,17 @@ use ::gltf::json::Value;
 
 use super::document::Document;
 
-/// Names of what is not read of a primitive, in their order in the file.
+/// Names of the attributes of a primitive that are not read, in their order in the file.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Unread {
-    /// Attributes of its vertices.
+    /// Attributes of the primitive's vertices.
     attributes: Vec<String>,
-    /// Attributes of its morph targets.
+    /// Attributes of the primitive's morph targets.
     displacements: Vec<String>,
 }
 
-/// Attributes of primitives that are not read, by mesh and primitive, where there are any. The typed tree has
-/// no place for them.
+/// Finds the attributes of primitives that are not read, by mesh and primitive, for primitives that have any.
+/// The typed tree has no place for them.
 pub(super) fn find(tree: &Value) -> HashMap<(usize, usize), Unread> {
     let mut found = HashMap::new();
     for (mesh, source) in tree.get("meshes").and_then(Value::as_array).into_iter().flatten().enumerate() {
@@ -38,15 +38,15 @@ pub(super) fn find(tree: &Value) -> HashMap<(usize, usize), Unread> {
 
 fn add(names: &mut Vec<String>, attributes: &Value, is_read: impl Fn(&str) -> bool) {
     for name in attributes.as_object().into_iter().flat_map(|object| object.keys()) {
-        // Names that begin with an underscore are an application's own and mean nothing to others.
+        // Names that begin with an underscore are specific to an application.
         if !name.starts_with('_') && !is_read(name) && !names.contains(name) {
             names.push(name.clone());
         }
     }
 }
 
-/// True if an attribute is read, or named elsewhere where it is needed: further texture coordinates by the
-/// textures that ask for them, joints and weights by the skin.
+/// True if an attribute is read, or if another remark names it where needed: the textures that use further
+/// texture coordinates do, and the skin does for joints and weights.
 fn is_read(name: &str) -> bool {
     let is_numbered =
         |prefix: &str| name.strip_prefix(prefix).is_some_and(|number| number.parse::<u32>().is_ok());
@@ -55,7 +55,7 @@ fn is_read(name: &str) -> bool {
 }
 
 impl Unread {
-    /// Names it all in remarks.
+    /// Names all of these attributes in remarks.
     pub(super) fn remark(&self, document: &Document<'_>, place: &str) {
         for name in &self.attributes {
             let text = match name.starts_with("COLOR_") {

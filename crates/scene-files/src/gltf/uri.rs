@@ -7,16 +7,16 @@ use rasray_scene::SceneError;
 /// Target of a reference.
 #[derive(Debug)]
 pub(super) enum Reference {
-    /// Bytes that were written into the URI itself.
+    /// Bytes that are in the URI itself.
     Data(Vec<u8>),
-    /// A file, relative to the folder of the scene and not outside of it.
+    /// File, relative to the folder of the scene and not outside of it.
     File(PathBuf),
 }
 
-/// Longest part of a reference that is shown in a message.
+/// Largest number of characters of a reference that a message shows.
 const SHOWN: usize = 80;
 
-/// Reads a reference. `place` says where it stands, for messages. At most `limit` bytes are decoded.
+/// Resolves a reference. `place` is its place in the file, for messages. At most `limit` bytes are decoded.
 pub(super) fn resolve(path: &Path, place: &str, uri: &str, limit: u64) -> Result<Reference, SceneError> {
     let refused = |reason: &'static str| SceneError::UnsafeReference {
         path: path.to_owned(),
@@ -61,23 +61,23 @@ pub(super) fn resolve(path: &Path, place: &str, uri: &str, limit: u64) -> Result
     Ok(Reference::File(path.parent().unwrap_or(Path::new("")).join(below)))
 }
 
-/// True if a reference is one to bytes within itself.
+/// True if a reference holds its bytes itself.
 pub(super) fn is_data(uri: &str) -> bool {
     strip_scheme(uri, "data:").is_some()
 }
 
-/// A reference with its percent escapes replaced, as far as that can be done.
+/// Returns a reference with its percent escapes replaced, as far as possible.
 pub(super) fn decoded(uri: &str) -> String {
     percent_decode(uri).map_or_else(|| uri.to_owned(), |bytes| String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// `text` without its scheme, whatever case that is written in.
+/// Returns `text` without its scheme, which may be in upper or lower case.
 fn strip_scheme<'a>(text: &'a str, scheme: &str) -> Option<&'a str> {
     let (head, rest) = text.split_at_checked(scheme.len())?;
     head.eq_ignore_ascii_case(scheme).then_some(rest)
 }
 
-/// Replaces `%41` by the byte it stands for; `None` if an escape is cut short.
+/// Replaces escapes such as `%41` by the bytes they stand for; `None` if an escape is cut short.
 fn percent_decode(text: &str) -> Option<Vec<u8>> {
     let mut bytes = text.bytes();
     let mut decoded = Vec::with_capacity(text.len());
@@ -93,8 +93,8 @@ fn percent_decode(text: &str) -> Option<Vec<u8>> {
     Some(decoded)
 }
 
-/// Decodes base64 with either alphabet; white space is skipped and padding optional. `None` on any
-/// other character, or a length that cannot be.
+/// Decodes base64 with either alphabet; white space is skipped and padding optional. `None` on any other
+/// character, or an impossible length.
 fn decode_base64(text: &[u8]) -> Option<Vec<u8>> {
     let mut decoded = Vec::with_capacity(text.len() / 4 * 3 + 3);
     let (mut bits, mut count, mut padding) = (0_u32, 0_u32, 0_u32);

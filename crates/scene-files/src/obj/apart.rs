@@ -1,4 +1,4 @@
-//! Meshes whose groups lie far apart are divided, so that each part can have an origin of its own.
+//! Division of meshes whose groups lie far apart, so that each part can have an origin of its own.
 
 use std::collections::HashMap;
 
@@ -8,11 +8,11 @@ use super::geometry::Geometry;
 use crate::origin::apart;
 use rasray_scene::Mesh;
 
-/// A statement `g` or `o` within a mesh.
+/// Statement `g` or `o` within a mesh.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     pub name: String,
-    /// Start of its faces in the indices of the mesh.
+    /// Index of the group's first face in the indices of the mesh.
     pub first: usize,
 }
 
@@ -40,7 +40,7 @@ pub(super) fn divide(geometry: &mut Geometry, groups: &[Vec<Group>]) {
     }
 }
 
-/// Some triangles of a mesh, with the vertices that they use in the order of their first use.
+/// Returns some triangles of a mesh, with the vertices that they use in the order of their first use.
 fn part(
     mesh: &Mesh,
     indices: &[u32],

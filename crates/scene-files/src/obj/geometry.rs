@@ -1,4 +1,4 @@
-//! The OBJ file itself: vertices and faces to meshes.
+//! Reader of the OBJ file itself: from vertices and faces to meshes.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -17,13 +17,14 @@ use rasray_scene::{Mesh, SceneError};
 
 /// Contents of an OBJ file.
 pub(super) struct Geometry {
-    /// `Mesh::material` indexes `material_names`. Without positions.
+    /// Meshes, without positions; `Mesh::material` is an index into `material_names`.
     pub meshes: Vec<Mesh>,
     /// Positions of each mesh as the file has them.
     pub positions: Vec<Vec<DVec3>>,
-    /// Its texture coordinates as the file has them, if there are any.
+    /// Texture coordinates of each mesh as the file has them, if there are any.
     pub uvs: Vec<Option<Vec<[f64; 2]>>>,
-    /// In the order of first use by a face; the empty name stands for faces without a material.
+    /// Names of materials in the order of first use by a face; the empty name stands for faces without a
+    /// material.
     pub material_names: Vec<String>,
     pub libraries: Vec<Library>,
     pub skipped: Skipped,
@@ -31,7 +32,7 @@ pub(super) struct Geometry {
     pub vertices: usize,
 }
 
-/// Reads the statements of an OBJ file. `divides` says whether meshes are divided where their groups lie far
+/// Reads the statements of an OBJ file. `divides` is true if meshes are divided where their groups lie far
 /// apart.
 pub(super) fn read(
     path: &Path,
@@ -77,7 +78,7 @@ pub(super) fn read(
                 fix: RENAME,
             });
         }
-        // Comments alone are a file that is not written yet, unless they are noise.
+        // A file of comments alone is a valid file that is not written yet, unless it is binary noise.
         if std::str::from_utf8(bytes).is_err() {
             return Err(BINARY.refuse(path, "an OBJ file"));
         }
@@ -106,34 +107,34 @@ impl Geometry {
     }
 }
 
-/// A corner of a face: places in the arrays of positions, texture coordinates and normals.
+/// Corner of a face: indices into the arrays of positions, texture coordinates and normals.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Corner {
     position: u32,
     uv: Option<u32>,
-    /// Place among the file's normals, or among those that are made.
+    /// Index into the file's normals, or into the computed ones.
     normal: Option<u32>,
 }
 
 /// Source of the normals of a face.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Normals {
-    /// The face is flat.
+    /// No normals: the face is flat.
     Absent,
     File,
-    /// Made, since it is in a smoothing group.
+    /// Computed normals: the face is in a smoothing group.
     Made,
 }
 
-/// Faces in a row with one material and the same attributes.
+/// Consecutive faces with one material and the same attributes.
 struct Run {
     mesh: Mesh,
     groups: Vec<Group>,
     positions: Vec<DVec3>,
     uvs: Vec<[f64; 2]>,
-    /// Normals of the file.
+    /// Normals from the file.
     file_normals: Vec<[f32; 3]>,
-    /// Places in `Reader::smoothing`.
+    /// Indices of computed normals in `Reader::smoothing`.
     made_normals: Vec<u32>,
     has_uvs: bool,
     normals: Normals,
@@ -157,14 +158,14 @@ struct Reader<'a> {
     groups: Vec<Vec<Group>>,
     mesh_positions: Vec<Vec<DVec3>>,
     mesh_uvs: Vec<Option<Vec<[f64; 2]>>>,
-    /// Meshes whose normals are made, and which.
+    /// Meshes with computed normals, and the indices of these.
     made_normals: Vec<(usize, Vec<u32>)>,
     triangles: u64,
-    /// True if any statement was one of an OBJ file.
+    /// True if any statement is one of an OBJ file.
     known: bool,
-    /// Corners of the current face, kept to save an allocation for each.
+    /// Corners of the current face, kept to save an allocation for each face.
     face: Vec<Corner>,
-    /// Their positions.
+    /// Positions of these corners.
     points: Vec<DVec3>,
     polygons: Polygons,
     skipped: Skipped,
@@ -178,7 +179,7 @@ impl Reader<'_> {
                 self.check_count(self.positions.len())?;
                 self.positions.push(DVec3::from_array(position));
                 self.skipped.colors += usize::from(count >= 6);
-                // A weight stands behind the coordinates, before a colour.
+                // A weight stands after the coordinates, before a colour.
                 let weight = statement.words().nth(3).filter(|_| matches!(count, 4 | 7));
                 self.skipped.weights += usize::from(weight.is_some_and(|word| number(word) != Some(1.0)));
             }
@@ -205,7 +206,7 @@ impl Reader<'_> {
                 self.group = statement.name();
                 let name = self.mesh_name();
                 if let Some(run) = &mut self.run {
-                    // A group without faces is none.
+                    // A group without faces is left out.
                     let first = run.mesh.indices.len();
                     run.groups.pop_if(|group| group.first == first);
                     run.groups.push(Group { name, first });
@@ -299,7 +300,7 @@ impl Reader<'_> {
             Filling::Fan => {}
             Filling::Crossing => self.skipped.crossing += 1,
             Filling::Cut(triangles) => {
-                // As many triangles as the fan has.
+                // The triangles of the ears are as many as those of the fan.
                 run.mesh.indices.truncate(start);
                 for corner in triangles.into_iter().flatten() {
                     let vertex = self.vertex(&mut run, face[corner as usize]);
@@ -312,7 +313,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Index in the run's mesh of a corner; corners that agree in all three indices are one vertex.
+    /// Returns the index of a corner in the run's mesh; corners that agree in all three indices are one
+    /// vertex.
     fn vertex(&self, run: &mut Run, corner: Corner) -> u32 {
         let Run { positions, uvs, file_normals, made_normals, vertices, normals, .. } = run;
         *vertices.entry(corner).or_insert_with(|| {
@@ -370,7 +372,7 @@ impl Reader<'_> {
         self.mesh_positions.push(positions);
     }
 
-    /// Gives their normals to the meshes of smoothing groups, now that all faces are known.
+    /// Gives the meshes of smoothing groups their normals, now that all faces are known.
     fn make_normals(&mut self) {
         for (mesh, made) in std::mem::take(&mut self.made_normals) {
             self.meshes[mesh].normals = Some(self.smoothing.normals(&made));
@@ -393,7 +395,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Place in an array of `count` elements: from 1, or from -1 backwards.
+    /// Returns the index into an array of `count` elements: numbers count from 1, or from -1 backwards.
     fn index(
         &self,
         statement: &Statement<'_>,
@@ -430,7 +432,7 @@ impl Reader<'_> {
         SceneError::syntax(self.path, reason)
     }
 
-    /// Refuses to let an array of `count` elements grow.
+    /// Returns an error if an array of `count` elements must not grow.
     fn check_count(&self, count: usize) -> Result<(), SceneError> {
         // Indices are u32, whatever the limit says.
         let limit = self.limits.vertices.min(u64::from(u32::MAX) - 1);

@@ -4,15 +4,15 @@ use std::path::Path;
 
 use crate::reference::{Place, place};
 
-/// A `mtllib` statement.
+/// Statement `mtllib`.
 pub(super) struct Library {
-    /// All that follows the word.
+    /// Text after the word.
     pub name: String,
 }
 
 impl Library {
-    /// Names of files and where they lead. The statement may name one file with spaces or several files: one
-    /// if that exists, or one of its name beside the scene does.
+    /// Returns the names of files and their targets. The statement may name one file with spaces or several
+    /// files; it names one file if that exists, or if a file of its name exists beside the scene.
     pub fn files(&self, folder: &Path) -> Vec<(&str, Place)> {
         let is_one = match place(folder, &self.name) {
             Place::Below(file) => file.is_file(),

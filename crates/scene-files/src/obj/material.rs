@@ -1,4 +1,4 @@
-//! From the MTL model of 1995 to metallic-roughness.
+//! Translation from the MTL model of 1995 to metallic-roughness.
 
 use super::mtl::MtlMaterial;
 use super::textures::Textures;
@@ -43,7 +43,7 @@ pub(super) fn translate(
             note_glass(found, remarks);
             material.transmission = 1.0;
             material.base_color[..3].copy_from_slice(&unit(found.filter.unwrap_or([1.0; 3])));
-            // Any thickness above 0 says: a solid body. Its extent follows from the surface.
+            // Any thickness above 0 means a solid body. Its extent follows from the surface.
             material.thickness = if matches!(illumination, 6 | 7) { 1.0 } else { 0.0 };
             if strength == 0.0 {
                 material.specular = 1.0;
@@ -61,7 +61,7 @@ pub(super) fn translate(
         }
         _ => {}
     }
-    // Reflection needs an index above 1: exporters write 1 where theirs is about refraction alone.
+    // Reflection needs an index above 1: exporters that mean refraction alone write 1.
     if material.transmission == 0.0 && strength > 0.0 && material.ior <= 1.0 {
         material.ior = 1.5;
     }
@@ -69,13 +69,13 @@ pub(super) fn translate(
         material.alpha_mode = AlphaMode::Blend;
         material.base_color[3] = opacity;
     }
-    // Black and white are what exporters write of their own accord.
+    // Exporters write black and white by default.
     let says = |filter: [f32; 3]| ![[0.0; 3], [1.0; 3]].contains(&unit(filter));
     if material.transmission == 0.0 && found.filter.is_some_and(says) {
         let text = "is no glass, and its Tf is not shown: that takes illum 4, 6, 7 or 9 and an Ni above 1";
         remarks.note("transparency", format!("material {}", found.name), text);
     }
-    // The metallic-roughness numbers that some exporters add are closer to what they mean.
+    // The metallic-roughness numbers that some exporters add describe the material better.
     if let Some(metallic) = found.metallic {
         material.metallic = metallic.clamp(0.0, 1.0);
     }
@@ -110,7 +110,7 @@ pub(super) fn translate(
     Ok(material)
 }
 
-/// True if a material with an `illum` of transparency is glass, by the rule at [`crate::obj`].
+/// True if a material with an `illum` of transparency is glass, by the rule in [`crate::obj`].
 fn is_glass(found: &MtlMaterial) -> bool {
     let has_color = found.diffuse_map.is_some() || found.diffuse.is_some_and(|color| color != [0.0; 3]);
     let bends = found.refraction.map(|ior| ior > 1.0);
@@ -122,7 +122,7 @@ fn is_glass(found: &MtlMaterial) -> bool {
     }
 }
 
-/// Says what of a glass is not shown.
+/// Notes remarks on properties of a glass that are not shown.
 fn note_glass(found: &MtlMaterial, remarks: &mut Remarks) {
     let has_color = found.diffuse.is_some_and(|color| color != [0.0; 3]);
     let fades = found.opacity.is_some_and(|opacity| opacity > 0.0 && opacity < 1.0);
@@ -136,7 +136,7 @@ fn note_glass(found: &MtlMaterial, remarks: &mut Remarks) {
     remarks.note("transparency", format!("material {}", found.name), text);
 }
 
-/// Says which numbers are beyond what a material can have.
+/// Notes remarks on numbers outside the range of a material.
 fn note_ranges(found: &MtlMaterial, remarks: &mut Remarks) {
     let place = format!("material {}", found.name);
     let mut note = |what: &str, value: f32, range: &str, then: &str| {
@@ -161,7 +161,7 @@ fn note_ranges(found: &MtlMaterial, remarks: &mut Remarks) {
     }
 }
 
-/// Perceptual roughness of a Phong exponent, in (0, 1].
+/// Returns the perceptual roughness of a Phong exponent, in (0, 1].
 fn roughness(shininess: f32) -> f32 {
     (2.0 / (shininess.max(0.0) + 2.0)).sqrt().sqrt()
 }

@@ -1,20 +1,20 @@
-//! Wavefront OBJ with MTL materials.
+//! Reader of Wavefront OBJ with MTL materials.
 //!
-//! Read are `v`, `vt`, `vn`, `f` (all index forms, negative indices too), `o`, `g`, `s`, `usemtl` and
-//! `mtllib`. A polygon is a fan from its first corner where that fills it, as for every convex one; others
-//! are cut along their ears, into as many triangles. Triangles keep the order of the file; a new mesh begins
-//! where the material changes, or where faces begin or cease to have texture coordinates or normals. Each
-//! mesh is placed once, where the file has it: coordinates are read in double precision, and those of a file
-//! far from the origin are kept relative to an origin that the instance carries, so that single precision
-//! suffices; a mesh whose groups (`g`, `o`) lie too far apart for one origin is divided. Files whose
-//! coordinates are single-precision numbers keep every bit.
+//! The reader takes `v`, `vt`, `vn`, `f` (all index forms, negative indices too), `o`, `g`, `s`, `usemtl` and
+//! `mtllib`. A polygon becomes a fan from its first corner where the fan fills it, as for every convex
+//! polygon; others are cut along their ears, into as many triangles. Triangles keep the order of the file; a
+//! new mesh begins where the material changes, or where faces begin or cease to have texture coordinates or
+//! normals. Each mesh is placed once, at its place in the file: coordinates are read in double precision, and
+//! those of a file far from the origin are kept relative to an origin that the instance carries, so that
+//! single precision suffices; a mesh whose groups (`g`, `o`) lie too far apart for one origin is divided.
+//! Files whose coordinates are single-precision numbers keep every bit.
 //!
 //! Faces without normals are flat, unless they are in a smoothing group: then the normal of a vertex is the
-//! sum of those of the group's faces there, weighted by area. Lines, points, colours of vertices and
-//! free-form surfaces are not read, and named in a warning.
+//! sum of the normals of the group's faces there, weighted by area. Lines, points, colours of vertices and
+//! free-form surfaces are not read, and are named in a warning.
 //!
-//! The v coordinate is turned over: OBJ counts from the bottom of the image, [`rasray_scene::Image`] from
-//! the top. Bytes that are not UTF-8 are tolerated in names.
+//! The v coordinate is flipped: OBJ counts from the bottom of the image, [`rasray_scene::Image`] from the
+//! top. Bytes that are not UTF-8 are tolerated in names.
 //!
 //! Materials become metallic-roughness ones. Colours are taken as linear and limited to [0, 1], emission to
 //! at least 0.
@@ -33,16 +33,17 @@
 //! | `Pr`, `Pm` | perceptual roughness and metallic, in place of what follows from the others |
 //! | `norm` | normal map; `-bm` is its strength |
 //!
-//! **Glass or not.** The four numbers of transparency say that light passes, but exporters write them for
-//! surfaces that are only faded or even opaque. Blender writes `illum 9` (6 for metals) wherever `d` is below
-//! 1, with `Kd` for the colour and no `Tf`; Maya writes `illum 4`, `Tf 1 1 1` and `Ni 1` for what is opaque.
-//! So such a material is glass only where
+//! **Glass or not.** The four `illum` numbers of transparency say that light passes, but exporters write them
+//! for surfaces that are only faded or even opaque. Blender writes `illum 9` (6 for metals) wherever `d` is
+//! below 1, with `Kd` for the colour and no `Tf`; Maya writes `illum 4`, `Tf 1 1 1` and `Ni 1` for opaque
+//! surfaces. So such a material is glass only where
 //! - it has no colour of its own: neither a `Kd` that is not black nor a `map_Kd`, or
 //! - it has a `Tf`, and no `Ni` of at most 1, which would bend no light, or
 //! - it has no `Tf`, an `Ni` above 1, and no `d` between 0 and 1.
 //!
-//! With a black `Tf` it never is. What is no glass is shown by `Kd` and `d`, as with any other `illum`. A
-//! glass that has a `Kd` or a `d` between 0 and 1 all the same has a warning that they are not shown.
+//! With a black `Tf` a material never is glass. A material that is no glass is shown by `Kd` and `d`, as with
+//! any other `illum`. A glass that also has a `Kd` or a `d` between 0 and 1 gets a warning that they are not
+//! shown.
 
 mod apart;
 mod geometry;
@@ -74,24 +75,24 @@ use textures::Textures;
 
 /// Loads an OBJ file, the material libraries it names, and the textures that these name.
 ///
-/// A library, material or texture that is missing is a warning; the triangles are shown in light
-/// grey, or without the texture. One that is named by an absolute path or by `..` is never followed; a file
-/// of its name beside the file that names it stands in. A file without faces is a scene without triangles,
-/// with a warning.
+/// A library, material or texture that is missing is a warning; the triangles are shown in light grey, or
+/// without the texture. A file that is named by an absolute path or by `..` is never read there; a file of
+/// its name beside the file that names it stands in. A file without faces is a scene without triangles, with
+/// a warning.
 ///
 /// # Errors
 /// - [`SceneError::Read`] if the file cannot be read; [`SceneError::TooLarge`] beyond a limit.
 /// - [`SceneError::NotThisFormat`] for binary data and files of other formats.
 /// - [`SceneError::Syntax`] for a word where a number must be, with the line, and where no line is a
 ///   statement of the format.
-/// - [`SceneError::IndexOutOfRange`] or [`SceneError::Invalid`] for a face that refers to what is not
-///   defined above it, with the line.
+/// - [`SceneError::IndexOutOfRange`] or [`SceneError::Invalid`] for a face that refers to an element that is
+///   not defined above it, with the line.
 /// - [`SceneError::NoTriangles`] if there are faces and none can be shown.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     load_placed(path, options, Origins::Own)
 }
 
-/// See [`load`].
+/// Loads an OBJ file as [`load`] does, with meshes placed by `origins`.
 pub(crate) fn load_placed(
     path: &Path,
     options: &LoadOptions,
@@ -140,7 +141,7 @@ pub(crate) fn load_placed(
     })
 }
 
-/// All materials of all libraries by name; the first definition of a name counts.
+/// Reads all materials of all libraries by name; the first definition of a name counts.
 fn read_libraries(
     path: &Path,
     libraries: &[Library],
@@ -198,7 +199,7 @@ fn read_libraries(
     Ok(known)
 }
 
-/// The materials that faces use, in the order of their first use.
+/// Translates the materials that faces use, in the order of their first use.
 fn translate(
     names: &[String],
     known: &HashMap<String, MtlMaterial>,

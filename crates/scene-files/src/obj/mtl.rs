@@ -1,4 +1,4 @@
-//! The MTL file: materials as written, before they are translated.
+//! Reader of the MTL file: materials as written, before they are translated.
 
 use std::path::Path;
 
@@ -8,50 +8,50 @@ use crate::reference::{Place, place};
 use rasray_scene::SceneError;
 use rasray_scene::remarks::Remarks;
 
-/// One `newmtl` section. `None` where the file does not say.
+/// Section of one `newmtl`. `None` stands for an absent statement.
 #[derive(Clone, Debug, Default)]
 pub(super) struct MtlMaterial {
     pub name: String,
-    /// `Kd`.
+    /// `Kd`, the diffuse colour.
     pub diffuse: Option<[f32; 3]>,
-    /// `Ks`.
+    /// `Ks`, the specular colour.
     pub specular: Option<[f32; 3]>,
     /// `Ns`, the exponent of the highlight.
     pub shininess: Option<f32>,
-    /// `Ke`.
+    /// `Ke`, the emission.
     pub emission: Option<[f32; 3]>,
     /// `d`, or one minus `Tr`; `d` counts where both are given.
     pub opacity: Option<f32>,
-    /// `Tf`, what light is multiplied by on its way through.
+    /// `Tf`, the factor of light that passes through.
     pub filter: Option<[f32; 3]>,
-    /// `Ni`.
+    /// `Ni`, the index of refraction.
     pub refraction: Option<f32>,
     /// `Pr`, perceptual roughness.
     pub roughness: Option<f32>,
-    /// `Pm`.
+    /// `Pm`, metalness.
     pub metallic: Option<f32>,
-    /// `illum`.
+    /// `illum`, the illumination model.
     pub illumination: Option<i64>,
-    /// `map_Ka`, which only stands in where there is nothing else to show.
+    /// True if there is a `map_Ka`, which stands in only if no other colour is given.
     pub has_ambient_map: bool,
     pub diffuse_map: Option<Map>,
     pub emission_map: Option<Map>,
-    /// `map_d`.
+    /// `map_d`, the map of opacity.
     pub opacity_map: Option<Map>,
-    /// `norm`: normals in tangent space.
+    /// `norm`, the map of normals in tangent space.
     pub normal_map: Option<Map>,
 }
 
-/// A texture reference with the options that are understood.
+/// Texture reference with the supported options.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Map {
     /// Path that the name leads to, from the folder of the MTL file.
     pub place: Place,
-    /// As written, for names and messages.
+    /// Name as written, for names and messages.
     pub name: String,
-    /// `-s`, multiplied into texture coordinates.
+    /// `-s`, the factors of texture coordinates.
     pub scale: [f32; 2],
-    /// `-o`, added to texture coordinates.
+    /// `-o`, the offset that is added to texture coordinates.
     pub offset: [f32; 2],
     /// `-clamp on`.
     pub clamp: bool,
@@ -107,7 +107,7 @@ fn take(
         "map_d" => material.opacity_map = map(path, statement, ignored)?,
         "norm" | "map_kn" => material.normal_map = map(path, statement, ignored)?,
         "map_ka" => material.has_ambient_map = true,
-        // Ambient light is what the integrators compute; reflections are as sharp as the surface is smooth.
+        // The integrators compute ambient light; reflections are as sharp as the surface is smooth.
         "ka" | "sharpness" => {}
         _ => ignored.note(&word),
     }
@@ -120,7 +120,7 @@ fn set<T>(slot: &mut Option<T>, value: Option<T>) {
     }
 }
 
-/// Three numbers, or one that stands for three. Spectral and CIE colours are ignored.
+/// Reads three numbers, or one that stands for three. Spectral and CIE colours are ignored.
 fn color(
     path: &Path,
     statement: &Statement<'_>,
@@ -139,7 +139,7 @@ fn color(
     Ok(Some(if count == 1 { [color[0]; 3] } else { color }))
 }
 
-/// The last word, because options such as `-halo` stand before the number.
+/// Reads the last word, because options such as `-halo` stand before the number.
 fn scalar(path: &Path, statement: &Statement<'_>) -> Result<f32, SceneError> {
     let Some(word) = statement.words().last() else {
         let word = String::from_utf8_lossy(&statement.word);
@@ -158,7 +158,7 @@ fn finite(path: &Path, statement: &Statement<'_>, values: &[f32]) -> Result<(), 
     Err(SceneError::syntax(path, format!("{}: `{word}` has a number that is not finite", statement.place())))
 }
 
-/// Options and a file name, which is what is left and may hold spaces.
+/// Reads options and a file name, which is the rest of the line and may hold spaces.
 fn map(path: &Path, statement: &Statement<'_>, ignored: &mut Kinds) -> Result<Option<Map>, SceneError> {
     let words: Vec<&[u8]> = statement.words().collect();
     let mut found = Map {
@@ -189,7 +189,7 @@ fn map(path: &Path, statement: &Statement<'_>, ignored: &mut Kinds) -> Result<Op
                 found.clamp = words.get(next + 1).is_some_and(|word| word.eq_ignore_ascii_case(b"on"));
                 1
             }
-            // Both blends are on unless told, which is how textures are filtered here anyway.
+            // Both blends are on by default, and textures are always filtered here.
             b"blendu" | b"blendv" => {
                 if words.get(next + 1).is_some_and(|word| word.eq_ignore_ascii_case(b"off")) {
                     ignored.note(&format!("{} -{} off", lossy(&statement.word), lossy(option)));
@@ -208,7 +208,7 @@ fn map(path: &Path, statement: &Statement<'_>, ignored: &mut Kinds) -> Result<Op
                 ignored.note(&format!("{} -{}", lossy(&statement.word), lossy(option)));
                 1
             }
-            // A file whose name begins with a dash.
+            // A file name that begins with a dash.
             _ => break,
         };
     }
@@ -228,9 +228,9 @@ fn lossy(word: &[u8]) -> String {
     String::from_utf8_lossy(word).into_owned()
 }
 
-/// Says which statements and options change nothing here.
+/// Notes remarks on statements and options that have no effect here.
 fn report(ignored: &Kinds, path: &Path, remarks: &mut Remarks) {
-    // Height fields have a warning of their own: what they would show is missed most.
+    // Height fields have a warning of their own: their effect is missed most.
     let is_bump = |what: &str| what.starts_with("map_bump") || what.starts_with("bump");
     let (bumps, others) = (ignored.list(is_bump), ignored.list(|what| !is_bump(what)));
     let place = path.display().to_string();

@@ -1,26 +1,26 @@
-//! Parts of an OBJ file that are not shown, or not as it says.
+//! Parts of an OBJ file that are not shown, or not shown as written.
 
 use super::statements::Statement;
 use crate::kinds::Kinds;
 use crate::polygon::CROSSING;
 use rasray_scene::remarks::Remarks;
 
-/// Counts of what is not shown.
+/// Counts of the parts that are not shown.
 #[derive(Default)]
 pub(super) struct Skipped {
     pub points_and_lines: usize,
-    /// Faces with fewer than three corners.
+    /// Number of faces with fewer than three corners.
     pub faces: usize,
-    /// Faces whose sides cross.
+    /// Number of faces whose sides cross.
     pub crossing: usize,
-    /// Faces some of whose corners lack an attribute that others have.
+    /// Number of faces some of whose corners lack an attribute that others have.
     pub partial: usize,
-    /// Vertices with colours.
+    /// Number of vertices with colours.
     pub colors: usize,
-    /// Vertices with a weight that is not 1.
+    /// Number of vertices with a weight that is not 1.
     pub weights: usize,
     unknown: Kinds,
-    /// The first unknown word and where it is.
+    /// First unknown word and its place.
     pub first_unknown: Option<(String, String)>,
 }
 

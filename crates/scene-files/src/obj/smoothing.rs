@@ -6,14 +6,14 @@ use glam::DVec3;
 
 use super::statements::Statement;
 
-/// The current group, and the normals of all groups so far.
+/// Current group, and the normals of all groups so far.
 #[derive(Default)]
 pub(super) struct Smoothing {
-    /// 0 for none.
+    /// Number of the current group; 0 for none.
     group: u32,
-    /// Place in `sums` of a vertex of the file in a group.
+    /// Index in `sums` of a vertex of the file in a group.
     places: HashMap<(u32, u32), u32>,
-    /// Sums of the normals of the faces there, weighted by area.
+    /// Sums of the normals of the faces at each such vertex, weighted by area.
     sums: Vec<DVec3>,
 }
 
@@ -34,8 +34,8 @@ impl Smoothing {
         self.group != 0
     }
 
-    /// Adds the normal of a face, as long as twice its area, to that of a vertex in the group, and says which
-    /// that is.
+    /// Adds the normal of a face, whose length is twice the face's area, to that of a vertex in the group.
+    /// Returns the index of the sum.
     pub fn add(&mut self, vertex: u32, normal: DVec3) -> u32 {
         let Self { group, places, sums } = self;
         let place = *places.entry((vertex, *group)).or_insert_with(|| {
@@ -49,7 +49,7 @@ impl Smoothing {
         place
     }
 
-    /// The unit normals of vertices, once all faces are known.
+    /// Returns the unit normals of vertices, once all faces are known.
     pub fn normals(&self, places: &[u32]) -> Vec<[f32; 3]> {
         let normal = |place: &u32| self.sums[*place as usize].normalize_or(DVec3::Z).as_vec3().to_array();
         places.iter().map(normal).collect()

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use rasray_scene::SceneError;
 
-/// One statement: a word and what follows on its line.
+/// Statement: a word and the rest of its line.
 pub(super) struct Statement<'a> {
-    /// Line of the file where it begins, from 1.
+    /// Line of the file where the statement begins, from 1.
     pub line: usize,
-    /// The first word.
+    /// First word of the statement.
     pub word: Cow<'a, [u8]>,
     rest: Cow<'a, [u8]>,
 }
@@ -56,7 +56,7 @@ pub(super) fn statements(bytes: &[u8]) -> impl Iterator<Item = Statement<'_>> {
 }
 
 impl Statement<'_> {
-    /// Words after the first, up to a comment.
+    /// Iterates over the words after the first, up to a comment.
     pub fn words(&self) -> impl Iterator<Item = &[u8]> {
         self.rest
             .split(u8::is_ascii_whitespace)
@@ -64,19 +64,19 @@ impl Statement<'_> {
             .take_while(|word| word[0] != b'#')
     }
 
-    /// All that follows the first word, for names that may hold spaces or `#`. Bytes that are not
-    /// UTF-8 are replaced.
+    /// Returns all text after the first word, for names that may hold spaces or `#`. Bytes that are not UTF-8
+    /// are replaced.
     pub fn name(&self) -> String {
         String::from_utf8_lossy(&self.rest).into_owned()
     }
 
-    /// Place of this, for messages.
+    /// Returns the place of the statement, for messages.
     pub fn place(&self) -> String {
         format!("line {}", self.line)
     }
 
-    /// Up to `N` numbers, at least `least`; what is not given is 0. Also returns how many there are,
-    /// of which only the first `N` must be numbers.
+    /// Reads up to `N` numbers, at least `least`; absent numbers are 0. Also returns the number of words, of
+    /// which only the first `N` must be numbers.
     pub fn numbers<const N: usize>(
         &self,
         path: &Path,
@@ -85,7 +85,7 @@ impl Statement<'_> {
         self.parsed(path, least, number)
     }
 
-    /// [`Self::numbers`] in double precision.
+    /// Reads numbers as [`Self::numbers`] does, in double precision.
     pub fn wide_numbers<const N: usize>(
         &self,
         path: &Path,
@@ -116,15 +116,15 @@ impl Statement<'_> {
         Ok((numbers, count))
     }
 
-    /// The error for a word that is no number.
+    /// Makes the error for a word that is no number.
     pub fn not_a_number(&self, path: &Path, word: &[u8]) -> SceneError {
         let shown: String = String::from_utf8_lossy(word).chars().take(40).collect();
         SceneError::syntax(path, format!("{}: `{shown}` is not a number", self.place()))
     }
 }
 
-/// A decimal number. What some C libraries print for NaN and infinity (`-1.#IND`) counts as NaN,
-/// which the check of the finished mesh deals with.
+/// Reads a decimal number. The text that some C libraries print for NaN and infinity (`-1.#IND`) counts as
+/// NaN, which the check of the finished mesh handles.
 pub(super) fn number(word: &[u8]) -> Option<f32> {
     let text = std::str::from_utf8(word).ok()?;
     match text.parse() {
@@ -134,7 +134,7 @@ pub(super) fn number(word: &[u8]) -> Option<f32> {
     }
 }
 
-/// A number in double precision: the nearest number to the text that, rounded once more, is that of
+/// Reads a number in double precision: the number nearest to the text that, rounded once more, equals
 /// [`number`].
 fn wide_number(word: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(word).ok()?;
@@ -143,8 +143,8 @@ fn wide_number(word: &[u8]) -> Option<f64> {
         Err(_) if text.contains(".#") => return Some(f64::NAN),
         Err(_) => return None,
     };
-    // Only half-way between two single-precision numbers can the text lie on the other side than its double
-    // did. The low 29 bits say so, but for the subnormal ones.
+    // Only half-way between two single-precision numbers can the text lie on the other side than its double.
+    // The low 29 bits show that case, except for subnormal numbers.
     let is_half_way =
         wide.to_bits() & 0x1FFF_FFFF == 0x1000_0000 || wide.abs() < f64::from(f32::MIN_POSITIVE);
     if is_half_way && wide != 0.0 {
@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn double_precision_rounds_to_single_precision() {
-        // 1 + 2^-24 is half-way; the digit behind it is beyond double precision.
+        // 1 + 2^-24 is half-way; the last digit is beyond double precision.
         let half_way = "1.000000059604644775390625";
         for text in [
             half_way,

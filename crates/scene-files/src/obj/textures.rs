@@ -1,4 +1,5 @@
-//! Textures of OBJ materials: files decoded once, alpha masks merged into the colours they cut.
+//! Textures of OBJ materials: each file is decoded once, alpha masks are merged into the colours that they
+//! cut.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -14,17 +15,17 @@ use rasray_scene::remarks::Remarks;
 use rasray_scene::text::shown;
 use rasray_scene::{Filter, Image, SceneError, Texture, TextureRef, Wrap};
 
-/// Images and textures as materials ask for them.
+/// Images and textures that materials use.
 pub(super) struct Textures<'a> {
     path: &'a Path,
     limits: &'a Limits,
-    /// Files as decoded; `None` for those that could not be.
+    /// Decoded files; `None` for those that could not be decoded.
     files: HashMap<PathBuf, Option<Image>>,
-    /// The file of each map that leads outside of the folder, by its name; `None` where nothing stands in.
+    /// File for each map that leads outside the folder, by its name; `None` where no file stands in.
     outside: HashMap<String, Option<PathBuf>>,
     images: Vec<Image>,
     textures: Vec<Texture>,
-    /// Image by what it was made from.
+    /// Index of each image by the files that it was made from.
     made: HashMap<Source, usize>,
     pixels: u64,
 }
@@ -37,7 +38,7 @@ struct Source {
 }
 
 impl<'a> Textures<'a> {
-    /// `path` is the OBJ file, for messages.
+    /// Makes an empty collection. `path` is the OBJ file, for messages.
     pub fn new(path: &'a Path, limits: &'a Limits) -> Self {
         Self {
             path,
@@ -51,7 +52,7 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// A file as it is. `None`, with a warning, if it is missing or cannot be decoded.
+    /// Returns the texture of a file as it is. `None`, with a warning, if it is missing or cannot be decoded.
     pub fn color(&mut self, map: &Map, remarks: &mut Remarks) -> Result<Option<TextureRef>, SceneError> {
         match self.decode(map, remarks)? {
             Some(file) => self.texture(Source { color: Some(file), mask: None }, map).map(Some),
@@ -59,8 +60,8 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// The base colour of a material, with its `map_d` as alpha, and whether it has that. A mask without a
-    /// colour cuts white.
+    /// Returns the base colour of a material with its `map_d` as alpha, and true if it has such alpha. A mask
+    /// without a colour cuts white.
     pub fn base_color(
         &mut self,
         found: &MtlMaterial,
@@ -91,12 +92,12 @@ impl<'a> Textures<'a> {
         placed.map(|map| Ok((self.texture(source, map)?, is_cut))).transpose()
     }
 
-    /// Textures and images of the scene.
+    /// Returns the textures and images of the scene.
     pub fn finish(self) -> (Vec<Texture>, Vec<Image>) {
         (self.textures, self.images)
     }
 
-    /// The file of a map, decoded; `None`, with a warning, if there is none or it cannot be.
+    /// Decodes the file of a map; `None`, with a warning, if there is no file or it cannot be decoded.
     fn decode(&mut self, map: &Map, remarks: &mut Remarks) -> Result<Option<PathBuf>, SceneError> {
         let file = match &map.place {
             Place::Below(file) => file.clone(),
@@ -145,21 +146,22 @@ impl<'a> Textures<'a> {
             self.textures.push(texture);
             self.textures.len() - 1
         });
-        // v was turned over with the vertices, so the placement is too: 1 - (s (1 - v) + o).
+        // The v coordinate was flipped with the vertices, so the placement is flipped too: 1 - (s (1 - v) +
+        // o).
         let ([scale_u, scale_v], [offset_u, offset_v]) = (map.scale, map.offset);
         let uv_transform = [[scale_u, 0.0, offset_u], [0.0, scale_v, 1.0 - scale_v - offset_v]];
         Ok(TextureRef { texture: index, uv_set: 0, uv_transform })
     }
 }
 
-/// Colour (white if there is none) with alpha from the mask, at the larger size of the two.
+/// Merges a colour (white if absent) with alpha from the mask, at the larger size of the two.
 fn merge(color: Option<&Image>, mask: &Image) -> Image {
     let (width, height) = match color {
         Some(color) => (color.width.max(mask.width), color.height.max(mask.height)),
         None => (mask.width, mask.height),
     };
     let alpha = scaled(&mask.name, width, height, mask.rgba8.clone(), (mask.width, mask.height));
-    // A picture with transparency of its own is cut by that; else bright is opaque.
+    // An image with transparency of its own cuts by that; otherwise bright means opaque.
     let has_alpha = mask.rgba8.chunks_exact(4).any(|texel| texel[3] != 255);
     let mut texels = match color {
         Some(color) => scaled(&color.name, width, height, color.rgba8.clone(), (color.width, color.height)),
@@ -183,7 +185,7 @@ fn merge(color: Option<&Image>, mask: &Image) -> Image {
 }
 
 fn scaled(name: &str, width: u32, height: u32, rgba8: Vec<u8>, size: (u32, u32)) -> RgbaImage {
-    // An image always has width times height texels; blank stands in should that ever fail.
+    // An image always has width times height texels; a blank one stands in should that ever fail.
     let image = RgbaImage::from_raw(size.0, size.1, rgba8).unwrap_or_else(|| {
         tracing::error!(name, "image with a wrong number of texels");
         RgbaImage::new(size.0, size.1)

@@ -1,4 +1,4 @@
-//! Numbers of the body, one after the other, whatever their encoding.
+//! Numbers of the body, one after the other, in any encoding.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ pub(super) struct Body<'a> {
     bytes: &'a [u8],
     at: usize,
     encoding: Encoding,
-    /// Current line, from 1; only kept for ASCII.
+    /// Current line, from 1; only counted for ASCII.
     line: usize,
 }
 
@@ -20,12 +20,12 @@ impl<'a> Body<'a> {
         Self { path, bytes, at: header.body, encoding: header.encoding, line: header.lines + 1 }
     }
 
-    /// Bytes not read yet.
+    /// Number of bytes that are not read yet.
     pub fn left(&self) -> usize {
         self.bytes.len() - self.at
     }
 
-    /// The next number. Every type fits into f64 exactly.
+    /// Reads the next number. Every type fits into f64 exactly.
     pub fn number(&mut self, scalar: Scalar) -> Result<f64, SceneError> {
         match self.encoding {
             Encoding::Ascii => self.word(scalar),
@@ -34,7 +34,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// The length of a list. At most as many as bytes are left, since every entry takes one.
+    /// Reads the length of a list. It is at most the number of bytes left, since every entry takes one.
     pub fn length(&mut self, scalar: Scalar) -> Result<usize, SceneError> {
         let length = self.number(scalar)?;
         if length < 0.0 || length.fract() != 0.0 {
@@ -84,7 +84,7 @@ impl<'a> Body<'a> {
         let size = scalar.size();
         let Some(bytes) = self.bytes.get(self.at..self.at + size) else { return Err(self.too_short()) };
         self.at += size;
-        // Little end first, whatever the file has.
+        // Bytes in little-endian order, whatever the file has.
         let mut little = [0; 8];
         for (place, byte) in bytes.iter().enumerate() {
             little[if big { size - 1 - place } else { place }] = *byte;

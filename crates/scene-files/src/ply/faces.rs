@@ -1,4 +1,4 @@
-//! The elements `face` and `tristrips`: triangles, and what faces have of their own.
+//! Elements `face` and `tristrips`: triangles, and the attributes of faces.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -15,20 +15,21 @@ use crate::polygon::{Filling, Polygons};
 use rasray_scene::SceneError;
 use rasray_scene::text::shown;
 
-/// Stands for an index below zero, which ends a strip.
+/// Mark of an index below zero, which ends a strip.
 const END: u32 = u32::MAX;
 
-/// Form of the triangles of a list of indices.
+/// Form of the triangles that a list of indices describes.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shape {
     /// A polygon.
     Face,
     /// Triangle strips: each corner closes a triangle with the two before it. An index below zero ends a
-    /// strip, and the next begins.
+    /// strip and begins the next.
     Strip,
 }
 
-/// A vertex of the file with what a face gives it. Numbers by their bits, so that equal ones are one vertex.
+/// Vertex of the file with the values of a face. Numbers are stored by their bits, so that equal ones are one
+/// vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Wedge {
     pub vertex: u32,
@@ -41,11 +42,11 @@ pub(super) struct Wedge {
 pub(super) struct Group {
     /// Number of the texture; `None` for the plain material.
     pub texture: Option<usize>,
-    /// Into `wedges` where faces split vertices, else into the vertices of the file.
+    /// Indices into `wedges` where faces split vertices, else into the vertices of the file.
     pub indices: Vec<u32>,
     pub wedges: Vec<Wedge>,
     known: HashMap<Wedge, u32>,
-    /// Polygons of more than three corners, fans so far: place of the first index, and number of corners.
+    /// Polygons of more than three corners, fans so far: position of the first index, and number of corners.
     polygons: Vec<(usize, usize)>,
 }
 
@@ -54,27 +55,27 @@ pub(super) struct Group {
 pub(super) struct Faces {
     /// Number of textures that the header names.
     textures: usize,
-    /// True if vertices are split by values of faces.
+    /// True if values of faces split vertices.
     pub splits: bool,
-    /// In the order of first use.
+    /// Groups in the order of first use.
     pub groups: Vec<Group>,
-    /// Those with fewer than three corners.
+    /// Number of faces with fewer than three corners.
     pub short: usize,
-    /// Those whose sides cross.
+    /// Number of faces whose sides cross.
     pub crossing: usize,
-    /// Those whose texture coordinates are not two numbers for each corner.
+    /// Number of faces whose texture coordinates are not two numbers for each corner.
     pub bare: usize,
-    /// True if any have colours.
+    /// True if any face has a colour.
     pub colored: bool,
-    /// Those whose colour has an alpha below 1.
+    /// Number of faces whose colour has an alpha below 1.
     pub faded: usize,
     triangles: u64,
 }
 
-/// Places of the properties of faces that are shown.
+/// Positions of the properties of faces that are shown.
 struct Columns {
     indices: usize,
-    /// By property: channel of the colour.
+    /// Channel of the colour, by property.
     channels: Vec<Option<usize>>,
     scalars: [Option<Scalar>; 4],
     has_color: bool,
@@ -112,7 +113,7 @@ impl Columns {
 }
 
 impl Faces {
-    /// Nothing read yet, of a file with this header.
+    /// Makes an empty collection for a file with this header.
     pub fn new(header: &Header) -> Self {
         let has_textures = !header.textures.is_empty();
         let splits = |element: &Element| {
@@ -125,7 +126,7 @@ impl Faces {
         Self { textures: header.textures.len(), splits, ..Self::default() }
     }
 
-    /// Reads the faces or strips of an element; `unread` takes the properties that mean nothing here.
+    /// Reads the faces or strips of an element; `unread` counts the properties that are not used.
     pub fn read(
         &mut self,
         path: &Path,
@@ -174,7 +175,7 @@ impl Faces {
             self.bare += usize::from(is_bare);
             let uv = |place: usize| match (has_uvs, is_bare) {
                 (false, _) => None,
-                // From the bottom of the image.
+                // Texture coordinates count from the bottom of the image.
                 (true, true) => Some([0.0, 1.0]),
                 (true, false) => Some([uvs[2 * place], uvs[2 * place + 1]]),
             };
@@ -199,7 +200,7 @@ impl Faces {
         Ok(())
     }
 
-    /// The group of a texture, as a place in `groups`.
+    /// Returns the group of a texture, as an index into `groups`.
     fn group(&mut self, texture: Option<usize>) -> usize {
         let known = self.groups.iter().position(|group| group.texture == texture);
         known.unwrap_or_else(|| {
@@ -223,8 +224,8 @@ impl Faces {
         self.triangles += corners.len() as u64 - 2;
     }
 
-    /// Every second triangle is turned over, so that all face one way. A corner that repeats one of the last
-    /// two is how strips are joined, and shows nothing.
+    /// Adds the triangles of a strip. Every second triangle is flipped, so that all face one way. A corner
+    /// that repeats one of the last two joins strips, and makes no triangle.
     fn add_strip(&mut self, group: usize, corners: &[u32]) {
         self.short += usize::from((1..3).contains(&corners.len()));
         for (index, corners) in corners.windows(3).enumerate() {
@@ -280,7 +281,7 @@ impl Group {
     }
 }
 
-/// Property of faces or strips that lists the indices of vertices.
+/// Returns the property of faces or strips that lists the indices of vertices.
 fn index_list(path: &Path, element: &Element) -> Result<usize, SceneError> {
     let is_list = |property: &Property| {
         property.length.is_some() && matches!(property.name.as_str(), "vertex_indices" | "vertex_index")
@@ -295,8 +296,8 @@ fn index_list(path: &Path, element: &Element) -> Result<usize, SceneError> {
     Ok(list)
 }
 
-/// The next index of a list. It may be beyond the vertices, which may stand behind: the finished mesh is
-/// checked.
+/// Reads the next index of a list. The index may exceed the vertices read so far, which may stand later in
+/// the file: the finished mesh is checked.
 fn corner(body: &mut Body<'_>, scalar: Scalar, shape: Shape) -> Result<u32, SceneError> {
     let index = body.number(scalar)?;
     if (0.0..f64::from(END)).contains(&index) {

@@ -1,4 +1,4 @@
-//! The header: what elements follow, how many, and with which properties.
+//! Header of a file: the elements that follow, their numbers and their properties.
 
 use std::path::Path;
 
@@ -42,7 +42,7 @@ impl Scalar {
         })
     }
 
-    /// Bytes of one number in a binary body.
+    /// Returns the bytes of one number in a binary body.
     pub fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -57,17 +57,17 @@ impl Scalar {
     }
 }
 
-/// A property of an element.
+/// Property of an element.
 #[derive(Clone, Debug)]
 pub(super) struct Property {
     pub name: String,
-    /// Type of the number, or of a list's entries.
+    /// Type of the number, or of the entries of a list.
     pub scalar: Scalar,
-    /// Type of the length, if this is a list.
+    /// Type of the length, if the property is a list.
     pub length: Option<Scalar>,
 }
 
-/// A kind of element and how many follow.
+/// Kind of element, and number of such elements in the body.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
     pub name: String,
@@ -79,11 +79,11 @@ pub(super) struct Element {
 pub(super) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
-    /// Names of image files, from comments `TextureFile` as MeshLab and others write them.
+    /// Names of image files, from the comments `TextureFile` that MeshLab and others write.
     pub textures: Vec<String>,
     /// Start of the body, in bytes from the start of the file.
     pub body: usize,
-    /// Lines of the header.
+    /// Number of lines of the header.
     pub lines: usize,
 }
 
@@ -164,8 +164,8 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Header, SceneError> {
     Ok(header)
 }
 
-/// The line that begins at `start`, and where the next begins. Ends with LF, CR LF or CR; a CR that
-/// closes `end_header` before a binary body takes a following LF with it.
+/// Returns the line that begins at `start`, and the start of the next. A line ends with LF, CR LF or CR; a CR
+/// that closes `end_header` before a binary body takes a following LF with it.
 fn next_line(bytes: &[u8], start: usize) -> Option<(&[u8], usize)> {
     let rest = bytes.get(start..)?;
     let end = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r'))?;

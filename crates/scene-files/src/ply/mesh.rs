@@ -1,4 +1,4 @@
-//! Elements to meshes.
+//! Conversion of elements to meshes.
 
 use std::path::Path;
 
@@ -18,16 +18,16 @@ use rasray_scene::{Mesh, SceneError};
 /// Contents of a file.
 #[derive(Default)]
 pub(super) struct Content {
-    /// One for each texture that faces use, without positions, texture coordinates, names and materials. None
-    /// if there are no triangles.
+    /// Meshes, one for each texture that faces use, without positions, texture coordinates, names and
+    /// materials. Empty if there are no triangles.
     pub meshes: Vec<Mesh>,
     /// Positions of each mesh as the file has them.
     pub positions: Vec<Vec<DVec3>>,
-    /// Its texture coordinates as the file has them, if there are any.
+    /// Texture coordinates of each mesh as the file has them, if there are any.
     pub uvs: Vec<Option<Vec<[f64; 2]>>>,
-    /// The name of the texture of each mesh.
+    /// Name of the texture of each mesh.
     pub texture_of: Vec<Option<String>>,
-    /// Vertices of the file.
+    /// Number of vertices of the file.
     pub vertices: usize,
 }
 
@@ -45,7 +45,7 @@ pub(super) fn read(
     let (mut unread, mut elements) = (Kinds::default(), Kinds::default());
     let mut has_vertices = false;
     for element in &header.elements {
-        // Nothing of an element without properties stands in the file, however many there are.
+        // Elements without properties take no space in the file, however many there are.
         if element.properties.is_empty() || element.count == 0 {
             continue;
         }
@@ -84,19 +84,19 @@ pub(super) fn read(
     Ok(content)
 }
 
-/// Coordinates of a mesh, which are rounded later.
+/// Coordinates of a mesh before rounding.
 struct Points {
     positions: Vec<DVec3>,
     uvs: Option<Vec<[f64; 2]>>,
 }
 
-/// The mesh of a group that refers to the vertices of the file, which is the only one.
+/// Makes the mesh of a group that refers to the vertices of the file; it is the only mesh.
 fn whole(vertices: &mut Vertices, group: Group) -> (Mesh, Points) {
     let Vertices { positions, normals, uvs, colors } = std::mem::take(vertices);
     (Mesh { normals, colors, indices: group.indices, ..Mesh::default() }, Points { positions, uvs })
 }
 
-/// The mesh of a group with vertices of its own.
+/// Makes the mesh of a group with vertices of its own.
 fn split(path: &Path, vertices: &Vertices, group: Group) -> Result<(Mesh, Points), SceneError> {
     let Group { indices, wedges, .. } = group;
     let count = vertices.positions.len();
@@ -116,7 +116,7 @@ fn split(path: &Path, vertices: &Vertices, group: Group) -> Result<(Mesh, Points
     let uv = |wedge: &Wedge| match (wedge.uv, &vertices.uvs) {
         (Some(uv), _) => uv.map(f64::from_bits),
         (None, Some(uvs)) => uvs[place(wedge)],
-        // From the bottom of the image.
+        // Texture coordinates count from the bottom of the image.
         (None, None) => [0.0, 1.0],
     };
     let uvs = has_uvs.then(|| wedges.iter().map(uv).collect());
@@ -130,7 +130,7 @@ fn split(path: &Path, vertices: &Vertices, group: Group) -> Result<(Mesh, Points
     Ok((Mesh { normals, colors, indices, ..Mesh::default() }, Points { positions, uvs }))
 }
 
-/// Says what of a file is not shown, or otherwise than it says.
+/// Notes remarks on parts of a file that are not shown, or not shown as written.
 fn report(faces: &Faces, vertices: &Vertices, unread: &Kinds, elements: &Kinds, remarks: &mut Remarks) {
     let text = "faces or strips have fewer than three corners and were dropped";
     remarks.count("short-faces", "", faces.short, text);
@@ -153,9 +153,9 @@ fn report(faces: &Faces, vertices: &Vertices, unread: &Kinds, elements: &Kinds, 
     }
 }
 
-/// Refuses counts that the rest of the file cannot hold, before memory is set aside.
+/// Refuses counts that the rest of the file cannot hold, before memory is reserved.
 fn check_length(body: &Body<'_>, element: &Element) -> Result<(), SceneError> {
-    // At least one byte a property, in every encoding.
+    // Every encoding takes at least one byte per property.
     let least = element.count.saturating_mul(element.properties.len() as u64);
     if least > body.left() as u64 {
         let Element { name, count, .. } = element;

@@ -1,20 +1,20 @@
-//! PLY meshes: ASCII, and binary of either byte order.
+//! Reader of PLY meshes: ASCII, and binary of either byte order.
 //!
 //! The reader takes `x y z`, `nx ny nz`, texture coordinates (`s t`, `u v`, `texture_u texture_v` or
 //! `texture_s texture_t`), and `red green blue alpha` (also `r g b a` and `diffuse_red` and so on) of the
-//! element `vertex`; and of `face` the list `vertex_indices` or `vertex_index`, and its colour under the same
-//! names. Any scalar type will do. Where the header names images (`comment TextureFile NAME`), the list
-//! `texcoord` and the number `texnumber` of faces are read, too. Polygons become triangles as in OBJ files.
-//! The same lists of `tristrips` are triangle strips, which a negative index ends. Everything else is
-//! skipped, with a warning that names it.
+//! element `vertex`. Of the element `face` it takes the list `vertex_indices` or `vertex_index`, and the
+//! colour under the same names. Properties may have any scalar type. Where the header names images (`comment
+//! TextureFile NAME`), the list `texcoord` and the number `texnumber` of faces are read, too. Polygons become
+//! triangles as in OBJ files. The same lists of `tristrips` are triangle strips, which a negative index ends.
+//! All other properties and elements are skipped, with a warning that names them.
 //!
-//! Faces with colours or texture coordinates of their own have vertices of their own: those of the file, once
-//! for each colour and coordinate that faces give them. Colours of faces stand in place of those of vertices,
-//! and so do texture coordinates. Each texture is a mesh with a material of its own, with its triangles in
-//! the order of the file.
+//! Faces with colours or texture coordinates of their own have vertices of their own: each vertex of the file
+//! occurs once for each colour and coordinate that faces give it. Colours and texture coordinates of faces
+//! replace those of vertices. Each texture is a mesh with a material of its own, with its triangles in the
+//! order of the file.
 //!
-//! The v coordinate is turned over, as for OBJ. Colours in whole numbers are sRGB and become linear,
-//! colours in floating point are taken as linear; alpha is linear either way, and not shown.
+//! The v coordinate is flipped, as for OBJ. Colours in whole numbers are sRGB and become linear, colours in
+//! floating point are taken as linear; alpha is linear either way, and is not shown.
 //!
 //! Coordinates are read in double precision, and those of a file far from the origin are kept relative to an
 //! origin that the instance carries, as for OBJ.
@@ -36,20 +36,20 @@ use rasray_scene::default_view::plain_material;
 use rasray_scene::remarks::Remarks;
 use rasray_scene::{Filter, Material, Mesh, Scene, SceneError, Texture, TextureRef, Wrap};
 
-/// Loads a PLY file as one mesh, or one for each texture, with plain materials, placed where the file has it.
+/// Loads a PLY file as one mesh, or one for each texture, with plain materials, at its place in the file.
 ///
 /// A file without faces (a point cloud) is a scene without triangles, with a warning.
 ///
 /// # Errors
-/// [`SceneError::Read`], [`SceneError::TooLarge`], [`SceneError::NotThisFormat`], [`SceneError::Syntax`]
-/// for a header or number that is not as it must be or a file that ends too early,
-/// [`SceneError::IndexOutOfRange`] for a face that refers to a vertex that does not exist, and
-/// [`SceneError::NoTriangles`] if there are faces and none can be shown.
+/// [`SceneError::Read`], [`SceneError::TooLarge`], [`SceneError::NotThisFormat`], [`SceneError::Syntax`] for
+/// an invalid header or number or a file that ends too early, [`SceneError::IndexOutOfRange`] for a face that
+/// refers to a vertex that does not exist, and [`SceneError::NoTriangles`] if there are faces and none can be
+/// shown.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     load_placed(path, options, Origins::Own)
 }
 
-/// See [`load`].
+/// Loads a PLY file as [`load`] does, with meshes placed by `origins`.
 pub(crate) fn load_placed(
     path: &Path,
     options: &LoadOptions,
@@ -93,12 +93,13 @@ pub(crate) fn load_placed(
     })
 }
 
-/// The material of a mesh with colours: white, so that they are not dimmed.
+/// Makes the material of a mesh with colours white, so that it does not dim them.
 fn of_colors(material: Material, mesh: &Mesh) -> Material {
     if mesh.colors.is_some() { Material { base_color: [1.0; 4], ..material } } else { material }
 }
 
-/// A material that shows an image file; without it, with a remark, if it cannot be read.
+/// Makes a material that shows an image file; if the file cannot be read, the material has no texture and a
+/// remark is noted.
 fn textured(
     path: &Path,
     name: &str,

@@ -1,4 +1,4 @@
-//! The element `vertex`: positions and attributes.
+//! Element `vertex`: positions and attributes.
 
 use std::path::Path;
 
@@ -10,19 +10,19 @@ use super::mesh::skip;
 use crate::kinds::Kinds;
 use rasray_scene::SceneError;
 
-/// The vertices of a file.
+/// Vertices of a file.
 #[derive(Default)]
 pub(super) struct Vertices {
-    /// As the file has them.
+    /// Positions as the file has them.
     pub positions: Vec<DVec3>,
     pub normals: Option<Vec<[f32; 3]>>,
-    /// As the file has them: v counts from the bottom of the image.
+    /// Texture coordinates as the file has them: v counts from the bottom of the image.
     pub uvs: Option<Vec<[f64; 2]>>,
-    /// Linear.
+    /// Linear colours.
     pub colors: Option<Vec<[f32; 4]>>,
 }
 
-/// Properties of a vertex, each with its place in a row of twelve numbers.
+/// Properties of a vertex, each with its index in a row of twelve numbers.
 const COLUMNS: [(&str, usize); 14] = [
     ("x", 0),
     ("y", 1),
@@ -40,10 +40,10 @@ const COLUMNS: [(&str, usize); 14] = [
     ("texture_t", 7),
 ];
 
-/// Start of the colours in such a row.
+/// Index of the first colour in such a row.
 const COLOR: usize = 8;
 
-/// Channel of a colour that a property is, 3 for alpha.
+/// Returns the channel of a colour that a property holds; 3 stands for alpha.
 pub(super) fn channel(property: &Property) -> Option<usize> {
     let names: [[&str; 3]; 4] = [
         ["red", "diffuse_red", "r"],
@@ -55,7 +55,7 @@ pub(super) fn channel(property: &Property) -> Option<usize> {
     found.filter(|_| property.length.is_none())
 }
 
-/// Reads all vertices; `unread` takes the properties that mean nothing here.
+/// Reads all vertices; `unread` counts the properties that are not used.
 pub(super) fn read(
     path: &Path,
     body: &mut Body<'_>,
@@ -123,8 +123,8 @@ pub(super) fn read(
     })
 }
 
-/// A colour as linear values; a channel without a type is 1. Whole numbers span their type and are sRGB, but
-/// for alpha.
+/// Converts a colour to linear values; a channel without a type is 1. Whole numbers are relative to the
+/// largest value of their type and are sRGB, except alpha.
 pub(super) fn color(values: [f64; 4], scalars: [Option<Scalar>; 4]) -> [f32; 4] {
     std::array::from_fn(|channel| match scalars[channel] {
         Some(scalar) => linear(values[channel], scalar, channel == 3),

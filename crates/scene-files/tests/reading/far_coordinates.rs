@@ -11,10 +11,10 @@ use rasray_scene_files::{LoadOptions, load};
 
 /// Position of the plate: UTM zone 33N.
 const UTM: [f64; 3] = [500_123.0, 4_649_776.0, 112.0];
-/// Vertices of the plate along a side.
+/// Number of vertices of the plate along a side.
 const SIDE: usize = 11;
 
-/// Coordinates of a plate of one metre, in text as exporters write it, moved by whole metres.
+/// Writes the coordinates of a plate of one metre, in text as exporters write it, moved by whole metres.
 fn plate(by: [f64; 3]) -> Vec<[String; 3]> {
     let vertex = |place: usize| {
         let (x, y) = (place % SIDE, place / SIDE);
@@ -25,7 +25,7 @@ fn plate(by: [f64; 3]) -> Vec<[String; 3]> {
     (0..SIDE * SIDE).map(vertex).collect()
 }
 
-/// Corners of its squares.
+/// Iterates over the corners of the plate's squares.
 fn squares() -> impl Iterator<Item = [usize; 4]> {
     (0..(SIDE - 1) * (SIDE - 1)).map(|place| {
         let first = place % (SIDE - 1) + place / (SIDE - 1) * SIDE;
@@ -45,7 +45,7 @@ fn obj(vertices: &[[String; 3]], behind: &str) -> String {
     text
 }
 
-/// ASCII with `of` the type, or binary with either byte order.
+/// Makes a PLY file: ASCII with numbers of type `of`, or binary with either byte order.
 fn ply(vertices: &[[f64; 3]], of: &str, format: &str) -> Vec<u8> {
     let mut bytes = format!(
         "ply\nformat {format} 1.0\nelement vertex {}\nproperty {of} x\nproperty {of} y\nproperty {of} z\nelement face {}\n\
@@ -90,7 +90,7 @@ fn read(folder: &Path, name: &str, bytes: impl AsRef<[u8]>) -> Scene {
     load(&path, &LoadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Corners of all triangles in the world, in double precision.
+/// Returns the corners of all triangles in the world, in double precision.
 fn corners(scene: &Scene) -> Vec<DVec3> {
     let placed = scene.instances.iter().flat_map(|instance| {
         let mesh = &scene.meshes[instance.mesh];
@@ -102,13 +102,14 @@ fn corners(scene: &Scene) -> Vec<DVec3> {
     placed.collect()
 }
 
-/// Corners of the file's triangles, in the order of a fan for each square.
+/// Returns the corners of the file's triangles, in the order of a fan for each square.
 fn truth(vertices: &[[f64; 3]]) -> Vec<DVec3> {
     let fan = squares().flat_map(|[a, b, c, d]| [a, b, c, a, c, d]);
     fan.map(|corner| DVec3::from_array(vertices[corner])).collect()
 }
 
-/// At most half a unit of single precision of the size, and of double precision of the coordinates.
+/// Asserts differences of at most half a unit of single precision of the size, and of double precision of the
+/// coordinates.
 fn assert_close(found: &[DVec3], wanted: &[DVec3], size: f64, what: &str) {
     assert_eq!(found.len(), wanted.len(), "{what}");
     let slack = size * 2.0_f64.powi(-24) + 1.0e-9 * size.max(1.0);
@@ -146,7 +147,7 @@ fn text_far_from_the_origin_is_what_it_says() {
 fn doubles_and_whole_numbers_far_from_the_origin_are_what_they_are() {
     let folder = tempfile::tempdir().expect("a folder");
     let doubles = values(&plate(UTM));
-    // Centimetres.
+    // The coordinates are in centimetres.
     let whole: Vec<[f64; 3]> = doubles.iter().map(|vertex| vertex.map(|x| (x * 100.0).round())).collect();
     for format in ["ascii", "binary_little_endian", "binary_big_endian"] {
         for (of, vertices, size) in [("double", &doubles, 1.0), ("int", &whole, 100.0)] {
@@ -157,8 +158,8 @@ fn doubles_and_whole_numbers_far_from_the_origin_are_what_they_are() {
     }
 }
 
-/// Coordinates that single precision holds are not touched, wherever they are; nor are meshes that are large
-/// against their distance.
+/// Coordinates that single precision holds exactly are kept, wherever they are; so are meshes that are large
+/// compared with their distance.
 #[test]
 fn what_loses_nothing_keeps_its_bits() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -209,8 +210,8 @@ fn what_loses_nothing_keeps_its_bits() {
     assert_eq!(float.instances[0].world_from_mesh, DAffine3::IDENTITY);
 }
 
-/// Meshes of one file that touch share an origin, so that their common corners are the same points; one that
-/// stands apart keeps its own precision.
+/// Meshes of one file that touch share an origin, so that their common corners are the same points; a mesh
+/// that stands apart keeps its own precision.
 #[test]
 fn parts_of_a_file_stay_together() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -232,8 +233,7 @@ fn parts_of_a_file_stay_together() {
     assert_close(&corners(&scene)[3..], &truth(&values(&far)), 1.0, "the plate");
 }
 
-/// Faces of one material are one mesh, unless groups of it lie so far apart that one origin cannot serve
-/// both.
+/// Faces of one material are one mesh, unless their groups lie so far apart that one origin cannot serve all.
 #[test]
 fn groups_of_one_material_that_lie_apart_have_origins_of_their_own() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -263,7 +263,7 @@ fn groups_of_one_material_that_lie_apart_have_origins_of_their_own() {
     assert_eq!([origins[0], origins[2]], [DVec3::ZERO; 2]);
     assert!(origins[1].y > 4.6e6, "{origins:?}");
     assert_close(&corners(&scene), &wanted.concat(), 1.0, "all parts, in the order of the file");
-    // The near group has the bits that it has alone; the attributes follow the vertices.
+    // The near group has the same bits as alone; the attributes follow the vertices.
     let alone = read(folder.path(), "alone.obj", file([&near, &near, &near]));
     assert_eq!((alone.meshes.len(), alone.meshes[0].positions.len()), (1, 3 * SIDE * SIDE));
     let count = SIDE * SIDE;
@@ -278,8 +278,8 @@ fn groups_of_one_material_that_lie_apart_have_origins_of_their_own() {
             alone.meshes[0].normals.as_ref().map(|normals| &normals[mesh * count..][..count])
         );
     }
-    // Groups that are near one another, as against their size, stay one mesh, wherever they are; so does what
-    // is exact.
+    // Groups that are near one another, compared with their size, stay one mesh, wherever they are; so do
+    // groups with exact coordinates.
     let beside = plate([UTM[0] + 20.0, UTM[1], UTM[2]]);
     let whole = |vertices: &[[f64; 3]]| -> Vec<[String; 3]> {
         vertices.iter().map(|vertex| vertex.map(|x| (x * 10.0).round().to_string())).collect()
@@ -291,7 +291,7 @@ fn groups_of_one_material_that_lie_apart_have_origins_of_their_own() {
     }
 }
 
-/// All files of a sequence are placed as the first, whose own coordinates may be whole metres.
+/// All files of a sequence are placed like the first, whose own coordinates may be whole metres.
 #[test]
 fn numbered_files_share_an_origin() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -323,8 +323,8 @@ fn numbered_files_share_an_origin() {
     }
 }
 
-/// Texture coordinates that follow from such positions, as planar projections make them: whole repeats of a
-/// texture say nothing, and cost precision.
+/// Texture coordinates are derived from such positions, as planar projections make them: whole repeats of a
+/// texture have no effect, and cost precision.
 #[test]
 fn texture_coordinates_far_from_zero_are_what_they_say() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,5 +1,5 @@
-//! Files that are no scenes, and references to what is no file: an error or a warning at once, which
-//! says what was found.
+//! Files that are no scenes, and references to files of another kind: an error or a warning at once, which
+//! names the kind that was found.
 
 use std::fs;
 use std::path::Path;
@@ -94,7 +94,7 @@ fn triangle() -> Vec<u8> {
     [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
-/// A pipe would keep its reader waiting: none is opened, whoever refers to it.
+/// A pipe would keep its reader waiting: no reference opens one.
 #[cfg(unix)]
 #[test]
 fn pipes_are_never_waited_for() {
@@ -172,7 +172,7 @@ fn foreign_references_are_named() {
     );
 }
 
-/// A library that cannot be read as one names the scene as well.
+/// The error of an unreadable library names the scene as well.
 #[test]
 fn errors_of_libraries_name_the_scene() {
     let folder = tempfile::tempdir().expect("a temporary folder");

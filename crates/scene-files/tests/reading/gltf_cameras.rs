@@ -33,7 +33,7 @@ fn cameras_frame_what_they_say() {
             assert!((across / up - f64::from(width) / f64::from(height)).abs() < 1.0e-9, "pixels are square");
         }
     }
-    // Without a frame, and in an image of the frame's shape, the height is what the file says, to the bit.
+    // Without a frame, and in an image of the frame's shape, the height is that of the file, to the bit.
     assert_eq!(perspective("").0.half_extents(30, 90)[1], tangent);
     assert_eq!(perspective(r#","aspectRatio":1.7777777777777777"#).0.half_extents(1920, 1080)[1], tangent);
     assert_eq!(parallel(r#""xmag":-2,"ymag":-1"#).0.half_extents(90, 90), [2.0, 2.0]);

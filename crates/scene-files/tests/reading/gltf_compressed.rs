@@ -1,5 +1,5 @@
-//! Scenes as exporters for the web compress them, against the plain scene that they were made of: the files
-//! of `tests/compressed`, which its `make.mjs` makes.
+//! Scenes as exporters for the web compress them, against the plain scenes that they were made from: the
+//! files of `tests/compressed`, which its `make.mjs` makes.
 
 use std::path::{Path, PathBuf};
 
@@ -21,17 +21,17 @@ fn read(file: &str) -> Scene {
     scene
 }
 
-/// A corner of a triangle, as it is shown.
+/// Corner of a triangle, as it is shown.
 #[derive(Clone, Copy)]
 struct Corner {
     position: DVec3,
     normal: Option<Vec3>,
-    /// Place at which the texture is read.
+    /// Coordinates at which the texture is read.
     texture: Option<[f32; 2]>,
     color: Option<[f32; 4]>,
 }
 
-/// The triangles of all instances in the world, each with the name of its material.
+/// Returns the triangles of all instances in the world, each with the name of its material.
 fn triangles(scene: &Scene) -> Vec<(&str, [Corner; 3])> {
     let mut found = Vec::new();
     for instance in &scene.instances {
@@ -63,7 +63,7 @@ fn triangles(scene: &Scene) -> Vec<(&str, [Corner; 3])> {
     found
 }
 
-/// Greatest differences of corners.
+/// Largest differences between corners.
 #[derive(Clone, Copy, Debug, Default)]
 struct Error {
     position: f64,
@@ -75,7 +75,7 @@ struct Error {
 impl Error {
     fn of(plain: Corner, twin: Corner) -> Self {
         let greatest = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-        // An attribute that one of them lacks is as far off as can be.
+        // An attribute that only one of the two has counts as the largest difference.
         let pair = |a: Option<&[f32]>, b: Option<&[f32]>| match (a, b) {
             (Some(a), Some(b)) => greatest(a, b),
             (None, None) => 0.0,
@@ -109,7 +109,7 @@ impl Error {
     }
 }
 
-/// Pairs the triangles of two scenes, whatever their order and their first corners are; each is in one pair.
+/// Pairs the triangles of two scenes, in any order and with any first corner; each is in one pair.
 fn compare(file: &str, plain: &Scene, twin: &Scene) -> Error {
     let plain = triangles(plain);
     let mut twin = triangles(twin);
@@ -133,8 +133,8 @@ fn compare(file: &str, plain: &Scene, twin: &Scene) -> Error {
     worst
 }
 
-/// Compressed scenes equal those that exporters were given, to the numbers of bits that they were told to
-/// keep.
+/// Compressed scenes equal those that the exporters were given, within the numbers of bits that the exporters
+/// were told to keep.
 #[test]
 fn compressed_scenes_equal_their_plain_twins() {
     let plain = read("plain.glb");
@@ -149,7 +149,7 @@ fn compressed_scenes_equal_their_plain_twins() {
         ("gltfpack-cc.glb", 0.015, 0.0),
         ("gltfpack-khr.glb", 0.0012, 1.0 / 65535.0),
         ("gltfpack-floats.glb", 0.005, 1.0 / 255.0),
-        // Its second file, the fallback, is not there.
+        // The second file, the fallback, does not exist.
         ("gltfpack-fallback.gltf", 0.008, 0.0),
         ("draco-edgebreaker.glb", 0.0025, 0.0),
         ("draco-valence.glb", 0.0025, 0.0),
@@ -162,17 +162,17 @@ fn compressed_scenes_equal_their_plain_twins() {
             worst = worst.or(compare(file, &at(&plain), &at(&twin)));
         }
         println!("{file}: {worst:?}");
-        // Weights of joints have 8 bits, and joints move what they hold by up to 1.3; rotations of copies, 5
+        // Weights of joints have 8 bits, and joints move their vertices by up to 1.3; rotations of copies, 5
         // long, have 12.
         assert!(worst.position < 0.0026, "{file}: {worst:?}");
-        // 12 bits of 3.
+        // Texture coordinates have 12 bits of 3.
         assert!(worst.texture < 0.5 * 3.0 / 4095.0 + 1e-6, "{file}: {worst:?}");
         assert!(worst.normal < normal && worst.color <= color + 1e-6, "{file}: {worst:?}");
     }
 }
 
-/// Without a filter, decoding gives back every bit: what the same exporter writes with and without
-/// compression is the same scene, but for the order of triangles and their first corners.
+/// Without a filter, decoding restores every bit: the same exporter writes with and without compression the
+/// same scene, but for the order of triangles and their first corners.
 #[test]
 fn compression_without_filters_loses_nothing() {
     let quantized = read("gltfpack-quantized.glb");
@@ -188,7 +188,7 @@ fn texels(scene: &Scene) -> (u32, u32, &[u8]) {
     (scene.images[0].width, scene.images[0].height, &scene.images[0].rgba8)
 }
 
-/// Every texel is the one that the library of Basis Universal makes of it.
+/// Every texel equals the one that the library of Basis Universal decodes.
 #[test]
 fn textures_of_basis_universal_are_decoded() {
     let plain = read("plain.glb");
@@ -255,7 +255,7 @@ fn what_views_say_of_their_streams_is_checked() {
     }
 }
 
-/// Claims of accessors are held against the Draco stream.
+/// Claims of accessors are checked against the Draco stream.
 #[test]
 fn what_accessors_claim_of_draco_streams_is_checked() {
     for (from, to, words) in [
@@ -281,8 +281,7 @@ fn what_accessors_claim_of_draco_streams_is_checked() {
     assert!(error.to_string().contains("too large for the limits of scenes"), "{error}");
 }
 
-/// Bytes that are decoded count as bytes of buffers, and none are held for a stream that is too short for
-/// them.
+/// Decoded bytes count as bytes of buffers, and none are reserved for a stream that is too short for them.
 #[test]
 fn decoded_bytes_are_bounded() {
     let path = folder().join("gltfpack-cc.glb");
@@ -294,7 +293,7 @@ fn decoded_bytes_are_bounded() {
         Err(SceneError::TooLarge { option: "file_bytes", .. }) => {}
         other => panic!("{other:?}"),
     }
-    // A hundred bytes that are to be four billion.
+    // A hundred bytes claim to decode to four billion.
     let view = r#"{"buffer":0,"byteLength":4294967280,"byteStride":16,"extensions":{"EXT_meshopt_compression":
         {"buffer":0,"byteLength":44,"byteStride":16,"count":268435455,"mode":"ATTRIBUTES"}}}"#;
     let text = triangle_gltf(r#"[{"mesh":0}]"#, "", "").replace(r#"{"buffer":0,"byteLength":36}"#, view);
@@ -323,7 +322,7 @@ fn damaged_compressed_scenes_do_no_harm() {
         for flip in 0..flips {
             let mut damaged = bytes.clone();
             for _ in 0..1 + random.below(3) {
-                // Streams rather than the JSON before them.
+                // The damage hits streams rather than the JSON before them.
                 let at = 20 + length + random.below(bytes.len() - length - 20);
                 damaged[at] ^= 1 << random.below(8);
             }
@@ -334,7 +333,7 @@ fn damaged_compressed_scenes_do_no_harm() {
     }
 }
 
-/// An image of KTX2 alone: all that its header and its data can be.
+/// Damaged KTX2 images: every part of the header and of the data.
 #[test]
 fn damaged_ktx2_images_do_no_harm() {
     for file in ["ktx2-etc1s.glb", "ktx2-uastc.glb", "ktx2-uastc-zstd.glb"] {

@@ -17,7 +17,7 @@ fn load_text(text: &str) -> Scene {
     scene
 }
 
-/// A file whose only mesh has the given positions, in the given mode, without indices.
+/// Makes a file whose only mesh has the given positions, in the given mode, without indices.
 fn soup(positions: &[f32], mode: u32) -> String {
     let bytes = floats(positions);
     format!(
@@ -102,7 +102,7 @@ fn missing_attributes_stay_missing() {
     assert_eq!((scene.meshes.len(), kinds(&scene)), (1, vec!["no-positions"]));
 }
 
-/// As the format has it: backs are culled unless the material is double-sided or bounds a volume.
+/// The format says that backs are culled unless the material is double-sided or bounds a volume.
 #[test]
 fn materials_say_whether_their_back_is_culled() {
     let culls = |material: &str| {
@@ -262,7 +262,7 @@ fn copies_turn_and_scale() {
     let odd = bytes.len() - 8;
     let flat = instancing(r#"{"SCALE":2,"ROTATION":3}"#).replace(&data_uri(&bytes), &{
         let mut flat = bytes.clone();
-        // The first scale's x and the first rotation become 0.
+        // The x of the first scale and of the first rotation become 0.
         flat[44..48].fill(0);
         flat[odd..odd + 4].fill(0);
         data_uri(&flat)

@@ -1,5 +1,5 @@
-//! Real files: the scenes load with the triangles they are known to have, the malformed ones end as
-//! the table says.
+//! Real files: the scenes load with their known numbers of triangles, and the malformed ones end as the table
+//! says.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use crate::gltf_support::{assert_well_formed, kinds, placed_triangles, scenes_fo
 use rasray_scene::{Moment, Scene, SceneError};
 use rasray_scene_files::{LoadOptions, load};
 
-/// Placed triangles of every glTF scene.
+/// Number of placed triangles of every glTF scene.
 const SCENES: [(&str, usize); 32] = [
     ("animated/BoxAnimated/BoxAnimated.glb", 254),
     ("animated/CesiumMilkTruck/CesiumMilkTruck.glb", 3624),
@@ -71,7 +71,7 @@ fn scenes_load_with_their_triangles() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// All files below a folder.
+/// Collects all files below a folder.
 fn files_below(folder: &Path, files: &mut Vec<PathBuf>) {
     let Ok(entries) = std::fs::read_dir(folder) else { panic!("cannot list {}", folder.display()) };
     for entry in entries.flatten() {
@@ -84,7 +84,7 @@ fn files_below(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// End of loading a file: the words that its error must hold, or triangles and kinds of warnings.
+/// Outcome of loading a file: the words that its error must hold, or triangles and kinds of warnings.
 enum End {
     Error(&'static str),
     Loads(usize, &'static [&'static str]),
@@ -130,7 +130,7 @@ const BAD_FILES: [(&str, End); 24] = [
     ("malformed/tinygltf/regression/unassigned-skeleton.gltf", Loads(8, &["skin-matrices"])),
 ];
 
-/// Kept apart: a container whose binary chunk is empty.
+/// A separate case: a container whose binary chunk is empty.
 const EMPTY_CHUNK: &str = "malformed/tinygltf/regression/zero-sized-bin-chunk-issue-440.glb";
 
 #[test]
@@ -180,7 +180,8 @@ fn every_file_of_the_corpus_is_listed() {
     assert!(missing.is_empty(), "not in the tables: {missing:?}");
 }
 
-/// Scenes that can move have a rig, and no others have. Posed by no clip, a scene is as at rest, to the bit.
+/// Scenes that can move have a rig, and no others have one. Posed by no clip, a scene equals the scene at
+/// rest, to the bit.
 #[test]
 fn what_moves_has_a_rig() {
     let Some(folder) = scenes_folder("what_moves_has_a_rig") else { return };
@@ -194,7 +195,7 @@ fn what_moves_has_a_rig() {
     }
 }
 
-/// Extent of a scene in the world along each axis.
+/// Returns the extent of a scene in the world along each axis.
 fn extent(scene: &Scene) -> [f64; 3] {
     let points = scene.instances.iter().flat_map(|instance| {
         let mesh = &scene.meshes[instance.mesh];
@@ -210,7 +211,7 @@ fn extent(scene: &Scene) -> [f64; 3] {
     (high - low).to_array()
 }
 
-/// Skins decide where a mesh stands: placed by their nodes, these figures lie down or change size.
+/// Skins decide the place of a mesh: placed by their nodes, these figures would lie down or change size.
 #[test]
 fn skinned_figures_stand_upright() {
     let Some(folder) = scenes_folder("skinned_figures_stand_upright") else { return };

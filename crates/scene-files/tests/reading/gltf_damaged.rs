@@ -14,16 +14,16 @@ use rasray_scene_files::{Limits, LoadOptions, decode_image, load};
 /// Longest time that one small file may take.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// A small generator of well-mixed numbers.
+/// Generator of well-mixed random numbers.
 pub struct Random(u64);
 
 impl Random {
-    /// One of the sequences of numbers.
+    /// Makes the generator of one of the sequences of numbers.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// The next number, below `bound`.
+    /// Returns the next number, below `bound`.
     pub fn below(&mut self, bound: usize) -> usize {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mixed = (self.0 ^ self.0 >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -42,11 +42,11 @@ pub fn survives(what: &str, attempt: impl FnOnce() -> Result<Scene, SceneError>)
             assert_well_formed(&scene);
             true
         }
-        // A caught panic is a panic all the same.
+        // A caught panic counts as a panic.
         Err(SceneError::Internal { reason, .. }) => panic!("{what}: {reason}"),
         Err(error) => {
             let text = error.to_string();
-            // The schema must refuse, with a place, whatever the typed tree would.
+            // The schema must refuse, with a place, all that the typed tree would refuse.
             assert!(!text.is_empty() && !text.contains("a value of the wrong kind"), "{what}: {text}");
             false
         }
@@ -91,7 +91,7 @@ fn flipped_bits_of_gltf_do_no_harm() {
     }
 }
 
-/// JSON pointers to all values below one.
+/// Collects JSON pointers to all values below one.
 fn pointers(value: &Value, place: &str, found: &mut Vec<String>) {
     found.push(place.to_owned());
     for (i, item) in value.as_array().into_iter().flatten().enumerate() {
@@ -102,7 +102,7 @@ fn pointers(value: &Value, place: &str, found: &mut Vec<String>) {
     }
 }
 
-/// Each value of a file in turn becomes one of another kind.
+/// Each value of a file in turn is replaced by one of another kind.
 #[test]
 fn values_of_another_kind_do_no_harm() {
     let tree: Value = from_slice(&rich_gltf()).expect("the file is JSON");

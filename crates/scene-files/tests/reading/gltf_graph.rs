@@ -1,4 +1,4 @@
-//! Nodes: transforms multiplied in f64, scene order, and graphs that are none.
+//! Nodes: transforms multiplied in f64, scene order, and graphs with faults.
 
 use approx::assert_abs_diff_eq;
 use std::fmt::Write;
@@ -13,7 +13,7 @@ fn load_nodes(nodes: &str) -> Scene {
     load_bytes(triangle_gltf(nodes, "", "").as_bytes()).expect("a good file")
 }
 
-/// A chain of `count` nodes of the given transform; the last holds the mesh.
+/// Makes a chain of `count` nodes of the given transform; the last holds the mesh.
 fn chain(count: usize, transform: &str) -> String {
     let mut nodes = String::from("[");
     for i in 0..count {
@@ -53,7 +53,7 @@ fn long_chains_are_multiplied_in_f64() {
     let world = scene.instances[0].world_from_mesh;
     assert!(world.translation.length() < 1e-10, "{}", world.translation);
     assert!((world.matrix3.x_axis - DVec3::X).length() < 1e-12, "{}", world.matrix3);
-    // Half turns with a mirror: exactly the identity after an even number.
+    // Half turns with a mirror: the product of an even number is exactly the identity.
     let mirrored = r#""matrix":[-1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],"name":"mirror""#;
     let file = triangle_gltf(&chain(999, mirrored), "", "");
     let scene =

@@ -4,7 +4,7 @@ use crate::gltf_support::rich::png;
 use crate::gltf_support::{assert_well_formed, data_uri, kinds, load_bytes, triangle_gltf};
 use rasray_scene::Scene;
 
-/// Said of a textured triangle of [`triangle_gltf`], which has no texture coordinates.
+/// Kind of warning about a textured triangle of [`triangle_gltf`], which has no texture coordinates.
 const BARE: &str = "texture-without-coordinates";
 
 const NODE: &str = r#"[{"mesh":0}]"#;
@@ -40,7 +40,7 @@ fn images_are_decoded() {
     assert_eq!(kinds(&load_text(&absent)), ["texture-without-image"]);
     let dangling = textured(&png(), r#"{"index":0}"#).replace(r#""source":0"#, r#""source":5"#);
     assert!(load_bytes(dangling.as_bytes()).is_err());
-    // Nothing uses the material: the broken image is not even looked at.
+    // No mesh uses the material, so the broken image is not even read.
     let unused = textured(b"broken", r#"{"index":0}"#).replace(r#","material":0"#, "");
     assert!(kinds(&load_text(&unused)).is_empty());
 }
@@ -63,7 +63,7 @@ fn images_that_cannot_be_read_are_left_out() {
         assert!(scene.warnings[0].message.contains(words), "{}", scene.warnings[0].message);
         assert!(scene.textures.is_empty() && scene.images.is_empty());
     }
-    // One image for two textures is looked for once.
+    // An image for two textures is looked for once.
     let material = r#","images":[{"uri":"gone.png"}],"textures":[{"source":0},{"source":0}],
         "materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"emissiveTexture":{"index":1}}]"#;
     let scene = load_text(&triangle_gltf(NODE, r#","material":0"#, material));
@@ -71,7 +71,7 @@ fn images_that_cannot_be_read_are_left_out() {
     assert!(scene.warnings[0].message.contains("texture nowhere/gone.png: is not shown"));
 }
 
-/// There is one warning for the same remark on many places.
+/// Equal remarks on many places become one warning.
 #[test]
 fn warnings_of_many_places_are_one() {
     let images: Vec<String> = (0..98).map(|i| format!(r#"{{"uri":"gone{i}.png"}}"#)).collect();
@@ -133,7 +133,7 @@ fn references_of_images_that_lead_outside_are_never_followed() {
         assert_eq!(kinds(&scene), ["texture-elsewhere", BARE], "{uri}");
         assert_eq!((scene.images.len(), &scene.files[..]), (1, &[folder.join("wood.png")][..]), "{uri}");
     }
-    // Written for another system, or not escaped: the file itself is there.
+    // The reference is written for another system, or not escaped: the file itself exists.
     for (name, uri) in [("textures/wood.png", r"textures\\wood.png"), ("100%.png", "100%.png")] {
         std::fs::write(folder.join(name), png()).expect("written");
         let scene = read(uri);

@@ -1,5 +1,5 @@
-//! Clips of a glTF file: keys at the times of frames, channels that cannot be played and why, and what of it
-//! is not read.
+//! Clips of a glTF file: keys at the times of frames, channels that cannot be played and why, and the parts
+//! of clips that are not read.
 
 use glam::DVec3;
 use rasray_scene::Scene;
@@ -8,7 +8,7 @@ use rasray_scene::animation::ChannelValues;
 use crate::gltf_support::load_bytes;
 use crate::gltf_support::moving::{File, TRIANGLE, corners, messages};
 
-/// An exporter writes frame k at k / fps, rounded to f32: that is where frame k is shown, in every
+/// An exporter writes frame k at k / fps, rounded to f32: frame k is shown at that time, in every
 /// interpolation.
 #[test]
 fn a_frame_shows_the_key_that_was_written_for_it() {
@@ -34,7 +34,7 @@ fn a_frame_shows_the_key_that_was_written_for_it() {
                     DVec3::new(f64::from(key), 0.0, 0.0),
                     "{interpolation}, {key} at {fps}"
                 );
-                // As the command line and the file have the time.
+                // The time is that of the command line and that of the file.
                 let written = format!("{seconds:.9}").parse().expect("a number");
                 assert_eq!(at(written), at(seconds));
                 assert_eq!(at(f64::from(times[key as usize])), at(seconds));
@@ -69,7 +69,7 @@ fn primitives_without_targets_are_not_displaced() {
     }
 }
 
-/// The path with its node, times and values of a channel, its interpolation, and what is said of it.
+/// Parts of a channel: the path with its node, times and values, its interpolation, and the expected remark.
 type Channel<'a> = (&'a str, &'a [f32], &'a [f32], &'a str, &'a str);
 
 /// The remark on a channel that cannot be played names its fault.
@@ -131,7 +131,7 @@ fn a_channel_that_cannot_be_played_says_why() {
             assert!(!found.contains("ascend"), "{what}: {found}");
         }
     }
-    // An accessor that suits others is named with who needs it otherwise.
+    // An accessor that suits other uses is named with the channel that needs another form.
     let file = File::new();
     let rest = format!(
         r#"{TRIANGLE},"nodes":[{{"mesh":0}}],"animations":[{{"name":"walk",
@@ -148,8 +148,8 @@ fn a_channel_that_cannot_be_played_says_why() {
     );
 }
 
-/// Where two channels are for one property, the later one counts, and the other is named; rotations without
-/// direction are named, too.
+/// Of two channels for one property the later one counts, and the other is named; rotations without direction
+/// are named, too.
 #[test]
 fn channels_that_are_played_in_part_are_named() {
     let mut file = File::new();
@@ -207,7 +207,7 @@ fn attributes_that_are_not_read_are_named() {
     assert!(messages(&material, "unused-texture")[0].contains("occlusionTexture"));
 }
 
-/// A channel's values are as the file has them, whatever else is remarked.
+/// The values of a channel are those of the file, whatever else is remarked.
 #[test]
 fn weights_of_several_targets_stay_apart() {
     let mut file = File::new();
@@ -220,7 +220,7 @@ fn weights_of_several_targets_stay_apart() {
     ));
     let values = &scene.animation.rig.clips[0].channels[0].values;
     assert!(matches!(values, ChannelValues::Weights { targets: 2, .. }), "{values:?}");
-    // Corner 1 is at 1, and each target displaces it by as much as its weight.
+    // Corner 1 is at 1, and each target displaces it by its weight.
     assert_eq!([0, 1].map(|instance| corners(&scene, instance, 0.0)[1].x), [1.0, 2.0]);
     assert_eq!([0, 1].map(|instance| corners(&scene, instance, 1.0)[1].x), [1.5, 1.75]);
 }

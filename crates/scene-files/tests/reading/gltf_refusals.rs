@@ -1,5 +1,5 @@
-//! Files that contradict themselves, ask for too much or reach outside their folder: each is refused
-//! with an error that names the place.
+//! Files that contradict themselves, ask for too much or reach outside their folder: each is refused with an
+//! error that names the place.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use crate::gltf_support::{data_uri, floats, glb, kinds, load_bytes, triangle_byt
 use rasray_scene::SceneError;
 use rasray_scene_files::{Limits, LoadOptions, gltf};
 
-/// One placed triangle with something replaced.
+/// Makes a file of one placed triangle with some text replaced.
 fn altered(from: &str, to: &str) -> String {
     let file = triangle_gltf(r#"[{"mesh":0}]"#, "", "");
     assert!(file.contains(from), "{from} is not in the file");
@@ -182,7 +182,7 @@ fn vertex_indices_must_exist() {
     assert!(message(&two).contains("2 vertices do not make whole triangles"));
 }
 
-/// A joint with a share must exist; one without may be anything.
+/// A joint with a weight must exist; the index of one without weight may be any number.
 #[test]
 fn joints_must_exist() {
     let mut binary = floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
@@ -226,7 +226,7 @@ fn references_outside_the_folder_are_refused() {
             r#","images":[{{"uri":"{uri}"}}],"textures":[{{"source":0}}],
             "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}]"#
         );
-        // A scene can do without an image.
+        // A scene does not need its images.
         let file = triangle_gltf(r#"[{"mesh":0}]"#, r#","material":0"#, &material);
         let scene = load_bytes(file.as_bytes()).unwrap_or_else(|error| panic!("image {uri}: {error}"));
         assert_eq!(kinds(&scene), ["missing-texture"], "image {uri}");
@@ -268,7 +268,7 @@ fn required_extensions_must_be_supported() {
             other => panic!("{name}: {other:?}"),
         }
     }
-    // Two that the gltf crate itself would refuse.
+    // Two extensions that the gltf crate itself would refuse.
     let supported = r#","extensionsRequired":["KHR_materials_volume","KHR_materials_specular"]"#;
     assert!(load_bytes(triangle_gltf(r#"[{"mesh":0}]"#, "", supported).as_bytes()).is_ok());
 }
@@ -321,7 +321,7 @@ fn every_limit_refuses() {
 
 #[test]
 fn a_small_file_cannot_ask_for_much() {
-    // No buffer view: the elements are zeros, and cost nothing in the file.
+    // Without a buffer view the elements are zeros, and take no space in the file.
     let zeros = altered(
         r#""bufferView":0,"componentType":5126,"count":3"#,
         r#""componentType":5126,"count":18446744073709551615"#,

@@ -1,5 +1,5 @@
-//! Faults with which a file is shown all the same: each is named in a warning, or accepted where
-//! the meaning is plain.
+//! Faults of files that are shown all the same: each is named in a warning, or accepted where the meaning is
+//! plain.
 
 use crate::gltf_support::rich::png;
 use crate::gltf_support::{
@@ -16,7 +16,7 @@ fn load_text(text: &str) -> Scene {
     scene
 }
 
-/// One placed triangle with something replaced, which must still be one.
+/// Loads one placed triangle with some text replaced; the result must still be one triangle.
 fn altered(from: &str, to: &str) -> Scene {
     let file = triangle_gltf(NODE, "", "");
     assert!(file.contains(from), "{from} is not in the file");
@@ -25,7 +25,7 @@ fn altered(from: &str, to: &str) -> Scene {
     scene
 }
 
-/// The only warning of a scene must be of a kind and hold all words.
+/// Asserts that the only warning of a scene is of a kind and holds all words.
 fn assert_says(scene: &Scene, kind: &str, words: &[&str]) {
     let [warning] = &scene.warnings[..] else { panic!("{kind}: {:?}", scene.warnings) };
     assert_eq!(warning.kind, kind);
@@ -84,7 +84,7 @@ fn lights_out_of_range_are_named() {
         light(r#"{"type":"point","intensity":-3}"#).lights[0],
         Light::Point { intensity: [0.0, 0.0, 0.0], .. }
     ));
-    // A light of an unknown type is dropped where a node has it, and not even looked at elsewhere.
+    // A light of an unknown type is dropped where a node has it, and is ignored elsewhere.
     let scene = light(r#"{"type":"area"}"#);
     assert!(scene.lights.is_empty());
     assert_says(&scene, "bad-light", &["nodes[0]", r#"is "area", which the format does not know"#]);
@@ -113,7 +113,7 @@ fn textures_need_coordinates() {
     assert_eq!(kinds(&both), [kind, kind]);
 }
 
-/// The triangle's positions once more, as an attribute of another type.
+/// Makes the triangle's file with its positions as a second attribute of another type.
 fn with_attribute(semantic: &str, accessor: &str) -> Scene {
     let file = triangle_gltf(NODE, "", "")
         .replace(r#""POSITION":0"#, &format!(r#""POSITION":0,"{semantic}":2"#))
@@ -140,7 +140,7 @@ fn attributes_of_types_that_are_not_allowed_are_named() {
         ("COLOR_0", r#""componentType":5125,"normalized":true,"type":"VEC3""#, 1),
         ("COLOR_0", r#""componentType":5121,"normalized":true,"type":"VEC4""#, 0),
         ("JOINTS_0", r#""componentType":5125,"type":"VEC2""#, 1),
-        // Nothing reads it.
+        // The set of coordinates is not read.
         ("TEXCOORD_2", r#""componentType":5125,"type":"VEC2""#, 0),
         ("_CUSTOM", r#""componentType":5125,"type":"VEC2""#, 0),
     ];
@@ -149,7 +149,7 @@ fn attributes_of_types_that_are_not_allowed_are_named() {
         let found = kinds(&scene).iter().filter(|kind| **kind == "attribute-type").count();
         assert_eq!(found, count, "{semantic} {accessor}: {:?}", scene.warnings);
     }
-    // A matrix has four numbers and padding between them: no colour.
+    // A matrix has four numbers and padding between them, so it is no colour.
     let matrix = triangle_gltf(NODE, "", "").replace(r#""POSITION":0"#, r#""POSITION":0,"COLOR_0":2"#).replace(
         r#""type":"SCALAR"}"#,
         r#""type":"SCALAR"},{"bufferView":0,"count":3,"componentType":5121,"normalized":true,"type":"MAT2"}"#,
@@ -186,7 +186,7 @@ fn misplaced_chunks_are_named() {
     assert_says(&load(&late), "glb-chunks", &["not the second"]);
 }
 
-/// Parts that nothing of the scene reads may be missing, unknown or broken.
+/// Parts that the scene does not use may be missing, unknown or broken.
 #[test]
 fn unused_parts_may_be_broken() {
     let cases = [
@@ -226,7 +226,7 @@ fn whole_numbers_may_have_a_point() {
     assert!(error.contains("nodes[0].mesh: must be a whole number that is not negative, is 0.5"), "{error}");
 }
 
-/// Claims of more bytes than there are do no harm where the elements are there.
+/// Claims of more bytes than exist do no harm if the elements exist.
 #[test]
 fn padding_after_the_last_element_may_be_missing() {
     assert_says(
@@ -316,7 +316,8 @@ fn unsupported_extensions_are_named_wherever_they_are() {
     }
 }
 
-/// Names are data: names, warnings and errors hold them as the file does, and who shows them escapes them.
+/// Names are data: names, warnings and errors hold them as the file does, and code that shows them must
+/// escape them.
 #[test]
 fn names_are_as_the_file_has_them() {
     let nasty = r#""name":"\u001b[2J\u202eevil\u009b""#;

@@ -1,5 +1,5 @@
-//! Skins of a glTF file: joints far away, without weight or of no size, and nodes that a skin or a clip makes
-//! harmless.
+//! Skins of a glTF file: joints that are far away, without weight or of no size, and degenerate nodes that a
+//! skin or a clip makes harmless.
 
 use glam::DVec3;
 use rasray_scene::{Moment, Scene};
@@ -7,8 +7,8 @@ use rasray_scene::{Moment, Scene};
 use crate::gltf_support::kinds;
 use crate::gltf_support::moving::{File, TRIANGLE, corners, messages};
 
-/// A triangle that follows joints at these places, by these weights; the joints turn by half a turn about z
-/// in a second.
+/// Makes a triangle that follows joints at these places, with these weights; the joints turn by half a turn
+/// about z in a second.
 fn skinned(places: &[[f32; 3]], joints: [u8; 4], weights: [f32; 4], mesh_node: &str) -> Scene {
     let mut file = File::new();
     let of = file.accessor(&joints.repeat(3), 5121, "VEC4", 3);
@@ -30,7 +30,7 @@ fn skinned(places: &[[f32; 3]], joints: [u8; 4], weights: [f32; 4], mesh_node: &
     ))
 }
 
-/// The place of a joint that moves nothing, and the order of joints, do not cost a digit.
+/// The place of a joint without effect, and the order of joints, cost no digit.
 #[test]
 fn a_far_joint_without_weight_costs_no_digits() {
     let (far, near, beside) = ([1.0e5, -3.0e6, 7.0], [0.25, 0.5, 0.125], [-0.5, 0.75, 0.3]);
@@ -50,7 +50,7 @@ fn a_far_joint_without_weight_costs_no_digits() {
                     .map(|corner| corner.as_vec3().to_array())
                     .collect::<Vec<_>>()
             };
-            // The joints' shares are added in another order.
+            // The joints' terms are added in another order.
             for (found, expected) in
                 rounded(&scene).into_flattened().iter().zip(rounded(&expected).as_flattened())
             {
@@ -69,10 +69,11 @@ fn a_far_joint_without_weight_costs_no_digits() {
 fn positions_of_skins_keep_their_digits_anywhere() {
     for place in [[0.0; 3], [3.0e5, 0.0, -2.0e6], [-40.0, 8.0e6, 0.5]] {
         let at = |offset: f32| place.map(|x| x + offset);
-        // Weights whose sum is not 1 in f32.
+        // The sum of the weights is not 1 in f32.
         let scene = skinned(&[at(0.0), at(1.0)], [0, 1, 0, 1], [0.1, 0.2, 0.3, 0.3], "");
         for seconds in [0.0, 0.3] {
-            // A turn about z, of 2 asin(0.6) in a second, and the mean of both joints: 4 to 5.
+            // The expected transform is a turn about z, of 2 asin(0.6) in a second, and the mean of both
+            // joints: 4 to 5.
             let angle = 2.0 * 0.6_f64.asin() * seconds;
             let weights = [0.1_f32, 0.2, 0.3, 0.3].map(f64::from);
             let sum: f64 = weights.iter().sum();
@@ -83,8 +84,8 @@ fn positions_of_skins_keep_their_digits_anywhere() {
                 corners(&scene, 0, seconds).into_iter().zip([DVec3::ZERO, DVec3::X, DVec3::Y])
             {
                 let expected = origin + glam::DMat3::from_rotation_z(angle) * corner;
-                // Weights are rounded once more, and keys hold single precision; the way from the origin
-                // plays no part.
+                // Weights are rounded once more, and keys hold single precision; the distance to the origin
+                // has no effect.
                 assert!((found - expected).length() < 4.0e-7, "{found} {expected}");
             }
         }
@@ -107,8 +108,8 @@ fn weights_that_move_nothing_are_named() {
     assert_eq!(kinds(&scene), ["skin-without-joints"]);
 }
 
-/// A node with a scale of 0 is worth a warning where it flattens something: not the node of a skin, which
-/// plays no part, not a joint without weight, and not one that a clip that plays scales.
+/// A node with a scale of 0 gets a warning where it flattens triangles: not the node of a skin, which has no
+/// effect, not a joint without weight, and not one that a playing clip scales.
 #[test]
 fn only_what_flattens_something_is_named() {
     let zero = r#","scale":[0,0,0]"#;
@@ -136,8 +137,8 @@ fn only_what_flattens_something_is_named() {
     assert!(messages(&scene, "zero-scale")[0].contains("1 more"));
 }
 
-/// A mesh that a joint hides at rest by a scale of 0 is not at fault: triangles and normals are there when it
-/// is shown.
+/// A mesh that a joint hides at rest by a scale of 0 is not at fault: triangles and normals exist when it is
+/// shown.
 #[test]
 fn what_a_joint_hides_at_rest_is_not_said_to_be_broken() {
     let mut file = File::new();
@@ -160,7 +161,7 @@ fn what_a_joint_hides_at_rest_is_not_said_to_be_broken() {
     let shown = scene.at(&Moment { seconds: 0.0, clips: vec![0] }).expect("a rig");
     assert!(shown.warnings.is_empty(), "{:?}", shown.warnings);
     assert_eq!(shown.meshes[0].normals, Some(vec![[0.0, 0.0, 1.0]; 3]));
-    // Without a clip it is so for good.
+    // Without a clip the mesh stays flat.
     assert!(kinds(&rest("")).contains(&"degenerate-triangles"));
 }
 

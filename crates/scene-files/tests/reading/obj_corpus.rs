@@ -83,13 +83,13 @@ fn common_models_have_all_their_triangles() {
 #[test]
 fn odd_files_end_as_the_table_says() {
     let Some(folder) = corpus("odd_files_end_as_the_table_says") else { return };
-    /// Triangles and a warning that must be there, or a part of the error's message.
+    /// Expected number of triangles and a warning, or a part of the error's message.
     type Outcome<'a> = Result<(usize, &'a str), &'a str>;
     let table: [(&str, Outcome<'_>); 14] = [
         ("cube_compressed.obj", Ok((12, ""))),
         ("empty.obj", Ok((0, "no-triangles"))),
         ("face_in_group_name.obj", Ok((0, "no-triangles"))),
-        // The first face names normals, and there are none.
+        // The first face refers to normals, and the file has none.
         ("face_in_group_name_mid_file.obj", Err("line 5: normal 1 does not exist")),
         ("jacked.obj", Ok((12, "missing-material-library"))),
         ("negative_indices.obj", Ok((12, ""))),

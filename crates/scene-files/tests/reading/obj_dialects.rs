@@ -32,7 +32,7 @@ fn is_opaque(material: &Material) -> bool {
     material.transmission == 0.0 && material.alpha_mode == AlphaMode::Opaque
 }
 
-/// Blender writes `illum 9` for an alpha below 1, and 6 where it is a metal.
+/// Blender writes `illum 9` for an alpha below 1, and 6 for such a metal.
 #[test]
 fn faded_surfaces_of_blender_are_no_glass() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -57,13 +57,13 @@ fn faded_surfaces_of_blender_are_no_glass() {
     let mirror = with_material(folder.path(), "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3\nd 0.25");
     assert_eq!((mirror.materials[0].metallic, mirror.materials[0].base_color), (1.0, [0.9, 0.9, 0.9, 0.25]));
     assert_eq!(mirror.materials[0].alpha_mode, AlphaMode::Blend);
-    // The colour may be a texture.
+    // The colour may come from a texture.
     image(folder.path(), "color.png");
     let textured = with_material(folder.path(), "Kd 0 0 0\nmap_Kd color.png\nNi 1.45\nd 0.5\nillum 9");
     assert_eq!((textured.materials[0].transmission, textured.materials[0].base_color[3]), (0.0, 0.5));
 }
 
-/// Maya writes these for what is opaque.
+/// Maya writes these statements for opaque surfaces.
 #[test]
 fn opaque_surfaces_of_maya_are_no_glass() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -108,7 +108,7 @@ fn glass_stays_glass() {
     );
 }
 
-/// Nothing that a material says is dropped without a word.
+/// Each statement of a material that has no effect is named in a remark.
 #[test]
 fn what_a_material_says_beyond_the_model_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -200,7 +200,7 @@ fn references_that_lead_outside_are_never_followed() {
         assert!(scene.materials[0].base_color_texture.is_some());
         assert_eq!(scene.files[1], folder.join("wood.png"));
     }
-    // Below the folder all is as it was.
+    // A reference below the folder works as before.
     let scene = with_material(&folder, "map_Kd .\\wood.png");
     assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
 }
@@ -253,11 +253,11 @@ fn smoothing_groups_make_normals() {
     };
     let wanted = [edge, edge, up, edge, up, up, edge, front, front, edge, front, edge];
     near(smooth[0].as_ref().expect("normals"), &wanted);
-    // Across a material, the same.
+    // Smoothing also crosses borders of materials.
     let across =
         normals("s on\nf 1 2 3 4\nusemtl other\nf 1 5 6 2\n".replace("usemtl other\n", "g part\n").as_str());
     near(across[0].as_ref().expect("normals"), &wanted);
-    // Another group, another normal; none, flat.
+    // Another group has other normals; faces without a group are flat.
     let apart = normals("s 1\nf 1 2 3 4\ns 2\nf 1 5 6 2\n");
     near(apart[0].as_ref().expect("normals"), &[[up; 6], [front; 6]].concat());
     for off in ["", "s off\n", "s 0\n", "s 1\ns off\n"] {
@@ -266,7 +266,7 @@ fn smoothing_groups_make_normals() {
     let both = normals("s 1\nf 1 2 3 4\ns 0\nf 1 5 6 2\n");
     near(both[0].as_ref().expect("normals"), &[up; 6]);
     assert_eq!(both[1], None);
-    // Normals of the file come first.
+    // Normals of the file take precedence.
     let given = normals("vn 1 0 0\ns 1\nf 1//1 2//1 3//1 4//1\n");
     assert_eq!(given, [Some(vec![[1.0, 0.0, 0.0]; 6])]);
 }

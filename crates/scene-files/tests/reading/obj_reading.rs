@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use rasray_scene::{AlphaMode, Scene, SceneError, Wrap};
 use rasray_scene_files::{LoadOptions, obj};
 
-/// A folder of this test's own.
+/// Makes a folder for this test alone.
 fn folder(test: &str) -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("obj_reading").join(test);
     fs::create_dir_all(&folder).expect("a folder for the test");
@@ -316,7 +316,7 @@ proptest! {
         }
     }
 
-    /// Whatever the bytes, there is an answer.
+    /// Any bytes get an answer.
     #[test]
     fn random_statements_never_panic(
         lines in prop::collection::vec("(v|vt|vn|f|usemtl|mtllib|o|g|s|l|#|junk) ?[-0-9./ \\\\aeinf#]{0,24}", 0..20),

@@ -1,4 +1,4 @@
-//! Values that faces of PLY files have of their own, and those that are not read.
+//! Values of faces in PLY files, and those that are not read.
 
 use std::fs;
 use std::path::Path;
@@ -52,7 +52,7 @@ fn colours_of_faces_are_shown() {
     assert_eq!(mesh.positions[mesh.indices[5] as usize], [-1.0, 1.0, 0.0]);
     assert_eq!((mesh.positions.len(), scene.materials[0].base_color), (6, [1.0; 4]));
 
-    // One colour for all is no reason to split; floats are linear; alpha below 1 is named.
+    // One colour for all faces is no reason to split; floats are linear; alpha below 1 is named.
     let float = COLOR.replace("uchar", "float");
     let text = square("", "", &float, BARE, "3 0 1 2 0.5 0.25 0 0.5\n3 0 2 3 0.5 0.25 0 0.5\n");
     let scene = read(folder.path(), &text);
@@ -61,7 +61,7 @@ fn colours_of_faces_are_shown() {
     assert_eq!(kinds(&scene), ["color-alpha"]);
     assert!(message(&scene, "color-alpha").starts_with("2 colours"));
 
-    // Those of vertices give way, with a word.
+    // Colours of faces replace those of vertices, with a remark.
     let vertex = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     let behind = [" 0 255 0"; 4];
     let text = square("", vertex, COLOR, behind, "3 0 1 2 255 0 0 255\n3 0 2 3 0 0 255 255\n");
@@ -86,7 +86,7 @@ fn colours_under_other_names_are_read() {
     }
 }
 
-/// A face whose vertex does not exist is an error with colours as without.
+/// A face whose vertex does not exist is an error, with colours and without.
 #[test]
 fn faces_with_colours_are_checked() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -103,7 +103,7 @@ fn image(folder: &Path, name: &str, texel: [u8; 3]) {
     image::RgbImage::from_pixel(2, 2, image::Rgb(texel)).save(folder.join(name)).expect("written");
 }
 
-/// As MeshLab writes it: images named by comments, coordinates at the corners of faces.
+/// MeshLab writes files in this form: images named by comments, coordinates at the corners of faces.
 #[test]
 fn textures_of_faces_are_shown() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -127,7 +127,7 @@ fn textures_of_faces_are_shown() {
     assert_eq!(mesh.uvs[0], Some(vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.25]]), "v counts from the bottom");
     assert_eq!(scene.instances.iter().map(|instance| instance.mesh).collect::<Vec<_>>(), [0, 1]);
 
-    // One texture for all, at the vertices.
+    // All faces have one texture, with coordinates at the vertices.
     let comments = "comment TextureFile second.png\n";
     let vertex = "property float texture_u\nproperty float texture_v\n";
     let behind = [" 0 0", " 1 0", " 1 1", " 0 1"];
@@ -136,7 +136,7 @@ fn textures_of_faces_are_shown() {
     assert!(scene.materials[0].base_color_texture.is_some());
     assert_eq!((scene.meshes[0].positions.len(), scene.files.len()), (4, 1));
 
-    // Faces without: plain, or coordinates 0, with a word.
+    // Faces without a texture are plain, and those without coordinates get 0, with a remark.
     let face = "property list uchar float texcoord\nproperty int texnumber\n";
     let faces = "3 0 1 2 0 0\n3 0 2 3 6 0 0 1 1 0 1 -1\n";
     let scene = read(folder.path(), &square(comments, "", face, BARE, faces));
@@ -185,7 +185,7 @@ fn what_is_not_read_is_named() {
     assert_abs_diff_eq!(scene.meshes[0].colors.as_ref().expect("colours")[0][3], 0.0);
 }
 
-/// Coloured faces and strips of one file, and a polygon that is cut.
+/// Coloured faces and strips in one file, and a polygon that is cut.
 #[test]
 fn strips_beside_coloured_faces_keep_their_vertices() {
     let folder = tempfile::tempdir().expect("a folder");

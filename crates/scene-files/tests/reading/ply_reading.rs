@@ -1,4 +1,4 @@
-//! PLY files written by the tests, and those that others made.
+//! PLY files written by the tests, and files from other programs.
 
 use approx::assert_abs_diff_eq;
 use std::fs;
@@ -26,7 +26,7 @@ fn warned(scene: &Scene, kind: &str) -> bool {
     scene.warnings.iter().any(|warning| warning.kind == kind)
 }
 
-/// The three encodings of one value stream, written by hand.
+/// Encoding of one value stream; all three are written by hand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Encoding {
     Ascii,
@@ -247,7 +247,7 @@ fn files_of_others_end_as_the_table_says() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// The three encodings of one mesh are read to the same mesh, which is the one that was written.
+    /// The three encodings of one mesh are read as the same mesh, which is the one that was written.
     #[test]
     fn encodings_agree(
         points in prop::collection::vec(prop::array::uniform3(-1.0e6_f32..1.0e6), 3..30),
@@ -260,7 +260,7 @@ proptest! {
         for encoding in ENCODINGS {
             let mut writer = Writer::new(encoding, &header);
             for point in &points {
-                // In text as many digits as the binary number has: it is read in double precision.
+                // Text has as many digits as the binary number: it is read in double precision.
                 point.iter().for_each(|value| match encoding {
                     Encoding::Ascii => { writer.f64(f64::from(*value)); }
                     _ => { writer.f32(*value); }
@@ -275,8 +275,7 @@ proptest! {
             let scene = read("property", &writer.bytes).expect("scene");
             let mesh = &scene.meshes[0];
             prop_assert_eq!(&mesh.positions, &points);
-            // The filling of polygons is tested elsewhere; here they are what they are, in the order of the
-            // file.
+            // The filling of polygons is tested elsewhere; here triangles come in the order of the file.
             let mut triangles = mesh.indices.chunks_exact(3);
             for face in &faces {
                 let face: Vec<u32> = face.iter().map(|index| index % points.len() as u32).collect();
@@ -291,7 +290,7 @@ proptest! {
         prop_assert!(meshes.iter().all(|indices| *indices == meshes[0]));
     }
 
-    /// A file cut off anywhere, or with a changed byte, is still answered.
+    /// A file cut off anywhere, or with a changed byte, still gets an answer.
     #[test]
     fn damaged_files_are_answered(cut in 0_usize..400, place in 0_usize..400, byte in any::<u8>(), big in any::<bool>()) {
         let encoding = if big { Encoding::Big } else { Encoding::Little };
@@ -327,7 +326,7 @@ fn strips_become_triangles_that_face_one_way() {
     }
 }
 
-/// Nothing writes to the pipe: whoever opened it would wait.
+/// No process writes to the pipe: a reader that opened it would wait.
 #[cfg(unix)]
 #[test]
 fn a_pipe_or_a_folder_is_an_error_at_once() {

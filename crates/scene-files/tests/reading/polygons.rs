@@ -1,4 +1,4 @@
-//! Polygons of OBJ and PLY files: what they cover, and that none is lost without a word.
+//! Polygons of OBJ and PLY files: the area that they cover, and that none is lost without a remark.
 
 use std::fs;
 use std::path::Path;
@@ -13,7 +13,7 @@ fn read(folder: &Path, name: &str, bytes: &str) -> Scene {
     load(&path, &LoadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// One polygon in the plane x + z = 0, as OBJ and as PLY with the faces before the vertices.
+/// Writes one polygon in the plane x + z = 0, as OBJ and as PLY with the faces before the vertices.
 fn both(folder: &Path, corners: &[[f64; 2]]) -> [Scene; 2] {
     let count = corners.len();
     let vertices: Vec<String> = corners.iter().map(|[x, y]| format!("{x} {y} {}", -x)).collect();
@@ -29,7 +29,7 @@ fn both(folder: &Path, corners: &[[f64; 2]]) -> [Scene; 2] {
     [obj, read(folder, "polygon.ply", &ply)]
 }
 
-/// Area of all triangles, seen along z, and the part of it that is turned away.
+/// Returns the area of all triangles, seen along z, and the area of those that are turned away.
 fn area(scene: &Scene) -> (f64, f64) {
     let mesh = &scene.meshes[0];
     let (mut sum, mut turned) = (0.0, 0.0);
@@ -54,7 +54,7 @@ fn concave_polygons_are_not_filled_to_their_hull() {
     let polygons: [(&[[f64; 2]], f64); 4] = [
         (&[[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [0.4, 1.0]], 0.6),
         (&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]], 3.0),
-        // A U, with corners on its sides and one of them twice.
+        // A U shape, with corners on its sides and one of them twice.
         (
             &[
                 [0.0, 0.0],
@@ -71,7 +71,7 @@ fn concave_polygons_are_not_filled_to_their_hull() {
             ],
             5.0,
         ),
-        // A frame: its hole is tied to the outside.
+        // A frame whose hole is tied to the outside.
         (
             &[
                 [0.0, 0.0],
@@ -132,7 +132,7 @@ fn crossing_sides_are_told() {
             assert_eq!(kinds(&scene), ["crossing-faces"]);
         }
     }
-    // Nothing but a line is no polygon whose sides cross.
+    // A polygon on a line is not one whose sides cross.
     for scene in both(folder.path(), &[[0.0, 0.0], [1.0, 0.0], [3.0, 0.0], [2.0, 0.0]]) {
         assert_eq!(kinds(&scene), ["degenerate-triangles"]);
     }

@@ -1,4 +1,4 @@
-//! Scenes of `RASRAY_SCENES` as the model sees them: views, poses.
+//! Scenes of `RASRAY_SCENES` seen through the model: views, poses.
 
 use rasray_scene::default_view::{bounds, default_camera, ensure_lit};
 use rasray_scene::{Moment, Scene};
@@ -35,8 +35,8 @@ fn real_scenes_are_classified_right() {
     }
 }
 
-/// Real scenes at several times: well formed, as many triangles, moved, and the same where they begin and are
-/// at rest.
+/// Real scenes at several times are well formed, keep their number of triangles, have moved, and equal the
+/// scene at rest at their beginning.
 #[test]
 fn animated_scenes_are_well_formed_at_all_times() {
     let Some(folder) = scenes_folder("animated_scenes_are_well_formed_at_all_times") else { return };

@@ -1,4 +1,4 @@
-//! Numbered files that are one scene over time.
+//! Numbered files that form one scene over time.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -18,7 +18,7 @@ fn triangles(scene: &Scene) -> usize {
     scene.meshes.iter().map(Mesh::triangle_count).sum()
 }
 
-/// A folder with `triangles.NN.ply` of as many triangles as each number has.
+/// Makes a folder of files `triangles.NN.ply` with as many triangles as given for each number.
 fn numbered(counts: &[(u32, usize)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     for (number, count) in counts {
@@ -55,7 +55,7 @@ fn numbered_files_are_one_scene_over_time() {
     assert_eq!(scene.animation.duration, 1.0);
     assert_eq!(moving_instances(&scene), [true]);
     let deformer = scene.animation.deformer.clone().expect("files");
-    // The last that has begun; before the first and after the last stands still.
+    // The last file that has begun is shown; before the first and after the last the scene stands still.
     let table = [(-1.0, 7), (0.75, 7), (0.8, 8), (0.89, 8), (0.9, 9), (1.0, 10), (50.0, 10)];
     for (seconds, number) in table {
         let file = format!("triangles.{number:02}.ply");
@@ -64,12 +64,12 @@ fn numbered_files_are_one_scene_over_time() {
         assert_eq!(triangles(&shown), [0, 2, 5, 1][number - 7], "{seconds}");
         assert_eq!((shown.instances.len(), shown.materials.len()), (1, 1));
     }
-    // Remarks are on the file that is shown.
+    // Remarks concern the file that is shown.
     let empty =
         |scene: &Scene| scene.warnings.iter().filter(|warning| warning.kind == "no-triangles").count();
     let later = at(&scene, 0.9);
     assert_eq!((empty(&scene), empty(&later), empty(&at(&later, 0.0))), (1, 0, 1));
-    // Every number of a frame is shown at its time, however that is rounded.
+    // Every frame is shown at its time, however that is rounded.
     for fps in [23.976, 25.0, 29.97, 48.0] {
         let scene = sequence(folder.path(), "triangles.##.ply", fps).expect("files");
         let deformer = scene.animation.deformer.expect("files");
@@ -79,7 +79,7 @@ fn numbered_files_are_one_scene_over_time() {
                 assert_eq!(deformer.file(seconds).and_then(Path::file_name), Some(file.as_ref()));
             }
         }
-        // Its end, which is in single precision, shows the last.
+        // The end of the animation, which is in single precision, shows the last file.
         let last = deformer.file(f64::from(scene.animation.duration)).and_then(Path::file_name);
         assert_eq!(last, Some("triangles.10.ply".as_ref()), "{fps}");
     }
@@ -98,7 +98,7 @@ fn files_that_make_no_sequence_are_refused_by_name() {
     assert!(refused("triangles.##.glb").contains(".obj or .ply"));
     assert!(matches!(sequence(folder.path(), "no/such.#.ply", 25.0), Err(SceneError::Read { .. })));
 
-    // A file that is broken, and one that does not go with the first, are errors when they are shown.
+    // A file that is broken, and one that does not match the first, are errors when they are shown.
     std::fs::write(folder.path().join("triangles.03.ply"), "ply\nformat ascii 1.0\nend").expect("a file");
     let scene = sequence(folder.path(), "triangles.##.ply", 1.0).expect("the first is whole");
     let error = scene.at(&Moment { seconds: 3.0, clips: Vec::new() }).expect_err("broken");

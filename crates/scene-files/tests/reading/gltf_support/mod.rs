@@ -1,4 +1,4 @@
-//! Small glTF files made in the test, and the way to the folder of real scenes.
+//! Small glTF files made in the test, and the path to the folder of real scenes.
 #![allow(dead_code, reason = "every test file uses its own part of this")]
 
 pub mod moving;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use rasray_scene::{Scene, SceneError};
 use rasray_scene_files::{LoadOptions, gltf};
 
-/// The folder that `RASRAY_SCENES` names, or a notice that this test was skipped.
+/// Returns the folder that `RASRAY_SCENES` names, or prints that this test was skipped.
 pub fn scenes_folder(test: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("RASRAY_SCENES").map(PathBuf::from).filter(|folder| folder.is_dir());
     if folder.is_none() {
@@ -18,7 +18,7 @@ pub fn scenes_folder(test: &str) -> Option<PathBuf> {
     folder
 }
 
-/// Triangles of all instances.
+/// Returns the number of triangles of all instances.
 pub fn placed_triangles(scene: &Scene) -> usize {
     scene.instances.iter().map(|instance| scene.meshes[instance.mesh].triangle_count()).sum()
 }
@@ -28,12 +28,12 @@ pub fn load_bytes(bytes: &[u8]) -> Result<Scene, SceneError> {
     gltf::from_slice(Path::new("nowhere/test.gltf"), bytes, &LoadOptions::default())
 }
 
-/// The kinds of a scene's warnings.
+/// Returns the kinds of a scene's warnings.
 pub fn kinds(scene: &Scene) -> Vec<&'static str> {
     scene.warnings.iter().map(|warning| warning.kind).collect()
 }
 
-/// Asserts the promises of [`Scene`] and [`rasray_scene::Mesh`], whatever was read.
+/// Asserts the promises of [`Scene`] and [`rasray_scene::Mesh`], for any input.
 pub fn assert_well_formed(scene: &Scene) {
     assert!(!scene.materials.is_empty());
     for mesh in &scene.meshes {
@@ -81,7 +81,7 @@ pub fn assert_well_formed(scene: &Scene) {
     }
 }
 
-/// A GLB container around JSON and bytes.
+/// Makes a GLB container around JSON and bytes.
 pub fn glb(json: &str, binary: &[u8]) -> Vec<u8> {
     let mut json = json.as_bytes().to_vec();
     json.resize(json.len().next_multiple_of(4), b' ');
@@ -100,26 +100,26 @@ pub fn glb(json: &str, binary: &[u8]) -> Vec<u8> {
     file
 }
 
-/// Bytes of floats.
+/// Returns the bytes of floats.
 pub fn floats(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
-/// A `data:` URI of bytes, percent-encoded.
+/// Makes a `data:` URI of bytes, percent-encoded.
 pub fn data_uri(bytes: &[u8]) -> String {
     let escaped: String = bytes.iter().map(|byte| format!("%{byte:02X}")).collect();
     format!("data:application/octet-stream,{escaped}")
 }
 
-/// Corners of one triangle, then indices 0 1 2 as u16 and padding: 44 bytes.
+/// Returns the corners of one triangle, then indices 0 1 2 as u16 and padding: 44 bytes.
 pub fn triangle_bytes() -> Vec<u8> {
     let mut bytes = floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
     bytes.extend([0, 0, 1, 0, 2, 0, 0, 0]);
     bytes
 }
 
-/// A file with one indexed triangle; `nodes` and what else stands at the top level are the caller's
-/// (`extra` begins with a comma where it is not empty), `primitive` is added to the primitive.
+/// Makes a file with one indexed triangle. The caller gives `nodes` and the other top-level members (`extra`
+/// begins with a comma where it is not empty); `primitive` is added to the primitive.
 pub fn triangle_gltf(nodes: &str, primitive: &str, extra: &str) -> String {
     format!(
         r#"{{"asset":{{"version":"2.0"}},

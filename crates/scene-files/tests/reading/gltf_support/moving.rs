@@ -1,11 +1,11 @@
-//! Files with accessors of their own for what moves, and where it is at a time.
+//! Files with accessors of their own for moving parts, and the positions of these at a time.
 
 use glam::DVec3;
 use rasray_scene::{Moment, Scene};
 
 use super::{assert_well_formed, data_uri, floats, load_bytes};
 
-/// A file whose accessors are made one by one.
+/// File whose accessors are made one by one.
 #[derive(Default)]
 pub struct File {
     pub buffers: Vec<String>,
@@ -14,7 +14,7 @@ pub struct File {
 }
 
 impl File {
-    /// With the corners of a triangle as accessor 0.
+    /// Makes a file with the corners of a triangle as accessor 0.
     pub fn new() -> Self {
         let mut file = Self::default();
         file.floats("VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
@@ -58,13 +58,13 @@ impl File {
 
 pub const TRIANGLE: &str = r#""meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]"#;
 
-/// The messages of a scene's warnings of a kind.
+/// Returns the messages of a scene's warnings of a kind.
 pub fn messages(scene: &Scene, kind: &str) -> Vec<String> {
     let of = scene.warnings.iter().filter(|warning| warning.kind == kind);
     of.map(|warning| warning.message.clone()).collect()
 }
 
-/// Corners of an instance at a time, with all clips.
+/// Returns the corners of an instance at a time, with all clips.
 pub fn corners(scene: &Scene, instance: usize, seconds: f64) -> Vec<DVec3> {
     let clips = (0..scene.animation.clips.len()).collect();
     let posed = scene.at(&Moment { seconds, clips }).expect("a rig");

@@ -2,7 +2,7 @@
 
 use super::{data_uri, floats};
 
-/// A 2x2 PNG.
+/// Makes a 2x2 PNG.
 pub fn png() -> Vec<u8> {
     let texels =
         image::RgbaImage::from_fn(2, 2, |x, y| image::Rgba([x as u8 * 255, y as u8 * 255, 128, 255]));
@@ -11,7 +11,7 @@ pub fn png() -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// Collects buffer views as bytes are appended, each aligned to four.
+/// Buffer views under construction: appended bytes, each view aligned to four.
 #[derive(Default)]
 struct Binary {
     bytes: Vec<u8>,
@@ -32,8 +32,8 @@ fn accessor(view: usize, component: u32, count: usize, kind: &str) -> String {
     format!(r#"{{"bufferView":{view},"componentType":{component},"count":{count},"type":"{kind}"}}"#)
 }
 
-/// JSON and binary of the file: three nodes, a skinned and morphed quad, instances, a light, a
-/// camera, a clip. `{BUFFER}` in the JSON stands for what follows the length of the buffer.
+/// Makes JSON and binary of the file: three nodes, a skinned and morphed quad, instances, a light, a camera,
+/// a clip. `{BUFFER}` in the JSON stands for the text after the length of the buffer.
 fn parts() -> (String, Vec<u8>) {
     let mut binary = Binary::default();
     let quad = floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0]);
@@ -110,13 +110,13 @@ fn parts() -> (String, Vec<u8>) {
     (json, binary.bytes)
 }
 
-/// The file as GLB.
+/// Returns the file as GLB.
 pub fn rich_glb() -> Vec<u8> {
     let (json, binary) = parts();
     super::glb(&json.replace("{BUFFER}", ""), &binary)
 }
 
-/// The file as text, its buffer in a `data:` URI.
+/// Returns the file as text, its buffer in a `data:` URI.
 pub fn rich_gltf() -> Vec<u8> {
     let (json, binary) = parts();
     json.replace("{BUFFER}", &format!(r#","uri":"{}""#, data_uri(&binary))).into_bytes()
