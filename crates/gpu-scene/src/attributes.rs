@@ -1,5 +1,5 @@
-//! Shading attributes: normals and tangents posed once per instance, texture coordinates and
-//! colours stored once per mesh.
+//! Shading attributes: normals and tangents posed once per instance, texture coordinates and colours stored
+//! once per mesh.
 
 use std::collections::HashMap;
 
@@ -12,10 +12,10 @@ use rasray_shaders_glsl::constants::{
 
 use crate::{GpuSceneError, Parts, Posed, layout::DrawShading, words::Words};
 
-/// The packed tables.
+/// Packed tables of attributes.
 #[derive(Clone, Debug)]
 pub struct Attributes {
-    /// One per draw.
+    /// Shading records, one per draw.
     pub draw_shadings: Vec<DrawShading>,
     /// Normals and tangents in world space.
     pub posed: Words,
@@ -23,7 +23,7 @@ pub struct Attributes {
     pub vertex: Words,
 }
 
-/// Packs the attributes of all draws into tables that begin as `words`. `first_emissive` of every draw is
+/// Packs the attributes of all draws into tables that continue `words`. `first_emissive` of every draw is
 /// left at `EMISSIVE_NONE`.
 ///
 /// # Errors
@@ -80,14 +80,14 @@ struct VertexOffsets {
     colors: u32,
 }
 
-/// The attributes that some texture or colour of the mesh's material can read.
+/// Appends the attributes that a texture or colour of the mesh's material can read.
 fn append_vertex_attributes(
     table: &mut Words,
     scene: &Scene,
     mesh: &Mesh,
     parts: &Parts,
 ) -> Result<VertexOffsets, GpuSceneError> {
-    // Where only masks are read, coordinates and colours of opaque meshes are not.
+    // Where only masks are read, coordinates and colours of opaque meshes are unused.
     let masked = matches!(scene.materials[mesh.material].alpha_mode, AlphaMode::Mask { .. }) && parts.alpha;
     let shaded = parts.base_color_textures
         || parts.metallic_roughness_textures
@@ -151,8 +151,8 @@ fn append_tangents(
     append(table, mesh, Some(posed), "tangents")
 }
 
-/// The inverse transpose up to a positive factor, which normalising takes out. Made from cofactors,
-/// so that a transform which flattens the mesh still gives the normal of the plane it leaves.
+/// Returns the inverse transpose up to a positive factor, which normalising removes. It is made from
+/// cofactors, so that a transform which flattens the mesh still gives the normal of the resulting plane.
 pub fn normal_matrix(linear: DMat3) -> DMat3 {
     let scale = linear.to_cols_array().iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
     if !scale.is_finite() || scale == 0.0 {
@@ -164,9 +164,9 @@ pub fn normal_matrix(linear: DMat3) -> DMat3 {
     if linear.determinant() < 0.0 { -cofactors } else { cofactors }
 }
 
-/// Unit vector rounded to f32; zero where there is no direction.
+/// Returns the unit vector rounded to f32; zero where there is no direction.
 fn unit(vector: DVec3) -> [f32; 3] {
-    // Scaled first: the squares of very large and very small vectors leave the range of f64.
+    // The vector is scaled first: the squares of very large and very small vectors leave the range of f64.
     let scale = vector.abs().max_element();
     if !scale.is_finite() || scale == 0.0 {
         return [0.0; 3];
@@ -191,7 +191,7 @@ mod tests {
                 let tangent = DVec3::from(unit(linear * tangent).map(f64::from));
                 assert!(normal.dot(tangent).abs() < 1e-6);
             }
-            // The outside stays outside, mirrored or not.
+            // The outside stays outside, with and without mirroring.
             assert!(normal.dot(linear * DVec3::Z) > 0.0);
         }
     }

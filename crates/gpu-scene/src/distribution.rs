@@ -1,6 +1,6 @@
-//! Cumulative shares of weights: what lights and texels are chosen by.
+//! Cumulative shares of weights, by which lights and texels are chosen.
 
-/// Luminance of linear Rec. 709, the weight by which light is chosen. Negative and non-finite
+/// Returns the luminance of linear Rec. 709, the weight by which light is chosen. Negative and non-finite
 /// channels count as 0.
 pub fn luminance(rgb: [f32; 3]) -> f64 {
     let channel = |x: f32| if x.is_finite() { f64::from(x).max(0.0) } else { 0.0 };

@@ -1,4 +1,4 @@
-//! Emissive triangles, chosen as lights by their power.
+//! Emissive triangles, which are chosen as lights by their power.
 
 use std::f64::consts::PI;
 
@@ -12,21 +12,21 @@ use crate::{
     mips::linear_from_srgb,
 };
 
-/// Most parts a side into which a triangle is cut to look at its texels.
+/// Largest number of parts per side into which a triangle is cut to sample its texels.
 const MOST_PARTS: f64 = 128.0;
 
 /// Triangles of draws that emit, in order of primitive id.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EmissiveSources {
-    /// Global ids.
+    /// Global ids of the triangles.
     pub primitives: Vec<u32>,
-    /// Power per area of each, W/m^2, by luminance: it stays where triangles move.
+    /// Power per area of each triangle, W/m^2, by luminance; it stays when triangles move.
     pub radiosities: Vec<f64>,
 }
 
 impl EmissiveSources {
-    /// Lists all triangles of draws that emit, and notes in every such draw where its triangles start. None
-    /// where nothing emits, whatever its area.
+    /// Lists all triangles of draws that emit, and notes in every such draw the index of its first one. The
+    /// list is empty if no surface emits, whatever its area.
     ///
     /// Indices of `scene` must have been checked.
     pub fn new(scene: &Scene, posed: &Posed, draw_shadings: &mut [DrawShading]) -> Self {
@@ -65,7 +65,7 @@ impl EmissiveSources {
         sources
     }
 
-    /// The table of triangles with these areas, m^2, and the power of them all, W, by luminance.
+    /// Returns the table of triangles with these areas, m^2, and their total power, W, by luminance.
     pub fn pack(&self, areas: &[f64]) -> (f64, Vec<EmissiveTriangle>) {
         let powers: Vec<f64> = areas.iter().zip(&self.radiosities).map(|(area, of)| area * of).collect();
         let (total, shares) = cumulative_shares(&powers);
@@ -74,7 +74,7 @@ impl EmissiveSources {
         (total, entries.collect())
     }
 
-    /// Areas of the triangles where `posed` has them, m^2.
+    /// Returns the areas of the triangles with the positions of `posed`, m^2.
     pub fn areas(&self, posed: &Posed) -> Vec<f64> {
         let corner = |index: u32| posed.positions[index as usize];
         let of = |primitive: u32| {
@@ -85,8 +85,8 @@ impl EmissiveSources {
     }
 }
 
-/// Share of the emission that a surface sends, as far as its material alone says it: what blends emits in
-/// proportion to its opacity.
+/// Returns the share of the emission that leaves a surface, as far as its material alone decides it: a
+/// blended surface emits in proportion to its opacity.
 fn opacity(material: &Material) -> f64 {
     match material.alpha_mode {
         AlphaMode::Blend => f64::from(material.base_color[3].clamp(0.0, 1.0)),
@@ -94,19 +94,19 @@ fn opacity(material: &Material) -> f64 {
     }
 }
 
-/// Area of a triangle, m^2.
+/// Returns the area of a triangle, m^2.
 pub fn area(corners: [[f32; 3]; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| DVec3::from(corner.map(f64::from)));
     0.5 * (b - a).cross(c - a).length()
 }
 
-/// An emission texture on a mesh.
+/// Emission texture on a mesh.
 struct Glow<'a> {
     image: &'a Image,
     texture: &'a Texture,
     uvs: Option<&'a [[f32; 2]]>,
     rows: [[f32; 3]; 2],
-    /// Luminance of the factor times a texel, over that of the factor, for every byte of a channel.
+    /// Ratio of the luminance of the factor times a texel to that of the factor, for every byte of a channel.
     channels: [[f64; 256]; 3],
 }
 
@@ -124,8 +124,8 @@ impl<'a> Glow<'a> {
         Some(Self { image, texture, uvs, rows: used.uv_transform, channels })
     }
 
-    /// Mean over the triangle of what the texture lets through: the texels at the centroids of n by n parts,
-    /// n such that a part has about the area of a texel.
+    /// Returns the mean over the triangle of the texture's factor: of the texels at the centroids of n by n
+    /// parts, n such that a part has about the area of a texel.
     fn share(&self, vertices: [usize; 3]) -> f64 {
         let corners = vertices.map(|vertex| {
             let [u, v] = self.uvs.and_then(|uvs| uvs.get(vertex)).map_or([0.0; 2], |uv| uv.map(f64::from));
@@ -156,7 +156,7 @@ impl<'a> Glow<'a> {
     }
 }
 
-/// The texel that holds a coordinate.
+/// Returns the index of the texel that holds a coordinate.
 fn texel(coordinate: f64, size: u32, wrap: Wrap) -> usize {
     let within = match wrap {
         Wrap::Repeat => coordinate - coordinate.floor(),

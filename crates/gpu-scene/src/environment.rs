@@ -1,4 +1,4 @@
-//! Radiance that rays see that leave the scene, and the choice of directions to it.
+//! Radiance of rays that leave the scene, and the choice of directions towards it.
 
 use std::f64::consts::PI;
 
@@ -10,10 +10,10 @@ use crate::{
     distribution::{cumulative_shares, luminance},
 };
 
-/// The packed environment.
+/// Packed environment.
 #[derive(Clone, Debug, Default)]
 pub struct EnvironmentTables {
-    /// `ENVIRONMENT_*`.
+    /// Kind of environment, one of `ENVIRONMENT_*`.
     pub kind: u32,
     /// Texels per row; 0 for a constant environment.
     pub width: u32,
@@ -25,14 +25,14 @@ pub struct EnvironmentTables {
     pub irradiance: f64,
     /// Radiance of a constant environment, W/(sr m^2).
     pub constant: [f32; 3],
-    /// Three words per texel.
+    /// Radiance of the texels, three words each.
     pub radiance: Vec<f32>,
     /// Cumulative share of the rows, then of the texels within every row.
     pub distribution: Vec<f32>,
 }
 
-/// Packs the environment. Radiance that is negative or not finite counts as 0, with a warning in
-/// the log that counts the texels.
+/// Packs the environment. Radiance that is negative or not finite counts as 0, with a warning in the log that
+/// counts the texels.
 ///
 /// # Errors
 /// `Malformed` where a map has another number of texels than its size says.
@@ -61,7 +61,7 @@ pub fn pack_environment(environment: &Environment) -> Result<EnvironmentTables, 
     }
 }
 
-/// Words of the tables of an environment: radiance, then distribution.
+/// Returns the words of an environment's tables: radiance, then distribution.
 pub fn environment_words(environment: &Environment) -> [u64; 2] {
     match environment {
         Environment::Constant(_) => [0; 2],
@@ -106,7 +106,7 @@ fn pack_map(width: u32, height: u32, radiance: &[[f32; 3]]) -> EnvironmentTables
     }
 }
 
-/// Steradians of a texel of row `y` (from the top) of a latitude-longitude map.
+/// Returns the solid angle, in steradians, of a texel of row `y` (from the top) of a latitude-longitude map.
 pub fn texel_solid_angle(width: u32, height: u32, y: u32) -> f64 {
     let (width, height) = (f64::from(width), f64::from(height));
     (2.0 * PI / width) * 2.0 * (PI * (f64::from(y) + 0.5) / height).sin() * (PI / (2.0 * height)).sin()

@@ -1,4 +1,4 @@
-//! Parts of the shading code that a scene can reach.
+//! Parts of the shading code that a scene can use.
 
 use rasray_shaders_glsl::constant_ids::scene as ids;
 use rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
@@ -10,37 +10,37 @@ use rasray_shaders_glsl::records::Material;
 
 use crate::{SceneTables, TexelRuns};
 
-/// Code that rays and the shading of a scene can reach. Kernels leave the rest out.
+/// Parts of the shading code that rays in a scene and its materials can use. Kernels leave the rest out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShadingFeatures {
-    /// Any material refers to a texture.
+    /// True if any material refers to a texture.
     pub textures: bool,
-    /// Any material transmits.
+    /// True if any material transmits.
     pub transmission: bool,
-    /// Any material blends.
+    /// True if any material blends.
     pub blend: bool,
-    /// Any material may be a smooth thin pane: it transmits, has no thickness and may be smooth.
+    /// True if any material may be a smooth thin pane: it transmits, has no thickness and may be smooth.
     pub panes: bool,
-    /// Texels lie in several buffers.
+    /// True if texels lie in several buffers.
     pub texel_runs: bool,
-    /// Any draw is alpha-masked.
+    /// True if any draw is alpha-masked.
     pub alpha_masks: bool,
-    /// Any light without extent.
+    /// True if there is any light without extent.
     pub lights: bool,
-    /// Any triangle is sampled as a light.
+    /// True if any triangle is sampled as a light.
     pub emitters: bool,
-    /// The environment is a map, and not one radiance.
+    /// True if the environment is a map, and not one radiance.
     pub environment_map: bool,
-    /// Any draw has colours of its vertices.
+    /// True if any draw has vertex colours.
     pub colors: bool,
-    /// Any material reflects at facets: it is specular or metallic, or transmits.
+    /// True if any material reflects at facets: it is specular or metallic, or transmits.
     pub facets: bool,
-    /// Facets of any material are rougher along one direction.
+    /// True if the facets of any material are rougher along one direction.
     pub anisotropy: bool,
 }
 
 impl ShadingFeatures {
-    /// Everything: proves that leaving code out does not change a picture.
+    /// All features: a reference that proves that leaving code out does not change a picture.
     pub const ALL: Self = Self {
         textures: true,
         transmission: true,
@@ -56,7 +56,7 @@ impl ShadingFeatures {
         anisotropy: true,
     };
 
-    /// Those of a scene whose texels are in runs of that length.
+    /// Returns the features of a scene whose texels are in runs of that length.
     pub(crate) fn of(tables: &SceneTables, runs: TexelRuns) -> Self {
         Self {
             textures: !tables.textures.is_empty(),
@@ -74,7 +74,7 @@ impl ShadingFeatures {
         }
     }
 
-    /// Each with its name.
+    /// Returns each feature with its name.
     fn named(self) -> [(&'static str, bool); 12] {
         [
             ("textures", self.textures),
@@ -92,13 +92,13 @@ impl ShadingFeatures {
         ]
     }
 
-    /// Returns the names of those of `other` that are not among these.
+    /// Returns the names of the features of `other` that these lack.
     pub fn lacks(self, other: Self) -> Vec<&'static str> {
         let both = self.named().into_iter().zip(other.named());
         both.filter(|((_, here), (_, there))| *there && !here).map(|((name, _), _)| name).collect()
     }
 
-    /// These and those of `other`.
+    /// Returns the union of these features and those of `other`.
     #[must_use]
     pub fn with(self, other: Self) -> Self {
         Self {
@@ -117,8 +117,8 @@ impl ShadingFeatures {
         }
     }
 
-    /// Specialisation constants of modules that read the scene (`scene/features.glsl`): id and bits. A module
-    /// without one of them ignores it.
+    /// Returns the specialisation constants of modules that read the scene (`scene/features.glsl`): id and
+    /// bits. A module without one of them ignores it.
     pub fn constants(self) -> [(u32, u32); 10] {
         [
             (ids::SCENE_HAS_TEXTURES, self.textures.into()),
@@ -135,13 +135,13 @@ impl ShadingFeatures {
     }
 }
 
-/// True if a surface of the material reflects or transmits other than by its diffuse base somewhere.
+/// True if some point of a surface with this material reflects or transmits other than by its diffuse base.
 fn has_facets(material: &Material) -> bool {
     let terms = [material.specular, material.metallic, material.transmission];
     material.flags & MATERIAL_UNLIT == 0 && terms.iter().any(|&term| term > 0.0)
 }
 
-/// True if a surface of the material may be a smooth thin pane somewhere.
+/// True if some point of a surface with this material may be a smooth thin pane.
 fn may_be_pane(material: &Material) -> bool {
     let may_be_smooth = material.roughness < BSDF_SMOOTH_ROUGHNESS
         || material.metallic_roughness_texture.texture != TEXTURE_NONE;

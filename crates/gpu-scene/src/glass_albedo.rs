@@ -1,8 +1,9 @@
 //! Light that rough glass loses in one scattering, as tables (`docs/shading.md`, "Energy").
 //!
-//! A table has three blocks: the share of light that is lost where it arrives at the front, the same at the
-//! back, and the share that is reflected once where light arrives on the side of the larger index. A block
-//! has a row for every roughness, a row a value for every cosine and their mean over the hemisphere.
+//! A table has three blocks: the share of light that is lost where it arrives at the front, the share that is
+//! lost at the back, and the share that is reflected once where light arrives on the side of the larger
+//! index. A block has a row for every roughness, and a row has a value for every cosine and their mean over
+//! the hemisphere.
 
 use std::{collections::HashMap, f64::consts::PI};
 
@@ -17,27 +18,27 @@ use crate::{GpuSceneError, layout::Material, words::Words};
 const ROWS: usize = GLASS_ROWS as usize;
 const ROW_WORDS: usize = GLASS_ROW_WORDS as usize;
 const TABLE_WORDS: usize = 3 * ROWS * ROW_WORDS;
-/// The last word of a row is the mean.
+/// Number of cosines of a row; the last word of a row is the mean.
 const COSINES: usize = ROW_WORDS - 1;
-/// Points of the Fibonacci lattice that integrates over visible normals, and its step: neighbours in the
-/// sequence.
+/// Number of points of the Fibonacci lattice that integrates over visible normals, and its step: neighbours
+/// in the Fibonacci sequence.
 const POINTS: u32 = 2584;
 const STEP: u32 = 1597;
-/// Under a cosine of 0 the integrand has only a limit.
+/// Smallest cosine that is integrated: under a cosine of 0 the integrand has only a limit.
 const LEAST_COSINE: f64 = 1.0e-6;
 
 /// Parameters of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Glass {
-    /// Index of the inside over that of the outside.
+    /// Ratio of the index of the inside to that of the outside.
     ior: f32,
-    /// Reflected share at normal incidence and at grazing, of the brightest channel.
+    /// Reflected share at normal incidence and at grazing incidence, of the brightest channel.
     f0: f32,
     f90: f32,
 }
 
 impl Glass {
-    /// `None` where the material is never a rough volume that bends light.
+    /// Returns the parameters of a material; `None` if it is never a rough volume that bends light.
     fn of(material: &rasray_scene::Material) -> Option<Self> {
         let bends = material.ior > 1.0e-3 && (material.ior - 1.0).abs() >= BSDF_STRAIGHT_INDEX;
         let volume = material.transmission > 0.0 && material.thickness > 0.0 && !material.unlit;
@@ -70,7 +71,7 @@ impl Glass {
     }
 }
 
-/// Appends the tables of all materials that need one, equal ones once, and notes where they begin.
+/// Appends the tables of all materials that need one, equal tables once, and notes their first words.
 ///
 /// # Errors
 /// `TooManyVertices` where 32-bit word offsets do not reach.
@@ -94,17 +95,17 @@ pub fn append_glass_albedos(
     Ok(())
 }
 
-/// Shares of the light that one scattering sends on.
+/// Shares of the light that one scattering reflects and transmits.
 #[derive(Clone, Copy, Debug, Default)]
 struct Share {
     reflected: f64,
     refracted: f64,
 }
 
-/// One side of a boundary.
+/// Boundary seen from one of its sides.
 #[derive(Clone, Copy, Debug)]
 struct Interface {
-    /// Index on this side over that on the other.
+    /// Ratio of the index on this side to that on the other.
     eta: f64,
     f0: f64,
     f90: f64,
@@ -132,7 +133,7 @@ impl Interface {
         let stretched = DVec3::new(alpha * o.x, 0.0, o.z).normalize();
         let mut sum = Share::default();
         for point in 0..POINTS {
-            // Folded, so that what the lattice repeats is continuous.
+            // The folded coordinate makes the periodic integrand of the lattice continuous.
             let place = 1.0 - (2.0 * (f64::from(point) + 0.5) / f64::from(POINTS) - 1.0).abs();
             let azimuth = 2.0 * PI * f64::from(point * STEP % POINTS) / f64::from(POINTS);
             let z = (1.0 - place) * (1.0 + stretched.z) - stretched.z;
@@ -145,7 +146,7 @@ impl Interface {
         Share { reflected: sum.reflected / points, refracted: sum.refracted / points }
     }
 
-    /// Adds the light that a facet sends on to the side where it belongs and past the other facets.
+    /// Adds the light that a facet sends to the correct side and that the other facets do not block.
     fn add(self, o: DVec3, h: DVec3, alpha: f64, sum: &mut Share) {
         let cosine = o.dot(h);
         let fresnel = self.fresnel(cosine);
@@ -175,7 +176,7 @@ impl Interface {
     }
 }
 
-/// Masking of both directions over that of the first: height-correlated Smith.
+/// Returns the ratio of the masking of both directions to that of the first: height-correlated Smith.
 fn passing(cosine_o: f64, cosine_i: f64, alpha: f64) -> f64 {
     let root = |cosine: f64| (alpha * alpha + (1.0 - alpha * alpha) * cosine * cosine).sqrt();
     cosine_i * (cosine_o + root(cosine_o)) / (cosine_o * root(cosine_i) + cosine_i * root(cosine_o))
@@ -189,8 +190,8 @@ fn append_block(table: &mut Vec<f32>, rows: &[[Share; COSINES]], value: impl Fn(
     }
 }
 
-/// Mean of the interpolated values, over the hemisphere and weighted by the cosine: `4 y³ dy` with y the
-/// root of the cosine.
+/// Returns the mean of the interpolated values, over the hemisphere and weighted by the cosine: `4 y³ dy`
+/// with y the root of the cosine.
 fn mean(values: &[f32; COSINES]) -> f64 {
     let step = 1.0 / (COSINES - 1) as f64;
     let mut sum = 0.0;

@@ -1,4 +1,4 @@
-//! Probability of each kind of light: by its power, as far as that can be told from the scene alone.
+//! Probability of each kind of light: by its power, as far as the scene alone determines it.
 
 use std::f64::consts::PI;
 
@@ -6,10 +6,12 @@ use rasray_scene::Light;
 
 use crate::distribution::luminance;
 
-/// Least probability of a kind that is there, before the sum is made 1: power does not tell what is near.
+/// Least probability of a kind that exists, before the sum is normalised to 1: power says nothing about
+/// distance.
 const LEAST: f64 = 0.1;
 
-/// Luminous power of a light without extent, W; `disk` is the area that all triangles show at most, m^2.
+/// Returns the luminous power of a light without extent, W; `disk` is the largest projected area of all
+/// triangles, m^2.
 pub fn punctual_power(light: &Light, disk: f64) -> f64 {
     match *light {
         Light::Point { intensity, .. } => 4.0 * PI * luminance(intensity),
@@ -21,13 +23,14 @@ pub fn punctual_power(light: &Light, disk: f64) -> f64 {
     }
 }
 
-/// Area of the circle around a box, m^2: what light from far away falls on.
+/// Returns the area of the circle around a box, m^2, on which light from far away falls.
 pub fn disk_of(lower: [f32; 3], upper: [f32; 3]) -> f64 {
     let squared: f64 = (0..3).map(|axis| (f64::from(upper[axis]) - f64::from(lower[axis])).powi(2)).sum();
     0.25 * PI * squared
 }
 
-/// Probabilities of punctual lights, emissive triangles and environment from their powers; `None`: not there.
+/// Returns the probabilities of punctual lights, emissive triangles and environment from their powers; `None`
+/// stands for a kind that does not exist.
 pub fn kind_shares(powers: [Option<f64>; 3]) -> [f32; 3] {
     let present = powers.iter().flatten().count();
     if present == 0 {
@@ -38,7 +41,7 @@ pub fn kind_shares(powers: [Option<f64>; 3]) -> [f32; 3] {
     let weights = powers.map(|power| power.map_or(0.0, |power| share(power).max(LEAST)));
     let sum: f64 = weights.iter().sum();
     let mut shares = weights.map(|weight| (weight / sum) as f32);
-    // The last kind takes what rounding left, so that no number falls behind all of them.
+    // The last kind gets the rest of the rounding, so that every number selects a kind.
     if let Some(last) = powers.iter().rposition(Option::is_some) {
         let others: f32 = (0..last).map(|kind| shares[kind]).sum();
         shares[last] = 1.0 - others;

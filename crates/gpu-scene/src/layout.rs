@@ -1,4 +1,4 @@
-//! The records of the scene tables, and what a frame's say to structures.
+//! Records of the scene tables, and the viewpoint that a frame gives to structures.
 
 use rasray_ads::{CameraView, Viewpoint};
 use rasray_shaders_glsl::constants::scene::PROJECTION_PERSPECTIVE;
@@ -7,7 +7,7 @@ pub use rasray_shaders_glsl::records::{
     Draw, DrawShading, EmissiveTriangle, Frame, Light, Material, Texture, TextureRef as TextureUse,
 };
 
-/// The eye of a frame and what its camera sees there; without the latter where it has no perspective.
+/// Returns the eye of a frame and the camera's view of it; the view is absent without a perspective.
 pub fn viewpoint_of(frame: &Frame) -> Viewpoint {
     let camera = CameraView {
         right: frame.camera_right,

@@ -1,13 +1,14 @@
-//! Scenes on a Vulkan device: posed geometry, materials, texels and lights. Structures build from it, and
-//! integrators shade with it.
+//! Scenes on a Vulkan device: posed geometry, materials, texels and lights. Structures build from them, and
+//! integrators shade with them.
 //!
 //! - [`SceneTables`] packs a scene into plain arrays, byte for byte as shaders read them (`docs/shading.md`).
-//!   It needs no device, so that its contents can be checked anywhere.
-//! - [`Parts`] chooses what is packed: the parts that a render can observe.
+//!   It needs no device, so its contents can be checked anywhere.
+//! - [`Parts`] chooses the parts that are packed: those that a render can observe.
 //! - [`GpuScene`] uploads the tables and binds them: a `rasray_ads::Geometry` for structures, and a set for
 //!   shading. [`GpuScene::staged`] uploads them with a frame of the caller, without waiting.
-//! - [`PosePass`] poses moving draws on the device, frame by frame: [`PosePass::frame`] computes where nodes
-//!   are, [`PosePass::record`] records the rest. An oracle reads the positions back from the device.
+//! - [`PosePass`] poses moving draws on the device, frame by frame: [`PosePass::frame`] computes the
+//!   transforms of nodes, [`PosePass::record`] records the rest. An oracle reads the positions back from the
+//!   device.
 //! - [`TexelRuns`] spreads texels over several buffers, so that they may exceed one binding of a device.
 //!   [`TexelDemand`] tells before an upload whether they fit, and makes the largest images smaller.
 //!

@@ -5,11 +5,11 @@ use rasray_shaders_glsl::constants::scene::{LIGHT_DIRECTIONAL, LIGHT_POINT, LIGH
 
 use crate::{distribution::cumulative_shares, kinds::punctual_power, layout::Light};
 
-/// Smallest difference of the two cosines of a spot light's cone: keeps its edge from dividing by 0.
+/// Smallest difference of the two cosines of a spot light's cone, which keeps its edge from dividing by 0.
 const NARROWEST_FALLOFF: f32 = 0.001;
 
-/// Packs lights with their shares of the power of all, and answers that power, W; `disk` is the area that all
-/// triangles show at most, m^2, and `frame_origin` is in metres, world.
+/// Packs lights with their shares of the total power, and returns that power, W; `disk` is the largest
+/// projected area of all triangles, m^2, and `frame_origin` is in metres, world.
 pub fn pack_lights(lights: &[rasray_scene::Light], frame_origin: DVec3, disk: f64) -> (f64, Vec<Light>) {
     let powers: Vec<f64> = lights.iter().map(|light| punctual_power(light, disk)).collect();
     let (total, shares) = cumulative_shares(&powers);

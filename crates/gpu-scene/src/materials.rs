@@ -13,19 +13,19 @@ use crate::{
     textures::{TexturePacker, Textures},
 };
 
-/// Packs all materials and the textures they use.
+/// Packs all materials and the textures that they use.
 ///
 /// # Errors
-/// See [`TexturePacker`].
+/// Errors of [`TexturePacker`].
 pub fn pack_materials(scene: &Scene, parts: &Parts) -> Result<(Vec<Material>, Textures), GpuSceneError> {
     let (materials, textures) = collect_materials(scene, parts)?;
     Ok((materials, textures.finish()?))
 }
 
-/// Packs all materials and notes the textures they use.
+/// Packs all materials and notes the textures that they use.
 ///
 /// # Errors
-/// `Malformed` where one does not exist.
+/// `Malformed` where a texture does not exist.
 pub fn collect_materials<'a>(
     scene: &'a Scene,
     parts: &Parts,

@@ -9,39 +9,39 @@ pub enum Encoding {
     Srgb,
 }
 
-/// One level: RGBA texels with red in the lowest byte, rows top first.
+/// Level of an image: RGBA texels with red in the lowest byte, rows top first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Level {
     /// Texels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// `width * height` texels.
+    /// Texels, `width * height` of them.
     pub texels: Vec<u32>,
 }
 
-/// Linear value of an sRGB value, both in [0, 1].
+/// Returns the linear value of an sRGB value, both in [0, 1].
 pub fn linear_from_srgb(srgb: f32) -> f32 {
     if srgb <= 0.04045 { srgb / 12.92 } else { ((srgb + 0.055) / 1.055).powf(2.4) }
 }
 
-/// sRGB value of a linear value, both in [0, 1].
+/// Returns the sRGB value of a linear value, both in [0, 1].
 pub fn srgb_from_linear(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// Number of levels of an image down to one texel.
+/// Returns the number of levels of an image down to one texel.
 pub fn level_count(width: u32, height: u32) -> u32 {
     32 - width.max(height).max(1).leading_zeros()
 }
 
-/// Texels of all levels of an image, or of the first alone where `mipmapped` is false.
+/// Returns the number of texels of all levels of an image, or of the first alone where `mipmapped` is false.
 pub fn texel_count(width: u32, height: u32, mipmapped: bool) -> u64 {
     let levels = if mipmapped { level_count(width, height) } else { 1 };
     (0..levels).map(|level| u64::from((width >> level).max(1)) * u64::from((height >> level).max(1))).sum()
 }
 
-/// All levels of an image, or the first alone where `mipmapped` is false.
+/// Makes all levels of an image, or the first alone where `mipmapped` is false.
 ///
 /// Texel (x, y) of a level is the mean, in linear light, of texels (2x + a, 2y + b) of the level
 /// above, a and b in {0, 1}, clamped to its last column and row, and is rounded to the nearest
@@ -61,7 +61,8 @@ pub fn levels(width: u32, height: u32, rgba8: &[u8], encoding: Encoding, mipmapp
     levels
 }
 
-/// One of the levels that [`levels`] gives: that of this number, 0 the first. Beyond the last it stays that.
+/// Makes the level with index `number` of those that [`levels`] makes, 0 being the first. An index beyond the
+/// last gives the last.
 pub fn level(width: u32, height: u32, rgba8: &[u8], encoding: Encoding, number: u32) -> Level {
     let values = Values::of(encoding);
     let smaller = 0..number.min(level_count(width, height) - 1);
@@ -73,7 +74,7 @@ fn first_level(width: u32, height: u32, rgba8: &[u8]) -> Level {
     Level { width, height, texels }
 }
 
-/// Value that each byte stands for, in a colour and in alpha.
+/// Values that bytes stand for, in a colour and in alpha.
 struct Values {
     color: [f32; 256],
     alpha: [f32; 256],

@@ -2,22 +2,23 @@
 
 use glam::DVec3;
 
-/// Share of the scene's diagonal that the default grid of frame origins is spaced by.
+/// Number of cells of the default grid of frame origins per diagonal of the scene.
 const CELLS_PER_DIAGONAL: f64 = 8.0;
 
-/// As many cells of that grid away from the world's origin the eye may stand before the frame origin follows
-/// it: four to eight diagonals of the scene. Nearer, moving the origin would round positions that files state
-/// exactly once more, and gain at most three of their 24 bits.
+/// Largest distance of the eye from the world's origin, in cells of that grid, at which the frame origin
+/// stays there: four to eight diagonals of the scene. At smaller distances, moving the origin would round
+/// once more positions that files give exactly, and gain at most three of their 24 bits.
 const CELLS_OF_WORLD: f64 = 64.0;
 
-/// Metres beyond which the frame origin follows the eye in any scene: f32 resolves a millimetre there.
+/// Distance, metres, beyond which the frame origin follows the eye in any scene: f32 resolves a millimetre
+/// there.
 const FARTHEST_FROM_WORLD: f64 = 16_384.0;
 
-/// Smallest and largest binary exponent of the grid: finer than any scene needs, and far from the
-/// largest coordinate a mesh may have.
+/// Smallest and largest binary exponent of the grid: finer than any scene needs, and far from the largest
+/// coordinate that a mesh may have.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -40..=60;
 
-/// Grid spacing in metres for a scene with the given diagonal (metres): the largest power of two
+/// Returns the grid spacing in metres for a scene with the given diagonal (metres): the largest power of two
 /// that is not above an eighth of it. A diagonal that is zero or not finite gives 1 metre.
 pub fn frame_origin_spacing(diagonal: f64) -> f64 {
     if !diagonal.is_finite() || diagonal <= 0.0 {
@@ -28,10 +29,10 @@ pub fn frame_origin_spacing(diagonal: f64) -> f64 {
     exponent.exp2()
 }
 
-/// The default frame origin: the world's, unless a coordinate of the eye (world, metres) is more than 64
-/// times `spacing` or 16,384 m; then the eye snapped to the nearest point of a grid of `spacing` metres. With
-/// a power-of-two spacing the result is exact, and it changes only when the eye leaves a cell, so a moving
-/// camera rarely forces a rebuild. Coordinates of an eye that are not finite count as 0.
+/// Returns the default frame origin: the world's, unless a coordinate of the eye (world, metres) is more than
+/// 64 times `spacing` or 16,384 m; then the eye snapped to the nearest point of a grid of `spacing` metres.
+/// With a power-of-two spacing the result is exact, and it changes only when the eye leaves a cell, so a
+/// moving camera rarely forces a rebuild. Coordinates of an eye that are not finite count as 0.
 ///
 /// The farther a point lies from the frame origin, the coarser its f32 position: points within one
 /// cell of the eye keep about 24 bits of a cell.

@@ -2,7 +2,7 @@
 
 use rasray_scene::needs::{Needs, Term};
 
-/// Texture kinds in the order of `Material`'s texture fields.
+/// Kinds of textures, in the order of `Material`'s texture fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextureKind {
     /// Base colour and alpha.
@@ -19,8 +19,8 @@ pub enum TextureKind {
     Transmission,
 }
 
-/// Parts of a scene that are packed and uploaded. A part that is left out reads as absent: no
-/// attribute, no texture, no light.
+/// Parts of a scene that are packed and uploaded. An omitted part reads as absent: no attribute, no texture,
+/// no light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
     /// Shading normals.
@@ -45,18 +45,18 @@ pub struct Parts {
     pub transmission_textures: bool,
     /// Tables of the light that rough glass loses in one scattering.
     pub glass_albedos: bool,
-    /// Alpha masks. Off: masked draws count as opaque everywhere.
+    /// Alpha masks. If false, masked draws count as opaque everywhere.
     pub alpha: bool,
     /// Point, directional and spot lights.
     pub lights: bool,
-    /// Emissive triangles as lights to sample.
+    /// Emissive triangles that are sampled as lights.
     pub emissive_triangles: bool,
     /// The environment.
     pub environment: bool,
 }
 
 impl Parts {
-    /// Everything the scene has.
+    /// All parts of the scene.
     pub const ALL: Self = Self {
         normals: true,
         tangents: true,
@@ -75,7 +75,7 @@ impl Parts {
         environment: true,
     };
 
-    /// Geometry and alpha masks: all that rays which only ask for visibility observe.
+    /// Geometry and alpha masks: the parts that visibility rays observe.
     pub const VISIBILITY: Self = Self {
         normals: false,
         tangents: false,
@@ -94,7 +94,7 @@ impl Parts {
         environment: false,
     };
 
-    /// True if textures of a kind are packed for a material that is, or is not, alpha-masked.
+    /// True if textures of a kind are packed for a material; `masked` says if it is alpha-masked.
     pub fn has_texture(&self, kind: TextureKind, masked: bool) -> bool {
         match kind {
             TextureKind::BaseColor => self.base_color_textures || (masked && self.alpha),
@@ -108,7 +108,7 @@ impl Parts {
 }
 
 impl From<&Needs> for Parts {
-    /// Parts that a render can observe. `Needs::all` gives [`Parts::ALL`].
+    /// Returns the parts that a render can observe. `Needs::all` gives [`Parts::ALL`].
     fn from(needs: &Needs) -> Self {
         let has = |term| needs.requires(term);
         Self {

@@ -10,39 +10,39 @@ pub const LARGEST_COORDINATE: f32 = rasray_shaders_glsl::constants::scene::LARGE
 
 /// Posed geometry of a scene, flat over instances.
 ///
-/// Global triangle ids are running indices over draws; vertex indices run over all instances, so
-/// that one triangle needs nothing but `indices` and `positions`.
+/// Global triangle ids are running indices over draws; vertex indices run over all instances, so that
+/// `indices` and `positions` suffice for a triangle.
 #[derive(Clone, Debug, Default)]
 pub struct Posed {
     /// World positions minus the frame origin, metres. Finite, magnitude at most
     /// [`LARGEST_COORDINATE`].
     pub positions: Vec<[f32; 3]>,
-    /// Three per triangle, into `positions`.
+    /// Indices into `positions`, three per triangle.
     pub indices: Vec<u32>,
-    /// One per instance that has triangles, in scene order.
+    /// Draws, one per instance that has triangles, in scene order.
     pub draws: Vec<Draw>,
-    /// Draw of every triangle.
+    /// Index of each triangle's draw.
     pub draw_of_triangle: Vec<u32>,
     /// First vertex of every instance of the scene.
     pub first_vertex: Vec<u32>,
-    /// Triangles with a vertex that is not finite or too large after its transform. They keep their
+    /// Number of triangles with a vertex that is not finite or too large after its transform. They keep their
     /// id, so that ids do not depend on the pose, and are collapsed to a point, which no ray hits.
     pub dropped_triangles: u64,
     /// Smallest corner over the vertices that triangles use, metres from the frame origin. Zero
     /// where there are no triangles.
     pub lower: [f32; 3],
-    /// Largest corner.
+    /// Largest corner over the same vertices.
     pub upper: [f32; 3],
 }
 
 impl Posed {
-    /// Poses every instance of `scene` in f64, takes `frame_origin` (world, metres) off and rounds
-    /// once to f32; what is neither moved nor shifted keeps every bit. `flags` gives the draw flags of an
+    /// Poses every instance of `scene` in f64, subtracts `frame_origin` (world, metres) and rounds once to
+    /// f32; positions that are neither moved nor shifted keep every bit. `flags` gives the draw flags of an
     /// instance from its index.
     ///
     /// # Errors
-    /// `TooManyVertices` where vertices or indices exceed what u32 can number, `Malformed` where a
-    /// mesh or an index is named that the scene does not have.
+    /// `TooManyVertices` where vertices or indices exceed the range of u32, `Malformed` where the scene
+    /// refers to a mesh or an index that it does not have.
     pub fn new(
         scene: &Scene,
         frame_origin: DVec3,
@@ -65,7 +65,7 @@ impl Posed {
         Ok(posed)
     }
 
-    /// Number of triangles, collapsed ones included.
+    /// Returns the number of triangles, collapsed ones included.
     pub fn triangle_count(&self) -> usize {
         self.indices.len() / 3
     }
@@ -112,8 +112,8 @@ impl Posed {
         Ok(())
     }
 
-    /// Bad vertices move onto a good one: nothing but collapsed triangles refers to them, and no
-    /// pass that reads all positions finds a value that is not finite.
+    /// Moves bad vertices onto a good one: only collapsed triangles refer to them, and a pass that reads all
+    /// positions finds only finite values.
     fn collapse_bad_vertices(&mut self) {
         let stand_in = self.positions.iter().copied().find(|&p| is_usable(p)).unwrap_or([0.0; 3]);
         for position in &mut self.positions {
@@ -139,7 +139,7 @@ impl Posed {
     }
 }
 
-/// Positions of a mesh in the world, metres relative to `frame_origin`, rounded once.
+/// Returns the positions of a mesh in the world, metres relative to `frame_origin`, rounded once.
 pub fn placed(
     positions: &[[f32; 3]],
     world_from_mesh: DAffine3,
@@ -148,7 +148,7 @@ pub fn placed(
     let stays = world_from_mesh == DAffine3::IDENTITY && frame_origin == DVec3::ZERO;
     positions.iter().map(move |&position| {
         if stays {
-            // To the bit: arithmetic would turn -0 into +0.
+            // The position keeps every bit: arithmetic would turn -0 into +0.
             return position;
         }
         let world = world_from_mesh.transform_point3(DVec3::from(position.map(f64::from)));
@@ -161,7 +161,7 @@ pub fn is_usable(position: [f32; 3]) -> bool {
     position.iter().all(|x| x.is_finite() && x.abs() <= LARGEST_COORDINATE)
 }
 
-/// `start` as u32, where `count` more things can still be numbered.
+/// Converts `start` to u32 if `count` more elements can still be numbered.
 fn index_u32(start: usize, count: usize) -> Result<u32, GpuSceneError> {
     let end = start.saturating_add(count);
     if end >= u32::MAX as usize {

@@ -1,4 +1,4 @@
-//! Poses what moves in a scene on the device, frame by frame.
+//! Pass that poses the moving parts of a scene on the device, frame by frame.
 
 mod emitters;
 mod far_lights;
@@ -40,17 +40,17 @@ use crate::staging::Staging;
 use crate::upload::PosedBuffers;
 use crate::{GpuScene, GpuSceneError, SceneTables, kinds::kind_shares};
 
-/// Bytes that one command writes at most.
+/// Largest number of bytes that one command writes.
 const UPDATE_BYTES: usize = 65_536;
 
-/// The moving part of a scene on the device: shapes at rest, and the pass that writes positions, normals,
-/// tangents, lights and bounds of a [`GpuScene`] as they are in a frame.
+/// Moving part of a scene on the device: shapes at rest, and the pass that writes positions, normals,
+/// tangents, lights and bounds of a [`GpuScene`] for a frame.
 ///
-/// Draws that no clip can move and no deformer changes are left as the tables have them. `docs/motion.md`
-/// says what is evaluated where.
+/// Draws that no clip can move and no deformer changes keep the values of the tables. `docs/motion.md` says
+/// which parts the host and the device evaluate.
 #[derive(Debug)]
 pub struct PosePass {
-    /// One per draw of the geometry.
+    /// Flags, one per draw of the geometry: true for moving draws.
     moving_draws: Vec<bool>,
     draws: Vec<DrawTriangles>,
     places: Vec<DrawPlace>,
@@ -64,7 +64,7 @@ pub struct PosePass {
     frame_origin: DVec3,
     emitters: Emitters,
     lights_move: bool,
-    /// Power of lights without extent, W, where none of them shines from far away.
+    /// Power of lights without extent, W, if none of them shines from far away.
     punctual_power: Option<f64>,
     vertices: ComputePipeline,
     set: BindingSet,
@@ -74,7 +74,7 @@ pub struct PosePass {
     geometry: Geometry,
     staging: Staging,
     bounds: BoundsPass,
-    /// Where only what moves is measured.
+    /// Parts of the geometry, if only the bounds of the moving ones are measured.
     parts: Option<Division>,
     far_lights: Option<FarLights>,
     posed: PosedBuffers,
@@ -82,13 +82,13 @@ pub struct PosePass {
 }
 
 impl PosePass {
-    /// Uploads the shapes of what moves and makes the pipelines; for one frame at a time
+    /// Uploads the shapes of moving parts and makes the pipelines, with memory for one frame at a time
     /// ([`PosePass::set_slots`]). `tables` were made from `scene`, `gpu` from `tables`; the images of the
-    /// scene are not looked at. Does not wait where `gpu` was [staged](GpuScene::staged).
+    /// scene are not read. The call does not wait if `gpu` was [staged](GpuScene::staged).
     ///
     /// # Errors
-    /// `Malformed` where the tables are of a scene with other instances, [`GpuSceneError::DeformedTwice`],
-    /// out of memory, more words than 32 bits number, a table larger than one binding can hold (the error
+    /// `Malformed` where the tables belong to a scene with other instances, [`GpuSceneError::DeformedTwice`],
+    /// out of memory, more words than 32 bits can number, a table larger than one binding can hold (the error
     /// names it), or a lost device.
     pub fn new(
         device: &Device,
@@ -102,7 +102,7 @@ impl PosePass {
             return Err(GpuSceneError::Malformed { what, limit: scene.instances.len() });
         }
         let moving = Moving::of(rig);
-        // As `Scene::at` has it: a rig that does not fit its scene moves nothing.
+        // The rule is that of `Scene::at`: a rig that does not fit its scene moves nothing.
         let is_placed = rig.placements.len() == scene.instances.len();
         let nothing = Moving::of(&Default::default());
         let sources = Sources::new(scene, tables, if is_placed { &moving } else { &nothing })?;
@@ -185,8 +185,8 @@ impl PosePass {
         })
     }
 
-    /// Memory for shapes of that many frames in flight, at least 1: what a simulation or a file has of a
-    /// frame is written there. Nothing recorded before may be pending.
+    /// Reserves memory for the shapes of that many frames in flight, at least 1: the shapes that a simulation
+    /// or a file gives for a frame are written there. No recording made before may be pending.
     ///
     /// # Errors
     /// Out of memory.
@@ -194,14 +194,14 @@ impl PosePass {
         Ok(self.shapes.set_slots(device, slots)?)
     }
 
-    /// The host's part of a frame, in f64: linear in nodes, channels, joints and moving draws, in the
-    /// triangles of those that emit, and in the vertices that the scene's deformer changes, whose simulation
-    /// it runs or whose file it reads. No device call. `scene` is the one that this was made from, or that at
-    /// another moment.
+    /// Computes the host's part of a frame, in f64. The time is linear in nodes, channels, joints and moving
+    /// draws, in the triangles of emissive draws among them, and in the vertices that the scene's deformer
+    /// changes; its simulation is run or its file read here. No device call is made. `scene` is the one that
+    /// this pass was made from, or that scene at another moment.
     ///
     /// # Errors
     /// `Malformed` where the scene has fewer instances, [`GpuSceneError::OtherTriangles`] where a deformer
-    /// changes more than positions and normals, or it fails.
+    /// changes more than positions and normals, or an error of the deformer.
     pub fn frame(&self, scene: &Scene, moment: &Moment) -> Result<FramePose, GpuSceneError> {
         let rig = &scene.animation.rig;
         let is_placed = rig.placements.len() == scene.instances.len();
@@ -239,11 +239,11 @@ impl PosePass {
         Ok(FramePose { maps, placements, joints, targets, shapes, lights, emissive, emissive_power, cameras })
     }
 
-    /// Records a frame: what `pose` holds is stored in the command buffer, so that several recordings may be
-    /// pending, and written to the device in order. Shapes are written to memory of `slot`, whose last
-    /// recording has ended; where nothing is deformed by the host, any slot will do. One dispatch poses all
-    /// vertices that move, [`BoundsPass`] measures the bounds. All that follows sees the results. Nothing
-    /// where nothing moves.
+    /// Records a frame. The contents of `pose` are stored in the command buffer, so that several recordings
+    /// may be pending, and written to the device in order. Shapes are written to memory of `slot`, whose last
+    /// recording has ended; if the host deforms nothing, any slot will do. One dispatch poses all moving
+    /// vertices, and [`BoundsPass`] measures the bounds. All later commands see the results. The method
+    /// records nothing if nothing moves.
     pub fn record(&self, recorder: &mut Recorder<'_>, slot: u32, pose: &FramePose) {
         let is_own = pose.placements.len() == self.places.len()
             && pose.joints.len() == self.joint_count
@@ -284,7 +284,8 @@ impl PosePass {
         }
     }
 
-    /// Lights without extent, emissive triangles, and of the frame what depends on them alone.
+    /// Updates lights without extent, emissive triangles, and the fields of the frame that depend on them
+    /// alone.
     fn update_lights(&self, recorder: &mut Recorder<'_>, pose: &FramePose) {
         let PosedBuffers { lights, emissive, frame, .. } = &self.posed;
         update(recorder, lights, 0, cast_slice(&pose.lights));
@@ -302,7 +303,7 @@ impl PosePass {
         }
     }
 
-    /// True if anything moves: vertices or lights.
+    /// True if any vertex or light moves.
     pub fn moves(&self) -> bool {
         self.lights_move || !self.places.is_empty()
     }
@@ -312,9 +313,9 @@ impl PosePass {
         !self.places.is_empty()
     }
 
-    /// The geometry of the scene in two parts, what moves and all else, each with bounds of its own. From
-    /// then on each frame measures the bounds of what moves, and with them those of the whole, without
-    /// reading the static triangles. Where the geometry is in parts already these stay.
+    /// Divides the geometry of the scene into two parts, the moving triangles and the static ones, each with
+    /// bounds of its own. From then on each frame measures the bounds of the moving part, and with them those
+    /// of the whole, without reading the static triangles. Geometry that is in parts already keeps them.
     ///
     /// # Errors
     /// Out of memory, or a lost device.
@@ -323,12 +324,12 @@ impl PosePass {
     }
 
     /// Divides the geometry as [`PosePass::parts`] does, into a part for each object that its node alone
-    /// moves, for at most `most` of them, the largest; one for what else moves, where anything does; and all
-    /// that stands still. An object is all that hangs on the same node that a clip changes, and no other
-    /// below it: without joints, morph targets and deformer. Objects of `scene`, the one that this was made
-    /// from, also have positions in a space of their own, 12 bytes for each vertex of the scene, in which a
-    /// structure may be built once ([`Description::follows`](rasray_ads::Description::follows)). Poses of
-    /// frames are made after this.
+    /// moves, for at most `most` of them, the largest; one part for the other moving triangles, if there are
+    /// any; and one for all static triangles. An object is all geometry under one node that a clip changes,
+    /// with no other changed node between: without joints, morph targets and deformer. Objects of `scene`,
+    /// the one that this pass was made from, also have positions in a space of their own, 12 bytes for each
+    /// vertex of the scene, in which a structure may be built once
+    /// ([`Description::follows`](rasray_ads::Description::follows)). Poses of frames are made after this.
     ///
     /// # Errors
     /// Out of memory, or a lost device.
@@ -375,13 +376,13 @@ impl PosePass {
         Ok(self.parts.insert(Division { parts, part_of, objects }).parts.clone())
     }
 
-    /// Parts that [`PosePass::parts`] or [`PosePass::objects`] made.
+    /// Returns the parts that [`PosePass::parts`] or [`PosePass::objects`] made.
     pub fn divided(&self) -> Option<&GeometryParts> {
         self.parts.as_ref().map(|division| &division.parts)
     }
 
-    /// For each part that moves: whether one pose has it elsewhere than another, or in another shape. There
-    /// is one part where the geometry is not in parts. Both poses were made by [`PosePass::frame`].
+    /// Returns for each moving part true if its transform or shape differs between the two poses. There is
+    /// one part if the geometry is not in parts. Both poses were made by [`PosePass::frame`].
     pub fn moved_parts(&self, before: &FramePose, after: &FramePose) -> Vec<bool> {
         let count = self.divided().map_or(1, |parts| parts.moving().len());
         let deformed =
@@ -396,44 +397,44 @@ impl PosePass {
         moved
     }
 
-    /// Objects with a space of their own, by moving part; empty where none has, so that poses are the same as
-    /// without parts.
+    /// Returns the objects with a space of their own, by moving part; empty if none has one, so that poses
+    /// are those of geometry without parts.
     fn objects_in_spaces(&self) -> &[Option<RigidObject>] {
         let objects = self.parts.as_ref().map_or(&[][..], |division| &division.objects);
         if objects.iter().any(Option::is_some) { objects } else { &[] }
     }
 
-    /// For each draw of the geometry whether any clip can move it or a deformer changes it. All others stay
-    /// where the tables have them.
+    /// Returns for each draw of the geometry true if any clip can move it or a deformer changes it. All other
+    /// draws keep the values of the tables.
     pub fn moving_draws(&self) -> &[bool] {
         &self.moving_draws
     }
 
-    /// Bytes of every buffer by its name.
+    /// Returns the bytes of every buffer by its name.
     pub fn bytes_by_part(&self) -> Vec<(&'static str, u64)> {
         let shapes = Some(self.shapes.bytes()).filter(|(_, bytes)| *bytes > 0);
         self.bytes_by_part.iter().copied().chain(shapes).collect()
     }
 }
 
-/// The geometry in parts.
+/// Division of the geometry into parts.
 #[derive(Debug)]
 struct Division {
     parts: GeometryParts,
-    /// The part of each moving draw, among those that move.
+    /// Index of the moving part of each moving draw.
     part_of: Vec<usize>,
-    /// The object of each part that moves, where it has a space of its own.
+    /// Object of each moving part, if it has a space of its own.
     objects: Vec<Option<RigidObject>>,
 }
 
-/// Bytes into a buffer, in as many commands as it takes.
+/// Writes bytes into a buffer, in as many commands as needed.
 fn update(recorder: &mut Recorder<'_>, buffer: &Buffer, offset: usize, bytes: &[u8]) {
     for (chunk, bytes) in bytes.chunks(UPDATE_BYTES).enumerate() {
         recorder.update(buffer, (offset + chunk * UPDATE_BYTES) as u64, bytes);
     }
 }
 
-/// Buffers with the bytes of each.
+/// Buffers under construction, with the bytes of each.
 struct Parts<'a> {
     device: &'a Device,
     staging: &'a Staging,
@@ -445,7 +446,7 @@ impl Parts<'_> {
         self.filled(name, records, BufferUsage::STORAGE)
     }
 
-    /// A table into which shapes of frames are copied, where there are any.
+    /// Makes a table into which shapes of frames are copied, if there are any.
     fn shape_table(
         &mut self,
         name: &'static str,
@@ -467,7 +468,7 @@ impl Parts<'_> {
         Ok(buffer)
     }
 
-    /// Records that each frame writes.
+    /// Makes a buffer of records that each frame writes.
     fn frame_buffer<T>(&mut self, name: &'static str, count: usize) -> Result<Buffer, GpuSceneError> {
         let buffer = self.device.create_buffer(&BufferDesc {
             name,

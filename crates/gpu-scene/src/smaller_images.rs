@@ -1,4 +1,4 @@
-//! Textures that a device cannot hold: their largest images lose their finest levels.
+//! Textures that exceed a device: the largest images lose their finest levels.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -12,19 +12,20 @@ use crate::{
     texel_runs::TEXEL_BYTES,
 };
 
-/// The texels that the textures of a scene need, without making them.
+/// Number of texels that the textures of a scene need, computed without making them.
 #[derive(Clone, Debug)]
 pub struct TexelDemand {
     images: Vec<StoredImage>,
 }
 
-/// An image as it is stored: once for each encoding.
+/// Image as it is stored: once for each encoding.
 #[derive(Clone, Debug)]
 struct StoredImage {
     image: usize,
     name: String,
     size: [u32; 2],
-    /// With all levels or with the first alone.
+    /// Encodings in which the image is stored, each with true if all levels are stored and false for the
+    /// first alone.
     stored: Vec<(Encoding, bool)>,
 }
 
@@ -33,31 +34,31 @@ impl StoredImage {
         self.stored.iter().map(|&(_, mipmapped)| mips::texel_count(width, height, mipmapped)).sum()
     }
 
-    /// Encoding by which means of texels are taken.
+    /// Returns the encoding in which means of texels are computed.
     fn encoding(&self) -> Encoding {
         let color = self.stored.iter().any(|&(encoding, _)| encoding == Encoding::Srgb);
         if color { Encoding::Srgb } else { Encoding::Linear }
     }
 }
 
-/// An image that is made smaller.
+/// Image that is made smaller.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SmallerImage {
     /// Index into the scene's images.
     pub image: usize,
-    /// Its name or file.
+    /// Name or file of the image.
     pub name: String,
-    /// Width and height as they are in the scene.
+    /// Width and height in the scene.
     pub from: [u32; 2],
-    /// Width and height afterwards: those of one of its smaller levels.
+    /// Width and height afterwards, which are those of one of its smaller levels.
     pub to: [u32; 2],
-    /// The number of that level.
+    /// Number of that level.
     level: u32,
     encoding: Encoding,
 }
 
 impl TexelDemand {
-    /// Texels that those parts of `scene` need that are asked for.
+    /// Computes the demand of the given parts of `scene`.
     ///
     /// # Errors
     /// `Malformed` where a texture or an image does not exist, or an image has too few bytes.
@@ -73,18 +74,18 @@ impl TexelDemand {
         Ok(Self { images: images.into_values().collect() })
     }
 
-    /// Texels of all levels.
+    /// Returns the number of texels of all levels.
     pub fn texels(&self) -> u64 {
         self.images.iter().map(|image| image.texels(image.size)).sum()
     }
 
-    /// Bytes of all levels.
+    /// Returns the bytes of all levels.
     pub fn bytes(&self) -> u64 {
         self.texels() * TEXEL_BYTES
     }
 
-    /// Images that are made smaller so that `most` texels are enough: time and again the largest, the first
-    /// of equal ones, is halved. None where they are enough already.
+    /// Chooses the images that are made smaller so that `most` texels are enough: the largest, or the first
+    /// of equal ones, is halved repeatedly. The list is empty if `most` is enough already.
     ///
     /// # Errors
     /// `TooManyTexels` where images of one texel each are still too many.
@@ -122,10 +123,10 @@ impl TexelDemand {
 
 impl SmallerImage {
     /// Replaces the image by its smaller level: an image that has one use is then stored as before, without
-    /// its finest levels. Whoever reads the scene from here on sees the same texels as the device.
+    /// its finest levels. Code that reads the scene from then on gets the texels that the device has.
     ///
     /// # Panics
-    /// `scene` is not the one that the demand was taken of.
+    /// If `scene` is not the one that the demand was computed for.
     pub fn apply(&self, scene: &mut Scene) {
         let image = &mut scene.images[self.image];
         assert_eq!([image.width, image.height], self.from, "image {}", self.name);

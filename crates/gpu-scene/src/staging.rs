@@ -1,24 +1,24 @@
-//! Tables on their way to the device.
+//! Upload of tables to the device.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use bytemuck::{NoUninit, cast_slice};
 use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder, Result};
 
-/// From memory of the host to where shaders read it.
+/// Copy from host memory to the buffer that shaders read.
 #[derive(Debug)]
 struct StagedCopy {
     from: Buffer,
     to: Buffer,
 }
 
-/// Filling of tables: at once, with a wait, or by a recording of the caller's. Clones are handles to the same
-/// tables.
+/// Way of filling tables: at once, with a wait, or by a recording of the caller. Clones are handles to the
+/// same tables.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Staging(Arc<Mutex<Option<Vec<StagedCopy>>>>);
 
 impl Staging {
-    /// Tables that a recording fills.
+    /// Makes tables that a recording fills.
     pub fn later() -> Self {
         Self(Arc::new(Mutex::new(Some(Vec::new()))))
     }
@@ -27,10 +27,10 @@ impl Staging {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A buffer on the device that holds `values`, or will once the recording has run.
+    /// Makes a buffer on the device that holds `values`, or will hold them once the recording has run.
     ///
     /// # Errors
-    /// As [`Device::create_buffer_with`].
+    /// Errors of [`Device::create_buffer_with`].
     pub fn buffer<T: NoUninit>(
         &self,
         device: &Device,
@@ -53,7 +53,7 @@ impl Staging {
         Ok(to)
     }
 
-    /// Records the copies, visible to all that follows; nothing where none is left.
+    /// Records the copies, visible to all later commands; records nothing if none is left.
     pub fn record(&self, recorder: &mut Recorder<'_>) {
         let copies = self.copies();
         let Some(copies) = copies.as_ref().filter(|copies| !copies.is_empty()) else { return };
@@ -61,7 +61,7 @@ impl Staging {
         recorder.barrier(Access::TRANSFER_WRITE, Access::ALL);
     }
 
-    /// The recording was submitted: what is made from here on is filled at once.
+    /// Notes that the recording was submitted: buffers made from then on are filled at once.
     pub fn end(&self) {
         *self.copies() = None;
     }

@@ -1,4 +1,4 @@
-//! Sizes of tables on the device, without making them.
+//! Sizes of tables on the device, computed without making them.
 
 use glam::DVec3;
 use rasray_scene::Scene;
@@ -14,17 +14,19 @@ use crate::{
     words::Words,
 };
 
-/// Bytes that a [`crate::GpuScene`] with everything a scene has would need over one with these parts alone;
-/// `frame_origin` (world, metres) is that of the tables.
+/// Returns the bytes that a [`crate::GpuScene`] with all parts of a scene would need in addition to one with
+/// these parts alone; `frame_origin` (world, metres) is that of the tables.
 ///
 /// # Errors
-/// As [`crate::SceneTables::new`] with everything: a scene may be at fault where it is not looked at.
+/// Errors of [`crate::SceneTables::new`] with all parts: a scene may have faults in parts that are not
+/// packed.
 pub fn left_out_bytes(scene: &Scene, frame_origin: DVec3, parts: &Parts) -> Result<u64, GpuSceneError> {
     let posed = Posed::new(scene, frame_origin, |_| 0)?;
     Ok(shading_bytes(scene, &posed, &Parts::ALL)? - shading_bytes(scene, &posed, parts)?)
 }
 
-/// Bytes of the tables that depend on parts. Geometry is needed always, and the frame has one size.
+/// Returns the bytes of the tables that depend on parts. Geometry is always needed, and the frame has one
+/// size.
 fn shading_bytes(scene: &Scene, posed: &Posed, parts: &Parts) -> Result<u64, GpuSceneError> {
     let mut attributes = pack_attributes(scene, posed, parts, Words::counted())?;
     let (mut materials, textures) = collect_materials(scene, parts)?;
@@ -54,7 +56,7 @@ fn shading_bytes(scene: &Scene, posed: &Posed, parts: &Parts) -> Result<u64, Gpu
     Ok(tables.iter().sum())
 }
 
-/// Bytes of a table on the device, where one record stands in for none.
+/// Returns the bytes of a table on the device, where one record replaces an empty table.
 fn bytes<T>(records: u64) -> u64 {
     records.max(1) * size_of::<T>() as u64
 }

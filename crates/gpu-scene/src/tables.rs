@@ -1,4 +1,4 @@
-//! A scene packed into the tables that shaders read. No Vulkan.
+//! Scene packed into the tables that shaders read. No Vulkan.
 
 use glam::DVec3;
 use rasray_scene::{AlphaMode, Scene};
@@ -21,19 +21,19 @@ use crate::{
 /// All tables of a scene. Positions are metres relative to `frame_origin`.
 #[derive(Clone, Debug, Default)]
 pub struct SceneTables {
-    /// World, metres.
+    /// Frame origin, world, metres.
     pub frame_origin: DVec3,
     /// Posed geometry.
     pub posed: Posed,
-    /// One per draw.
+    /// Shading records, one per draw.
     pub draw_shadings: Vec<DrawShading>,
     /// Normals and tangents in world space, words.
     pub posed_attributes: Vec<f32>,
     /// Texture coordinates and colours, then the tables of rough glass, words.
     pub vertex_attributes: Vec<f32>,
-    /// As in the scene.
+    /// Materials in the order of the scene.
     pub materials: Vec<Material>,
-    /// One for every pair of scene texture and use.
+    /// Texture records, one for every pair of scene texture and use.
     pub textures: Vec<Texture>,
     /// Texels of all levels, red in the lowest byte.
     pub texels: Vec<u32>,
@@ -41,23 +41,23 @@ pub struct SceneTables {
     pub lights: Vec<Light>,
     /// Triangles that are sampled as lights, where `emissive_power` is not 0.
     pub emissive_triangles: Vec<EmissiveTriangle>,
-    /// Their power per area, W/m^2, by luminance.
+    /// Power per area of these triangles, W/m^2, by luminance.
     pub emissive_radiosities: Vec<f64>,
-    /// Their power, W, by luminance.
+    /// Total power of these triangles, W, by luminance.
     pub emissive_power: f64,
-    /// Environment of rays that leave the scene.
+    /// Environment seen by rays that leave the scene.
     pub environment: EnvironmentTables,
     /// Probability of the kinds of light: punctual, emissive triangles, environment.
     pub kind_shares: [f32; 3],
 }
 
 impl SceneTables {
-    /// Packs those parts of `scene` that are asked for, with positions relative to `frame_origin`
-    /// (world, metres). Static geometry is posed here, once, in f64.
+    /// Packs the given parts of `scene`, with positions relative to `frame_origin` (world, metres). Static
+    /// geometry is posed here, once, in f64.
     ///
     /// # Errors
-    /// The scene names something it does not have, or needs more vertices, words or texels than 32
-    /// bits number.
+    /// An error if the scene refers to an element that it does not have, or needs more vertices, words or
+    /// texels than 32 bits can number.
     pub fn new(scene: &Scene, frame_origin: DVec3, parts: &Parts) -> Result<Self, GpuSceneError> {
         let posed = Posed::new(scene, frame_origin, |instance| draw_flags(scene, instance, parts))?;
         if posed.dropped_triangles > 0 {
@@ -109,12 +109,12 @@ impl SceneTables {
         })
     }
 
-    /// The default frame origin for an eye (world, metres): see [`snap_frame_origin`].
+    /// Returns the default frame origin for an eye (world, metres): see [`snap_frame_origin`].
     pub fn default_frame_origin(scene: &Scene, eye: DVec3) -> DVec3 {
         snap_frame_origin(eye, frame_origin_spacing(world_diagonal(scene)))
     }
 
-    /// The frame record for a view: everything but the tables themselves.
+    /// Returns the frame record for a view: all data but the tables themselves.
     pub fn frame(&self, view: &View) -> Frame {
         let mut frame = Frame {
             triangle_count: self.posed.triangle_count() as u32,
@@ -153,8 +153,8 @@ fn draw_flags(scene: &Scene, instance: usize, parts: &Parts) -> u32 {
         | flag(DRAW_MIRRORED, mirrored)
 }
 
-/// Diagonal of the box around all placed meshes, metres; 0 for an empty scene. Vertices that are
-/// not usable once placed do not count.
+/// Returns the diagonal of the box around all placed meshes, metres; 0 for an empty scene. Vertices that are
+/// unusable once placed do not count.
 fn world_diagonal(scene: &Scene) -> f64 {
     let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for instance in &scene.instances {

@@ -1,4 +1,4 @@
-//! Spreads texels over buffers in runs of equal length, so that all together may exceed one binding.
+//! Distribution of texels over buffers in runs of equal length, so that all together may exceed one binding.
 
 use rasray_gpu::Limits;
 use rasray_shaders_glsl::constants::scene::SCENE_TEXEL_RUNS;
@@ -6,42 +6,42 @@ use rasray_shaders_glsl::constants::scene::SCENE_TEXEL_RUNS;
 /// Bytes of a texel.
 pub const TEXEL_BYTES: u64 = 4;
 
-/// Largest exponent of a run's length: four runs then have all texels that 32 bits number.
+/// Largest exponent of a run's length: four runs then hold all texels that 32 bits can number.
 const LARGEST_SHIFT: u32 = 30;
 
-/// The length of a run of texels, a power of two. Textures are not aligned to runs: one may begin in one run
-/// and end in the next.
+/// Length of a run of texels, a power of two. Textures are not aligned to runs: one may begin in one run and
+/// end in the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TexelRuns {
     shift: u32,
 }
 
 impl TexelRuns {
-    /// The longest that the shaders can address.
+    /// Longest run that the shaders can address.
     pub const LONGEST: Self = Self { shift: LARGEST_SHIFT };
 
-    /// The longest that a device can bind and allocate. Vulkan grants bindings of 128 MiB, so that every
-    /// device holds 512 MiB of texels.
+    /// Returns the longest run that a device can bind and allocate. Vulkan guarantees bindings of 128 MiB, so
+    /// that every device holds 512 MiB of texels.
     pub fn of(limits: &Limits) -> Self {
         Self::at_most(limits.max_storage_buffer_range.min(limits.max_memory_allocation) / TEXEL_BYTES)
     }
 
-    /// The longest of at most so many texels.
+    /// Returns the longest run of at most this many texels.
     pub fn at_most(texels: u64) -> Self {
         Self { shift: texels.max(1).ilog2().min(LARGEST_SHIFT) }
     }
 
-    /// Exponent of the length.
+    /// Returns the exponent of the length.
     pub fn shift(self) -> u32 {
         self.shift
     }
 
-    /// Texels of a run; the last may have fewer.
+    /// Returns the number of texels of a run; the last may have fewer.
     pub fn length(self) -> u64 {
         1 << self.shift
     }
 
-    /// Texels that all runs hold together, and 32 bits number.
+    /// Returns the number of texels that all runs hold together and that 32 bits can number.
     pub fn most_texels(self) -> u64 {
         (u64::from(SCENE_TEXEL_RUNS) << self.shift).min(u32::MAX.into())
     }

@@ -1,5 +1,5 @@
-//! Textures and texels: one entry for each pair of scene texture and use, one run of texels for
-//! each image in each encoding.
+//! Textures and texels: one entry for each pair of scene texture and use, one sequence of texels for each
+//! image in each encoding.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -14,28 +14,28 @@ use crate::{
     mips::{self, Encoding},
 };
 
-/// A material's texture slot that is empty.
+/// Empty texture slot of a material.
 pub const NO_TEXTURE: TextureUse =
     TextureUse { texture: TEXTURE_NONE, uv_set: 0, row_u: [1.0, 0.0, 0.0], row_v: [0.0, 1.0, 0.0] };
 
-/// Collects the textures that materials use; texels are made once at the end.
+/// Collector of the textures that materials use; texels are made once at the end.
 pub struct TexturePacker<'a> {
     scene: &'a Scene,
     entries: Vec<(usize, Encoding)>,
     entry_of: HashMap<(usize, Encoding), u32>,
 }
 
-/// The packed tables.
+/// Packed tables of textures.
 #[derive(Clone, Debug, Default)]
 pub struct Textures {
-    /// Entries that materials name.
+    /// Entries to which materials refer.
     pub textures: Vec<Texture>,
     /// Texels of all levels, red in the lowest byte.
     pub texels: Vec<u32>,
 }
 
 impl<'a> TexturePacker<'a> {
-    /// Nothing is used yet.
+    /// Makes a collector without textures.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, entries: Vec::new(), entry_of: HashMap::new() }
     }
@@ -76,8 +76,8 @@ impl<'a> TexturePacker<'a> {
         Ok(TextureUse { texture: entry, uv_set: reference.uv_set.min(1), row_u, row_v })
     }
 
-    /// The images that are stored: once for each encoding, with all levels if any of their textures wants
-    /// them.
+    /// Returns the images that are stored: once for each encoding, with all levels if any of their textures
+    /// needs them.
     pub fn stored(&self) -> BTreeMap<(usize, Encoding), bool> {
         let mut mipmapped = BTreeMap::new();
         for &(texture, encoding) in &self.entries {
@@ -87,12 +87,12 @@ impl<'a> TexturePacker<'a> {
         mipmapped
     }
 
-    /// Entries that materials name.
+    /// Returns the number of entries to which materials refer.
     pub fn texture_count(&self) -> u64 {
         self.entries.len() as u64
     }
 
-    /// Texels of all levels that are stored.
+    /// Returns the number of texels of all stored levels.
     pub fn texel_count(&self) -> u64 {
         let stored = self.stored().into_iter().map(|((image, _), mipmapped)| {
             let image = &self.scene.images[image];
@@ -101,7 +101,7 @@ impl<'a> TexturePacker<'a> {
         stored.sum()
     }
 
-    /// Makes the texels of everything that was used.
+    /// Makes the texels of all textures that were used.
     ///
     /// # Errors
     /// `TooManyTexels` where 32-bit offsets do not reach the last texel.

@@ -21,32 +21,31 @@ use crate::{
 /// Number of buffers in the scene's set.
 const BINDINGS: u32 = SCENE_BINDING_TEXELS_3 + 1;
 
-/// Bytes of the frame that a view decides.
+/// Byte range of the frame's fields that the view sets.
 const VIEW_BYTES: Range<usize> = 0..offset_of!(Frame, triangle_count);
 
-/// Bytes of the frame that the sampling decides.
+/// Byte range of the frame's fields that the sampling sets.
 const SAMPLING_BYTES: Range<usize> = offset_of!(Frame, sampling)..offset_of!(Frame, kind_shares);
 
-/// Buffers that change from frame to frame, in addition to positions. One record stands in for an empty
-/// table.
+/// Buffers that change from frame to frame, in addition to positions. One record replaces an empty table.
 #[derive(Clone, Debug)]
 pub struct PosedBuffers {
-    /// One [`Frame`].
+    /// Buffer of one [`Frame`].
     pub frame: Buffer,
-    /// [`DrawShading`](crate::layout::DrawShading) records.
+    /// Buffer of [`DrawShading`](crate::layout::DrawShading) records.
     pub draw_shadings: Buffer,
-    /// Normals and tangents, words.
+    /// Buffer of normals and tangents, words.
     pub attributes: Buffer,
-    /// [`Light`](crate::layout::Light) records.
+    /// Buffer of [`Light`](crate::layout::Light) records.
     pub lights: Buffer,
-    /// [`EmissiveTriangle`](crate::layout::EmissiveTriangle) records.
+    /// Buffer of [`EmissiveTriangle`](crate::layout::EmissiveTriangle) records.
     pub emissive: Buffer,
 }
 
 /// Scene on the device: the geometry that structures build from, and the binding set that shading reads.
 ///
-/// Uploaded buffers stay until the value is dropped. The view changes by [`GpuScene::update_camera`] or
-/// [`GpuScene::record_frame`], what moves by a [`PosePass`](crate::PosePass).
+/// Uploaded buffers stay until the value is dropped. [`GpuScene::update_camera`] or
+/// [`GpuScene::record_frame`] changes the view, a [`PosePass`](crate::PosePass) the moving parts.
 #[derive(Clone, Debug)]
 pub struct GpuScene {
     geometry: Geometry,
@@ -73,21 +72,22 @@ impl GpuScene {
         Self::upload_in_runs(device, tables, view, TexelRuns::of(device.limits()))
     }
 
-    /// As [`GpuScene::upload`], without waiting: the tables lie in memory of the host until a recording with
-    /// [`GpuScene::record_staged`] has run. Those of a [`PosePass`](crate::PosePass) that is made for the
-    /// scene before [`GpuScene::end_staging`] go the same way. Takes the bytes of all tables twice until
-    /// then.
+    /// Uploads the tables like [`GpuScene::upload`], without waiting: the tables lie in host memory until a
+    /// recording with [`GpuScene::record_staged`] has run. Tables of a [`PosePass`](crate::PosePass) that is
+    /// made for the scene before [`GpuScene::end_staging`] are staged as well. Until then all tables take
+    /// twice their bytes.
     ///
     /// # Errors
-    /// As [`GpuScene::upload`].
+    /// Errors of [`GpuScene::upload`].
     pub fn staged(device: &Device, tables: &SceneTables, view: &View) -> Result<Self, GpuSceneError> {
         Self::made(device, tables, view, TexelRuns::of(device.limits()), Staging::later())
     }
 
-    /// As [`GpuScene::upload`], with texels in runs of a given length: what is read does not depend on it.
+    /// Uploads the tables like [`GpuScene::upload`], with texels in runs of a given length, on which the
+    /// values that shaders read do not depend.
     ///
     /// # Errors
-    /// As [`GpuScene::upload`].
+    /// Errors of [`GpuScene::upload`].
     pub fn upload_in_runs(
         device: &Device,
         tables: &SceneTables,
@@ -179,8 +179,8 @@ impl GpuScene {
         })
     }
 
-    /// Adds code for more than this scene needs: pipelines that are made for it read later scenes, too, that
-    /// have any of `features`. No picture depends on it.
+    /// Adds code for features that this scene does not need: pipelines that are made for it then also read
+    /// later scenes that have any of `features`. Pictures do not depend on it.
     #[must_use]
     pub fn allowing(mut self, features: ShadingFeatures) -> Self {
         self.features = self.features.with(features);
@@ -189,14 +189,14 @@ impl GpuScene {
         self
     }
 
-    /// Records the copies of tables that [`GpuScene::staged`] left with the host, before everything that
-    /// reads them, visible to all that follows; nothing where the tables are on the device.
+    /// Records the copies of the tables that [`GpuScene::staged`] left in host memory, before all commands
+    /// that read them, visible to all later commands; records nothing if the tables are on the device.
     pub fn record_staged(&self, recorder: &mut Recorder<'_>) {
         self.staging.record(recorder);
     }
 
-    /// Says that the recording of [`GpuScene::record_staged`] was submitted: memory of the host is freed when
-    /// the device is done with it.
+    /// Notes that the recording of [`GpuScene::record_staged`] was submitted: host memory is freed when the
+    /// device is done with it.
     pub fn end_staging(&self) {
         self.staging.end();
     }
@@ -205,24 +205,24 @@ impl GpuScene {
         &self.staging
     }
 
-    /// Changes camera, image size or seed: one small write by the host, no rebuild of any structure
-    /// that does not depend on the eye. The device must not be using the scene.
+    /// Changes camera, image size or seed: the host makes one small write, and no structure that is
+    /// independent of the eye needs a rebuild. The device must not be using the scene.
     ///
-    /// The frame origin stays; where the eye has moved far from it (see
-    /// [`SceneTables::default_frame_origin`]) precision asks for new tables.
+    /// The frame origin stays; if the eye has moved far from it (see [`SceneTables::default_frame_origin`]),
+    /// precision requires new tables.
     ///
     /// # Errors
-    /// The buffer cannot be written.
+    /// An error if the buffer cannot be written.
     pub fn update_camera(&mut self, view: &View) -> Result<(), GpuSceneError> {
         view.write(&mut self.frame, self.frame_origin);
         self.write_frame(VIEW_BYTES)
     }
 
-    /// Changes how pixels are sampled and what their rays pass; otherwise as [`GpuScene::update_camera`],
-    /// which leaves this as it is.
+    /// Changes the sampling of pixels and the surfaces that their rays pass; otherwise the same rules hold as
+    /// for [`GpuScene::update_camera`], which does not change these values.
     ///
     /// # Errors
-    /// The buffer cannot be written.
+    /// An error if the buffer cannot be written.
     pub fn set_sampling(&mut self, sampling: Sampling) -> Result<(), GpuSceneError> {
         sampling.write(&mut self.frame, self.has_single_sided);
         self.write_frame(SAMPLING_BYTES)
@@ -233,11 +233,11 @@ impl GpuScene {
         Ok(self.posed_buffers.frame.write(bytes.start as u64, frame)?)
     }
 
-    /// Records what [`GpuScene::update_camera`] and [`GpuScene::set_sampling`] write: the values are stored
-    /// in the command buffer, so that several recordings may be pending, each with a view of its own. Answers
-    /// the frame as shaders will see it, for [`viewpoint_of`](crate::layout::viewpoint_of);
-    /// [`GpuScene::frame`] and what follows from it stay those of the view that was written last. Visible to
-    /// all that follows.
+    /// Records the writes of [`GpuScene::update_camera`] and [`GpuScene::set_sampling`]: the values are
+    /// stored in the command buffer, so that several recordings may be pending, each with a view of its own.
+    /// Returns the frame as shaders will see it, for [`viewpoint_of`](crate::layout::viewpoint_of);
+    /// [`GpuScene::frame`] and the values derived from it stay those of the view that was written last.
+    /// Visible to all later commands.
     pub fn record_frame(&self, recorder: &mut Recorder<'_>, view: &View, sampling: Sampling) -> Frame {
         let mut frame = self.frame;
         view.write(&mut frame, self.frame_origin);
@@ -251,76 +251,77 @@ impl GpuScene {
         frame
     }
 
-    /// The buffers that a [`PosePass`](crate::PosePass) writes in addition to positions, and
+    /// Returns the buffers that a [`PosePass`](crate::PosePass) writes in addition to positions, and
     /// [`GpuScene::record_frame`].
     pub fn posed_buffers(&self) -> &PosedBuffers {
         &self.posed_buffers
     }
 
-    /// Lights without extent as the tables have them; where those are that move, the device alone knows
-    /// ([`PosedBuffers::lights`]).
+    /// Returns the lights without extent as the tables have them; the current values of moving lights are
+    /// only on the device ([`PosedBuffers::lights`]).
     pub fn lights(&self) -> &[Light] {
         &self.lights
     }
 
-    /// Records in [`PosedBuffers::emissive`]: triangles that emit, or do so at another time.
+    /// Returns the number of records in [`PosedBuffers::emissive`]: triangles that emit, now or at another
+    /// time.
     pub fn emitter_count(&self) -> u32 {
         self.emitter_count
     }
 
-    /// Geometry that structures build from.
+    /// Returns the geometry that structures build from.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
 
-    /// Binding that surfaces, alpha masks and integrators read.
+    /// Returns the binding that surfaces, alpha masks and integrators read.
     pub fn binding(&self) -> &SceneBinding {
         &self.binding
     }
 
-    /// Eye, metres relative to the frame origin, as shaders see it.
+    /// Returns the eye, metres relative to the frame origin, as shaders see it.
     pub fn eye(&self) -> [f32; 3] {
         self.frame.camera_position
     }
 
-    /// The eye and what the camera sees there.
+    /// Returns the eye and the camera's view from it.
     pub fn viewpoint(&self) -> Viewpoint {
         viewpoint_of(&self.frame)
     }
 
-    /// As [`GpuScene::viewpoint`], of a view that [`GpuScene::record_frame`] writes.
+    /// Returns the viewpoint like [`GpuScene::viewpoint`], of a view that [`GpuScene::record_frame`] writes.
     pub fn viewpoint_of(&self, view: &View) -> Viewpoint {
         let mut frame = self.frame;
         view.write(&mut frame, self.frame_origin);
         viewpoint_of(&frame)
     }
 
-    /// World, metres.
+    /// Returns the frame origin, world, metres.
     pub fn frame_origin(&self) -> glam::DVec3 {
         self.frame_origin
     }
 
-    /// Pixels a row and rows of the image.
+    /// Returns the pixels per row and the number of rows of the image.
     pub fn image_size(&self) -> [u32; 2] {
         [self.frame.width, self.frame.height]
     }
 
-    /// The frame record as uploaded last.
+    /// Returns the frame record as uploaded last.
     pub fn frame(&self) -> &Frame {
         &self.frame
     }
 
-    /// Shading code that the scene can reach.
+    /// Returns the parts of the shading code that the scene can use.
     pub fn features(&self) -> ShadingFeatures {
         self.features
     }
 
-    /// Bytes of every buffer by its name.
+    /// Returns the bytes of every buffer by its name.
     pub fn bytes_by_part(&self) -> &[(&'static str, u64)] {
         &self.bytes_by_part
     }
 
-    /// Bytes of all buffers.
+    /// Returns the bytes of all buffers.
     pub fn bytes(&self) -> u64 {
         self.bytes_by_part.iter().map(|(_, bytes)| bytes).sum()
     }
@@ -333,7 +334,7 @@ struct Upload<'a> {
 }
 
 impl Upload<'_> {
-    /// A table; one zero record stands in for an empty one, because a binding may not be absent.
+    /// Uploads a table; one zero record replaces an empty one, because a binding may not be absent.
     fn table<T: NoUninit + bytemuck::Zeroable>(
         &mut self,
         name: &'static str,
@@ -344,8 +345,8 @@ impl Upload<'_> {
         Ok(buffer)
     }
 
-    /// Texels in runs, one part of the bytes. Where there are fewer runs than bindings, the first stands in
-    /// for the others, of which nothing is read.
+    /// Uploads texels in runs, counted as one part of the bytes. If there are fewer runs than bindings, the
+    /// first run is bound to the others, which shaders never read.
     fn texels(
         &mut self,
         texels: &[u32],
@@ -367,7 +368,7 @@ impl Upload<'_> {
         Ok(buffers)
     }
 
-    /// Records on the device; one zero record where there are none.
+    /// Uploads records; one zero record replaces an empty table.
     fn buffer<T: NoUninit + bytemuck::Zeroable>(
         &self,
         name: &'static str,

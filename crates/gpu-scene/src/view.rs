@@ -9,25 +9,25 @@ use rasray_shaders_glsl::constants::scene::{
 
 use crate::layout::Frame;
 
-/// A view to render: a camera, the size of the image, and the seed of its random numbers.
+/// View to render: a camera, the size of the image, and the seed of its random numbers.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// Placement and projection, world.
+    /// Placement and projection of the camera, world.
     pub camera: Camera,
-    /// Pixels a row of the whole image, at least 1.
+    /// Pixels per row of the whole image, at least 1.
     pub width: u32,
-    /// Rows of the whole image, at least 1.
+    /// Number of rows of the whole image, at least 1.
     pub height: u32,
     /// Seed of all random numbers.
     pub seed: u32,
 }
 
-/// Sampling of pixels, except for the seed of the view, and which surfaces their rays pass.
+/// Sampling of pixels, except for the seed of the view, and choice of the surfaces that their rays pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampling {
     /// Source of random numbers.
     pub sampler: Sampler,
-    /// Samples per pixel that share a pixel's footprint on textures, at least 1.
+    /// Number of samples per pixel that share a pixel's footprint on textures, at least 1.
     pub samples: u32,
     /// Rays that pass the backs of single-sided surfaces.
     pub back_faces: BackFaces,
@@ -40,8 +40,8 @@ impl Default for Sampling {
 }
 
 impl Sampling {
-    /// Writes the fields of `frame` that depend on the sampling. Without a single-sided surface no ray has to
-    /// look for one.
+    /// Writes the fields of `frame` that depend on the sampling. Without a single-sided surface the rays need
+    /// no test for one.
     pub fn write(self, frame: &mut Frame, has_single_sided: bool) {
         let flags = |passes: bool| if passes && has_single_sided { RAY_CULL_BACK_FACES } else { 0 };
         frame.camera_ray_flags = flags(self.back_faces.lets_camera_rays());
@@ -55,13 +55,13 @@ impl Sampling {
 }
 
 impl View {
-    /// Eye, world, metres.
+    /// Returns the position of the eye, world, metres.
     pub fn eye(&self) -> DVec3 {
         self.camera.world_from_camera.translation
     }
 
-    /// Writes the fields of `frame` that depend on the view; `frame_origin` is in metres, world.
-    /// The axes of the camera are made unit: scale in its placement does not change the picture.
+    /// Writes the fields of `frame` that depend on the view; `frame_origin` is in metres, world. The axes of
+    /// the camera are normalised: scale in its placement does not change the picture.
     pub fn write(&self, frame: &mut Frame, frame_origin: DVec3) {
         let axes = self.camera.world_from_camera.matrix3;
         let unit = |axis: DVec3, otherwise: DVec3| axis.normalize_or(otherwise).as_vec3().to_array();

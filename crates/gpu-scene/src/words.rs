@@ -1,4 +1,4 @@
-//! Words of a table: stored, or only counted where nothing but the size of the table is asked for.
+//! Words of a table: stored, or only counted if only the size of the table is needed.
 
 use rasray_shaders_glsl::constants::scene::ATTRIBUTE_NONE;
 
@@ -12,17 +12,17 @@ pub struct Words {
 }
 
 impl Words {
-    /// No words yet; those to come are stored.
+    /// Makes an empty list whose words are stored.
     pub fn stored() -> Self {
         Self { count: 0, stored: Some(Vec::new()) }
     }
 
-    /// No words yet; those to come are counted and not made.
+    /// Makes an empty list whose words are counted and not made.
     pub fn counted() -> Self {
         Self { count: 0, stored: None }
     }
 
-    /// Appends `count` words, which `make` makes where words are stored, and returns the place of the first.
+    /// Appends `count` words, which `make` makes if words are stored, and returns the offset of the first.
     ///
     /// # Errors
     /// `TooManyVertices` where 32-bit word offsets do not reach.
@@ -44,12 +44,12 @@ impl Words {
         Ok(first as u32)
     }
 
-    /// Number of words, stored or not.
+    /// Returns the number of words, stored or not.
     pub fn count(&self) -> u64 {
         self.count
     }
 
-    /// Those that were stored.
+    /// Returns the stored words.
     pub fn into_vec(self) -> Vec<f32> {
         self.stored.unwrap_or_default()
     }

@@ -11,20 +11,20 @@ use crate::pose::{is_usable, placed};
 use crate::{SceneTables, layout::DrawShading};
 use rasray_shaders_glsl::constants::scene::EMISSIVE_NONE;
 
-/// Emissive triangles with their areas where they do not move.
+/// Emissive triangles with their areas at rest.
 #[derive(Clone, Debug)]
 pub struct Emitters {
     sources: EmissiveSources,
-    /// At rest, m^2.
+    /// Areas at rest, m^2.
     areas: Vec<f64>,
     /// Power of all emitters at rest, W.
     power: f64,
-    /// Draws that move, with their first entry.
+    /// Moving draws, each with the index of its first entry.
     moving: Vec<(DrawPlace, usize)>,
 }
 
 impl Emitters {
-    /// Emitters of the draws of `tables`; `places` are those that move.
+    /// Collects the emitters of the draws of `tables`; `places` are the moving ones.
     pub fn new(tables: &SceneTables, places: &[DrawPlace]) -> Self {
         let sources = EmissiveSources {
             primitives: tables.emissive_triangles.iter().map(|entry| entry.primitive).collect(),
@@ -40,17 +40,18 @@ impl Emitters {
         Self { areas: sources.areas(&tables.posed), power: tables.emissive_power, sources, moving }
     }
 
-    /// Power of all where none moves, W.
+    /// Returns the power of all emitters at rest, W.
     pub fn power_at_rest(&self) -> f64 {
         self.power
     }
 
-    /// True if any of them moves.
+    /// True if any emitter moves.
     pub fn moves(&self) -> bool {
         !self.moving.is_empty()
     }
 
-    /// The table and the power of all, W, with moving draws posed as for fresh tables: on the host, in f64.
+    /// Returns the table and the total power, W, with moving draws posed as for new tables: on the host, in
+    /// f64.
     pub fn at(&self, pose: &Pose, placer: &Placer<'_>, shapes: &FrameShapes) -> (f64, Vec<EmissiveTriangle>) {
         let scene = placer.scene;
         let mut areas = self.areas.clone();

@@ -1,4 +1,4 @@
-//! Shares of lights that depend on the bounds, which the device alone knows.
+//! Probabilities of lights that depend on the bounds, which only the device knows.
 
 use bytemuck::bytes_of;
 use rasray_ads::Geometry;
@@ -12,7 +12,7 @@ use rasray_shaders_glsl::records::{PoseLightConstants, PoseLightPower};
 use crate::kinds::punctual_power;
 use crate::{GpuScene, GpuSceneError, SceneTables};
 
-/// The pass `scene/pose_lights`: directional lights and the environment count by the circle around the
+/// Pass `scene/pose_lights`: directional lights and the environment are weighted by the circle around the
 /// bounds.
 #[derive(Debug)]
 pub struct FarLights {
@@ -23,10 +23,10 @@ pub struct FarLights {
 }
 
 impl FarLights {
-    /// None where nothing shines from far away, or where that is all there is to choose from.
+    /// Makes the pass; `None` if no light shines from far away, or if there is no other light to choose from.
     ///
     /// # Errors
-    /// The device fails.
+    /// An error of the device.
     pub fn new(
         device: &Device,
         scene: &Scene,
@@ -73,12 +73,13 @@ impl FarLights {
         Ok(Some(Self { pipeline, set, powers, constants }))
     }
 
-    /// Name and bytes of the buffer.
+    /// Returns the name and bytes of the buffer.
     pub fn bytes(&self) -> (&'static str, u64) {
         ("pose light powers", self.powers.size())
     }
 
-    /// Records the shares for the bounds on the device, with that power of emissive triangles, W.
+    /// Records the computation of the probabilities from the bounds on the device and the power of emissive
+    /// triangles, W.
     pub fn record(&self, recorder: &mut Recorder<'_>, geometry: &Geometry, emissive_power: f64) {
         let constants = PoseLightConstants {
             emissive: u32::from(emissive_power > 0.0),

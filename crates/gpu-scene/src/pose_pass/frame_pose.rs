@@ -1,4 +1,4 @@
-//! The host's part of a pose: what the device is told of a frame.
+//! Host's part of a pose: the data that the device gets for a frame.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use super::sources::{DrawPlace, JointPlace, SkinPlace};
 use crate::attributes::normal_matrix;
 use crate::layout::{EmissiveTriangle, Light};
 
-/// Poses of everything that moves in one frame: plain data, rounded to f32 once, for
+/// Poses of all moving parts in one frame: plain data, rounded to f32 once, for
 /// [`PosePass::record`](super::PosePass::record).
 #[derive(Clone, Debug, PartialEq)]
 pub struct FramePose {
@@ -25,10 +25,10 @@ pub struct FramePose {
     pub(super) shapes: Arc<[f32]>,
     pub(super) lights: Vec<Light>,
     pub(super) emissive: Vec<EmissiveTriangle>,
-    /// W, by luminance.
+    /// Power of emissive triangles, W, by luminance.
     pub(super) emissive_power: f64,
     pub(super) cameras: Vec<DAffine3>,
-    /// The map of each part that moves, where there are parts.
+    /// Map of each moving part, if there are parts.
     pub(super) maps: Vec<GeometryRigid>,
 }
 
@@ -39,7 +39,7 @@ impl FramePose {
     }
 
     /// Bytes that [`PosePass::record`](super::PosePass::record) stores in the command buffer, but for fewer
-    /// than 100. Shapes are not among them: see [`FramePose::shape_bytes`].
+    /// than 100. Shapes do not count: see [`FramePose::shape_bytes`].
     pub fn bytes(&self) -> u64 {
         let bytes = size_of_val(&self.placements[..])
             + size_of_val(&self.joints[..])
@@ -51,27 +51,28 @@ impl FramePose {
     }
 
     /// Bytes that [`PosePass::record`](super::PosePass::record) writes to memory of the slot: positions and
-    /// normals that a simulation or a file has.
+    /// normals from a simulation or a file.
     pub fn shape_bytes(&self) -> u64 {
         size_of_val(&self.shapes[..]) as u64
     }
 }
 
-/// Places draws in a frame.
+/// Placement of draws in a frame.
 pub(super) struct Placer<'a> {
     pub scene: &'a Scene,
-    /// True if its rig places its instances.
+    /// True if the scene's rig places its instances.
     pub is_placed: bool,
     pub rig: &'a Rig,
     pub pose: &'a Pose,
-    /// World, metres.
+    /// Frame origin, world, metres.
     pub frame_origin: DVec3,
 }
 
 impl Placer<'_> {
-    /// Appends the matrices of the joints of a mesh, and answers what they are relative to, world, metres: a
-    /// place from which single precision reaches all that they move. That is the frame origin where it is no
-    /// farther away than they are from each other, and else the mean of all vertices.
+    /// Appends the matrices of the joints of a mesh, and returns the point to which they are relative, world,
+    /// metres: a point from which single precision reaches all vertices that they move. It is the frame
+    /// origin if that is no farther away than the joints are from each other, and else the mean of all
+    /// vertices.
     pub fn joints(&self, place: &SkinPlace, joints: &mut Vec<PoseMatrix>) -> DVec3 {
         let skin = &self.rig.skins[place.skin];
         let step = |of: &JointPlace| {
@@ -91,8 +92,8 @@ impl Placer<'_> {
         anchor
     }
 
-    /// The placement of a draw; `anchors` are those of the joints, `pivots` of the shapes. Targets that count
-    /// are appended.
+    /// Returns the placement of a draw; `anchors` are those of the joints, `pivots` those of the shapes.
+    /// Targets with weight are appended.
     pub fn draw(
         &self,
         place: &DrawPlace,
@@ -111,7 +112,7 @@ impl Placer<'_> {
             ),
         );
         let target_count = targets.len() as u32 - first_target;
-        // Where no target counts, placements do not depend on those of other draws.
+        // Where no target has weight, placements do not depend on those of other draws.
         let first_target = if target_count > 0 { first_target } else { 0 };
         let placement = PosePlacement { first_target, target_count, ..PosePlacement::default() };
         if let Some(skin) = place.skin {
@@ -133,7 +134,7 @@ impl Placer<'_> {
         }
     }
 
-    /// Placement of an instance without joints.
+    /// Returns the placement of an instance without joints.
     pub fn world_from_mesh(&self, instance: usize) -> DAffine3 {
         if !self.is_placed {
             return self.scene.instances[instance].world_from_mesh;
@@ -142,7 +143,7 @@ impl Placer<'_> {
         self.pose.world(placement.node) * placement.node_from_mesh
     }
 
-    /// Weights of the morph targets of a draw.
+    /// Returns the weights of the morph targets of a draw.
     pub fn weights(&self, place: &DrawPlace) -> Vec<f64> {
         let Some(deformed) = place.deformed else { return Vec::new() };
         let node = self.rig.placements[place.instance].node;
@@ -155,7 +156,7 @@ fn matrix(linear: DMat3, translation: DVec3) -> PoseMatrix {
     PoseMatrix { x, y, z, translation: translation.as_vec3().to_array() }
 }
 
-/// A map of directions, which have no length: what is very small would leave the range of f32.
+/// Scales a map of directions, which have no length: a very small one would leave the range of f32.
 fn of_largest_one(linear: DMat3) -> DMat3 {
     let largest = linear.to_cols_array().iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
     if largest > 0.0 { linear * largest.recip() } else { linear }

@@ -2,15 +2,16 @@
 
 use rasray_scene::animation::{ChannelValues, DeformedMesh, NodeTransform, Rig};
 
-/// Nodes that any clip can move, and nodes whose morph targets it can.
+/// Nodes that any clip can move, and nodes whose morph targets it can change.
 pub struct Moving {
-    /// Carrier of each node: itself or the nearest node above it that a clip changes, absent where it stays.
+    /// Carrier of each node: the node itself or the nearest node above it that a clip changes; absent if the
+    /// node is static.
     nodes: Vec<Option<usize>>,
     weights: Vec<bool>,
 }
 
 impl Moving {
-    /// Linear in nodes and channels.
+    /// Finds the nodes. Linear in nodes and channels.
     pub fn of(rig: &Rig) -> Self {
         let count = rig.nodes.len();
         let (mut nodes, mut weights) = (vec![None::<Option<usize>>; count], vec![false; count]);
@@ -18,7 +19,7 @@ impl Moving {
             let Some(node) = rig.nodes.get(channel.node) else { continue };
             match channel.values {
                 ChannelValues::Weights { .. } => weights[channel.node] = true,
-                // The format forbids to animate a matrix.
+                // The format forbids animated matrices.
                 _ if matches!(node.transform, NodeTransform::Parts { .. }) => {
                     nodes[channel.node] = Some(Some(channel.node));
                 }
@@ -28,7 +29,7 @@ impl Moving {
         for start in 0..count {
             let mut chain = Vec::new();
             let mut next = Some(start);
-            // A forest has no cycle; a chain longer than there are nodes would be one.
+            // A forest has no cycle; a chain longer than the number of nodes would be one.
             while let Some(node) = next.filter(|&node| nodes[node].is_none() && chain.len() < count) {
                 chain.push(node);
                 next = rig.nodes[node].parent;
@@ -44,18 +45,18 @@ impl Moving {
         self.carrier(node).is_some()
     }
 
-    /// The nearest node, itself or above it, that a clip changes: what hangs on nodes with the same one keeps
-    /// its place there. Absent where it stays.
+    /// Returns the carrier of a node: the node itself or the nearest above it that a clip changes. Nodes with
+    /// one carrier keep their places relative to it. `None` if the node is static.
     pub fn carrier(&self, node: usize) -> Option<usize> {
         self.nodes.get(node).copied().flatten()
     }
 
-    /// True if vertices move that hang on a node and are deformed like this.
+    /// True if the vertices of an instance at a node move, with this deformation.
     pub fn instance(&self, rig: &Rig, node: usize, deformed: Option<&DeformedMesh>) -> bool {
         let Some(deformed) = deformed else { return self.node(node) };
         let morphs = !deformed.targets.is_empty() && self.weights.get(node).copied().unwrap_or(false);
         let skin = deformed.skin.as_ref().and_then(|binding| rig.skins.get(binding.skin));
-        // Joints place a skinned mesh, not its node.
+        // Joints place a skinned mesh, and its node does not.
         let is_carried =
             skin.map_or_else(|| self.node(node), |skin| skin.joints.iter().any(|&joint| self.node(joint)));
         morphs || is_carried
@@ -75,8 +76,8 @@ mod tests {
         let node = |parent, transform| RigNode { name: String::new(), parent, transform };
         let channel =
             |node, values| Channel { node, interpolation: Interpolation::Step, times: vec![0.0], values };
-        // 0 hangs on 2, that on 3, which is animated; 1 and 4 are still: a matrix cannot be animated, weights
-        // move no node.
+        // Node 0 hangs on 2, which hangs on 3, which is animated; 1 and 4 are static: a matrix cannot be
+        // animated, and weights move no node.
         let rig = Rig {
             nodes: vec![
                 node(Some(2), parts),

@@ -1,4 +1,4 @@
-//! Triangles that move, the parts that they move in, and the triangles that stay.
+//! Moving triangles, the parts in which they move, and the static triangles.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -10,16 +10,16 @@ use crate::Posed;
 
 const EMPTY: [[f32; 3]; 2] = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
 
-/// The triangles of a draw.
+/// Triangles of a draw.
 #[derive(Clone, Debug)]
 pub struct DrawTriangles {
     ids: Range<u32>,
-    /// At rest; empty without triangles.
+    /// Bounds at rest; empty without triangles.
     bounds: [[f32; 3]; 2],
 }
 
 impl DrawTriangles {
-    /// Those of all draws, in the order of their triangles.
+    /// Returns the triangles of all draws, in the order of their ids.
     pub fn all(posed: &Posed) -> Vec<Self> {
         let of = |first: u32, count: u32| {
             let ids = first..first + count;
@@ -34,28 +34,30 @@ impl DrawTriangles {
     }
 }
 
-/// Triangles that move, in parts that may move apart from each other.
+/// Moving triangles, in parts that may move apart from each other.
 #[derive(Clone, Debug)]
 pub struct MovingTriangles {
-    /// At least one, which has no triangles where nothing moves; with bounds at rest, metres relative to the
-    /// frame origin, of all triangles where it has none. Ids are in order, no range empty, none that touch.
+    /// Parts, at least one; if nothing moves, the one part has no triangles. Each has bounds at rest, metres
+    /// relative to the frame origin; a part without triangles has those of all triangles. Ids are in order;
+    /// no range is empty, and no two ranges touch.
     pub parts: Vec<MovingPart>,
-    /// Bounds of all others; of all triangles where there are none.
+    /// Bounds of all static triangles; of all triangles if there are none.
     pub static_bounds: [[f32; 3]; 2],
-    /// The part of each moving draw, in the order of the pose's draws.
+    /// Index of each moving draw's part, in the order of the pose's draws.
     pub part_of: Vec<usize>,
-    /// The node that carries each of the first parts; all others have more than what one node moves.
+    /// Carrier node of each of the first parts; the other parts are moved by more than one node.
     pub carriers: Vec<usize>,
 }
 
 impl MovingTriangles {
-    /// All that moves in one part.
+    /// Puts all moving triangles into one part.
     pub fn together(draws: &[DrawTriangles], places: &[DrawPlace]) -> Self {
         Self::divided(draws, places, vec![0; places.len()], Vec::new())
     }
 
-    /// A part for each object that its node alone moves: all draws that the same node carries. Of those the
-    /// `most` largest have parts, the largest first; one more, the last, has all others and what deforms.
+    /// Makes a part for each object that its node alone moves: all draws that the same node carries. The
+    /// `most` largest objects have parts, the largest first; one more part, the last, has all others and all
+    /// that deforms.
     pub fn objects(draws: &[DrawTriangles], places: &[DrawPlace], most: usize) -> Self {
         let mut sizes: BTreeMap<usize, usize> = BTreeMap::new();
         for place in places {
@@ -74,7 +76,7 @@ impl MovingTriangles {
         Self::divided(draws, places, part_of, carriers.into_iter().map(|(carrier, _)| carrier).collect())
     }
 
-    /// The parts that moving draws are in.
+    /// Divides the moving draws into the given parts.
     fn divided(
         draws: &[DrawTriangles],
         places: &[DrawPlace],

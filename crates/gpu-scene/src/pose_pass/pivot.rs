@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 
-/// A position relative to a pivot, rounded once.
+/// Returns a position relative to a pivot, rounded once.
 pub fn relative(position: &[f32; 3], pivot: DVec3) -> [f32; 3] {
     (DVec3::from(position.map(f64::from)) - pivot).as_vec3().to_array()
 }
 
-/// The centre of the box around positions, metres; zero where there are none.
+/// Returns the centre of the box around positions, metres; zero if there are none.
 pub fn centre<'a>(lists: impl IntoIterator<Item = &'a [[f32; 3]]>) -> DVec3 {
     let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for position in lists.into_iter().flatten() {

@@ -1,4 +1,4 @@
-//! Objects in spaces of their own, and the maps from where they are posed to there.
+//! Objects in spaces of their own, and the maps from their posed positions to these spaces.
 
 use glam::{DAffine3, DVec3};
 use rasray_ads::GeometryRigid;
@@ -7,34 +7,34 @@ use rasray_scene::{Scene, animation::Rig};
 
 use super::sources::DrawPlace;
 
-/// Half a unit of rounding of f32, as a share of the number.
+/// Half a unit of rounding of f32, relative to the number.
 const HALF_UNIT: f64 = 1.0 / 16_777_216.0;
 
-/// An object that its node alone moves, in a space that is that of the node but for its origin, which is the
+/// Object that its node alone moves, in a space that differs from that of the node only by its origin, the
 /// middle of the object. Metres.
 #[derive(Clone, Debug)]
 pub struct RigidObject {
     carrier: usize,
-    /// In the space of the node.
+    /// Middle of the object in the space of the node.
     centre: DVec3,
-    /// Distance of its corners from the middle.
+    /// Distance between the corners of the object and its middle.
     radius: f64,
     draws: Vec<RigidDraw>,
-    /// Corners of its positions.
+    /// Corners of the object's bounds.
     pub bounds: [[f32; 3]; 2],
 }
 
-/// A draw of an object, as its vertices are posed.
+/// Draw of an object, as its vertices are posed.
 #[derive(Clone, Debug)]
 struct RigidDraw {
     carrier_from_mesh: DAffine3,
-    /// Mesh space: what positions are relative to, and how far they are from there along each axis.
+    /// Pivot of the positions in mesh space, and their largest distance from it along each axis.
     pivot: DVec3,
     half: DVec3,
 }
 
 impl RigidObject {
-    /// The object of these draws, whose positions are written to their vertices. Absent where some are not
+    /// Makes the object of these draws and writes its positions to their vertices. `None` if some are not
     /// finite.
     pub fn new(
         scene: &Scene,
@@ -72,22 +72,22 @@ impl RigidObject {
         (radius.is_finite() && is_finite).then_some(Self { carrier, centre, radius, draws, bounds })
     }
 
-    /// The map from where a pose has it, relative to the frame origin. Where its node is flat or a number is
-    /// beyond f32, the map has an infinite error.
+    /// Returns the map from the posed positions, relative to the frame origin. If its node is flat or a
+    /// number exceeds f32, the map has an infinite error.
     pub fn map(&self, pose: &Pose, frame_origin: DVec3) -> GeometryRigid {
         let world = pose.world(self.carrier);
         let centre = world.transform_point3(self.centre) - frame_origin;
         let linear = world.matrix3.inverse();
         let about = centre.as_vec3();
-        // The largest length that a unit vector has, or more.
+        // An upper bound of the length to which the matrix maps a unit vector.
         let norm = |matrix: glam::DMat3| {
             let squares = matrix.to_cols_array().into_iter().map(|x| x * x);
             squares.sum::<f64>().sqrt()
         };
         let stretch = norm(linear);
         let reach = stretch * norm(world.matrix3) * self.radius;
-        // Products and sums of the pose's kernel, the rounded matrix and what it moves, then the way to the
-        // frame origin.
+        // The error adds the products and sums of the pose's kernel, the rounded matrix times its operands,
+        // and then the distance to the frame origin.
         let posed = self.draws.iter().map(|draw| {
             let place = world * draw.carrier_from_mesh;
             let moved = (0..3).map(|row| place.matrix3.row(row).abs().dot(draw.half)).fold(0.0, f64::max);
@@ -117,11 +117,11 @@ fn mesh_positions<'a>(scene: &'a Scene, place: &DrawPlace) -> impl Iterator<Item
     mesh.positions.iter().map(|position| DVec3::from(position.map(f64::from)))
 }
 
-/// Between an instance and the node that carries it no node moves.
+/// Returns the transform between an instance and the node that carries it; no node between them moves.
 fn carrier_from_mesh(rig: &Rig, carrier: usize, instance: usize) -> DAffine3 {
     let placement = rig.placements[instance];
     let (mut from_mesh, mut node) = (placement.node_from_mesh, placement.node);
-    // A forest has no cycle; a chain longer than there are nodes would be one.
+    // A forest has no cycle; a chain longer than the number of nodes would be one.
     for _ in 0..rig.nodes.len() {
         if node == carrier {
             break;

@@ -1,5 +1,4 @@
-//! Shapes that no clip makes: what a deformer computes on the host for each frame, and how it gets to the
-//! device.
+//! Shapes that a deformer computes on the host for each frame, and their upload to the device.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
@@ -16,34 +15,34 @@ use crate::GpuSceneError;
 
 const WORD: u64 = size_of::<f32>() as u64;
 
-/// A mesh that a deformer changes, and where its shape at rest is on the device.
+/// Mesh that a deformer changes, and the place of its shape at rest on the device.
 #[derive(Clone, Debug)]
 pub struct ShapePlace {
     /// Index into the meshes of the scene.
     pub mesh: usize,
-    /// Rest positions, rest normals: first words; absent where no draw shows the mesh, or nothing reads
+    /// First words of rest positions and rest normals; absent if no draw shows the mesh, or no pass reads
     /// normals.
     words: [Option<u32>; 2],
     vertex_count: usize,
     has_normals: bool,
-    /// Hash of everything but positions and normals.
+    /// Hash of all data but positions and normals.
     triangles: u64,
 }
 
-/// Meshes that a deformer changes, with memory of the host for each frame in flight.
+/// Meshes that a deformer changes, with host memory for each frame in flight.
 #[derive(Debug)]
 pub struct Shapes {
     deformer: Option<Arc<dyn Deformer>>,
     scene: String,
     places: Vec<ShapePlace>,
-    /// Words of a frame.
+    /// Number of words of a frame.
     word_count: usize,
     rest: [Buffer; 2],
-    /// One per slot; none where nothing is deformed.
+    /// Upload buffers, one per slot; none if no mesh is deformed.
     uploads: Vec<Buffer>,
 }
 
-/// The shapes of one frame.
+/// Shapes of one frame.
 #[derive(Clone, Debug, Default)]
 pub struct FrameShapes {
     /// Words of each place: positions relative to its pivot, then normals.
@@ -55,7 +54,7 @@ pub struct FrameShapes {
 }
 
 impl ShapePlace {
-    /// A mesh at rest; `words` are those of its positions and normals, or `ATTRIBUTE_NONE`.
+    /// Describes a mesh at rest; `words` are those of its positions and normals, or `ATTRIBUTE_NONE`.
     pub fn new(scene: &Scene, mesh: usize, words: [u32; 2]) -> Self {
         let rest = &scene.meshes[mesh];
         Self {
@@ -71,7 +70,7 @@ impl ShapePlace {
         3 * self.vertex_count * self.words.iter().flatten().count()
     }
 
-    /// Positions and normals of a shape, unless it has other triangles.
+    /// Returns positions and normals of a shape; `None` if it has other triangles.
     fn vertices(&self, shape: Shape) -> Option<Vertices> {
         let (positions, normals) = match shape {
             Shape::Vertices { positions, normals } => (positions, normals),
@@ -85,10 +84,10 @@ impl ShapePlace {
     }
 }
 
-/// Positions, and normals where a shape has them.
+/// Positions, and normals if a shape has them.
 type Vertices = (Vec<[f32; 3]>, Option<Vec<[f32; 3]>>);
 
-/// Hash of all that a shape may not change.
+/// Hashes the data that a shape may not change.
 fn triangles(mesh: &Mesh) -> u64 {
     let mut hash = DefaultHasher::new();
     (mesh.positions.len(), mesh.material, &mesh.indices).hash(&mut hash);
@@ -100,7 +99,8 @@ fn triangles(mesh: &Mesh) -> u64 {
 }
 
 impl Shapes {
-    /// The shapes of a scene's deformer; `rest` are the tables of positions and attributes at rest. One slot.
+    /// Prepares the shapes of a scene's deformer, with one slot; `rest` are the tables of positions and
+    /// attributes at rest.
     ///
     /// # Errors
     /// Out of memory.
@@ -117,7 +117,7 @@ impl Shapes {
         Ok(shapes)
     }
 
-    /// Memory for that many frames in flight.
+    /// Reserves memory for that many frames in flight.
     ///
     /// # Errors
     /// Out of memory.
@@ -136,20 +136,20 @@ impl Shapes {
         Ok(())
     }
 
-    /// Name and bytes of the memory of all slots.
+    /// Returns the name and bytes of the memory of all slots.
     pub fn bytes(&self) -> (&'static str, u64) {
         ("pose shapes", self.uploads.iter().map(Buffer::size).sum())
     }
 
-    /// Words of a frame.
+    /// Returns the number of words of a frame.
     pub fn word_count(&self) -> usize {
         self.word_count
     }
 
-    /// The shapes at a time, seconds.
+    /// Returns the shapes at a time, seconds.
     ///
     /// # Errors
-    /// A file that cannot be read, or [`GpuSceneError::OtherTriangles`].
+    /// An error for a file that cannot be read, or [`GpuSceneError::OtherTriangles`].
     pub fn at(&self, seconds: f64) -> Result<FrameShapes, GpuSceneError> {
         let Some(deformer) = &self.deformer else { return Ok(FrameShapes::default()) };
         let mut given = deformer.at(seconds)?.shapes;
@@ -167,7 +167,7 @@ impl Shapes {
                 words.extend(positions.iter().flat_map(|position| relative(position, pivot)));
             }
             if place.words[1].is_some() {
-                // Without a direction shading takes that of the triangle: flat.
+                // Normals without a direction let shading take that of the triangle: flat.
                 let normals = normals.unwrap_or_else(|| vec![[0.0; 3]; positions.len()]);
                 words.extend_from_slice(normals.as_flattened());
             }

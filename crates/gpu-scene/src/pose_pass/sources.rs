@@ -1,4 +1,4 @@
-//! Shapes at rest of all that moves, packed as the device reads them.
+//! Shapes at rest of all moving draws, packed as the device reads them.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -13,24 +13,24 @@ use super::pivot::{centre, relative};
 use super::shapes::ShapePlace;
 use crate::{GpuSceneError, SceneTables, words::Words};
 
-/// Threads of a workgroup of `scene/pose_vertices`.
+/// Number of threads of a workgroup of `scene/pose_vertices`.
 const VERTICES_PER_GROUP: u32 = 64;
 
-/// Draws that move, and the tables that hold their shapes.
+/// Moving draws, and the tables that hold their shapes.
 pub struct Sources {
     /// Record of each draw that the device reads.
     pub draws: Vec<PoseDraw>,
     /// Record of each draw that the host reads.
     pub places: Vec<DrawPlace>,
-    /// Vertices of workgroups.
+    /// Vertices that each workgroup poses.
     pub groups: Vec<PoseGroup>,
-    /// Meshes with joints that move.
+    /// Meshes with moving joints.
     pub skins: Vec<SkinPlace>,
     /// Meshes that a deformer changes.
     pub shapes: Vec<ShapePlace>,
-    /// Joint matrices of a frame.
+    /// Number of joint matrices of a frame.
     pub joint_count: usize,
-    /// Most morph targets that a frame can show.
+    /// Largest number of morph targets that a frame can show.
     pub target_count: usize,
     pub rest_positions: Words,
     pub rest_attributes: Words,
@@ -46,49 +46,49 @@ pub struct DrawPlace {
     pub instance: usize,
     /// Index of the first vertex, in the geometry.
     pub first_vertex: u32,
-    /// Mesh space, metres: what positions at rest are relative to.
+    /// Pivot of the positions at rest, mesh space, metres.
     pub pivot: DVec3,
     /// Index into the skins of the sources.
     pub skin: Option<usize>,
     /// Index into the deformed meshes of the rig.
     pub deformed: Option<usize>,
-    /// Index into the shapes of the sources; the pivot is that of the frame's shape then.
+    /// Index into the shapes of the sources, if any; the pivot is then that of the frame's shape.
     pub shape: Option<usize>,
     /// Words of the displacements of each morph target: positions, normals, tangents.
     pub targets: Vec<[u32; 3]>,
-    /// The node of the rig that carries it, and nothing else moves it; absent where it deforms.
+    /// Node of the rig that alone moves the draw; absent if the draw deforms.
     pub carrier: Option<usize>,
 }
 
-/// The joints of a mesh and their place in the joint matrices. Each mesh has its own, so that what other
-/// meshes of a skin are bound to costs it no digits.
+/// Joints of a mesh and their place among the joint matrices. Each mesh has its own, so that the bindings of
+/// other meshes of a skin cost it no digits.
 #[derive(Clone, Debug)]
 pub struct SkinPlace {
     /// Index into the skins of the rig.
     pub skin: usize,
     /// Index into the deformed meshes of the rig.
     deformed: usize,
-    /// Those that have weight, in ascending order.
+    /// Joints with weight, in ascending order.
     pub joints: Vec<JointPlace>,
-    /// Mesh space, metres.
+    /// Pivot of the positions, mesh space, metres.
     pub pivot: DVec3,
-    /// Index of the first of `joints`.
+    /// Index of the matrix of the first of `joints`.
     pub first_joint: u32,
 }
 
-/// Share of a joint in the vertices of a mesh, and their mean.
+/// Joint with its share of the weights of a mesh, and the mean position of its vertices.
 #[derive(Clone, Copy, Debug)]
 pub struct JointPlace {
     /// Index into the joints of the skin.
     pub joint: u32,
-    /// Its share of the weights of all vertices: that of all joints is 1.
+    /// Share of the sum of the weights of all vertices; the shares of all joints add up to 1.
     pub share: f64,
-    /// The mean of positions, weighted by what it has of each: mesh space, metres.
+    /// Mean of the positions, weighted by the joint's weights: mesh space, metres.
     pub mean: DVec3,
 }
 
 impl JointPlace {
-    /// The joints with weight, in ascending order.
+    /// Returns the joints with weight, in ascending order.
     fn all(shape: &DeformedMesh, binding: &SkinBinding) -> Vec<Self> {
         let mut sums: BTreeMap<u32, (f64, DVec3)> = BTreeMap::new();
         for (vertex, position) in shape.positions.iter().enumerate() {
@@ -116,7 +116,7 @@ struct MeshWords {
 }
 
 impl Sources {
-    /// Packs what can move of the draws of `tables`, which were made from `scene`.
+    /// Packs the movable parts of the draws of `tables`, which were made from `scene`.
     ///
     /// # Errors
     /// `TooManyVertices` where 32-bit word offsets do not reach, `DeformedTwice`.
@@ -218,7 +218,7 @@ impl Sources {
         Ok(sources)
     }
 
-    /// The place of the joints of a mesh, which it gets when it is first asked for.
+    /// Returns the place of the joints of a mesh, which is assigned at the first call.
     fn skin(&mut self, rig: &Rig, deformed: usize, binding: &SkinBinding) -> usize {
         if let Some(known) = self.skins.iter().position(|place| place.deformed == deformed) {
             return known;
@@ -232,8 +232,8 @@ impl Sources {
         self.skins.len() - 1
     }
 
-    /// Packs a mesh; normals and tangents where `is_shaded` asks for them. Tangents of a mesh that a deformer
-    /// changes would lie in the surface that was: without a direction, shading derives one.
+    /// Packs a mesh, with normals and tangents if `is_shaded` asks for them. Tangents of a mesh that a
+    /// deformer changes would lie in the old surface: without a direction, shading derives one.
     fn mesh(
         &mut self,
         mesh: &Mesh,
@@ -275,7 +275,7 @@ impl Sources {
         Ok(MeshWords { rest_positions, rest_normals, rest_tangents, skin, targets })
     }
 
-    /// Appends for each vertex its joints, by their place among those with weight, then their weights, whose
+    /// Appends for each vertex its joints, by their index among those with weight, then their weights, whose
     /// sum is 1 but for the rounding of each.
     fn append_skin(&mut self, binding: &SkinBinding, place: usize) -> Result<u32, GpuSceneError> {
         let first = self.skin_words.len();

@@ -14,7 +14,7 @@ fn texture_ref(texture: usize) -> TextureRef {
     TextureRef { texture, uv_set: 0, uv_transform: IDENTITY_ROWS }
 }
 
-/// A square of two triangles in the xy plane, with all attributes.
+/// Makes a square of two triangles in the xy plane, with all attributes.
 fn square(material: usize) -> Mesh {
     Mesh {
         name: "square".to_owned(),
@@ -32,7 +32,7 @@ fn instance(mesh: usize, world_from_mesh: DAffine3) -> Instance {
     Instance { name: format!("instance of {mesh}"), mesh, world_from_mesh }
 }
 
-/// Three instances of two meshes: plain, mirrored and scaled, and an emissive one.
+/// Makes three instances of two meshes: plain, mirrored and scaled, and an emissive one.
 fn scene() -> Scene {
     let image = |name: &str, width: u32, height: u32, byte: u8| Image {
         name: name.to_owned(),
@@ -126,7 +126,8 @@ fn attributes_are_posed_once_per_instance_and_shared_where_they_can_be() {
 fn one_entry_for_each_texture_and_use_one_run_of_texels_for_each_image_and_encoding() {
     let tables = pack(&scene(), DVec3::ZERO, &Parts::ALL);
     let [masked, emissive] = tables.materials[..] else { panic!("two materials") };
-    // Base colour (sRGB), metallic-roughness (linear) and normal (linear) of one, emission (sRGB).
+    // The textures are base colour (sRGB), metallic-roughness (linear) and normal (linear) of one material,
+    // emission (sRGB) of the other.
     assert_eq!(tables.textures.len(), 4);
     let texture = |slot: layout::TextureUse| tables.textures[slot.texture as usize];
     let color = texture(masked.base_color_texture);
@@ -147,14 +148,15 @@ fn one_entry_for_each_texture_and_use_one_run_of_texels_for_each_image_and_encod
 #[test]
 fn emissive_triangles_are_chosen_by_power() {
     let mut scene = scene();
-    // A second emissive instance, four times as large.
+    // The second emissive instance is four times as large.
     scene.instances.push(instance(1, DAffine3::from_scale(DVec3::splat(2.0))));
     let tables = pack(&scene, DVec3::ZERO, &Parts::ALL);
     let entries: Vec<_> = tables.emissive_triangles.iter().map(|e| (e.primitive, e.cumulative)).collect();
     assert_eq!(entries, [(4, 0.1), (5, 0.2), (6, 0.6), (7, 1.0)]);
     let first: Vec<u32> = tables.draw_shadings.iter().map(|draw| draw.first_emissive).collect();
     assert_eq!(first, [numbers::EMISSIVE_NONE, numbers::EMISSIVE_NONE, 0, 2]);
-    // A texture that glows on one half gives that half's triangles the light: 4 texels a row, 2 of them dark.
+    // A texture that glows on one half gives its power to the triangles of that half: 4 texels a row, 2 of
+    // them dark.
     let whole = tables.emissive_triangles.len();
     let dark_right = |texel: usize| texel % 4 >= 2;
     let mut halved = scene.clone();
@@ -281,7 +283,7 @@ fn the_default_frame_origin_is_near_the_eye_and_stays_on_its_grid() {
     let origin = SceneTables::default_frame_origin(&scene, eye);
     assert_eq!(origin, DVec3::new(14.0 * 65_536.0, 0.0, -65_536.0));
     assert_eq!(SceneTables::default_frame_origin(&scene, eye + DVec3::splat(3.0)), origin);
-    // Nearer to the world's origin nothing is gained by another one.
+    // Nearer to the world's origin another one gains nothing.
     assert_eq!(SceneTables::default_frame_origin(&scene, DVec3::new(16_000.0, 10.0, -900.0)), DVec3::ZERO);
 }
 

@@ -1,5 +1,5 @@
-//! Texels that exceed what is there: images lose their finest levels, and nothing else changes. Without a
-//! device.
+//! Texels that exceed the available memory: images lose their finest levels, and nothing else changes.
+//! Without a device.
 
 use rasray_gpu_scene::{GpuSceneError, Parts, SceneTables, SmallerImage, TEXEL_BYTES, TexelDemand, layout};
 use rasray_scene::{AlphaMode, Filter, Image, Material, Scene, Texture, TextureRef, Wrap};
@@ -7,7 +7,7 @@ use rasray_scene::{AlphaMode, Filter, Image, Material, Scene, Texture, TextureRe
 use glam::DVec3;
 
 fn image(name: &str, width: u32, height: u32) -> Image {
-    // No two texels of an image are alike, nor two bytes that follow each other.
+    // Texels of an image are all different, and so are bytes that follow each other.
     let rgba8 = (0..width * height * 4).map(|byte| (byte.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
     Image { name: name.to_owned(), width, height, rgba8 }
 }
@@ -16,7 +16,8 @@ fn used(texture: usize) -> Option<TextureRef> {
     Some(TextureRef { texture, uv_set: 0, uv_transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] })
 }
 
-/// Colour, normals and a mask of different sizes; the mask has no smaller levels; one image is not used.
+/// Makes colour, normals and a mask of different sizes; the mask has no smaller levels; one image is not
+/// used.
 fn scene() -> Scene {
     let texture = |image, mipmapped| Texture {
         image,
@@ -58,7 +59,7 @@ fn demand(scene: &Scene, parts: &Parts) -> TexelDemand {
     TexelDemand::of(scene, parts).expect("the scene is well formed")
 }
 
-/// The texels of a texture with all its levels.
+/// Returns the texels of a texture with all its levels.
 fn texels(tables: &SceneTables, texture: layout::Texture) -> &[u32] {
     let size = |level: u32| (texture.width >> level).max(1) * (texture.height >> level).max(1);
     let count: u32 = (0..texture.level_count).map(size).sum();
@@ -88,7 +89,7 @@ fn the_largest_image_is_halved_until_all_fit() {
     };
     let entry = |name: &str, from, to| (name.to_owned(), from, to);
     assert_eq!(sizes(377), []);
-    // The first of two equal ones goes first.
+    // The first of two equal images is halved first.
     assert_eq!(sizes(376), [entry("bark", [16, 8], [8, 4])]);
     assert_eq!(sizes(249), [entry("bark", [16, 8], [8, 4])]);
     assert_eq!(sizes(248), [entry("bark", [16, 8], [8, 4]), entry("leaf", [8, 16], [4, 8])]);
@@ -102,7 +103,7 @@ fn the_largest_image_is_halved_until_all_fit() {
     }
 }
 
-/// A render then reads the levels that there were.
+/// A render then reads the levels that existed before.
 #[test]
 fn smaller_images_are_the_coarser_levels_bit_for_bit() {
     let whole = scene();

@@ -129,7 +129,7 @@ fn texels_lie_in_runs_that_count_as_one_part() {
         Err(GpuSceneError::TooManyTexels { count: 1000, limit: 512 }) => {}
         other => panic!("four runs of 128 hold 512 texels, got {other:?}"),
     }
-    // Bound by themselves are the longest runs that the device can bind.
+    // By default the runs are the longest that the device can bind.
     let uploaded = GpuScene::upload(&device, &tables, &view()).expect("the scene fits");
     let bytes = 4u64 << uploaded.frame().texel_shift;
     let limit = device.limits().max_storage_buffer_range.min(device.limits().max_memory_allocation);
@@ -137,8 +137,8 @@ fn texels_lie_in_runs_that_count_as_one_part() {
     assert_eq!(device.validation_messages(), Vec::<String>::new());
 }
 
-/// A built-in scene with everything that parts leave out: a map around it, all attributes, rough glass, a
-/// lamp.
+/// Makes a built-in scene with all features that parts can leave out: a map around it, all attributes, rough
+/// glass, a lamp.
 fn scene_with_all_parts() -> Scene {
     let mut scene = builtin::builtin("atrium").expect("a name").expect("no parameters");
     scene.environment = Environment::LatLong { width: 4, height: 2, radiance: vec![[0.5; 3]; 8] };
