@@ -12,10 +12,10 @@ use library::Functions;
 use std::ffi::OsString;
 use std::path::Path;
 
-/// Names a file of the library that is taken in place of the one that is installed.
+/// Name of the environment variable with the file of the library, which replaces the installed one.
 pub const LIBRARY_VARIABLE: &str = "RASRAY_OIDN";
 
-/// Names of the library where it is looked up as all libraries are, on this system.
+/// Names under which the installed library is looked up on this system.
 const NAMES: &[&str] = if cfg!(target_os = "windows") {
     &["OpenImageDenoise.dll"]
 } else if cfg!(target_os = "macos") {
@@ -24,53 +24,53 @@ const NAMES: &[&str] = if cfg!(target_os = "windows") {
     &["libOpenImageDenoise.so.2", "libOpenImageDenoise.so"]
 };
 
-/// Why there is no picture without noise.
+/// Error of denoising a picture.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DenoiseError {
-    /// There is no library of that name, or it needs others that are not there.
+    /// No library has that name, or a library that it needs is missing.
     #[error("Open Image Denoise is not installed: {reason}")]
     Missing {
         /// Message of the dynamic linker.
         reason: String,
     },
-    /// It is of another version than 2, whose functions are other ones.
+    /// The library has another version than 2, with other functions.
     #[error("{} is not version 2 of Open Image Denoise: {reason}", name.display())]
     Unsuitable {
         /// The library.
         name: OsString,
-        /// Function that it lacks, or the version that it has.
+        /// Function that the library lacks, or its version.
         reason: String,
     },
-    /// It refused the picture or this processor.
+    /// The library refused the picture or this processor.
     #[error("Open Image Denoise failed: {0}")]
     Failed(String),
-    /// Images do not have as many pixels as the picture.
+    /// An image does not have as many pixels as the picture.
     #[error("{name} has {pixels} pixels in place of {expected}")]
     Size {
-        /// The image.
+        /// Name of the image.
         name: &'static str,
-        /// Pixels of the image.
+        /// Number of pixels of the image.
         pixels: usize,
-        /// Pixels of the picture.
+        /// Number of pixels of the picture.
         expected: usize,
     },
 }
 
-/// A picture and its features: one entry per pixel, rows from the top.
+/// Picture and its features: one entry per pixel, rows from the top.
 #[derive(Clone, Copy, Debug)]
 pub struct NoisyPicture<'a> {
-    /// Pixels a row, and rows.
+    /// Pixels per row and number of rows.
     pub size: [usize; 2],
-    /// Linear, without an upper limit.
+    /// Linear colours, without an upper limit.
     pub colour: &'a [[f32; 3]],
-    /// Base colours, 0 to 1 each.
+    /// Base colours, each channel from 0 to 1.
     pub albedo: &'a [[f32; 3]],
-    /// Unit normals, of any axes; zero where there is none.
+    /// Unit normals in any coordinate system; zero where there is none.
     pub normal: &'a [[f32; 3]],
 }
 
-/// The library, ready for pictures.
+/// Loaded library, ready for pictures.
 #[derive(Debug)]
 pub struct Denoiser {
     functions: Functions,
@@ -78,7 +78,7 @@ pub struct Denoiser {
 }
 
 impl Denoiser {
-    /// Loads the library that [`LIBRARY_VARIABLE`] names, or else the one that is installed.
+    /// Loads the library that [`LIBRARY_VARIABLE`] names, or else the installed one.
     ///
     /// # Errors
     /// [`DenoiseError::Missing`], or [`DenoiseError::Unsuitable`].
@@ -88,13 +88,13 @@ impl Denoiser {
             None => {
                 let first = Self::load(Path::new(NAMES[0]));
                 let others = NAMES[1..].iter().map(|name| Self::load(Path::new(name)));
-                // The name with a version says most of what is missing.
+                // The error of the name with a version describes best which library is missing.
                 others.fold(first, |found, other| found.or_else(|error| other.map_err(|_| error)))
             }
         }
     }
 
-    /// Loads a library by its file, or by its name where it is looked up as all libraries are.
+    /// Loads a library by its file, or by a name that the system looks up.
     ///
     /// # Errors
     /// [`DenoiseError::Missing`], or [`DenoiseError::Unsuitable`].
@@ -111,15 +111,15 @@ impl Denoiser {
         Ok(Self { functions, version: format!("Open Image Denoise {major}.{minor}.{patch}") })
     }
 
-    /// Name and version: `Open Image Denoise 2.5.1`.
+    /// Name and version of the library: `Open Image Denoise 2.5.1`.
     pub fn version(&self) -> &str {
         &self.version
     }
 
-    /// The picture without noise, as linear as it was.
+    /// Returns the picture without noise, in the same linear scale.
     ///
     /// # Errors
-    /// [`DenoiseError::Size`], or [`DenoiseError::Failed`] with what the library says.
+    /// [`DenoiseError::Size`], or [`DenoiseError::Failed`] with the library's message.
     pub fn denoise(&self, picture: &NoisyPicture<'_>) -> Result<Vec<[f32; 3]>, DenoiseError> {
         let NoisyPicture { size: [width, height], colour, albedo, normal } = *picture;
         let expected = width.saturating_mul(height);
@@ -150,7 +150,7 @@ mod tests {
         }
     }
 
-    /// Any other library will do: this test's C library.
+    /// The test loads another library: its own C library.
     #[cfg(target_os = "linux")]
     #[test]
     fn another_library_is_unsuitable() {
@@ -166,7 +166,7 @@ mod tests {
         };
         assert!(denoiser.version().starts_with("Open Image Denoise 2."), "{}", denoiser.version());
         let size = [48, 32];
-        // A grey wall twice as bright as a screen, with noise of known numbers.
+        // The picture is a grey wall twice as bright as a screen, with reproducible noise.
         let noisy: Vec<_> = (0..48 * 32_u32)
             .map(|pixel| [2.0 + ((pixel.wrapping_mul(2_654_435_761) >> 16) as f32 / 32_768.0 - 1.0); 3])
             .collect();

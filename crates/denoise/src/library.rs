@@ -1,4 +1,4 @@
-//! The C interface of Open Image Denoise 2 as far as it is used, by the names and types of its header
+//! Parts of the C interface of Open Image Denoise 2 that the crate uses, by the names and types of its header
 //! `oidn.h`.
 
 use crate::DenoiseError;
@@ -6,10 +6,10 @@ use libloading::Library;
 use std::ffi::{CStr, OsStr, c_char, c_int, c_void};
 use std::ptr::null;
 
-/// A device or a filter of the library, which nobody looks into.
+/// Opaque handle of a device or a filter of the library.
 type Handle = *mut c_void;
 
-/// `OIDN_DEVICE_TYPE_CPU`: it reads and writes memory of this process wherever it is.
+/// `OIDN_DEVICE_TYPE_CPU`: the device reads and writes memory of this process at any address.
 const CPU: c_int = 1;
 /// `OIDN_ERROR_NONE`.
 const NO_ERROR: c_int = 0;
@@ -25,7 +25,7 @@ type SetBool = unsafe extern "C" fn(Handle, *const c_char, bool);
 type SetImage =
     unsafe extern "C" fn(Handle, *const c_char, *mut c_void, c_int, usize, usize, usize, usize, usize);
 
-/// The functions of a loaded library.
+/// Functions of a loaded library.
 #[derive(Debug)]
 pub(crate) struct Functions {
     new_device: NewDevice,
@@ -39,28 +39,28 @@ pub(crate) struct Functions {
     commit_filter: OfHandle,
     execute_filter: OfHandle,
     release_filter: OfHandle,
-    /// Last, so that it is closed when nothing calls into it any more.
+    /// Handle of the library; the last field, so that it is closed when no function can be called any more.
     _library: Library,
 }
 
 impl Functions {
     /// Loads a library by file or by name.
     pub fn load(name: &OsStr) -> Result<Self, DenoiseError> {
-        // SAFETY: what a library does when it is loaded is its own. The user named it, or it is the one that
-        // is installed under this name; its initialisers have no conditions.
+        // SAFETY: a library runs its own code when it is loaded. The user named it, or it is the one that is
+        // installed under this name; its initialisers have no preconditions.
         let library = unsafe { Library::new(name) }
             .map_err(|error| DenoiseError::Missing { reason: described(&error) })?;
         let lacks = |error: libloading::Error| DenoiseError::Unsuitable {
             name: name.to_owned(),
             reason: described(&error),
         };
-        /// A function by its name in the header, with the type that it has there.
+        /// Looks up a function by its name in the header, with the type that it has there.
         macro_rules! function {
             ($name:literal) => {
-                // SAFETY: `oidn.h` of version 2 declares the function with the type of the field that it goes
-                // to, and functions keep their types within a version: a library with other ones has another
-                // file name. The pointer is used no longer than the library is loaded, since both are in the
-                // same struct.
+                // SAFETY: `oidn.h` of version 2 declares the function with the type of the field that it is
+                // assigned to, and functions keep their types within a version: a library with other types
+                // has another file name. The pointer is used no longer than the library is loaded, since both
+                // are in the same struct.
                 *unsafe { library.get($name) }.map_err(lacks)?
             };
         }
@@ -80,7 +80,7 @@ impl Functions {
         })
     }
 
-    /// A device on this processor.
+    /// Makes a device on this processor.
     pub fn device(&self) -> Result<Device<'_>, DenoiseError> {
         // SAFETY: the type is one that the header lists.
         let handle = unsafe { (self.new_device)(CPU) };
@@ -95,16 +95,16 @@ impl Functions {
     }
 }
 
-/// An error of the loader with what the system says.
+/// Describes an error of the loader with the system's message.
 fn described(error: &libloading::Error) -> String {
     use std::error::Error;
     error.source().map_or_else(|| error.to_string(), ToString::to_string)
 }
 
-/// A device; released when it goes.
+/// Device of the library; it is released on drop.
 pub(crate) struct Device<'a> {
     functions: &'a Functions,
-    /// Null where none could be made: only its error is asked for.
+    /// Handle of the device; null if none could be made, in which case only the error is queried.
     handle: Handle,
 }
 
@@ -117,7 +117,7 @@ impl Drop for Device<'_> {
     }
 }
 
-/// A filter; released when it goes, before its device.
+/// Filter of the library; it is released on drop, before its device.
 struct Filter<'a> {
     device: &'a Device<'a>,
     handle: Handle,
@@ -131,25 +131,25 @@ impl Drop for Filter<'_> {
 }
 
 impl Device<'_> {
-    /// A number that the device knows by name; 0 where it does not.
+    /// Returns a number that the device has by name; 0 if it has none.
     pub fn number(&self, name: &CStr) -> i32 {
         // SAFETY: the handle is a committed device, and the name ends in 0.
         unsafe { (self.functions.device_number)(self.handle, name.as_ptr()) }
     }
 
-    /// Returns the error, if any, since this was asked last.
+    /// Returns the error, if any, since the last query.
     fn check(&self) -> Result<(), DenoiseError> {
         let mut message = null();
-        // SAFETY: the handle is a device, or null, for which the error of this thread is meant; the message
-        // is written.
+        // SAFETY: the handle is a device, or null, which stands for the error of this thread; the message is
+        // written by the call.
         let code = unsafe { (self.functions.device_error)(self.handle, &raw mut message) };
         if code == NO_ERROR {
             return Ok(());
         }
         let message = match message.is_null() {
             true => format!("error {code}"),
-            // SAFETY: a message ends in 0 and stays until the next call for this device, which is after this
-            // copy.
+            // SAFETY: a message ends in 0 and stays valid until the next call for this device, which comes
+            // after this copy.
             false => unsafe { CStr::from_ptr(message) }.to_string_lossy().into_owned(),
         };
         Err(DenoiseError::Failed(message))
@@ -161,8 +161,8 @@ impl Device<'_> {
         self.check().err().unwrap_or_else(unknown)
     }
 
-    /// The first image, which is linear, without noise; the others are albedo and normal. All have as many
-    /// pixels as the size says, above 0.
+    /// Returns the first image, which is linear, without noise; the others are albedo and normal. All have as
+    /// many pixels as the size says, above 0.
     pub fn filtered(
         &self,
         [width, height]: [usize; 2],
@@ -171,8 +171,8 @@ impl Device<'_> {
         assert!(images.iter().all(|image| image.len() == width * height), "sizes were checked");
         let functions = self.functions;
         let mut output = vec![[0.0_f32; 3]; width * height];
-        // SAFETY: the handle is a committed device, the name is of a filter that the header lists and ends in
-        // 0.
+        // SAFETY: the handle is a committed device, the name is that of a filter that the header lists, and
+        // it ends in 0.
         let handle = unsafe { (functions.new_filter)(self.handle, c"RT".as_ptr()) };
         if handle.is_null() {
             return Err(self.failed());
@@ -183,8 +183,8 @@ impl Device<'_> {
         let inputs = inputs.map(|(name, image)| (name, image.as_ptr().cast_mut()));
         for (name, pixels) in inputs.chain([(c"output", output.as_mut_ptr())]) {
             // SAFETY: the filter is live, the name ends in 0; the pixels are width * height of three floats
-            // without gaps, which strides of 0 stand for, and stay where they are until the filter is
-            // released below: inputs are borrowed, and `output` is neither moved nor looked at before.
+            // without gaps, as strides of 0 say, and keep their addresses until the filter is released below:
+            // inputs are borrowed, and `output` is neither moved nor read before.
             unsafe {
                 (functions.set_image)(
                     filter.handle,
@@ -200,7 +200,7 @@ impl Device<'_> {
             }
         }
         // SAFETY: the filter is live, its device is on this processor and so reads and writes memory of this
-        // process; a filter is executed before the call returns.
+        // process; a filter has finished when the call returns.
         unsafe {
             (functions.set_bool)(filter.handle, c"hdr".as_ptr(), true);
             (functions.commit_filter)(filter.handle);

@@ -13,7 +13,7 @@ const RECORD: usize = size_of::<Ray>();
 /// Reads a `.rays` file.
 ///
 /// # Errors
-/// Another format or version, a length that the header does not promise, or a ray that cannot be traced.
+/// An error for another format or version, a length other than the header's, or a ray that cannot be traced.
 pub fn read_rays(bytes: &[u8]) -> Result<RaysFile, FormatError> {
     if !bytes.starts_with(MAGIC) {
         return Err(FormatError::Magic { format: ".rays" });
@@ -72,7 +72,7 @@ pub fn read_rays(bytes: &[u8]) -> Result<RaysFile, FormatError> {
     Ok(RaysFile { rays, place: Place::Point(point) })
 }
 
-/// The bytes of a `.rays` file; origins are relative to `frame_origin` (world, metres).
+/// Returns the bytes of a `.rays` file; origins are relative to `frame_origin` (world, metres).
 pub fn write_rays(rays: &[Ray], frame_origin: [f64; 3]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(HEADER + rays.len() * RECORD);
     bytes.extend(MAGIC);
@@ -93,7 +93,7 @@ pub fn write_rays(rays: &[Ray], frame_origin: [f64; 3]) -> Vec<u8> {
     bytes
 }
 
-/// Bytes at a place of a slice that was checked to be long enough.
+/// Returns bytes of a slice, which was checked to be long enough.
 fn part<const N: usize>(bytes: &[u8], start: usize) -> [u8; N] {
     let mut part = [0; N];
     part.copy_from_slice(&bytes[start..start + N]);

@@ -1,7 +1,7 @@
 use std::io;
 use std::path::PathBuf;
 
-/// Why a file gave no rays or hits.
+/// Error of reading rays or hits from a file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
@@ -25,40 +25,40 @@ pub enum FileError {
         /// The file.
         path: PathBuf,
     },
-    /// The file is not what its name says.
+    /// The content of the file does not match its name.
     #[error("{}: {source}", path.display())]
     Format {
         /// The file.
         path: PathBuf,
-        /// Fault in its bytes.
+        /// Fault of the file's bytes.
         source: FormatError,
     },
 }
 
-/// Why bytes are not a file of rays or hits.
+/// Error of parsing bytes as rays or hits.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FormatError {
     /// The first bytes are those of another format.
     #[error("does not begin as a {format} file does")]
     Magic {
-        /// Format that was expected.
+        /// Name of the expected format.
         format: &'static str,
     },
-    /// The version is not one that is known here.
+    /// The version is not a supported one.
     #[error("is of version {version}, and only {known} can be read")]
     Version {
         /// Version in the file.
         version: String,
-        /// Versions that are known.
+        /// Supported versions.
         known: &'static str,
     },
-    /// The bytes end before, or after, what the header promises.
+    /// The number of bytes is not the one of the header.
     #[error("has {bytes} bytes where its header promises {promised}")]
     Length {
-        /// Bytes there are.
+        /// Number of bytes found.
         bytes: u64,
-        /// Bytes there should be.
+        /// Number of bytes that the header promises.
         promised: u64,
     },
     /// The header cannot be understood.
@@ -67,26 +67,26 @@ pub enum FormatError {
         /// Fault in the header.
         what: String,
     },
-    /// The array holds something else.
+    /// The array has another content than the expected one.
     #[error("holds {what}, not {wanted}")]
     Content {
-        /// Contents of the array.
+        /// Content of the array.
         what: String,
-        /// Contents that are wanted.
+        /// Expected content.
         wanted: &'static str,
     },
-    /// A ray that cannot be traced, or a hit that is none.
+    /// A ray cannot be traced, or a hit is invalid.
     #[error("entry {index} is not valid: {what}")]
     Entry {
-        /// Counted from 0.
+        /// Index of the entry, from 0.
         index: usize,
         /// Fault in the entry.
         what: &'static str,
     },
-    /// More than [`super::LIMIT`] entries.
+    /// The file has more than [`super::LIMIT`] entries.
     #[error("holds {entries} entries; at most {} can be read", super::LIMIT)]
     TooMany {
-        /// Entries, by its header.
+        /// Number of entries by the header.
         entries: u64,
     },
 }

@@ -5,16 +5,16 @@ use super::error::FormatError;
 use super::npy::{self, Array, Kind};
 use rasray_ads::{Hit, PRIMITIVE_NONE, StructureKind};
 
-/// The answer of the oracle to a ray.
+/// Answer of the oracle to a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrueHit {
-    /// In units of the direction's length; infinite for a miss.
+    /// Distance in units of the direction's length; infinite for a miss.
     pub t: f64,
     /// Global triangle id; `u32::MAX` for a miss.
     pub primitive: u32,
-    /// Weights of vertices 1 and 2.
+    /// Barycentric weights of vertices 1 and 2.
     pub barycentrics: [f64; 2],
-    /// True if f32 may decide otherwise.
+    /// True if f32 arithmetic may decide differently.
     pub ambiguous: bool,
 }
 
@@ -23,27 +23,27 @@ pub struct TrueHit {
 pub struct HitsFile {
     /// Name of the tracer in the report.
     pub name: String,
-    /// In the order of the rays.
+    /// Hits in the order of the rays.
     pub hits: Vec<Hit>,
 }
 
-/// Columns of t, primitive, u and v of a row.
+/// Position of t, primitive, u and v in a row.
 #[derive(Clone, Copy)]
 enum Columns {
-    /// In these fields of a record.
+    /// Indices of the fields of a record.
     Fields([Option<usize>; 4]),
-    /// In so many columns of numbers.
+    /// Number of columns of plain numbers.
     Plain(usize),
 }
 
-/// A ray that hit nothing.
+/// Hit that stands for a miss.
 const MISS: Hit = Hit { t: f32::INFINITY, primitive: PRIMITIVE_NONE, a: 0.0, b: 0.0 };
 
-/// Reads hits: records with the fields `t` and `primitive`, and perhaps `u` and `v`, or N x 2 to 4 plain
+/// Reads hits: records with the fields `t` and `primitive`, and optionally `u` and `v`, or N x 2 to 4 plain
 /// numbers in that order. A miss has the primitive 4294967295 or -1, or an infinite t.
 ///
 /// # Errors
-/// The bytes are no such array, or a primitive is no whole number in [-1, 2^32).
+/// An error if the bytes are no such array, or a primitive is no whole number in [-1, 2^32).
 pub fn hits_from_npy(bytes: &[u8]) -> Result<Vec<Hit>, FormatError> {
     const WANTED: &str = "records with t and primitive, or N x 2 to 4 numbers (t, primitive, u, v)";
     let array = npy::read(bytes)?;
@@ -87,8 +87,8 @@ fn primitive(index: usize, number: f64) -> Result<u32, FormatError> {
     Err(FormatError::Entry { index, what: "its primitive is no whole number from -1 to 4294967295" })
 }
 
-/// Hits as records of t (float32), primitive (uint32), u and v (float32): weights of vertices 1 and 2, NaN
-/// where the structure does not know them. A miss has an infinite t and the primitive 4294967295.
+/// Writes hits as records of t (float32), primitive (uint32), u and v (float32): weights of vertices 1 and 2,
+/// NaN where the structure does not know them. A miss has an infinite t and the primitive 4294967295.
 pub fn hits_to_npy(hits: &[Hit], kind: StructureKind) -> Vec<u8> {
     let fields = [("t", Kind::F4), ("primitive", Kind::U4), ("u", Kind::F4), ("v", Kind::F4)];
     let bytes = hits.iter().flat_map(|hit| {
@@ -106,7 +106,8 @@ pub fn hits_to_npy(hits: &[Hit], kind: StructureKind) -> Vec<u8> {
     Array::records(&fields, hits.len(), bytes.collect()).to_bytes()
 }
 
-/// The oracle's answers as records of t (float64), primitive (uint32), u, v (float64) and ambiguous (bool).
+/// Writes the oracle's answers as records of t (float64), primitive (uint32), u, v (float64) and ambiguous
+/// (bool).
 pub fn truth_to_npy(truth: &[TrueHit]) -> Vec<u8> {
     let fields = [
         ("t", Kind::F8),

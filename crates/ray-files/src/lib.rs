@@ -3,7 +3,7 @@
 //!
 //! - [`load_rays`] and [`load_hits`] read a file. They return rays and hits that can be traced and compared,
 //!   or an error that names the file, the place and the fix.
-//! - [`write_rays`], [`rays_to_npy`], [`hits_to_npy`], [`truth_to_npy`] and [`triangles_to_npy`] write them.
+//! - [`write_rays`], [`rays_to_npy`], [`hits_to_npy`], [`truth_to_npy`] and [`triangles_to_npy`] write files.
 //!
 //! `docs/ray-files.md` describes the formats.
 
@@ -26,7 +26,7 @@ use std::path::Path;
 /// Reads rays from a `.rays` or `.npy` file.
 ///
 /// # Errors
-/// The file cannot be read, is neither by its name, or is not what its name says.
+/// An error if the file cannot be read, has neither extension, or does not match its name.
 pub fn load_rays(path: &Path) -> Result<RaysFile, FileError> {
     let read = match extension(path).as_deref() {
         Some("rays") => read_rays,
@@ -36,10 +36,10 @@ pub fn load_rays(path: &Path) -> Result<RaysFile, FileError> {
     read(&read_file(path)?).map_err(|source| FileError::Format { path: path.to_owned(), source })
 }
 
-/// Reads hits from a `.npy` file; `name` is what a report calls the tracer that found them.
+/// Reads hits from a `.npy` file; `name` is the name in reports of the tracer that found them.
 ///
 /// # Errors
-/// The file cannot be read, is no `.npy` by its name, or does not hold hits.
+/// An error if the file cannot be read, is no `.npy` by its name, or does not hold hits.
 pub fn load_hits(name: &str, path: &Path) -> Result<HitsFile, FileError> {
     if extension(path).as_deref() != Some("npy") {
         return Err(FileError::NotHits { path: path.to_owned() });

@@ -1,11 +1,11 @@
-//! The header of a `.npy` file is the text of a Python dictionary; this reads such text.
+//! Parser of Python literals: the header of a `.npy` file is the text of a Python dictionary.
 
 use super::error::FormatError;
 
-/// Nesting beyond which text is no header.
+/// Largest depth of nesting of a header.
 const DEPTH: usize = 8;
 
-/// A Python literal, as far as array headers use them.
+/// Python literal, of the kinds that array headers use.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Literal {
     /// Text in single or double quotes, without escapes.
@@ -14,15 +14,15 @@ pub(super) enum Literal {
     Whole(u64),
     /// `True` or `False`.
     Truth(bool),
-    /// In parentheses.
+    /// Tuple, in parentheses.
     Tuple(Vec<Literal>),
-    /// In brackets.
+    /// List, in brackets.
     List(Vec<Literal>),
-    /// In braces.
+    /// Dictionary, in braces.
     Dictionary(Vec<(Literal, Literal)>),
 }
 
-/// Reads the text of one literal with nothing but spaces after it.
+/// Reads the text of one literal; only spaces may follow it.
 pub(super) fn parse(text: &str) -> Result<Literal, FormatError> {
     let mut reader = Reader { rest: text };
     let literal = reader.literal(0)?;
@@ -72,12 +72,12 @@ impl Reader<'_> {
             return Err(self.unexpected("a number of 64 bits"));
         };
         self.rest = &self.rest[end..];
-        // Python 2 marked long numbers so.
+        // Python 2 marked long numbers with an L.
         self.take("L");
         Ok(Literal::Whole(value))
     }
 
-    /// Items in brackets, with a comma between them and perhaps after the last.
+    /// Reads items in brackets, with a comma between them and optionally after the last.
     fn items<T>(
         &mut self,
         close: char,

@@ -1,8 +1,8 @@
 //! Arrays of NumPy's `.npy` format, versions 1 to 3: little-endian, in C order, of numbers or of records
 //! with named fields.
 //!
-//! Written here because npyz 0.9, on files that are no arrays, multiplies lengths without a check and
-//! allocates what a header asks for before it looks how long the file is.
+//! The parser is written here because npyz 0.9, on files that are no arrays, multiplies lengths without a
+//! check and allocates the size that a header asks for before it checks the length of the file.
 
 use super::LIMIT;
 use super::error::FormatError;
@@ -10,10 +10,10 @@ use super::literal::{Literal, parse};
 
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
 
-/// A number in an array.
+/// Type of a number in an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// One byte, zero or not.
+    /// One byte, zero for false.
     Bool,
     I4,
     U4,
@@ -26,7 +26,7 @@ pub(super) enum Kind {
 impl Kind {
     const ALL: [Self; 7] = [Self::Bool, Self::I4, Self::U4, Self::I8, Self::U8, Self::F4, Self::F8];
 
-    /// NumPy's word.
+    /// Returns NumPy's name of the type.
     fn word(self) -> &'static str {
         match self {
             Self::Bool => "|b1",
@@ -48,36 +48,36 @@ impl Kind {
     }
 }
 
-/// A part of each element.
+/// Part of each element.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Field {
-    /// Empty in arrays of plain numbers.
+    /// Name of the field; empty in arrays of plain numbers.
     pub(super) name: String,
     pub(super) kind: Kind,
 }
 
-/// An array: elements of one or more fields, packed.
+/// Array: elements of one or more fields, packed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Array {
     pub(super) shape: Vec<usize>,
     pub(super) fields: Vec<Field>,
-    /// As many as shape and fields say.
+    /// Bytes of the elements; shape and fields determine their number.
     bytes: Vec<u8>,
 }
 
 impl Array {
-    /// Plain numbers.
+    /// Makes an array of plain numbers.
     pub(super) fn plain(kind: Kind, shape: &[usize], bytes: Vec<u8>) -> Self {
         Self { shape: shape.to_vec(), fields: vec![Field { name: String::new(), kind }], bytes }
     }
 
-    /// A row of records.
+    /// Makes a row of records.
     pub(super) fn records(fields: &[(&str, Kind)], count: usize, bytes: Vec<u8>) -> Self {
         let fields = fields.iter().map(|(name, kind)| Field { name: (*name).to_owned(), kind: *kind });
         Self { shape: vec![count], fields: fields.collect(), bytes }
     }
 
-    /// The kind of number, where elements are plain numbers.
+    /// Returns the type of number if elements are plain numbers.
     pub(super) fn single_kind(&self) -> Option<Kind> {
         match self.fields.as_slice() {
             [field] if field.name.is_empty() => Some(field.kind),
@@ -85,17 +85,17 @@ impl Array {
         }
     }
 
-    /// The position of a field.
+    /// Returns the index of a field.
     pub(super) fn field(&self, name: &str) -> Option<usize> {
         self.fields.iter().position(|field| field.name == name)
     }
 
-    /// Bytes of an element.
+    /// Returns the bytes of an element.
     fn stride(&self) -> usize {
         self.fields.iter().map(|field| field.kind.size()).sum()
     }
 
-    /// The bytes of a field of an element; 8 of them, those beyond its size 0.
+    /// Returns the bytes of a field of an element, extended to 8 by zeros.
     fn raw(&self, element: usize, field: usize) -> [u8; 8] {
         let before: usize = self.fields[..field].iter().map(|field| field.kind.size()).sum();
         let start = element * self.stride() + before;
@@ -105,7 +105,7 @@ impl Array {
         bytes
     }
 
-    /// A field of an element as a number; whole numbers above 2^53 are rounded.
+    /// Returns a field of an element as a number; whole numbers above 2^53 are rounded.
     pub(super) fn number(&self, element: usize, field: usize) -> f64 {
         let raw = self.raw(element, field);
         let low = u64::from_le_bytes(raw) as u32;
@@ -120,7 +120,7 @@ impl Array {
         }
     }
 
-    /// Shape and fields for messages.
+    /// Describes shape and fields for messages.
     pub(super) fn describe(&self) -> String {
         let shape = self.shape.iter().map(usize::to_string).collect::<Vec<_>>().join(" x ");
         let fields = self.fields.iter().map(|field| match field.name.as_str() {
@@ -130,7 +130,7 @@ impl Array {
         format!("an array of {shape} with {}", fields.collect::<Vec<_>>().join(", "))
     }
 
-    /// A file of version 1.
+    /// Returns the bytes of a file of version 1.
     pub(super) fn to_bytes(&self) -> Vec<u8> {
         let descr = match self.single_kind() {
             Some(kind) => format!("'{}'", kind.word()),
@@ -158,7 +158,7 @@ impl Array {
 /// Reads an array.
 ///
 /// # Errors
-/// Another format, version, byte order or element, Fortran order, or a length that does not fit.
+/// An error for another format, version, byte order or element, Fortran order, or a length that does not fit.
 pub(super) fn read(bytes: &[u8]) -> Result<Array, FormatError> {
     let Some(rest) = bytes.strip_prefix(MAGIC) else {
         return Err(FormatError::Magic { format: ".npy" });
@@ -181,7 +181,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Array, FormatError> {
     let stride: usize = fields.iter().map(|field| field.kind.size()).sum();
     let elements = shape.iter().try_fold(1_u64, |product, length| product.checked_mul(*length as u64));
     let elements = elements.unwrap_or(u64::MAX);
-    // Rows of numbers are up to nine wide.
+    // Rows of numbers have up to nine columns.
     if elements > 16 * LIMIT as u64 {
         return Err(FormatError::TooMany { entries: elements });
     }
@@ -193,7 +193,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Array, FormatError> {
     Ok(Array { shape, fields, bytes: data.to_vec() })
 }
 
-/// Fields and shape of a header.
+/// Reads fields and shape from a header.
 fn understand(header: &str) -> Result<(Vec<Field>, Vec<usize>), FormatError> {
     let wrong = |what: String| FormatError::Header { what };
     let Literal::Dictionary(entries) = parse(header)? else {

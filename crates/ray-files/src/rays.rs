@@ -7,24 +7,24 @@ use rasray_ads::Ray;
 /// Rays of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RaysFile {
-    /// With origins as [`RaysFile::place`] says.
+    /// Rays; [`RaysFile::place`] says what their origins are relative to.
     pub rays: Vec<Ray>,
-    /// Point that the origins are relative to.
+    /// Point to which the origins are relative.
     pub place: Place,
 }
 
-/// Says what origins are relative to.
+/// Reference of the origins.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Place {
-    /// To a point of the world, metres; [`Ray::origin`] holds the offset.
+    /// Point of the world, metres; [`Ray::origin`] holds the offset from it.
     Point([f64; 3]),
-    /// To nothing: one origin a ray in the world, metres, which [`Ray::origin`] holds rounded.
+    /// World coordinates: one origin per ray, metres, which [`Ray::origin`] holds rounded.
     World(Vec<[f64; 3]>),
 }
 
 impl RaysFile {
-    /// The rays relative to a frame origin (world, metres). Where that is the point they are stored
-    /// for, they are the same bit for bit; otherwise origins are shifted in f64 and rounded once.
+    /// Returns the rays relative to a frame origin (world, metres). If that is the point they are stored for,
+    /// they are equal bit for bit; otherwise origins are shifted in f64 and rounded once.
     pub fn relative_to(&self, frame_origin: [f64; 3]) -> Vec<Ray> {
         let shifted = |ray: &Ray, world: [f64; 3]| Ray {
             origin: std::array::from_fn(|axis| (world[axis] - frame_origin[axis]) as f32),
@@ -46,7 +46,7 @@ impl RaysFile {
     }
 }
 
-/// That a ray can be traced.
+/// Checks that a ray can be traced.
 pub(super) fn check(index: usize, ray: &Ray) -> Result<(), FormatError> {
     let wrong = |what| Err(FormatError::Entry { index, what });
     if !ray.origin.iter().all(|x| x.is_finite()) {
@@ -64,11 +64,11 @@ pub(super) fn check(index: usize, ray: &Ray) -> Result<(), FormatError> {
     Ok(())
 }
 
-/// Reads an array of N x 6, 7 or 8 numbers: origin in the world (metres), direction, t_min (0 where it is
-/// left out) and t_max (infinite where it is left out).
+/// Reads an array of N x 6, 7 or 8 numbers: origin in the world (metres), direction, t_min (0 if absent) and
+/// t_max (infinite if absent).
 ///
 /// # Errors
-/// The bytes are no such array, or a ray cannot be traced.
+/// An error if the bytes are no such array, or a ray cannot be traced.
 pub fn rays_from_npy(bytes: &[u8]) -> Result<RaysFile, FormatError> {
     const WANTED: &str = "N x 6, 7 or 8 numbers of float32 or float64 (origin, direction, t_min, t_max)";
     let array = npy::read(bytes)?;
@@ -99,8 +99,9 @@ pub fn rays_from_npy(bytes: &[u8]) -> Result<RaysFile, FormatError> {
     Ok(RaysFile { rays, place })
 }
 
-/// Rays as an array of N x 8 numbers in the world: float32 where the frame origin is the world's, which
-/// keeps every bit, else float64. What a ray excludes and whether it passes backs is not in it.
+/// Writes rays as an array of N x 8 numbers in the world: float32 where the frame origin is the world's,
+/// which keeps every bit, else float64. The array holds neither a ray's exclusion nor its flag of passing
+/// backs.
 pub fn rays_to_npy(rays: &[Ray], frame_origin: [f64; 3]) -> Vec<u8> {
     let rows = rays.iter().flat_map(|ray| {
         let world: [f64; 3] = std::array::from_fn(|axis| frame_origin[axis] + f64::from(ray.origin[axis]));
@@ -117,7 +118,7 @@ pub fn rays_to_npy(rays: &[Ray], frame_origin: [f64; 3]) -> Vec<u8> {
     })
 }
 
-/// Corners of triangles as an array of N x 3 x 3 numbers in the world, by global triangle id.
+/// Writes the corners of triangles as an array of N x 3 x 3 numbers in the world, by global triangle id.
 pub fn triangles_to_npy(triangles: &[[[f32; 3]; 3]], frame_origin: [f64; 3]) -> Vec<u8> {
     let world = |corner: &[f32; 3]| -> [f64; 3] {
         std::array::from_fn(|axis| frame_origin[axis] + f64::from(corner[axis]))
@@ -128,7 +129,7 @@ pub fn triangles_to_npy(triangles: &[[[f32; 3]; 3]], frame_origin: [f64; 3]) -> 
     })
 }
 
-/// float32 if the frame origin is the world's, which `exact` then gives, else float64.
+/// Writes float32 if the frame origin is the world's, from `exact`, else float64.
 fn numbers_to_npy(
     world: impl Iterator<Item = f64>,
     shape: &[usize],
@@ -143,7 +144,7 @@ fn numbers_to_npy(
     }
 }
 
-/// One word for each ray or triangle, such as an id or flags, as an array of uint32.
+/// Writes one word for each ray or triangle, such as an id or flags, as an array of uint32.
 pub fn words_to_npy(words: &[u32]) -> Vec<u8> {
     let bytes = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     Array::plain(Kind::U4, &[words.len()], bytes).to_bytes()

@@ -1,11 +1,11 @@
-//! Round trips bit for bit, and bytes that are no such file.
+//! Round trips bit for bit, and bytes that are no valid file.
 
 use super::error::FormatError;
 use super::*;
 use proptest::prelude::*;
 use rasray_ads::{Hit, PRIMITIVE_NONE, RAY_CULL_BACK_FACES, Ray, StructureKind};
 
-/// Rays with awkward bits: subnormal, negative zero, an infinite and a negative end, an exclusion.
+/// Makes rays with awkward bits: subnormal, negative zero, an infinite and a negative end, an exclusion.
 fn rays() -> Vec<Ray> {
     let plain = Ray::new([1.0e-40, -0.0, 3.25], [0.1, -2.0e30, f32::MIN_POSITIVE]);
     vec![
@@ -39,7 +39,7 @@ fn rays_survive_the_binary_format_bit_for_bit_about_any_origin() {
     for origin in [[0.0; 3], [1.0e6, -4096.0, 0.1]] {
         let read = read_rays(&write_rays(&rays(), origin)).expect("what was written");
         assert_eq!(bits(&read.relative_to(origin)), bits(&rays()));
-        // Relative to another origin they are shifted.
+        // Relative to another origin the rays are shifted.
         let moved = read.relative_to([origin[0] - 2.0, origin[1], origin[2]]);
         assert_eq!((moved[0].origin[0], moved[0].origin[2]), (2.0, 3.25));
     }
@@ -84,7 +84,7 @@ fn hits_survive_npy_bit_for_bit() {
     };
     let bytes = hits_to_npy(&hits, StructureKind::Primitive);
     assert_eq!(words(&hits_from_npy(&bytes).expect("what was written")), words(&hits));
-    // Fragments have no weights of vertices.
+    // Hits on fragments have no weights of vertices.
     let bytes = hits_to_npy(&hits, StructureKind::Fragment);
     assert!(hits_from_npy(&bytes).expect("what was written")[0].a.is_nan());
     // The oracle's answers can be compared as well: they have fields of the same names.
@@ -182,7 +182,7 @@ fn every_cut_and_every_byte_more_is_refused() {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
 
-    /// Reading ends with rays that can be traced or an error, whatever the bytes.
+    /// Any bytes end in rays that can be traced, or in an error.
     #[test]
     fn changed_bytes_never_panic(
         changes in prop::collection::vec((0_usize..400, any::<u8>()), 0..6),

@@ -6,24 +6,24 @@ use rasray_report::CameraRecord;
 use rasray_scene::default_view::{camera_looking_at, default_camera};
 use rasray_scene::{Camera, Lens, Projection, Scene};
 
-/// Full vertical angle of view of a camera that is placed, degrees, unless told.
+/// Default full vertical angle of view of a placed camera, degrees.
 const DEFAULT_FOV: f64 = 45.0;
 
-/// A camera, and whose it is.
+/// Camera with its origin: one of the scene's cameras, or a placed or default one.
 #[derive(Clone, Debug)]
 pub struct ChosenCamera {
     /// The camera.
     pub camera: Camera,
-    /// Its position among the scene's cameras, if it is one of them.
+    /// Index among the scene's cameras, if the camera is one of them.
     pub index: Option<usize>,
 }
 
 impl ChosenCamera {
-    /// This camera with a lens: the diameter of its opening, metres (0: a pinhole), and the distance of the
-    /// plane in focus, metres along the view.
+    /// Adds a lens to this camera: the diameter of its opening, metres (0: a pinhole), and the distance of
+    /// the plane in focus, metres along the view.
     ///
     /// # Errors
-    /// A parallel projection, or a lens without a distance.
+    /// An error for a parallel projection, or for a lens without a distance.
     pub fn with_lens(mut self, aperture: f64, focus: Option<f64>) -> Result<Self, LoadError> {
         let aperture = aperture as f32;
         self.camera.lens = match (self.camera.projection, focus) {
@@ -37,7 +37,7 @@ impl ChosenCamera {
         Ok(self)
     }
 
-    /// Record of the camera in reports.
+    /// Returns the record of the camera in reports.
     pub fn record(&self) -> CameraRecord {
         let frame = &self.camera.world_from_camera;
         let (kind, fov_y_degrees, height_m) = match self.camera.projection {
@@ -61,8 +61,8 @@ impl ChosenCamera {
         }
     }
 
-    /// The camera in a few words: whose it is, where it stands, and the options of the command that put one
-    /// there.
+    /// Describes the camera in a few words: its origin, its position, and the options of the command that
+    /// place the same camera.
     pub fn described(&self) -> String {
         let record = self.record();
         let whose = match record.index {
@@ -78,17 +78,17 @@ impl ChosenCamera {
     }
 }
 
-/// The view where nothing is said of it: the scene's first camera; else one that stands in the room that the
-/// scene is, or outside and sees all of it.
+/// Returns the default view: the scene's first camera. Without one the camera stands in the room that the
+/// scene is, or outside and sees all of the scene.
 pub fn default_view(scene: &Scene) -> ChosenCamera {
     let first = scene.cameras.first().cloned().map(|camera| ChosenCamera { camera, index: Some(0) });
     first.unwrap_or_else(|| ChosenCamera { camera: default_camera(scene), index: None })
 }
 
-/// The camera of a scene by name, else by position from 0.
+/// Returns the camera of a scene by name, else by index from 0.
 ///
 /// # Errors
-/// The scene has no such camera.
+/// An error if the scene has no such camera.
 pub fn named_view(scene: &Scene, name: &str) -> Result<ChosenCamera, LoadError> {
     let by_name = scene.cameras.iter().position(|camera| camera.name == name);
     let by_position = || name.parse::<usize>().ok().filter(|position| *position < scene.cameras.len());
@@ -100,11 +100,11 @@ pub fn named_view(scene: &Scene, name: &str) -> Result<ChosenCamera, LoadError> 
     Ok(ChosenCamera { camera: scene.cameras[index].clone(), index: Some(index) })
 }
 
-/// A camera at `eye` that looks at `target` (metres), upright; `fov` is the full vertical angle of view in
-/// degrees.
+/// Places a camera at `eye` that looks at `target` (metres), upright; `fov` is the full vertical angle of
+/// view in degrees.
 ///
 /// # Errors
-/// Both at one place, or not finite.
+/// An error if both points coincide, or are not finite.
 pub fn placed_view(eye: [f64; 3], target: [f64; 3], fov: Option<f64>) -> Result<ChosenCamera, LoadError> {
     let (eye, target) = (DVec3::from_array(eye), DVec3::from_array(target));
     let distance = (target - eye).length();
@@ -115,8 +115,8 @@ pub fn placed_view(eye: [f64; 3], target: [f64; 3], fov: Option<f64>) -> Result<
     Ok(ChosenCamera { camera: camera_looking_at("command line", eye, target, fov), index: None })
 }
 
-/// Projection and place of a camera; of a perspective as the options that make the same one, unless it is
-/// rolled.
+/// Describes the projection and position of a camera. A perspective camera is described by the options that
+/// make the same one, unless it is rolled.
 fn place(record: &CameraRecord) -> String {
     let (eye, forward) = (DVec3::from_array(record.eye), DVec3::from_array(record.forward));
     // A target as far away as the eye is from the origin keeps as many digits.
@@ -138,7 +138,7 @@ fn place(record: &CameraRecord) -> String {
     }
 }
 
-/// A number with at most three digits after the point, or in powers of ten.
+/// Formats a number with at most three digits after the point, or in powers of ten.
 fn short(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude != 0.0 && !(1.0e-2..1.0e7).contains(&magnitude) && magnitude >= 1.0e-12 {

@@ -1,13 +1,14 @@
-//! The hash that keys are made of.
+//! Hash that keys are made of.
 
 use sha2::{Digest, Sha256};
 
-/// A SHA-256 over named values. Lengths go in as well, so that no two lists of values run into each other.
+/// SHA-256 over named values. Lengths are hashed as well, so that different lists of values have different
+/// input.
 #[derive(Clone, Debug, Default)]
 pub struct KeyHash(Sha256);
 
 impl KeyHash {
-    /// This hash with one more value.
+    /// Returns this hash with one more value.
     #[must_use]
     pub fn with(mut self, name: &str, value: impl AsRef<[u8]>) -> Self {
         for bytes in [name.as_bytes(), value.as_ref()] {
@@ -17,7 +18,7 @@ impl KeyHash {
         self
     }
 
-    /// 64 hexadecimal digits.
+    /// Returns the hash as 64 hexadecimal digits.
     pub fn finish(self) -> String {
         self.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
     }

@@ -1,8 +1,8 @@
 //! Scenes by name: a file or a built-in scene, at a moment, lit, and with a camera that looks at it. The
-//! command, the viewer and the benches load scenes with it. No device is needed.
+//! command, the viewer and the benches load scenes with this crate, which needs no device.
 //!
 //! - [`load()`] and [`load_with`] make a [`LoadedScene`]: the scene, its light and its default view, with a
-//!   hash of everything that it was made from ([`KeyHash`]).
+//!   hash of all its sources ([`KeyHash`]).
 //! - [`default_view`], [`named_view`] and [`placed_view`] choose the camera.
 //!
 //! ```

@@ -1,4 +1,4 @@
-//! Lights of a scene that was loaded.
+//! Light of a loaded scene.
 
 use crate::error::LoadError;
 use crate::key_hash::KeyHash;
@@ -8,17 +8,17 @@ use rasray_scene::{Environment, Moment, Scene, default_view as view};
 /// Source of a scene's light.
 #[derive(Clone, Debug, Default)]
 pub(crate) enum Lighting {
-    /// The scene itself, or nothing yet.
+    /// The scene's own light, or no light yet.
     #[default]
     Own,
-    /// An environment that was asked for.
+    /// An environment that the caller gave.
     Given,
     /// The default light, in place of the scene's own environment.
     Default(Environment),
 }
 
 impl Lighting {
-    /// Its name in reports.
+    /// Name in reports.
     pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Own => "scene",
@@ -29,9 +29,8 @@ impl Lighting {
 }
 
 impl LoadedScene {
-    /// Lights the scene. An environment that is given takes the place of the scene's and stays as it is, a
-    /// black one too; else a scene that nothing lights as it is shown gets [`view::default_light`], with a
-    /// warning.
+    /// Lights the scene. A given environment replaces the scene's own and stays as it is, even a black one;
+    /// otherwise a scene that is not lit as it is shown gets [`view::default_light`], with a warning.
     pub fn light(&mut self, environment: Option<Environment>) {
         match environment {
             Some(environment) => self.light_with(environment),
@@ -39,12 +38,12 @@ impl LoadedScene {
         }
     }
 
-    /// Lights the scene for frames, which have one light: the scene gets the default light where nothing
-    /// lights it at any of these times, seconds. Where surfaces alone may light it, it is looked at one time
-    /// after the other until it is lit; with numbered files, every file is read for that.
+    /// Lights the scene for frames, which share one light: the scene gets the default light if it is unlit at
+    /// all of these times, seconds. Where surfaces alone may light it, one time after the other is examined
+    /// until the scene is lit; with numbered files, every file is read for that.
     ///
     /// # Errors
-    /// It has no such clip, or its deformer fails.
+    /// An error if the scene has no such clip, or its deformer fails.
     pub fn light_frames(
         &mut self,
         environment: Option<Environment>,
@@ -63,7 +62,7 @@ impl LoadedScene {
                 break;
             }
         }
-        // A picture does not say which others there are, and has another light with others.
+        // The key holds the decision, since a picture of other frames may have another light.
         let values = if is_lit { "own" } else { "default" };
         self.content =
             KeyHash::default().with("scene", &self.content).with("light of frames", values).finish();
@@ -86,8 +85,8 @@ impl LoadedScene {
         self.lighting = Lighting::Given;
     }
 
-    /// Decides anew whether the default light is added, as the scene is shown now, unless an environment was
-    /// given: after [`Self::show`], or a return to rest.
+    /// Decides anew, for the scene as it is shown now, whether the default light is added, unless an
+    /// environment was given. The method is called after [`Self::show`], or after a return to rest.
     pub fn relight(&mut self) {
         if let Lighting::Default(own) = &mut self.lighting {
             self.scene.environment = std::mem::take(own);
@@ -97,7 +96,7 @@ impl LoadedScene {
         self.lighting = Lighting::Own;
         self.scene.warnings.retain(|warning| warning.kind != "default-light");
         let is_lit = match self.moment.clone() {
-            // A moment that cannot be posed is not shown either, and whoever poses it says why.
+            // A moment that cannot be posed is not shown either, and the code that poses it reports why.
             Some(moment) if view::is_lit_at_times(&self.scene) => self.is_lit_at(&moment).unwrap_or(true),
             _ => view::is_lit(&self.scene),
         };
@@ -116,9 +115,9 @@ impl LoadedScene {
         view::add_default_light(&mut self.scene);
     }
 
-    /// True if anything lights the scene at a moment.
+    /// True if the scene is lit at a moment.
     fn is_lit_at(&mut self, moment: &Moment) -> Result<bool, LoadError> {
-        // They do not change, may be most of the memory, and shape what surfaces emit.
+        // Images do not change and may be most of the memory, but they shape the emission of surfaces.
         let images = std::mem::take(&mut self.scene.images);
         match self.scene.at(moment) {
             Ok(posed) => {

@@ -1,4 +1,4 @@
-//! From a name to a scene that can be rendered.
+//! Loading of a scene that can be rendered, by its name.
 
 use crate::camera::{ChosenCamera, default_view, named_view};
 use crate::error::LoadError;
@@ -16,38 +16,37 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// A scene with what reports say of it.
+/// Scene with the data that reports give about it.
 #[derive(Clone, Debug)]
 pub struct LoadedScene {
-    /// The scene: as it is shown, or at rest where there is a moment.
+    /// Scene as it is shown, or at rest where there is a moment.
     pub scene: Scene,
-    /// When it is shown, where the device poses it ([`Self::show`]).
+    /// Moment at which the device shows the scene ([`Self::show`]).
     pub moment: Option<Moment>,
-    /// Triangles over all instances.
+    /// Number of triangles over all instances.
     pub triangles: u64,
-    /// SHA-256 of the scene file, of a sequence of the one that is shown, in hexadecimal; absent for built-in
-    /// scenes.
+    /// SHA-256 of the scene file in hexadecimal, for a sequence of the file that is shown; absent for
+    /// built-in scenes.
     pub sha256: Option<String>,
-    /// SHA-256 in hexadecimal of everything that it was made from: the contents of all files read for it, or
-    /// the built-in's name with parameters as it was given; the environment that was asked for; whether its
-    /// holes were closed.
+    /// SHA-256 in hexadecimal of all sources of the scene: the contents of all files read for it, or the
+    /// built-in's name with parameters as given; the environment that was asked for; and whether its holes
+    /// were closed.
     pub content: String,
-    /// Bytes of the scene's tables that are not uploaded because no image can show what they hold; absent
-    /// until they are counted by whoever knows the image, and where the scene is at fault in what is left
-    /// out.
+    /// Bytes of the scene's tables that are not uploaded because no image can show their contents. Absent
+    /// until code that knows the image counts them, and if the scene has a fault in the omitted parts.
     pub not_uploaded_bytes: Option<u64>,
-    /// When it is shown; absent at rest.
+    /// Time at which the scene is shown; absent at rest.
     pub pose: Option<PoseRecord>,
     /// Images that were made smaller for the device.
     pub smaller_images: Vec<SmallerImageRecord>,
     /// True if every surface was made opaque.
     pub(crate) holes_closed: bool,
-    /// Source of its light.
+    /// Source of the scene's light.
     pub(crate) lighting: Lighting,
 }
 
 impl LoadedScene {
-    /// Record of the scene in reports.
+    /// Returns the record of the scene in reports.
     pub fn record(&self) -> SceneRecord {
         SceneRecord {
             name: self.scene.name.clone(),
@@ -62,21 +61,21 @@ impl LoadedScene {
     }
 }
 
-/// Extensions that make a name a file's.
+/// Extensions of names that stand for files.
 const EXTENSIONS: [&str; 4] = ["gltf", "glb", "obj", "ply"];
 
 /// Loads the file or makes the built-in scene that `name` stands for.
 ///
 /// # Errors
-/// Names that are neither, and whatever is wrong with a file or a parameter.
+/// An error for a name that is neither, and for any fault of a file or a parameter.
 pub fn load(name: &OsStr) -> Result<LoadedScene, LoadError> {
     load_with(name, &LoadOptions::default())
 }
 
-/// [`load`] with other options than the defaults.
+/// Loads a scene as [`load`] does, with other options than the defaults.
 ///
 /// # Errors
-/// Those of [`load`].
+/// Errors of [`load`].
 pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, LoadError> {
     let path = Path::new(name);
     let extension = path.extension().and_then(|text| text.to_str()).map(str::to_ascii_lowercase);
@@ -85,7 +84,7 @@ pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, Loa
         let scene = rasray_scene_files::load(path, options)?;
         let shown = scene.animation.deformer.as_ref().and_then(|deformer| deformer.file(0.0));
         let sha256 = digest(shown.unwrap_or(path))?;
-        // Which of numbered files is shown changes with the time: keys of pictures have that file by its
+        // The shown one of numbered files changes with the time: keys of pictures hold that file by its
         // digest.
         let first = if shown.is_none() { sha256.as_str() } else { "" };
         let mut content = KeyHash::default().with("file", first);
@@ -105,7 +104,7 @@ pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, Loa
     Err(LoadError::NoSuchScene { path, meant: name.to_str().and_then(meant) })
 }
 
-/// The built-in scene that was meant, with the parameters that were given.
+/// Returns the built-in scene that was probably meant, with the given parameters.
 fn meant(name: &str) -> Option<String> {
     let (word, parameters) = name.split_once(':').map_or((name, None), |(word, rest)| (word, Some(rest)));
     let known = nearest(word, builtin::NAMES)?;
@@ -128,12 +127,12 @@ fn loaded(scene: Scene, sha256: Option<String>, content: KeyHash) -> LoadedScene
 }
 
 impl LoadedScene {
-    /// Says that the scene is shown at a time, as [`Self::pose`] does, and leaves it at rest: whoever puts it
-    /// on a device poses it there. A scene whose triangles may be others at every time, as in numbered files,
-    /// is posed here.
+    /// Notes that the scene is shown at a time, as [`Self::pose`] does, and leaves it at rest: the code that
+    /// uploads it to a device poses it there. A scene whose triangles may be others at every time, as in
+    /// numbered files, is posed here.
     ///
     /// # Errors
-    /// Those of [`Self::pose`].
+    /// Errors of [`Self::pose`].
     pub fn show(&mut self, seconds: f64, clip: Option<&str>) -> Result<(), LoadError> {
         if !self.scene.is_posed_in_place() {
             return self.pose(seconds, clip);
@@ -145,20 +144,20 @@ impl LoadedScene {
         Ok(())
     }
 
-    /// The scene as it is shown, without images where it is posed for this.
+    /// Returns the scene as it is shown, without images if it is posed for this call.
     ///
     /// # Errors
-    /// Those of its deformer.
+    /// Errors of the scene's deformer.
     pub fn shown(&mut self) -> Result<Cow<'_, Scene>, LoadError> {
         let Some(moment) = &self.moment else { return Ok(Cow::Borrowed(&self.scene)) };
-        // They do not change, and may be most of the memory.
+        // Images do not change, and may be most of the memory.
         let images = std::mem::take(&mut self.scene.images);
         let posed = self.scene.at(moment);
         self.scene.images = images;
         Ok(Cow::Owned(posed?))
     }
 
-    /// A camera of the scene as it is shown.
+    /// Returns a camera of the scene as it is shown.
     pub fn camera(&self, index: usize) -> Option<Camera> {
         let camera = self.scene.cameras.get(index)?.clone();
         let Some(moment) = &self.moment else { return Some(camera) };
@@ -172,10 +171,10 @@ impl LoadedScene {
         ChosenCamera { camera: camera.unwrap_or(chosen.camera), ..chosen }
     }
 
-    /// As [`default_view()`], of the scene as it is shown.
+    /// Returns the view of [`default_view()`], of the scene as it is shown.
     ///
     /// # Errors
-    /// Those of the deformer, where the scene has no camera.
+    /// Errors of the deformer, if the scene has no camera.
     pub fn default_view(&mut self) -> Result<ChosenCamera, LoadError> {
         if self.scene.cameras.is_empty() {
             return Ok(default_view(self.shown()?.as_ref()));
@@ -183,30 +182,30 @@ impl LoadedScene {
         Ok(self.moved(default_view(&self.scene)))
     }
 
-    /// As [`named_view()`], of the scene as it is shown.
+    /// Returns the view of [`named_view()`], of the scene as it is shown.
     ///
     /// # Errors
-    /// The scene has no such camera.
+    /// An error if the scene has no such camera.
     pub fn named_view(&self, name: &str) -> Result<ChosenCamera, LoadError> {
         Ok(self.moved(named_view(&self.scene, name)?))
     }
 
-    /// Record of a time in reports.
+    /// Makes the record of a time in reports.
     fn record_of(&self, seconds: f64, clips: &[usize], file: Option<&Path>) -> PoseRecord {
         let clips = clips.iter().map(|clip| self.scene.animation.clips[*clip].clone()).collect();
         let file = file.and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
         PoseRecord { time_s: seconds, clips, frame: None, frames: None, file }
     }
 
-    /// Shows the scene at a time of its animation, seconds: moved by the clip of that name, or else at that
-    /// position from 0, or without one by all that can be played at once; or deformed by what it is simulated
-    /// with, or as the file has it that is shown then.
+    /// Shows the scene at a time of its animation, seconds. A rig is moved by the clip of that name, or else
+    /// at that index from 0; without a clip, by all clips that can be played at once. A deformer shows its
+    /// simulation or its file at that time.
     ///
     /// # Errors
-    /// Nothing moves the scene, it has no such clip, or the file of that time cannot be read.
+    /// An error if the scene has no motion, has no such clip, or the file of that time cannot be read.
     pub fn pose(&mut self, seconds: f64, clip: Option<&str>) -> Result<(), LoadError> {
         let clips = self.clips(clip)?;
-        // They do not change, and may be most of the memory.
+        // Images do not change, and may be most of the memory.
         let images = std::mem::take(&mut self.scene.images);
         let moment = Moment { seconds, clips };
         let posed = self.scene.at(&moment)?;
@@ -222,12 +221,12 @@ impl LoadedScene {
         Ok(())
     }
 
-    /// True if anything moves the scene.
+    /// True if the scene changes with time.
     pub fn moves(&self) -> bool {
         !self.scene.animation.clips.is_empty() || self.scene.animation.deformer.is_some()
     }
 
-    /// The clips that move the scene: the one that is wanted, else all that can be played at once.
+    /// Returns the clips that move the scene: the one that is wanted, else all that can be played at once.
     pub(crate) fn clips(&self, clip: Option<&str>) -> Result<Vec<usize>, LoadError> {
         let names = &self.scene.animation.clips;
         if !self.moves() {
@@ -261,13 +260,13 @@ impl LoadedScene {
     }
 }
 
-/// Triangles over all instances.
+/// Counts the triangles over all instances.
 fn triangles(scene: &Scene) -> u64 {
     let of = |mesh: usize| scene.meshes.get(mesh).map_or(0, |mesh| mesh.triangle_count() as u64);
     scene.instances.iter().map(|instance| of(instance.mesh)).sum()
 }
 
-/// Digest of a file that was read before, in hexadecimal.
+/// Computes the digest of a file that was read before, in hexadecimal.
 fn digest(path: &Path) -> Result<String, LoadError> {
     let failed = |source| LoadError::Gone { path: path.to_owned(), source };
     let mut file = File::open(path).map_err(failed)?;
